@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "base/types.hpp"
+#include "discretization/bonds.hpp"
+#include "discretization/particles.hpp"
+
+namespace perilink {
+
+/// A body as mechanics sees it: particles and truss elements. Elements are numbered: bonds of the
+/// solid first, then ties between bars and solid, then the segments of the bars.
+struct Network {
+  Particles particles;
+  Bonds bonds;
+  std::vector<double> stiffness;         ///< intact axial stiffness k [force/length], per element
+  std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
+  Index first_tie = 0;                   ///< number of the first tie
+  Index first_segment = 0;               ///< number of the first bar segment
+  std::vector<double> yield_strain;      ///< per segment [-]; infinity: stays elastic
+
+  int dim() const { return particles.dim; }
+  Index num_elements() const { return bonds.size(); }
+  bool is_segment(Index element) const { return element >= first_segment; }
+};
+
+}  // namespace perilink

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <chrono>
+
+namespace perilink {
+
+/// Wall-clock stopwatch; starts when it is made.
+class Timer {
+ public:
+  /// Seconds since the start or the last restart.
+  double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+  void restart() { start_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace perilink

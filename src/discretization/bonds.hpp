@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/csr.hpp"
+#include "base/types.hpp"
+#include "discretization/particles.hpp"
+
+namespace perilink {
+
+/// The bonds of a body, one entry per unordered pair, first < second, sorted by (first, second), so
+/// that the number of a bond does not depend on how its neighbours were found.
+struct Bonds {
+  int dim = 2;
+  std::vector<Index> first;
+  std::vector<Index> second;
+  std::vector<double> lengths;     ///< xi [length]
+  std::vector<double> directions;  ///< unit vector from first to second, shape (size, dim)
+
+  Index size() const { return static_cast<Index>(first.size()); }
+  std::span<const double> direction(Index b) const {
+    return {directions.data() + static_cast<std::size_t>(b) * dim, static_cast<std::size_t>(dim)};
+  }
+  /// Appends the bond between two distinct particles; the caller keeps the order.
+  void append(const Particles& particles, Index i, Index j);
+};
+
+/// Distances up to horizon * (1 + horizon_tolerance) are inside the horizon: a neighbour that lies on
+/// the horizon by construction must not be lost to round-off.
+inline constexpr double horizon_tolerance = 1e-9;
+
+/// Bonds between all solid and ghost particles within the horizon. Ghosts are not bonded to each
+/// other (their stiffness would be zero).
+Bonds make_bonds(const Particles& particles, double horizon);
+
+/// Bonds at every particle (families): row i holds the numbers of the bonds that end at particle i.
+Csr bonds_of_particles(const Bonds& bonds, Index num_particles);
+
+}  // namespace perilink

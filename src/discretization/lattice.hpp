@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/types.hpp"
+#include "discretization/particles.hpp"
+#include "discretization/region.hpp"
+
+namespace perilink {
+
+/// Arrangement of the particles.
+enum class Pattern { rectangular, hexagonal, cubic, face_centred };
+
+/// What is done about the missing bonds at a surface.
+enum class Surface {
+  none,   ///< conforming lattice: particles on the boundary, nothing corrected
+  ghost,  ///< Peri2D: cell-centred particles and a ghost layer bonded at half stiffness
+};
+
+/// Spacing of a lattice along the axes. The hexagonal pattern's rows lie sqrt(3)/2 of the column
+/// spacing apart (a little more or less where the rows must end on the boundary); the face-centred
+/// pattern's spacing is the distance of nearest neighbours, its cube sqrt(2) times as long.
+struct Lattice {
+  Pattern pattern = Pattern::rectangular;
+  Surface surface = Surface::none;
+  int dim = 2;
+  double spacing = 0.0;        ///< between neighbouring columns [length]
+  Vector3 step{};              ///< distance of neighbouring columns, rows and layers [length]
+  double cell_volume = 0.0;    ///< volume of an interior particle [length^3]
+};
+
+/// Vectors from an interior particle to all its neighbours within the horizon.
+struct BulkFamily {
+  int dim = 2;
+  std::vector<Vector3> offsets;  ///< [length]
+};
+
+/// Where the particles of a body come from.
+struct LatticeInput {
+  Pattern pattern = Pattern::rectangular;
+  Surface surface = Surface::none;
+  double spacing = 0.0;           ///< wanted; a conforming lattice adapts it to the body [length]
+  double horizon = 0.0;           ///< margin of the ghost layer [length]
+  double thickness = 1.0;         ///< of two-dimensional bodies [length]
+  std::vector<Box> solid;         ///< the body is the union of these boxes
+  std::vector<Index> material;    ///< of each box; where boxes overlap the last one counts
+  double boundary_tolerance = 1e-6;  ///< of "inside a box", in spacings
+};
+
+/// Particles and the lattice that they belong to.
+struct Body {
+  Lattice lattice;
+  Particles particles;
+};
+
+/// Fills a body with particles: `conforming` puts particles on the boundary and gives each the
+/// integral of its shape function as volume; Peri2D's grid (surface = ghost) is cell-centred in x,
+/// starts on the lowest row and continues as ghosts for one horizon beyond the body.
+/// \throws std::invalid_argument where the body is empty or its outline misses the lattice
+Body make_body(const LatticeInput& input);
+
+/// Family of a particle far from every surface.
+BulkFamily bulk_family(const Lattice& lattice, double horizon);
+
+/// Radius of the particles that Peri2D's horizon level 0–8 encloses, in spacings
+/// (Gerstle, Sau & Silling 2005, Fig. 5).
+/// \throws std::invalid_argument for a pattern without levels or a level outside 0–8
+double horizon_of_level(Pattern pattern, int level);
+
+}  // namespace perilink

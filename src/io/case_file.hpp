@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/types.hpp"
+#include "discretization/lattice.hpp"
+#include "discretization/region.hpp"
+
+/// \file
+/// The case file as it stands in the TOML text: every value that can be wrong by itself has been
+/// checked; what is wrong only in the light of the body (empty regions, free rigid modes) is found in
+/// app/configure. docs/case_file.md is the user's page; the one home of every default is here.
+
+namespace perilink {
+
+/// [body]
+struct BodySection {
+  std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
+  double thickness = 1.0;                ///< of two-dimensional bodies
+  Pattern pattern = Pattern::rectangular;
+  Surface surface = Surface::none;
+  std::optional<int> columns;            ///< particles across the body in x: this or spacing
+  std::optional<double> spacing;
+  std::optional<double> horizon;         ///< exactly one of horizon, horizon_level, horizon_ratio
+  std::optional<int> horizon_level;      ///< 0–8 of Gerstle, Sau & Silling 2005, Fig. 5
+  std::optional<double> horizon_ratio;   ///< horizon / spacing
+  std::string micromodulus = "lattice";      ///< lattice | continuum
+  std::string critical_stretch = "lattice";  ///< lattice | continuum
+};
+
+/// [[materials]]: elastic constants and fracture energy of one or more regions. A later entry counts
+/// where regions overlap.
+struct MaterialSection {
+  std::string name;
+  std::vector<std::string> regions;
+  double youngs_modulus = 0.0;
+  std::optional<double> poissons_ratio;  ///< only to be refused with an explanation, or confirmed
+  double fracture_energy = 0.0;          ///< infinity: unbreakable ("infinite" in the file)
+};
+
+/// [[supports]]: displacements held at zero.
+struct SupportSection {
+  std::string region;
+  std::array<bool, 3> fix{};
+};
+
+/// [[displacements]]: displacements driven in proportion to the load factor.
+struct DisplacementSection {
+  std::string region;
+  std::array<std::optional<double>, 3> value;  ///< at load factor 1 [length]
+};
+
+/// [[loads]]: exactly one of force (total, shared by volume) and body_force (per volume).
+struct LoadSection {
+  std::string region;
+  std::optional<Vector3> force;       ///< at load factor 1 [force]
+  std::optional<Vector3> body_force;  ///< at load factor 1 [force/length^3]
+};
+
+/// [[rebar]]
+struct RebarSection {
+  Vector3 from{};
+  Vector3 to{};
+  double youngs_modulus = 0.0;
+  double area = 0.0;
+  std::optional<double> yield_strength;  ///< absent: elastic
+  bool yields = true;                    ///< false: stays elastic whatever its yield strength
+  bool ties_break = true;                ///< false: the bond to the concrete is perfect
+};
+
+/// [analysis]
+struct AnalysisSection {
+  std::string type = "damage";               ///< damage | elastic
+  std::string control = "events";            ///< events | steps
+  std::vector<double> load_factors;          ///< of control = steps
+  std::string rigid_body_modes = "refuse";   ///< refuse | pin
+  std::string factor = "in_place";           ///< in_place | cholmod_updown | refactorize
+};
+
+/// [stop]: the run ends at the first rule met (always at collapse).
+struct StopSection {
+  std::optional<int> broken_bonds;
+  std::optional<double> load_fraction;   ///< of the peak load factor
+  std::optional<double> displacement;
+};
+
+/// [output]
+struct OutputSection {
+  std::vector<int> fields_at;      ///< numbers of broken bonds at which fields are written
+  std::optional<int> fields_every; ///< and after every so many
+};
+
+/// A whole case.
+struct CaseFile {
+  std::string path;
+  std::string title;
+  std::string units;  ///< label of plots, "kip, in"
+  BodySection body;
+  std::vector<Region> regions;
+  std::vector<MaterialSection> materials;
+  std::vector<SupportSection> supports;
+  std::vector<DisplacementSection> displacements;
+  std::vector<LoadSection> loads;
+  std::vector<RebarSection> rebar;
+  AnalysisSection analysis;
+  StopSection stop;
+  OutputSection output;
+
+  std::map<std::string, int> lines;  ///< line of every key path, "materials[2].region"
+
+  /// Location of a key, or of the nearest table above it that the file has.
+  SourceLocation where(const std::string& key) const;
+};
+
+/// Reads and checks a case.
+/// \throws InputError  with file, line, key, value given, what is allowed and a suggestion
+/// \throws FileError   when the file cannot be read
+CaseFile read_case_file(const std::string& path);
+
+/// The same from text, for tests and fuzzing.
+CaseFile parse_case(const std::string& text, const std::string& path);
+
+/// The case as resolved, as TOML text that reads back to the same case.
+std::string write_case(const CaseFile& input);
+
+}  // namespace perilink

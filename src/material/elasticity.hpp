@@ -1,0 +1,15 @@
+#pragma once
+
+namespace perilink {
+
+/// Kinematics of the body.
+enum class Problem { plane_stress, plane_strain, three_dimensional };
+
+/// 2 or 3.
+int dimension_of(Problem problem);
+
+/// The only Poisson's ratio that a bond-based isotropic solid can have: 1/3 in plane stress, 1/4 in
+/// plane strain and in three dimensions (Gerstle, Sau & Silling 2005, section 2).
+double bond_poissons_ratio(Problem problem);
+
+}  // namespace perilink

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+
+#include "base/types.hpp"
+#include "material/elasticity.hpp"
+
+/// \file
+/// The constant c of a bond, pairwise force f = c s [force/length^6], from Young's modulus. A bond
+/// between two particles is a truss of stiffness k = c V_i V_j / xi [force/length].
+
+namespace perilink {
+
+/// Micromodulus of the infinite body, thickness t [length], horizon delta [length]:
+/// plane stress c t = 9 E / (pi delta^3), plane strain c t = 48 E / (5 pi delta^3),
+/// three dimensions c = 12 E / (pi delta^4) (Gerstle, Sau & Silling 2005, Eq. 6 with the thickness
+/// that its text leaves out).
+double continuum_micromodulus(Problem problem, double youngs_modulus, double horizon,
+                              double thickness);
+
+/// What the sums over a lattice give.
+struct LatticeModuli {
+  double micromodulus_per_modulus;  ///< c / E [1/length^4]
+  double poissons_ratio;            ///< of the lattice, not exactly bond_poissons_ratio()
+};
+
+/// Micromodulus that gives a particle inside the lattice the strain energy of the continuum, with
+/// Young's modulus prescribed and Poisson's ratio free (Peri2D; Gerstle, Sau & Silling 2005,
+/// section 3). In plane stress c V^2 = (E V / 2) (1/U1 + 1/U2), where U1 and U2 are the energies of
+/// one particle at unit biaxial stretch and at unit pure shear, per unit of c V^2:
+/// U1 = 1/4 sum xi, U2 = 1/4 sum xi cos^2(2 theta).
+/// \param offsets      vectors to all neighbours [length]
+/// \param cell_volume  V [length^3]
+LatticeModuli lattice_moduli(Problem problem, std::span<const Vector3> offsets,
+                             double cell_volume);
+
+}  // namespace perilink

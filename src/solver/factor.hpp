@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <Eigen/SparseCore>
+
+#include "base/types.hpp"
+
+namespace perilink {
+
+/// Symmetric matrix; only the lower triangle is stored.
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
+
+/// The few entries of the vector x of a change K -+ x x', rows ascending.
+struct SparseVector {
+  static constexpr int capacity = 12;
+  int size = 0;
+  std::array<Index, capacity> rows;
+  std::array<double, capacity> values;
+};
+
+/// How a factor follows the removal of a bond.
+enum class FactorRoute {
+  in_place,        ///< our LDL' downdate on the supernodal pattern
+  cholmod_updown,  ///< CHOLMOD's simplicial update/downdate, the reference of the tests
+  refactorize,     ///< numerical factorisation from the changed matrix, the yardstick
+};
+
+/// Size and cost of a factor.
+struct FactorStatistics {
+  Index size = 0;
+  double entries = 0.0;        ///< stored numbers of L
+  double bytes = 0.0;          ///< memory of L
+  double flops = 0.0;          ///< of one factorisation
+  int factorizations = 0;      ///< so far
+};
+
+/// Cholesky factor of a symmetric positive definite matrix that follows rank-one changes.
+class Factor {
+ public:
+  virtual ~Factor() = default;
+
+  /// Analyses and factorises K.
+  /// \param groups  number of the particle of each unknown; unknowns of one particle stay together
+  ///                in the fill-reducing ordering, which is made on the much smaller particle graph
+  /// \throws SolverError when K is not positive definite (names the unknown) or memory runs out
+  virtual void factorize(const SparseMatrix& matrix, std::span<const Index> groups) = 0;
+
+  /// Factorises a matrix of the same pattern again.
+  virtual void refactorize(const SparseMatrix& matrix) = 0;
+
+  /// solution = K^-1 rhs, both of size n; they may be the same memory.
+  virtual void solve(std::span<const double> rhs, std::span<double> solution) const = 0;
+
+  /// Looks at the removal of x x' without changing anything: returns the pivot 1 - x' K^-1 x, which
+  /// is det(K - x x') / det(K). Not positive: the removal leaves a mechanism.
+  virtual double prepare_downdate(const SparseVector& x) = 0;
+
+  /// Carries out the removal prepared last: K <- K - x x'. On return `direction` holds K^-1 x of the
+  /// K before the removal, size n.
+  virtual void commit_downdate(std::span<double> direction) = 0;
+
+  /// K <- K + x x' (ground springs of detached fragments; the pattern of x must lie in that of K).
+  virtual void update(const SparseVector& x) = 0;
+
+  virtual FactorStatistics statistics() const = 0;
+};
+
+/// \param threads  threads that the factor may use; results do not depend on it
+std::unique_ptr<Factor> make_factor(FactorRoute route, int threads);
+
+/// Name of a route as the case file spells it.
+std::string to_string(FactorRoute route);
+
+}  // namespace perilink
