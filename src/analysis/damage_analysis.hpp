@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/observer.hpp"
+#include "assembly/network.hpp"
+#include "assembly/unknowns.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// When a run ends before collapse.
+struct StopRules {
+  std::optional<Index> broken_bonds;
+  std::optional<double> load_fraction;  ///< load factor below this fraction of its peak
+  std::optional<double> displacement;   ///< |displacement| at or above this [length]
+};
+
+struct DamageOptions {
+  FactorRoute route = FactorRoute::in_place;
+  std::vector<double> load_factors;  ///< control by steps when not empty, else by events
+  StopRules stop;
+  double residual_tolerance = 1e-10;
+  int check_interval = 10;           ///< events between looks at the residual
+  int threads = 1;
+  double plateau_ratio = 1.05;       ///< of PlateauLaw
+};
+
+struct DamageResult {
+  Ending ending = Ending::completed;
+  std::string reason;               ///< in words
+  StepRecord last;
+  double peak_load = 0.0;
+  double peak_displacement = 0.0;   ///< displacement at the peak load
+  double initial_stiffness = 0.0;   ///< load / displacement of the intact body
+  FactorStatistics factor;
+};
+
+/// Reference load and displacement that turn load factors into the two axes of the load curve.
+struct ReferenceLoad {
+  bool driven = false;  ///< displacements drive the body, no forces
+  double value = 0.0;   ///< largest resultant of a loaded region, or largest driven displacement
+};
+
+/// THE MAIN JOB: proportional loading of a network of brittle bonds to collapse, event by event.
+DamageResult run_damage_analysis(const Network& network, const Unknowns& unknowns,
+                                 const Loads& loads, const ReferenceLoad& reference,
+                                 const DamageOptions& options, StepObserver& observer);
+
+}  // namespace perilink

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "assembly/network.hpp"
+#include "assembly/unknowns.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// Static equilibrium at load factor 1.
+struct ElasticResult {
+  std::vector<double> displacement;  ///< shape (particles, dim) [length]
+  double strain_energy = 0.0;        ///< [force length]
+  double residual = 0.0;             ///< |f - K u| / |f| after one step of refinement
+  FactorStatistics factor;
+};
+
+/// One assembly, one factorisation, one solve.
+ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unknowns,
+                                   const Loads& loads, int threads);
+
+}  // namespace perilink

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "assembly/network.hpp"
+
+namespace perilink {
+
+/// Forces of all elements on all particles, and their energy.
+struct InternalForce {
+  std::vector<double> forces;  ///< K u: force needed to hold each particle, shape (particles, dim)
+  double energy = 0.0;         ///< sum of k e^2 / 2 [force length]
+};
+
+/// \param displacement  shape (particles, dim)
+InternalForce internal_force(const Network& network, std::span<const double> secants,
+                             std::span<const double> displacement);
+
+/// The same with memory that is used again from call to call.
+void internal_force(const Network& network, std::span<const double> secants,
+                    std::span<const double> displacement, InternalForce& result);
+
+}  // namespace perilink

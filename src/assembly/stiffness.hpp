@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "assembly/network.hpp"
+#include "assembly/unknowns.hpp"
+#include "base/types.hpp"
+
+namespace perilink {
+
+/// Lower triangle of K = sum over elements of k n n' between its free ends (unknown by unknown).
+/// \param secants  present stiffness of each element as a fraction of the intact one; broken
+///                 elements keep their place in the pattern (as zeros), so that the pattern does not
+///                 change while bonds break
+Eigen::SparseMatrix<double, Eigen::ColMajor, Index> assemble_stiffness(
+    const Network& network, std::span<const double> secants, const Unknowns& unknowns);
+
+/// f at load factor 1 on the unknowns: applied forces less the forces that the prescribed
+/// displacements put on free particles. Size unknowns.count.
+std::vector<double> assemble_right_hand_side(const Network& network,
+                                             std::span<const double> secants,
+                                             const Unknowns& unknowns, const Loads& loads);
+
+/// Particle of every unknown, size unknowns.count.
+std::vector<Index> particle_of_unknown(const Unknowns& unknowns);
+
+/// Displacement of all particles from the unknowns, shape (particles, dim).
+std::vector<double> expand(const Unknowns& unknowns, std::span<const double> solution);
+
+}  // namespace perilink
