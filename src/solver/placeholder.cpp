@@ -1,0 +1,2 @@
+// replaced by the first source of this module
+namespace perilink {}
