@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,7 +23,7 @@ namespace perilink {
 struct BodySection {
   std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
   double thickness = 1.0;                ///< of two-dimensional bodies
-  Pattern pattern = Pattern::rectangular;
+  Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
   Surface surface = Surface::none;
   std::optional<int> columns;            ///< particles across the body in x: this or spacing
   std::optional<double> spacing;
@@ -36,7 +37,7 @@ struct BodySection {
 /// [[materials]]: elastic constants and fracture energy of one or more regions. A later entry counts
 /// where regions overlap.
 struct MaterialSection {
-  std::string name;
+  std::string name;  ///< "material 2" for the second one where the file gives none
   std::vector<std::string> regions;
   double youngs_modulus = 0.0;
   std::optional<double> poissons_ratio;  ///< only to be refused with an explanation, or confirmed
@@ -111,11 +112,17 @@ struct CaseFile {
   StopSection stop;
   OutputSection output;
 
-  std::map<std::string, int> lines;  ///< line of every key path, "materials[2].region"
+  /// Line of every key path that the file has; the entries of a list of tables count from one, as
+  /// their reader does: "materials[2].region" belongs to the second [[materials]].
+  std::map<std::string, int> lines;
 
-  /// Location of a key, or of the nearest table above it that the file has.
+  /// Location of a key, with the line of the nearest table above it where the file lacks the key.
   SourceLocation where(const std::string& key) const;
 };
+
+/// Key path of an entry of a list of tables, from the zero-based index of its vector:
+/// item_key("materials", 1, "region") is "materials[2].region".
+std::string item_key(const std::string& table, std::size_t index, const std::string& key = "");
 
 /// Reads and checks a case.
 /// \throws InputError  with file, line, key, value given, what is allowed and a suggestion
