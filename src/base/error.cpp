@@ -1,16 +1,17 @@
 #include "base/error.hpp"
 
+#include <fmt/format.h>
+
 namespace perilink {
 namespace {
 
 std::string compose(const SourceLocation& where, const std::string& fault,
                     const std::string& suggestion) {
   std::string text = where.file;
-  if (where.line > 0) text += ":" + std::to_string(where.line);
-  text += ": ";
-  if (!where.key.empty()) text += where.key + ": ";
+  if (where.line > 0) text += fmt::format(":{}", where.line);
+  text += where.key.empty() ? ": " : fmt::format(": {}: ", where.key);
   text += fault;
-  if (!suggestion.empty()) text += "\n  " + suggestion;
+  if (!suggestion.empty()) text += fmt::format("\n  {}", suggestion);
   return text;
 }
 

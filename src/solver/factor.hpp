@@ -39,32 +39,39 @@ struct FactorStatistics {
   int factorizations = 0;      ///< so far
 };
 
-/// Cholesky factor of a symmetric positive definite matrix that follows rank-one changes.
+/// Cholesky factor of a symmetric positive definite matrix K that follows rank-one changes, and the
+/// solution u of K u = f for one load f that follows with it.
 class Factor {
  public:
   virtual ~Factor() = default;
 
-  /// Analyses and factorises K.
-  /// \param groups  number of the particle of each unknown; unknowns of one particle stay together
-  ///                in the fill-reducing ordering, which is made on the much smaller particle graph
-  /// \throws SolverError when K is not positive definite (names the unknown) or memory runs out
+  /// Orders, analyses and factorises K.
+  /// \param matrix  lower triangle
+  /// \param groups  number of the particle of each unknown; the unknowns of one particle are
+  ///                neighbours, and the fill-reducing ordering is made on the much smaller graph of
+  ///                the particles
+  /// \throws SolverError when K is not positive definite or does not fit in memory
   virtual void factorize(const SparseMatrix& matrix, std::span<const Index> groups) = 0;
 
-  /// Factorises a matrix of the same pattern again.
+  /// Factorises another matrix of the same pattern; the load to be followed is forgotten.
   virtual void refactorize(const SparseMatrix& matrix) = 0;
 
   /// solution = K^-1 rhs, both of size n; they may be the same memory.
-  virtual void solve(std::span<const double> rhs, std::span<double> solution) const = 0;
+  virtual void solve(std::span<const double> rhs, std::span<double> solution) = 0;
 
-  /// Looks at the removal of x x' without changing anything: returns the pivot 1 - x' K^-1 x, which
-  /// is det(K - x x') / det(K). Not positive: the removal leaves a mechanism.
+  /// Solves K u = f and follows this load through the downdates to come.
+  virtual void follow_load(std::span<const double> load, std::span<double> solution) = 0;
+
+  /// Looks at the removal of x x' and changes nothing: the pivot 1 - x' K^-1 x, which is
+  /// det(K - x x') / det(K). At or below zero the removal would leave a mechanism.
   virtual double prepare_downdate(const SparseVector& x) = 0;
 
-  /// Carries out the removal prepared last: K <- K - x x'. On return `direction` holds K^-1 x of the
-  /// K before the removal, size n.
-  virtual void commit_downdate(std::span<double> direction) = 0;
+  /// Carries out the removal prepared last: K <- K - x x', f <- f + load_change x.
+  /// \param solution  of the load that is followed: before the removal on entry, after it on return
+  virtual void commit_downdate(double load_change, std::span<double> solution) = 0;
 
-  /// K <- K + x x' (ground springs of detached fragments; the pattern of x must lie in that of K).
+  /// K <- K + x x' without moving the solution (ground springs); the pattern of x must lie in that of
+  /// the matrix.
   virtual void update(const SparseVector& x) = 0;
 
   virtual FactorStatistics statistics() const = 0;

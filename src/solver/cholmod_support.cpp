@@ -1,0 +1,139 @@
+#include "solver/cholmod_support.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "base/error.hpp"
+#include "solver/ordering.hpp"
+
+namespace perilink {
+namespace {
+
+/// OpenBLAS splits sums by its number of threads, which would make results depend on it: one thread.
+/// Other BLAS libraries lack the function; the reference BLAS has one thread anyway.
+void use_one_blas_thread() {
+  using SetThreads = void (*)(int);
+  if (auto* set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) {
+    set(1);
+  }
+}
+
+void check(cholmod_common* common, const char* phase) {
+  const std::string where = std::string(" while ") + phase;
+  switch (common->status) {
+    case CHOLMOD_OK: return;
+    case CHOLMOD_OUT_OF_MEMORY: throw SolverError("out of memory" + where);
+    case CHOLMOD_TOO_LARGE:
+      throw SolverError("the factor has more numbers than 32-bit indices can count" + where);
+    case CHOLMOD_NOT_POSDEF:
+    case CHOLMOD_DSMALL: return;  // the caller looks at factor->minor
+    default: throw SolverError("CHOLMOD status " + std::to_string(common->status) + where);
+  }
+}
+
+}  // namespace
+
+CholmodSession::CholmodSession() {
+  use_one_blas_thread();
+  cholmod_start(&common_);
+  common_.print = 0;
+  common_.supernodal = CHOLMOD_SUPERNODAL;
+  common_.final_ll = true;
+  common_.nmethods = 1;
+  common_.method[0].ordering = CHOLMOD_GIVEN;
+  common_.postorder = true;
+}
+
+CholmodSession::~CholmodSession() { cholmod_finish(&common_); }
+
+cholmod_sparse view_lower(const SparseMatrix& lower) {
+  cholmod_sparse view{};
+  view.nrow = view.ncol = static_cast<std::size_t>(lower.cols());
+  view.nzmax = static_cast<std::size_t>(lower.nonZeros());
+  view.p = const_cast<Index*>(lower.outerIndexPtr());
+  view.i = const_cast<Index*>(lower.innerIndexPtr());
+  view.x = const_cast<double*>(lower.valuePtr());
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+cholmod_dense view_column(std::span<double> values) {
+  cholmod_dense view{};
+  view.nrow = view.d = view.nzmax = values.size();
+  view.ncol = 1;
+  view.x = values.data();
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  return view;
+}
+
+CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix& lower,
+                                    std::span<const Index> groups) {
+  std::vector<Index> permutation = order_by_particles(lower, groups);
+  cholmod_sparse matrix = view_lower(lower);
+  CholmodFactorPtr factor(
+      cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, session.get()),
+      CholmodFactorDeleter{session.get()});
+  check(session.get(), "analysing the stiffness matrix");
+  return factor;
+}
+
+void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
+                           cholmod_factor* factor) {
+  cholmod_sparse matrix = view_lower(lower);
+  cholmod_factorize(&matrix, factor, session.get());
+  check(session.get(), "factorising the stiffness matrix");
+  if (factor->minor < factor->n) {
+    const Index unknown = static_cast<const Index*>(factor->Perm)[factor->minor];
+    throw SolverError("the stiffness matrix is not positive definite (unknown " +
+                      std::to_string(unknown) + " of " + std::to_string(factor->n) +
+                      "): part of the body can move freely");
+  }
+}
+
+PermutedColumn::PermutedColumn(const SparseVector& x, std::span<const Index> position, Index size)
+    : sorted_(permute(x, position)), offsets_{0, static_cast<Index>(x.size)}, matrix_{} {
+  matrix_.nrow = static_cast<std::size_t>(size);
+  matrix_.ncol = 1;
+  matrix_.nzmax = SparseVector::capacity;
+  matrix_.p = offsets_;
+  matrix_.i = sorted_.rows.data();
+  matrix_.x = sorted_.values.data();
+  matrix_.itype = CHOLMOD_INT;
+  matrix_.xtype = CHOLMOD_REAL;
+  matrix_.dtype = CHOLMOD_DOUBLE;
+  matrix_.sorted = 1;
+  matrix_.packed = 1;
+}
+
+SparseVector permute(const SparseVector& x, std::span<const Index> position) {
+  std::array<int, SparseVector::capacity> order{};
+  std::iota(order.begin(), order.begin() + x.size, 0);
+  std::sort(order.begin(), order.begin() + x.size,
+            [&](int a, int b) { return position[x.rows[a]] < position[x.rows[b]]; });
+  SparseVector sorted;
+  sorted.size = x.size;
+  for (int k = 0; k < x.size; ++k) {
+    sorted.rows[k] = position[x.rows[order[k]]];
+    sorted.values[k] = x.values[order[k]];
+  }
+  return sorted;
+}
+
+std::vector<Index> invert(std::span<const Index> permutation) {
+  std::vector<Index> position(permutation.size());
+  for (std::size_t k = 0; k < permutation.size(); ++k) {
+    position[permutation[k]] = static_cast<Index>(k);
+  }
+  return position;
+}
+
+}  // namespace perilink

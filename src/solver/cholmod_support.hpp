@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cholmod.h>
+
+#include <memory>
+#include <span>
+
+#include "solver/factor.hpp"
+
+/// \file
+/// What the routes share of CHOLMOD: its workspace, views of our matrices, and its status turned into
+/// our exceptions. Only files of this folder may include it.
+
+namespace perilink {
+
+/// CHOLMOD's parameters and workspace.
+class CholmodSession {
+ public:
+  CholmodSession();
+  ~CholmodSession();
+  CholmodSession(const CholmodSession&) = delete;
+  CholmodSession& operator=(const CholmodSession&) = delete;
+
+  cholmod_common* get() { return &common_; }
+
+ private:
+  cholmod_common common_;
+};
+
+/// Owning pointer to a CHOLMOD factor.
+struct CholmodFactorDeleter {
+  cholmod_common* common;
+  void operator()(cholmod_factor* factor) const { cholmod_free_factor(&factor, common); }
+};
+using CholmodFactorPtr = std::unique_ptr<cholmod_factor, CholmodFactorDeleter>;
+
+/// Supernodal analysis with the order of ordering.hpp.
+CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix& lower,
+                                    std::span<const Index> groups);
+
+/// Numerical factorisation L L' of a matrix of the pattern that was analysed.
+/// \throws SolverError
+void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
+                           cholmod_factor* factor);
+
+/// Views without copying.
+cholmod_sparse view_lower(const SparseMatrix& lower);
+cholmod_dense view_column(std::span<double> values);
+
+/// One column n x 1 with the entries of x moved to the factor's order, rows ascending.
+class PermutedColumn {
+ public:
+  PermutedColumn(const SparseVector& x, std::span<const Index> position, Index size);
+  PermutedColumn(const PermutedColumn&) = delete;
+  PermutedColumn& operator=(const PermutedColumn&) = delete;
+  cholmod_sparse* get() { return &matrix_; }
+  const SparseVector& entries() const { return sorted_; }
+
+ private:
+  SparseVector sorted_;
+  Index offsets_[2];
+  cholmod_sparse matrix_;
+};
+
+/// Entries of x moved to the factor's order, rows ascending.
+SparseVector permute(const SparseVector& x, std::span<const Index> position);
+
+/// Inverse of a permutation: position[permutation[k]] = k.
+std::vector<Index> invert(std::span<const Index> permutation);
+
+}  // namespace perilink

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/cholmod_support.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// CHOLMOD's own simplicial update and downdate (Davis & Hager 1999, 2009): the reference that the
+/// tests hold the in-place factor against. The forward solution of the load is changed together with
+/// the factor (updown_solve); one backward substitution per event gives the displacement, so nothing
+/// here rests on the Sherman–Morrison formula.
+class CholmodUpdownFactor final : public Factor {
+ public:
+  CholmodUpdownFactor();
+  ~CholmodUpdownFactor() override;
+
+  void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
+  void refactorize(const SparseMatrix& matrix) override;
+  void solve(std::span<const double> rhs, std::span<double> solution) override;
+  void follow_load(std::span<const double> load, std::span<double> solution) override;
+  double prepare_downdate(const SparseVector& x) override;
+  void commit_downdate(double load_change, std::span<double> solution) override;
+  void update(const SparseVector& x) override;
+  FactorStatistics statistics() const override;
+
+ private:
+  void half_solve(int system, cholmod_sparse* pattern);
+  void backward(std::span<double> solution);
+
+  CholmodSession session_;
+  CholmodFactorPtr symbolic_;    ///< supernodal analysis, used again by refactorize
+  CholmodFactorPtr factor_;      ///< simplicial L D L'
+  int factorizations_ = 0;
+  double flops_ = 0.0;
+  std::vector<Index> position_;
+  SparseVector x_;
+  std::vector<double> forward_;  ///< L^-1 P f of the load that is followed
+  cholmod_dense* solved_ = nullptr;
+  cholmod_sparse* solved_set_ = nullptr;
+  cholmod_dense* workspace_y_ = nullptr;
+  cholmod_dense* workspace_e_ = nullptr;
+};
+
+}  // namespace perilink

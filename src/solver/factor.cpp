@@ -1,0 +1,27 @@
+#include "solver/factor.hpp"
+
+#include "solver/cholmod_updown_factor.hpp"
+#include "solver/in_place_factor.hpp"
+#include "solver/refactorizing_factor.hpp"
+
+namespace perilink {
+
+std::unique_ptr<Factor> make_factor(FactorRoute route, int threads) {
+  switch (route) {
+    case FactorRoute::in_place: return std::make_unique<InPlaceFactor>(threads);
+    case FactorRoute::cholmod_updown: return std::make_unique<CholmodUpdownFactor>();
+    case FactorRoute::refactorize: return std::make_unique<RefactorizingFactor>();
+  }
+  return nullptr;
+}
+
+std::string to_string(FactorRoute route) {
+  switch (route) {
+    case FactorRoute::in_place: return "in_place";
+    case FactorRoute::cholmod_updown: return "cholmod_updown";
+    case FactorRoute::refactorize: return "refactorize";
+  }
+  return "unknown";
+}
+
+}  // namespace perilink

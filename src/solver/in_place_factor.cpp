@@ -1,0 +1,273 @@
+#include "solver/in_place_factor.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "solver/supernodal_kernels.hpp"
+
+namespace perilink {
+namespace {
+
+const Index* ints(const void* array) { return static_cast<const Index*>(array); }
+
+/// Below this many numbers of L a parallel region costs more than it saves.
+constexpr double smallest_parallel_factor = 2e6;
+
+}  // namespace
+
+InPlaceFactor::InPlaceFactor(int threads)
+    : threads_(threads), factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
+
+InPlaceFactor::Block InPlaceFactor::block(Index supernode) const {
+  const Index* super = ints(factor_->super);
+  const Index* row_starts = ints(factor_->pi);
+  const Index* value_starts = ints(factor_->px);
+  return {ints(factor_->s) + row_starts[supernode],
+          static_cast<double*>(factor_->x) + value_starts[supernode], super[supernode],
+          row_starts[supernode + 1] - row_starts[supernode],
+          super[supernode + 1] - super[supernode]};
+}
+
+void InPlaceFactor::factorize(const SparseMatrix& matrix, std::span<const Index> groups) {
+  size_ = static_cast<Index>(matrix.cols());
+  factor_ = analyze_supernodal(session_, matrix, groups);
+  adopt_pattern();
+  plan_backward();
+  refactorize(matrix);
+}
+
+void InPlaceFactor::refactorize(const SparseMatrix& matrix) {
+  factorize_numerically(session_, matrix, factor_.get());
+  turn_into_ldl();
+  ++factorizations_;
+}
+
+void InPlaceFactor::adopt_pattern() {
+  position_ = invert({ints(factor_->Perm), static_cast<std::size_t>(size_)});
+  const Index count = static_cast<Index>(factor_->nsuper);
+  supernode_of_.resize(size_);
+  longest_ = 0;
+  for (Index s = 0; s < count; ++s) {
+    const Index* super = ints(factor_->super);
+    std::fill(supernode_of_.begin() + super[s], supernode_of_.begin() + super[s + 1], s);
+    longest_ = std::max(longest_, ints(factor_->pi)[s + 1] - ints(factor_->pi)[s]);
+  }
+  parent_.assign(count, no_index);
+  for (Index s = 0; s < count; ++s) {
+    const Index rows = ints(factor_->pi)[s + 1] - ints(factor_->pi)[s];
+    const Index columns = ints(factor_->super)[s + 1] - ints(factor_->super)[s];
+    if (rows > columns) parent_[s] = supernode_of_[ints(factor_->s)[ints(factor_->pi)[s] + columns]];
+  }
+  vector_.assign(size_, 0.0);
+  p_.assign(size_, 0.0);
+  beta_.assign(size_, 0.0);
+  local_.assign(static_cast<std::size_t>(longest_) * threads_, 0.0);
+}
+
+/// Cuts the elimination tree into independent subtrees and a top. In postorder a subtree is a range
+/// of supernodes. Every supernode is computed alike wherever the cut runs, so results do not depend
+/// on the number of threads.
+void InPlaceFactor::plan_backward() {
+  const Index count = static_cast<Index>(factor_->nsuper);
+  std::vector<double> work(count);
+  std::vector<Index> first(count);
+  for (Index s = 0; s < count; ++s) first[s] = s;
+  double total = 0.0;
+  for (Index s = 0; s < count; ++s) {
+    const double rows = ints(factor_->pi)[s + 1] - ints(factor_->pi)[s];
+    const double own = rows * (ints(factor_->super)[s + 1] - ints(factor_->super)[s]);
+    total += own;
+    work[s] += own;
+    if (parent_[s] == no_index) continue;
+    work[parent_[s]] += work[s];
+    first[parent_[s]] = std::min(first[parent_[s]], first[s]);
+  }
+  const bool parallel = threads_ > 1 && total > smallest_parallel_factor;
+  const double largest = parallel ? total / (8.0 * threads_) : 0.0;
+  top_.clear();
+  subtrees_.clear();
+  for (Index s = count - 1; s >= 0;) {
+    if (work[s] > largest) {
+      top_.push_back(s);
+      --s;
+    } else {
+      subtrees_.emplace_back(first[s], s);
+      s = first[s] - 1;
+    }
+  }
+}
+
+/// L L' -> L D L': d_j = l_jj^2 goes to the diagonal, the column below is divided by l_jj.
+void InPlaceFactor::turn_into_ldl() {
+  const Index count = static_cast<Index>(factor_->nsuper);
+#pragma omp parallel for schedule(dynamic, 16) num_threads(threads_)
+  for (Index s = 0; s < count; ++s) {
+    const Block b = block(s);
+    for (Index j = 0; j < b.columns; ++j) {
+      double* column = b.values + static_cast<std::size_t>(j) * b.rows;
+      const double inverse = 1.0 / column[j];
+      column[j] *= column[j];
+#pragma omp simd
+      for (Index r = j + 1; r < b.rows; ++r) column[r] *= inverse;
+    }
+  }
+}
+
+void InPlaceFactor::forward_on(Index supernode, Index start, double* vector, double* local) const {
+  const Block b = block(supernode);
+  std::copy_n(vector + b.first_column, b.columns, local);
+  for (Index r = b.columns; r < b.rows; ++r) local[r] = vector[b.row_numbers[r]];
+  supernodal::forward(b.values, b.rows, b.columns, start, local);
+  std::copy_n(local, b.columns, vector + b.first_column);
+  for (Index r = b.columns; r < b.rows; ++r) vector[b.row_numbers[r]] = local[r];
+}
+
+void InPlaceFactor::backward_on(Index supernode, double* vector, double* local) const {
+  const Block b = block(supernode);
+  std::copy_n(vector + b.first_column, b.columns, local);
+  for (Index r = b.columns; r < b.rows; ++r) local[r] = vector[b.row_numbers[r]];
+  supernodal::backward(b.values, b.rows, b.columns, local);
+  std::copy_n(local, b.columns, vector + b.first_column);
+}
+
+void InPlaceFactor::backward_all(double* vector) {
+  for (const Index s : top_) backward_on(s, vector, local_.data());
+  const Index count = static_cast<Index>(subtrees_.size());
+  if (count == 0) return;
+#pragma omp parallel num_threads(threads_)
+  {
+    double* local = local_.data() + static_cast<std::size_t>(omp_get_thread_num()) * longest_;
+#pragma omp for schedule(dynamic, 1)
+    for (Index t = 0; t < count; ++t) {
+      for (Index s = subtrees_[t].second; s >= subtrees_[t].first; --s) {
+        backward_on(s, vector, local);
+      }
+    }
+  }
+}
+
+void InPlaceFactor::solve(std::span<const double> rhs, std::span<double> solution) {
+  for (Index k = 0; k < size_; ++k) vector_[position_[k]] = rhs[k];
+  const Index count = static_cast<Index>(factor_->nsuper);
+  for (Index s = 0; s < count; ++s) {
+    forward_on(s, 0, vector_.data(), local_.data());
+    const Block b = block(s);
+    for (Index j = 0; j < b.columns; ++j) {
+      vector_[b.first_column + j] /= b.values[static_cast<std::size_t>(j) * (b.rows + 1)];
+    }
+  }
+  backward_all(vector_.data());
+  for (Index k = 0; k < size_; ++k) solution[k] = vector_[position_[k]];
+}
+
+void InPlaceFactor::follow_load(std::span<const double> load, std::span<double> solution) {
+  solve(load, solution);
+}
+
+/// Eliminates x along its path and leaves p = L^-1 x in p_.
+void InPlaceFactor::forward_path(const SparseVector& permuted) {
+  clear_path();
+  if (permuted.size == 0) return;
+  for (int k = 0; k < permuted.size; ++k) p_[permuted.rows[k]] = permuted.values[k];
+  Index start = permuted.rows[0];
+  for (Index s = supernode_of_[start]; s != no_index; s = parent_[s]) {
+    path_.push_back(s);
+    const Index first = block(s).first_column;
+    forward_on(s, std::max<Index>(start - first, 0), p_.data(), local_.data());
+    start = 0;
+  }
+}
+
+void InPlaceFactor::clear_path() {
+  for (const Index s : path_) {
+    const Block b = block(s);
+    std::fill_n(p_.begin() + b.first_column, b.columns, 0.0);
+  }
+  path_.clear();
+}
+
+double InPlaceFactor::prepare_downdate(const SparseVector& x) {
+  x_ = permute(x, position_);
+  forward_path(x_);
+  double removed = 0.0;
+  for (const Index s : path_) {
+    const Block b = block(s);
+    for (Index j = 0; j < b.columns; ++j) {
+      const double p = p_[b.first_column + j];
+      removed += p * p / b.values[static_cast<std::size_t>(j) * (b.rows + 1)];
+    }
+  }
+  pivot_ = 1.0 - removed;
+  return pivot_;
+}
+
+/// K -+ x x' on the columns of the path: the diagonal first (its recurrence is a chain of scalars),
+/// then the blocks.
+void InPlaceFactor::change_path(double sign) {
+  double sigma = sign;
+  for (const Index s : path_) {
+    const Block b = block(s);
+    for (Index j = 0; j < b.columns; ++j) {
+      double& d = b.values[static_cast<std::size_t>(j) * (b.rows + 1)];
+      const double p = p_[b.first_column + j];
+      const double changed = d + sigma * p * p;
+      beta_[b.first_column + j] = sigma * p / changed;
+      sigma *= d / changed;
+      d = changed;
+    }
+  }
+  for (int k = 0; k < x_.size; ++k) vector_[x_.rows[k]] = x_.values[k];
+  Index start = x_.size > 0 ? x_.rows[0] : 0;
+  for (const Index s : path_) {
+    const Block b = block(s);
+    double* local = local_.data();
+    std::copy_n(vector_.begin() + b.first_column, b.columns, local);
+    for (Index r = b.columns; r < b.rows; ++r) local[r] = vector_[b.row_numbers[r]];
+    supernodal::change(b.values, b.rows, b.columns, std::max<Index>(start - b.first_column, 0),
+                       p_.data() + b.first_column, beta_.data() + b.first_column, local);
+    for (Index r = b.columns; r < b.rows; ++r) vector_[b.row_numbers[r]] = local[r];
+    start = 0;
+  }
+}
+
+void InPlaceFactor::commit_downdate(double load_change, std::span<double> solution) {
+  std::fill(vector_.begin(), vector_.end(), 0.0);
+  for (const Index s : path_) {
+    const Block b = block(s);
+    for (Index j = 0; j < b.columns; ++j) {
+      vector_[b.first_column + j] =
+          p_[b.first_column + j] / b.values[static_cast<std::size_t>(j) * (b.rows + 1)];
+    }
+  }
+  backward_all(vector_.data());
+  const Index* permutation = ints(factor_->Perm);
+  double extension = load_change;
+  for (int k = 0; k < x_.size; ++k) extension += x_.values[k] * solution[permutation[x_.rows[k]]];
+  const double scale = extension / pivot_;
+  for (Index k = 0; k < size_; ++k) solution[k] += scale * vector_[position_[k]];
+  std::fill(vector_.begin(), vector_.end(), 0.0);
+  change_path(-1.0);
+}
+
+void InPlaceFactor::update(const SparseVector& x) {
+  x_ = permute(x, position_);
+  forward_path(x_);
+  std::fill(vector_.begin(), vector_.end(), 0.0);
+  change_path(1.0);
+}
+
+FactorStatistics InPlaceFactor::statistics() const {
+  FactorStatistics result;
+  result.size = size_;
+  if (factor_) {
+    result.entries = static_cast<double>(factor_->xsize);
+    result.bytes = 8.0 * result.entries + 4.0 * static_cast<double>(factor_->ssize);
+  }
+  result.flops = const_cast<CholmodSession&>(session_).get()->fl;
+  result.factorizations = factorizations_;
+  return result;
+}
+
+}  // namespace perilink

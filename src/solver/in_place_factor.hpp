@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/cholmod_support.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// Factor L D L' on the supernodal pattern that CHOLMOD found, changed in place. A downdate never
+/// adds entries, so the dense blocks stay as they are; CHOLMOD's own update would first turn them
+/// into a simplicial factor and lose their speed.
+///
+/// Per event: the forward elimination of x runs along one path of the elimination tree only (the
+/// unknowns of a bond are mutually coupled, so one path holds them all); one backward pass gives
+/// K^-1 x and with it the new solution (Sherman & Morrison); the columns of the path are changed.
+class InPlaceFactor final : public Factor {
+ public:
+  explicit InPlaceFactor(int threads);
+
+  void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
+  void refactorize(const SparseMatrix& matrix) override;
+  void solve(std::span<const double> rhs, std::span<double> solution) override;
+  void follow_load(std::span<const double> load, std::span<double> solution) override;
+  double prepare_downdate(const SparseVector& x) override;
+  void commit_downdate(double load_change, std::span<double> solution) override;
+  void update(const SparseVector& x) override;
+  FactorStatistics statistics() const override;
+
+ private:
+  /// Rows, columns and numbers of one supernode.
+  struct Block {
+    const Index* row_numbers;
+    double* values;
+    Index first_column;
+    Index rows;
+    Index columns;
+    Index below() const { return rows - columns; }
+  };
+  Block block(Index supernode) const;
+
+  void adopt_pattern();
+  void plan_backward();
+  void turn_into_ldl();
+  void forward_on(Index supernode, Index start, double* vector, double* local) const;
+  void backward_on(Index supernode, double* vector, double* local) const;
+  void backward_all(double* vector);
+  void forward_path(const SparseVector& permuted);
+  void change_path(double sign);
+  void clear_path();
+
+  int threads_;
+  CholmodSession session_;
+  CholmodFactorPtr factor_;
+  Index size_ = 0;
+  int factorizations_ = 0;
+
+  std::vector<Index> position_;         ///< of each unknown in the factor's order
+  std::vector<Index> supernode_of_;     ///< of each column
+  std::vector<Index> parent_;           ///< of each supernode, no_index at roots
+  std::vector<Index> top_;              ///< supernodes above the independent subtrees, descending
+  std::vector<std::pair<Index, Index>> subtrees_;  ///< [first, last] supernodes of each
+  Index longest_ = 0;                   ///< most rows of a supernode
+
+  std::vector<double> vector_;          ///< work vector in the factor's order
+  std::vector<double> local_;           ///< rows of a supernode, one part per thread
+  SparseVector x_;                      ///< change prepared, in the factor's order
+  std::vector<Index> path_;             ///< supernodes of the path, ascending
+  std::vector<double> p_;               ///< L^-1 x along the path, in the factor's order
+  std::vector<double> beta_;            ///< per column of the path
+  double pivot_ = 0.0;
+};
+
+}  // namespace perilink

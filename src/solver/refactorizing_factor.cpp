@@ -1,0 +1,89 @@
+#include "solver/refactorizing_factor.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace perilink {
+
+RefactorizingFactor::RefactorizingFactor()
+    : factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
+
+void RefactorizingFactor::factorize(const SparseMatrix& matrix, std::span<const Index> groups) {
+  factor_ = analyze_supernodal(session_, matrix, groups);
+  flops_ = session_.get()->fl;
+  refactorize(matrix);
+}
+
+void RefactorizingFactor::refactorize(const SparseMatrix& matrix) {
+  matrix_ = matrix;
+  factorize_numerically(session_, matrix_, factor_.get());
+  ++factorizations_;
+}
+
+void RefactorizingFactor::solve(std::span<const double> rhs, std::span<double> solution) {
+  std::vector<double> copy(rhs.begin(), rhs.end());
+  cholmod_dense b = view_column(copy);
+  cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_.get(), &b, session_.get());
+  if (x == nullptr) throw SolverError("out of memory while solving");
+  std::copy_n(static_cast<const double*>(x->x), solution.size(), solution.begin());
+  cholmod_free_dense(&x, session_.get());
+}
+
+void RefactorizingFactor::follow_load(std::span<const double> load, std::span<double> solution) {
+  load_.assign(load.begin(), load.end());
+  solve(load_, solution);
+}
+
+double RefactorizingFactor::prepare_downdate(const SparseVector& x) {
+  x_ = x;
+  std::vector<double> direction(static_cast<std::size_t>(matrix_.cols()), 0.0);
+  for (int k = 0; k < x.size; ++k) direction[x.rows[k]] = x.values[k];
+  solve(direction, direction);
+  double removed = 0.0;
+  for (int k = 0; k < x.size; ++k) removed += x.values[k] * direction[x.rows[k]];
+  return 1.0 - removed;
+}
+
+/// Adds sign * x x' to the lower triangle.
+void RefactorizingFactor::change_matrix(const SparseVector& x, double sign) {
+  for (int a = 0; a < x.size; ++a) {
+    for (int b = 0; b < x.size; ++b) {
+      if (x.rows[a] < x.rows[b]) continue;
+      const Index* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[x.rows[b]];
+      const Index* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[x.rows[b] + 1];
+      const Index* entry = std::lower_bound(begin, end, x.rows[a]);
+      if (entry == end || *entry != x.rows[a]) {
+        throw SolverError("a change of the stiffness matrix lies outside its pattern");
+      }
+      matrix_.valuePtr()[entry - matrix_.innerIndexPtr()] += sign * x.values[a] * x.values[b];
+    }
+  }
+}
+
+void RefactorizingFactor::commit_downdate(double load_change, std::span<double> solution) {
+  change_matrix(x_, -1.0);
+  for (int k = 0; k < x_.size; ++k) load_[x_.rows[k]] += load_change * x_.values[k];
+  factorize_numerically(session_, matrix_, factor_.get());
+  ++factorizations_;
+  solve(load_, solution);
+}
+
+void RefactorizingFactor::update(const SparseVector& x) {
+  change_matrix(x, 1.0);
+  factorize_numerically(session_, matrix_, factor_.get());
+  ++factorizations_;
+}
+
+FactorStatistics RefactorizingFactor::statistics() const {
+  FactorStatistics result;
+  if (!factor_) return result;
+  result.size = static_cast<Index>(factor_->n);
+  result.entries = static_cast<double>(factor_->xsize);
+  result.bytes = 8.0 * result.entries + 4.0 * static_cast<double>(factor_->ssize);
+  result.flops = flops_;
+  result.factorizations = factorizations_;
+  return result;
+}
+
+}  // namespace perilink

@@ -1,0 +1,150 @@
+#include "solver/supernodal_kernels.hpp"
+
+#include <cstddef>
+
+namespace perilink::supernodal {
+namespace {
+
+/// Columns worked on together: each pass over `local` serves this many columns, and this many
+/// streams of L are what the prefetchers of current processors follow.
+constexpr Index width = 8;
+
+const double* column(const double* block, Index rows, Index j) {
+  return block + static_cast<std::size_t>(j) * rows;
+}
+double* column(double* block, Index rows, Index j) {
+  return block + static_cast<std::size_t>(j) * rows;
+}
+
+/// local[r] -= sum of p_k l_k[r], r from `from`, for `width` columns at c.
+void eliminate_panel(const double* c, Index rows, Index from, const double* p, double* local) {
+  const double *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
+  const double *c4 = c3 + rows, *c5 = c4 + rows, *c6 = c5 + rows, *c7 = c6 + rows;
+  const double p0 = p[0], p1 = p[1], p2 = p[2], p3 = p[3];
+  const double p4 = p[4], p5 = p[5], p6 = p[6], p7 = p[7];
+#pragma omp simd
+  for (Index r = from; r < rows; ++r) {
+    local[r] -= ((p0 * c0[r] + p1 * c1[r]) + (p2 * c2[r] + p3 * c3[r])) +
+                ((p4 * c4[r] + p5 * c5[r]) + (p6 * c6[r] + p7 * c7[r]));
+  }
+}
+
+/// sums[k] = sum over rows from `from` of l_k[r] local[r], for `width` columns at c.
+void dot_panel(const double* c, Index rows, Index from, const double* local, double* sums) {
+  const double *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
+  const double *c4 = c3 + rows, *c5 = c4 + rows, *c6 = c5 + rows, *c7 = c6 + rows;
+  double s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, s6 = 0, s7 = 0;
+#pragma omp simd reduction(+ : s0, s1, s2, s3, s4, s5, s6, s7)
+  for (Index r = from; r < rows; ++r) {
+    const double y = local[r];
+    s0 += c0[r] * y, s1 += c1[r] * y, s2 += c2[r] * y, s3 += c3[r] * y;
+    s4 += c4[r] * y, s5 += c5[r] * y, s6 += c6[r] * y, s7 += c7[r] * y;
+  }
+  sums[0] = s0, sums[1] = s1, sums[2] = s2, sums[3] = s3;
+  sums[4] = s4, sums[5] = s5, sums[6] = s6, sums[7] = s7;
+}
+
+/// For each column in turn: local -= p l; l += beta local; rows from `from`, `width` columns at c.
+void change_panel(double* c, Index rows, Index from, const double* p, const double* b,
+                  double* local) {
+  double *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
+  double *c4 = c3 + rows, *c5 = c4 + rows, *c6 = c5 + rows, *c7 = c6 + rows;
+  const double p0 = p[0], p1 = p[1], p2 = p[2], p3 = p[3];
+  const double p4 = p[4], p5 = p[5], p6 = p[6], p7 = p[7];
+  const double b0 = b[0], b1 = b[1], b2 = b[2], b3 = b[3];
+  const double b4 = b[4], b5 = b[5], b6 = b[6], b7 = b[7];
+#pragma omp simd
+  for (Index r = from; r < rows; ++r) {
+    double w = local[r];
+    w -= p0 * c0[r], c0[r] += b0 * w;
+    w -= p1 * c1[r], c1[r] += b1 * w;
+    w -= p2 * c2[r], c2[r] += b2 * w;
+    w -= p3 * c3[r], c3[r] += b3 * w;
+    w -= p4 * c4[r], c4[r] += b4 * w;
+    w -= p5 * c5[r], c5[r] += b5 * w;
+    w -= p6 * c6[r], c6[r] += b6 * w;
+    w -= p7 * c7[r], c7[r] += b7 * w;
+    local[r] = w;
+  }
+}
+
+}  // namespace
+
+void forward(const double* block, Index rows, Index columns, Index start, double* local) {
+  Index j = start;
+  while (j < columns) {
+    const Index count = columns - j < width ? columns - j : width;
+    for (Index k = j; k < j + count; ++k) {
+      const double* l = column(block, rows, k);
+      for (Index r = k + 1; r < j + count; ++r) local[r] -= local[k] * l[r];
+    }
+    if (count == width) {
+      eliminate_panel(column(block, rows, j), rows, j + width, local + j, local);
+    } else {
+      for (Index k = j; k < j + count; ++k) {
+        const double* l = column(block, rows, k);
+        const double p = local[k];
+#pragma omp simd
+        for (Index r = j + count; r < rows; ++r) local[r] -= p * l[r];
+      }
+    }
+    j += count;
+  }
+}
+
+void backward(const double* block, Index rows, Index columns, double* local) {
+  Index end = columns;
+  while (end > 0) {
+    const Index count = end < width ? end : width;
+    const Index j = end - count;
+    double sums[width];
+    if (count == width) {
+      dot_panel(column(block, rows, j), rows, end, local, sums);
+    } else {
+      for (Index k = 0; k < count; ++k) {
+        const double* l = column(block, rows, j + k);
+        double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+        for (Index r = end; r < rows; ++r) sum += l[r] * local[r];
+        sums[k] = sum;
+      }
+    }
+    for (Index k = end - 1; k >= j; --k) {
+      const double* l = column(block, rows, k);
+      double y = local[k] - sums[k - j];
+      for (Index r = k + 1; r < end; ++r) y -= l[r] * local[r];
+      local[k] = y;
+    }
+    end = j;
+  }
+}
+
+void change(double* block, Index rows, Index columns, Index start, const double* p,
+            const double* beta, double* local) {
+  Index j = start;
+  while (j < columns) {
+    const Index count = columns - j < width ? columns - j : width;
+    for (Index k = j; k < j + count; ++k) {
+      double* l = column(block, rows, k);
+      for (Index r = k + 1; r < j + count; ++r) {
+        local[r] -= p[k] * l[r];
+        l[r] += beta[k] * local[r];
+      }
+    }
+    if (count == width) {
+      change_panel(column(block, rows, j), rows, j + width, p + j, beta + j, local);
+    } else {
+      for (Index k = j; k < j + count; ++k) {
+        double* l = column(block, rows, k);
+#pragma omp simd
+        for (Index r = j + count; r < rows; ++r) {
+          local[r] -= p[k] * l[r];
+          l[r] += beta[k] * local[r];
+        }
+      }
+    }
+    j += count;
+  }
+}
+
+}  // namespace perilink::supernodal
