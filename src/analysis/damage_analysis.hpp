@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/event_engine.hpp"
 #include "analysis/observer.hpp"
 #include "assembly/network.hpp"
 #include "assembly/unknowns.hpp"
@@ -19,22 +20,23 @@ struct StopRules {
 };
 
 struct DamageOptions {
-  FactorRoute route = FactorRoute::in_place;
+  EngineOptions engine;
   std::vector<double> load_factors;  ///< control by steps when not empty, else by events
   StopRules stop;
-  double residual_tolerance = 1e-10;
   int check_interval = 10;           ///< events between looks at the residual
-  int threads = 1;
-  double plateau_ratio = 1.05;       ///< of PlateauLaw
 };
 
 struct DamageResult {
   Ending ending = Ending::completed;
   std::string reason;               ///< in words
   StepRecord last;
+  Index broken_bonds = 0;           ///< with the one that separated the body, if it did
   double peak_load = 0.0;
   double peak_displacement = 0.0;   ///< displacement at the peak load
   double initial_stiffness = 0.0;   ///< load / displacement of the intact body
+  double largest_residual = 0.0;
+  double energy_error = 0.0;  ///< largest |work - stored - dissipated| / work of all rows, the stored
+                              ///< energy summed over the elements wherever the residual was measured
   FactorStatistics factor;
 };
 

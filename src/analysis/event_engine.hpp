@@ -20,16 +20,22 @@ struct Event {
 struct EventOutcome {
   bool mechanism = false;  ///< the element held the last load path: nothing was changed
   double pivot = 1.0;      ///< 1 - x' K^-1 x
-  /// Energy that the event takes, per lambda_k lambda_(k+1) / 2: x'u squared over the pivot at unit
-  /// load, the growth of the compliance [force length]
+  /// Growth of f'u - R'd at load factor 1: k e^2 / pivot [force length]. The event dissipates
+  /// lambda_k lambda_(k+1) / 2 times this along the path drawn through the events.
   double compliance_growth = 0.0;
-  double released = 0.0;   ///< energy that left the element, at unit load factor [force length]
+  double released = 0.0;   ///< energy that left the element, at load factor 1 [force length]
 };
 
-/// Equilibrium figures that need a pass over all elements.
+/// Work products at load factor 1 [force length].
+struct LoadWork {
+  double forces = 0.0;    ///< f'u: applied forces on their displacements
+  double supports = 0.0;  ///< R'd: reactions of driven particles on their displacements
+};
+
+/// Figures that need a pass over all elements.
 struct Equilibrium {
   double residual = 0.0;       ///< |f - K u| / |f|
-  double stored_energy = 0.0;  ///< sum over elements of k e^2 / 2 at unit load [force length]
+  double stored_energy = 0.0;  ///< sum over elements of k e^2 / 2 at load factor 1 [force length]
 };
 
 /// Moves a network from event to event at unit load factor. The damage analysis sees no more of the
@@ -38,27 +44,46 @@ class EventEngine {
  public:
   virtual ~EventEngine() = default;
 
-  /// The element that reaches its limit first as the load grows from zero. Ties within 1e-10 of the
-  /// load factor go to the element with the lowest number, so that no route depends on round-off.
+  /// The element that reaches its limit first as the load grows from zero. Ties within
+  /// `tie_tolerance` of the load factor go to the element with the lowest number, so that no route
+  /// and no number of threads decides by round-off.
   virtual Event next_event() = 0;
 
   /// Lets the element pass its limit: broken, or on the next secant of its law.
   virtual EventOutcome apply(const Event& event) = 0;
 
   /// Displacement of all particles at load factor 1, shape (particles, dim), prescribed ones and
-  /// all; exact equilibrium of the network as it stands.
+  /// all: equilibrium of the network as it stands.
   virtual std::span<const double> displacement() = 0;
 
-  /// Work-conjugate compliance sum at load factor 1: f'u - R'd (R reactions at driven particles with
-  /// displacement d) [force length]
-  virtual double compliance() = 0;
+  virtual LoadWork load_work() = 0;
 
   /// Present stiffness of every element as a fraction of the intact one.
   virtual std::span<const double> secants() const = 0;
 
+  /// Measures the residual; above the tolerance refines the displacement once, then factorises anew.
   virtual Equilibrium check_equilibrium() = 0;
 
   virtual FactorStatistics factor_statistics() const = 0;
 };
+
+/// Relative width within which load factors count as equal.
+inline constexpr double tie_tolerance = 1e-10;
+
+/// Below this pivot an event leaves a mechanism: the specimen has separated.
+inline constexpr double mechanism_pivot = 1e-6;
+
+/// What an engine needs to know.
+struct EngineOptions {
+  FactorRoute route = FactorRoute::in_place;
+  double residual_tolerance = 1e-10;
+  double plateau_ratio = 1.05;  ///< of PlateauLaw, for bars that yield
+  int threads = 1;
+};
+
+/// One factor, one event at a time.
+/// \throws SolverError when the stiffness matrix is not positive definite
+std::unique_ptr<EventEngine> make_event_engine(const Network& network, const Unknowns& unknowns,
+                                               const Loads& loads, const EngineOptions& options);
 
 }  // namespace perilink

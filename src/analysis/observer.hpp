@@ -8,22 +8,22 @@
 
 namespace perilink {
 
-/// One row of the history: the state at the moment of an event (or at the end of a load step). All
-/// energies follow the path drawn through the rows.
+/// One row of the history: equilibrium of the network as it stands, at the load factor at which its
+/// next element fails (or at the end of a load step). Energies follow the path drawn through the rows.
 struct StepRecord {
   Index step = 0;
-  Index broken_bonds = 0;         ///< after this step
-  Index yield_events = 0;         ///< of bars, after this step
+  Index broken_bonds = 0;         ///< in this equilibrium
+  Index yield_events = 0;         ///< of bars, so far
   double load_factor = 0.0;
   double load = 0.0;              ///< load factor times the reference load [force]
-  double displacement = 0.0;      ///< work-conjugate to `load` [length]
+  double displacement = 0.0;      ///< work-conjugate to `load`: twice the strain energy over it [length]
   double strain_energy = 0.0;     ///< [force length]
   double dissipated_energy = 0.0; ///< sum of lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2
-  double external_work = 0.0;     ///< trapezoids under the path of load and displacement
-  double released_energy = 0.0;   ///< energy of the elements at the moment they failed
-  double residual = 0.0;          ///< |f - K u| / |f| when last looked at
+  double external_work = 0.0;     ///< trapezoids under the path of loads and displacements
+  double released_energy = 0.0;   ///< sum of the elements' energies at the moment they failed
+  double residual = 0.0;          ///< |f - K u| / |f| when last measured
   int factorizations = 0;
-  Index element = no_index;       ///< that fails at the end of this step
+  Index element = no_index;       ///< that fails at this load
   double seconds = 0.0;           ///< wall time of this step; goes to timing.csv only
 };
 
@@ -48,8 +48,8 @@ std::string to_string(Ending ending);
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
-  /// After every row. `state` gives the network at the moment of the event, before the element
-  /// fails; it is made only when asked for, since displacements of the whole body may cost a solve.
+  /// After every row. `source` gives the network in that equilibrium when asked, since displacements
+  /// of the whole body may cost a solve.
   virtual void on_step(const StepRecord& record, class StateSource& source) = 0;
   /// Whether to stop now (a signal came).
   virtual bool stop_requested() { return false; }

@@ -91,29 +91,29 @@ double CholmodUpdownFactor::prepare_downdate(const SparseVector& x) {
   return 1.0 - removed;
 }
 
-void CholmodUpdownFactor::commit_downdate(double load_change, std::span<double> solution) {
-  if (x_.size > 0) {
-    PermutedColumn column(x_, position_, static_cast<Index>(factor_->n));
-    std::vector<double> change(forward_.size(), 0.0);
-    const SparseVector& entries = column.entries();
-    for (int k = 0; k < entries.size; ++k) {
-      change[entries.rows[k]] = load_change * entries.values[k];
-    }
-    cholmod_dense forward = view_column(forward_);
-    cholmod_dense delta = view_column(change);
-    if (!cholmod_updown_solve(false, column.get(), factor_.get(), &forward, &delta,
-                              session_.get())) {
-      throw SolverError("out of memory while downdating");
-    }
+/// K -+ x x' and f + load_change x, the forward solution of f with them.
+void CholmodUpdownFactor::change(bool add, const SparseVector& x, double load_change) {
+  if (x.size == 0) return;
+  PermutedColumn column(x, position_, static_cast<Index>(factor_->n));
+  std::vector<double> change(forward_.size(), 0.0);
+  const SparseVector& entries = column.entries();
+  for (int k = 0; k < entries.size; ++k) change[entries.rows[k]] = load_change * entries.values[k];
+  cholmod_dense forward = view_column(forward_);
+  cholmod_dense delta = view_column(change);
+  if (!cholmod_updown_solve(add, column.get(), factor_.get(), &forward, &delta, session_.get())) {
+    throw SolverError("out of memory while changing the factor");
   }
+}
+
+void CholmodUpdownFactor::commit_downdate(double load_change, std::span<double> solution) {
+  change(false, x_, load_change);
   backward(solution);
 }
 
-void CholmodUpdownFactor::update(const SparseVector& x) {
-  PermutedColumn column(x, position_, static_cast<Index>(factor_->n));
-  if (!cholmod_updown(true, column.get(), factor_.get(), session_.get())) {
-    throw SolverError("out of memory while updating");
-  }
+void CholmodUpdownFactor::update(const SparseVector& x, std::span<const double> solution) {
+  double extension = 0.0;
+  for (int k = 0; k < x.size; ++k) extension += x.values[k] * solution[x.rows[k]];
+  change(true, x, extension);
 }
 
 FactorStatistics CholmodUpdownFactor::statistics() const {

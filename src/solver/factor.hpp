@@ -70,9 +70,9 @@ class Factor {
   /// \param solution  of the load that is followed: before the removal on entry, after it on return
   virtual void commit_downdate(double load_change, std::span<double> solution) = 0;
 
-  /// K <- K + x x' without moving the solution (ground springs); the pattern of x must lie in that of
-  /// the matrix.
-  virtual void update(const SparseVector& x) = 0;
+  /// K <- K + x x' (a ground spring); the pattern of x must lie in that of the matrix. The load that is
+  /// followed grows by x (x'u), the force of the spring, so that its solution u stays where it is.
+  virtual void update(const SparseVector& x, std::span<const double> solution) = 0;
 
   virtual FactorStatistics statistics() const = 0;
 };

@@ -251,7 +251,7 @@ void InPlaceFactor::commit_downdate(double load_change, std::span<double> soluti
   change_path(-1.0);
 }
 
-void InPlaceFactor::update(const SparseVector& x) {
+void InPlaceFactor::update(const SparseVector& x, std::span<const double> /*solution*/) {
   x_ = permute(x, position_);
   forward_path(x_);
   std::fill(vector_.begin(), vector_.end(), 0.0);

@@ -69,8 +69,11 @@ void RefactorizingFactor::commit_downdate(double load_change, std::span<double> 
   solve(load_, solution);
 }
 
-void RefactorizingFactor::update(const SparseVector& x) {
+void RefactorizingFactor::update(const SparseVector& x, std::span<const double> solution) {
   change_matrix(x, 1.0);
+  double extension = 0.0;
+  for (int k = 0; k < x.size; ++k) extension += x.values[k] * solution[x.rows[k]];
+  for (int k = 0; k < x.size; ++k) load_[x.rows[k]] += extension * x.values[k];
   factorize_numerically(session_, matrix_, factor_.get());
   ++factorizations_;
 }

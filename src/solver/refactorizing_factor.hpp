@@ -18,7 +18,7 @@ class RefactorizingFactor final : public Factor {
   void follow_load(std::span<const double> load, std::span<double> solution) override;
   double prepare_downdate(const SparseVector& x) override;
   void commit_downdate(double load_change, std::span<double> solution) override;
-  void update(const SparseVector& x) override;
+  void update(const SparseVector& x, std::span<const double> solution) override;
   FactorStatistics statistics() const override;
 
  private:

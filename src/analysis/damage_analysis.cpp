@@ -1,0 +1,225 @@
+#include "analysis/damage_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/path_energy.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+
+namespace perilink {
+namespace {
+
+/// A driven body whose stiffness fell below this fraction has separated.
+constexpr double separated_stiffness = 1e-9;
+
+/// Lets observers look at the equilibrium of the engine.
+class EngineState final : public StateSource {
+ public:
+  EngineState(const Network& network, EventEngine& engine) : network_(network), engine_(engine) {}
+  StepState state() override { return {network_, engine_.secants(), engine_.displacement()}; }
+
+ private:
+  const Network& network_;
+  EventEngine& engine_;
+};
+
+/// The run as it goes on: engine, path energies, the row being written and the result.
+class Run {
+ public:
+  Run(const Network& network, const Unknowns& unknowns, const Loads& loads,
+      const ReferenceLoad& reference, const DamageOptions& options, StepObserver& observer)
+      : network_(network),
+        reference_(reference),
+        options_(options),
+        observer_(observer),
+        engine_(make_event_engine(network, unknowns, loads, options.engine)),
+        state_(network, *engine_) {
+    const LoadWork work = engine_->load_work();
+    initial_work_ = work.forces + work.supports;
+    if (!(initial_work_ > 0.0)) throw SolverError("the loads do no work on the body");
+    result_.initial_stiffness = reference_.driven
+                                    ? initial_work_ / (reference_.value * reference_.value)
+                                    : reference_.value * reference_.value / initial_work_;
+  }
+
+  DamageResult by_events();
+  DamageResult by_steps();
+
+ private:
+  bool separated(const LoadWork& work) const {
+    return work.forces + work.supports < separated_stiffness * initial_work_;
+  }
+  void record(double load_factor, const LoadWork& work, Index element);
+  void check();
+  bool pass(const Event& event);
+  bool stop_rule_met();
+  void end(Ending ending, std::string reason) {
+    result_.ending = ending;
+    result_.reason = std::move(reason);
+  }
+  DamageResult finish();
+
+  const Network& network_;
+  const ReferenceLoad& reference_;
+  const DamageOptions& options_;
+  StepObserver& observer_;
+  std::unique_ptr<EventEngine> engine_;
+  EngineState state_;
+  PathEnergy energy_;
+  Timer timer_;
+  double initial_work_ = 0.0;
+  double peak_load_factor_ = 0.0;
+  double stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
+  int events_ = 0;
+  Index broken_bonds_ = 0;
+  Index yield_events_ = 0;
+  StepRecord row_;
+  DamageResult result_;
+};
+
+/// Measures the residual and, element by element, the stored energy of the present equilibrium.
+void Run::check() {
+  const Equilibrium equilibrium = engine_->check_equilibrium();
+  row_.residual = equilibrium.residual;
+  stored_by_elements_ = equilibrium.stored_energy;
+  result_.largest_residual = std::max(result_.largest_residual, equilibrium.residual);
+}
+
+void Run::record(double load_factor, const LoadWork& work, Index element) {
+  energy_.advance(load_factor, work);
+  ++row_.step;
+  row_.broken_bonds = broken_bonds_;
+  row_.yield_events = yield_events_;
+  row_.load_factor = load_factor;
+  row_.strain_energy = energy_.stored();
+  row_.load = reference_.driven ? load_factor * work.supports / reference_.value
+                                : load_factor * reference_.value;
+  row_.displacement = row_.load != 0.0 ? 2.0 * row_.strain_energy / row_.load : 0.0;
+  row_.dissipated_energy = energy_.dissipated();
+  row_.external_work = energy_.external_work();
+  row_.released_energy = energy_.released();
+  row_.factorizations = engine_->factor_statistics().factorizations;
+  row_.element = element;
+  row_.seconds = timer_.seconds();
+  timer_.restart();
+
+  const double stored = std::isnan(stored_by_elements_)
+                            ? row_.strain_energy
+                            : load_factor * load_factor * stored_by_elements_;
+  stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
+  if (row_.external_work != 0.0) {
+    const double error = row_.external_work - stored - row_.dissipated_energy;
+    result_.energy_error =
+        std::max(result_.energy_error, std::abs(error) / std::abs(row_.external_work));
+  }
+  if (std::abs(row_.load) > std::abs(result_.peak_load)) {
+    result_.peak_load = row_.load;
+    result_.peak_displacement = row_.displacement;
+  }
+  peak_load_factor_ = std::max(peak_load_factor_, std::abs(load_factor));
+  observer_.on_step(row_, state_);
+}
+
+/// Lets the element fail. \return false when that separates the body
+bool Run::pass(const Event& event) {
+  const EventOutcome outcome = engine_->apply(event);
+  const bool is_bar = network_.is_segment(event.element);
+  ++(is_bar ? yield_events_ : broken_bonds_);
+  energy_.add_event(outcome);
+  if (outcome.mechanism) {
+    end(Ending::collapsed,
+        fmt::format("the body separated when element {} failed (pivot {:.1e})", event.element,
+                    outcome.pivot));
+    return false;
+  }
+  const bool near_separation = outcome.pivot < 1e-2;
+  if (++events_ % options_.check_interval == 0 || near_separation) check();
+  return true;
+}
+
+bool Run::stop_rule_met() {
+  const StopRules& stop = options_.stop;
+  if (observer_.stop_requested()) {
+    end(Ending::interrupted, "a signal asked the run to stop");
+  } else if (stop.broken_bonds && broken_bonds_ >= *stop.broken_bonds) {
+    end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));
+  } else if (stop.load_fraction &&
+             std::abs(row_.load_factor) < *stop.load_fraction * peak_load_factor_) {
+    end(Ending::completed,
+        fmt::format("the load factor fell below {} of its peak", *stop.load_fraction));
+  } else if (stop.displacement && std::abs(row_.displacement) >= *stop.displacement) {
+    end(Ending::completed, fmt::format("the displacement reached {}", *stop.displacement));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// From event to event: the load factor follows the body, up or down.
+DamageResult Run::by_events() {
+  check();
+  while (true) {
+    const LoadWork work = engine_->load_work();
+    if (separated(work)) {
+      end(Ending::collapsed, "the body no longer resists the displacements");
+      break;
+    }
+    const Event event = engine_->next_event();
+    if (event.element == no_index) {
+      end(Ending::nothing_breaks, "no bond can break under this load");
+      break;
+    }
+    record(event.load_factor, work, event.element);
+    if (stop_rule_met() || !pass(event)) break;
+  }
+  return finish();
+}
+
+/// At prescribed load factors: the worst element fails, and the next, until none exceeds its limit.
+DamageResult Run::by_steps() {
+  check();
+  for (const double load_factor : options_.load_factors) {
+    Event event = engine_->next_event();
+    Index last = no_index;
+    while (event.element != no_index && event.load_factor <= load_factor) {
+      energy_.advance(load_factor, engine_->load_work());
+      if (observer_.stop_requested()) {
+        end(Ending::interrupted, "a signal asked the run to stop");
+        return finish();
+      }
+      if (!pass(event)) return finish();
+      last = event.element;
+      if (separated(engine_->load_work())) {
+        end(Ending::collapsed, "the body no longer resists the displacements");
+        return finish();
+      }
+      event = engine_->next_event();
+    }
+    record(load_factor, engine_->load_work(), last);
+    if (stop_rule_met()) return finish();
+  }
+  end(Ending::completed, "all load steps are done");
+  return finish();
+}
+
+DamageResult Run::finish() {
+  result_.last = row_;
+  result_.broken_bonds = broken_bonds_;
+  result_.factor = engine_->factor_statistics();
+  return result_;
+}
+
+}  // namespace
+
+DamageResult run_damage_analysis(const Network& network, const Unknowns& unknowns,
+                                 const Loads& loads, const ReferenceLoad& reference,
+                                 const DamageOptions& options, StepObserver& observer) {
+  Run run(network, unknowns, loads, reference, options, observer);
+  return options.load_factors.empty() ? run.by_events() : run.by_steps();
+}
+
+}  // namespace perilink

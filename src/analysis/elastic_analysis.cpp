@@ -1,0 +1,43 @@
+#include "analysis/elastic_analysis.hpp"
+
+#include <cmath>
+
+#include "assembly/internal_force.hpp"
+#include "assembly/stiffness.hpp"
+
+namespace perilink {
+
+ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unknowns,
+                                   const Loads& loads, int threads) {
+  const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
+  const std::unique_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
+  factor->factorize(assemble_stiffness(network, secants, unknowns),
+                    particle_of_unknown(unknowns));
+  const std::vector<double> load = assemble_right_hand_side(network, secants, unknowns, loads);
+  std::vector<double> solution(load.size());
+  factor->solve(load, solution);
+
+  ElasticResult result;
+  double load_norm = 0.0;
+  for (const double value : load) load_norm += value * value;
+  for (int pass = 0; pass < 2; ++pass) {
+    result.displacement = expand(unknowns, solution);
+    const InternalForce internal = internal_force(network, secants, result.displacement);
+    std::vector<double> residual;
+    double square = 0.0;
+    for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+      if (unknowns.number[slot] == no_index) continue;
+      residual.push_back(loads.forces[slot] - internal.forces[slot]);
+      square += residual.back() * residual.back();
+    }
+    result.strain_energy = internal.energy;
+    result.residual = load_norm > 0.0 ? std::sqrt(square / load_norm) : std::sqrt(square);
+    if (pass == 1) break;
+    factor->solve(residual, residual);
+    for (std::size_t k = 0; k < solution.size(); ++k) solution[k] += residual[k];
+  }
+  result.factor = factor->statistics();
+  return result;
+}
+
+}  // namespace perilink

@@ -1,0 +1,244 @@
+#include "analysis/single_event_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/stiffness.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+
+std::unique_ptr<EventEngine> make_event_engine(const Network& network, const Unknowns& unknowns,
+                                               const Loads& loads, const EngineOptions& options) {
+  return std::make_unique<SingleEventEngine>(network, unknowns, loads, options);
+}
+
+SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unknowns,
+                                     const Loads& loads, const EngineOptions& options)
+    : network_(network),
+      unknowns_(unknowns),
+      loads_(loads),
+      options_(options),
+      factor_(make_factor(options.route, options.threads)),
+      search_(network),
+      secants_(static_cast<std::size_t>(network.num_elements()), 1.0),
+      solution_(static_cast<std::size_t>(unknowns.count), 0.0),
+      displacement_(unknowns.prescribed) {
+  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+    if (unknowns.number[slot] != no_index) slot_of_.push_back(slot);
+    if (loads.forces[slot] != 0.0) loaded_slots_.push_back(slot);
+  }
+  const int dim = network.dim();
+  auto driven = [&](Index particle) {
+    const auto begin = unknowns.prescribed.begin() + static_cast<std::ptrdiff_t>(particle) * dim;
+    return std::any_of(begin, begin + dim, [](double value) { return value != 0.0; });
+  };
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (driven(network.bonds.first[e]) || driven(network.bonds.second[e])) {
+      driven_elements_.push_back(e);
+    }
+  }
+  for (std::size_t k = 0; k < network.yield_strain.size(); ++k) {
+    plateaus_.push_back({network.yield_strain[k], options.plateau_ratio});
+    if (std::isfinite(network.yield_strain[k])) yielding_.push_back(static_cast<Index>(k));
+  }
+  teeth_.assign(network.yield_strain.size(), 0);
+  factor_->factorize(assemble_stiffness(network_, secants_, unknowns_),
+                     particle_of_unknown(unknowns_));
+  const std::vector<double> load =
+      assemble_right_hand_side(network_, secants_, unknowns_, loads_);
+  for (const double value : load) load_norm_ += value * value;
+  load_norm_ = std::sqrt(load_norm_);
+  factor_->follow_load(load, solution_);
+  scatter_solution();
+}
+
+void SingleEventEngine::scatter_solution() {
+  for (std::size_t k = 0; k < slot_of_.size(); ++k) displacement_[slot_of_[k]] = solution_[k];
+}
+
+Event SingleEventEngine::next_event() {
+  LimitSearch::Hit hit = search_.find(displacement_, tie_tolerance, options_.threads);
+  for (const Index k : yielding_) {
+    const Index element = network_.first_segment + k;
+    const Change change = make_change(element, 1.0);
+    const double strain = std::abs(change.extension) / network_.bonds.lengths[element];
+    const double ratio = strain / plateaus_[k].tooth(teeth_[k]).limit;
+    if (ratio > hit.ratio * (1.0 + tie_tolerance)) hit = {element, ratio};
+  }
+  if (hit.element == no_index) return {};
+  return {hit.element, 1.0 / hit.ratio};
+}
+
+SingleEventEngine::Change SingleEventEngine::make_change(Index element,
+                                                         double stiffness_lost) const {
+  Change change;
+  const double root = std::sqrt(stiffness_lost);
+  const std::span<const double> n = network_.bonds.direction(element);
+  const Index ends[2] = {network_.bonds.first[element], network_.bonds.second[element]};
+  for (int end = 0; end < 2; ++end) {
+    for (int a = 0; a < network_.dim(); ++a) {
+      const double value = (end == 0 ? -root : root) * n[a];
+      const std::size_t slot = static_cast<std::size_t>(ends[end]) * network_.dim() + a;
+      change.extension += value * displacement_[slot];
+      const Index unknown = unknowns_.number[slot];
+      if (unknown == no_index) {
+        change.load_change += value * unknowns_.prescribed[slot];
+      } else if (value != 0.0) {
+        change.x.rows[change.x.size] = unknown;
+        change.x.values[change.x.size++] = value;
+      }
+    }
+  }
+  return change;
+}
+
+void SingleEventEngine::commit(const Change& change, Index element, double secant) {
+  secants_[element] = secant;
+  if (secant == 0.0) search_.remove(element);
+  if (change.x.size == 0) return;  // both ends prescribed: nothing unknown is held by this element
+  factor_->commit_downdate(change.load_change, solution_);
+  scatter_solution();
+}
+
+EventOutcome SingleEventEngine::apply(const Event& event) {
+  const Index element = event.element;
+  double next = 0.0;
+  if (network_.is_segment(element)) {
+    const Index k = element - network_.first_segment;
+    next = plateaus_[k].tooth(teeth_[k] + 1).secant;
+  }
+  const double lost = network_.stiffness[element] * (secants_[element] - next);
+  const Change change = make_change(element, lost);
+  EventOutcome outcome;
+  outcome.pivot = change.x.size == 0 ? 1.0 : factor_->prepare_downdate(change.x);
+  outcome.released = 0.5 * change.extension * change.extension;
+  if (outcome.pivot < mechanism_pivot) {
+    outcome.mechanism = true;
+    return outcome;
+  }
+  outcome.compliance_growth = change.extension * change.extension / outcome.pivot;
+  if (network_.is_segment(element)) ++teeth_[element - network_.first_segment];
+  commit(change, element, next);
+  return outcome;
+}
+
+LoadWork SingleEventEngine::load_work() {
+  LoadWork work;
+  for (const std::size_t slot : loaded_slots_) {
+    work.forces += loads_.forces[slot] * displacement_[slot];
+  }
+  const int dim = network_.dim();
+  for (const Index e : driven_elements_) {
+    if (secants_[e] == 0.0) continue;
+    const std::span<const double> n = network_.bonds.direction(e);
+    const std::size_t i = static_cast<std::size_t>(network_.bonds.first[e]) * dim;
+    const std::size_t j = static_cast<std::size_t>(network_.bonds.second[e]) * dim;
+    double extension = 0.0, driven = 0.0;
+    for (int a = 0; a < dim; ++a) {
+      extension += n[a] * (displacement_[j + a] - displacement_[i + a]);
+      driven += n[a] * (unknowns_.prescribed[j + a] - unknowns_.prescribed[i + a]);
+    }
+    work.supports += network_.stiffness[e] * secants_[e] * extension * driven;
+  }
+  return work;
+}
+
+double SingleEventEngine::measure_residual(std::vector<double>& residual) {
+  internal_force(network_, secants_, displacement_, internal_);
+  residual.resize(slot_of_.size());
+  double square = 0.0;
+  for (std::size_t k = 0; k < slot_of_.size(); ++k) {
+    residual[k] = loads_.forces[slot_of_[k]] - internal_.forces[slot_of_[k]];
+    if (!ground_stiffness_.empty()) {
+      residual[k] += ground_load_[k] - ground_stiffness_[k] * solution_[k];
+    }
+    square += residual[k] * residual[k];
+  }
+  return std::sqrt(square) / load_norm_;
+}
+
+Equilibrium SingleEventEngine::check_equilibrium() {
+  std::vector<double> residual;
+  double size = measure_residual(residual);
+  const double tolerance = std::max(options_.residual_tolerance, residual_floor_);
+  if (size > tolerance) {
+    factor_->solve(residual, residual);
+    for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
+    scatter_solution();
+    size = measure_residual(residual);
+  }
+  if (size > tolerance) {
+    factorize();
+    size = measure_residual(residual);
+    // A body on the verge of separation moves so far that even a fresh factor leaves more than the
+    // tolerance; factorising again for less than twice that would be work for nothing.
+    residual_floor_ = 2.0 * size;
+  }
+  return {size, internal_.energy};
+}
+
+void SingleEventEngine::factorize() {
+  auto stiffness = assemble_stiffness(network_, secants_, unknowns_);
+  std::vector<double> load = assemble_right_hand_side(network_, secants_, unknowns_, loads_);
+  if (!ground_stiffness_.empty()) {
+    for (Index k = 0; k < unknowns_.count; ++k) {
+      stiffness.coeffRef(k, k) += ground_stiffness_[k];
+      load[k] += ground_load_[k];
+    }
+  }
+  factor_->refactorize(stiffness);
+  factor_->follow_load(load, solution_);
+  scatter_solution();
+}
+
+Index SingleEventEngine::most_mobile_unknown(const SparseVector& x) {
+  std::vector<double> direction(solution_.size(), 0.0);
+  for (int k = 0; k < x.size; ++k) direction[x.rows[k]] = x.values[k];
+  factor_->solve(direction, direction);
+  const auto largest = std::max_element(direction.begin(), direction.end(), [](double a, double b) {
+    return std::abs(a) < std::abs(b);
+  });
+  return static_cast<Index>(largest - direction.begin());
+}
+
+void SingleEventEngine::add_ground_spring(Index unknown) {
+  if (ground_stiffness_.empty()) {
+    ground_stiffness_.assign(solution_.size(), 0.0);
+    ground_load_.assign(solution_.size(), 0.0);
+  }
+  const double stiffness =
+      *std::max_element(network_.stiffness.begin(), network_.stiffness.begin() + network_.first_tie);
+  SparseVector x;
+  x.size = 1;
+  x.rows[0] = unknown;
+  x.values[0] = std::sqrt(stiffness);
+  factor_->update(x, solution_);
+  ground_stiffness_[unknown] += stiffness;
+  ground_load_[unknown] += stiffness * solution_[unknown];
+}
+
+int SingleEventEngine::cut(std::span<const Index> elements) {
+  int springs = 0;
+  const int most = network_.dim() == 2 ? 3 : 6;
+  for (const Index element : elements) {
+    if (secants_[element] == 0.0) continue;
+    const Change change =
+        make_change(element, network_.stiffness[element] * secants_[element]);
+    double pivot = change.x.size == 0 ? 1.0 : factor_->prepare_downdate(change.x);
+    for (int tries = 0; pivot < mechanism_pivot; ++tries) {
+      if (tries == most) throw SolverError("a part that comes loose cannot be held by ground springs");
+      const double force = std::abs(change.extension) * std::abs(change.x.values[0]);
+      if (force > 1e-6 * load_norm_) {
+        throw SolverError("the part that comes loose carries load: the body has separated");
+      }
+      add_ground_spring(most_mobile_unknown(change.x));
+      ++springs;
+      pivot = factor_->prepare_downdate(change.x);
+    }
+    commit(change, element, 0.0);
+  }
+  return springs;
+}
+
+}  // namespace perilink

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "analysis/event_engine.hpp"
+#include "analysis/limit_search.hpp"
+#include "assembly/internal_force.hpp"
+#include "material/bond_law.hpp"
+
+namespace perilink {
+
+/// One factor, one event at a time: search all elements, downdate, move the displacement.
+class SingleEventEngine final : public EventEngine {
+ public:
+  SingleEventEngine(const Network& network, const Unknowns& unknowns, const Loads& loads,
+                    const EngineOptions& options);
+
+  Event next_event() override;
+  EventOutcome apply(const Event& event) override;
+  std::span<const double> displacement() override { return displacement_; }
+  LoadWork load_work() override;
+  std::span<const double> secants() const override { return secants_; }
+  Equilibrium check_equilibrium() override;
+  FactorStatistics factor_statistics() const override { return factor_->statistics(); }
+
+  /// Removes elements whatever their stretch, also the last ones that hold a fragment: a fragment
+  /// that comes loose without load is held by ground springs, one per rigid-body mode, added to the
+  /// factor before the bond goes. The rest of the body keeps its exact equilibrium.
+  /// \return number of ground springs added
+  /// \throws SolverError when a loaded part comes loose
+  int cut(std::span<const Index> elements);
+
+ private:
+  struct Change {
+    SparseVector x;            ///< sqrt(stiffness lost) times the extension gradient
+    double load_change = 0.0;  ///< part of the extension that comes from prescribed displacements
+    double extension = 0.0;    ///< sqrt(stiffness lost) times the whole extension at load factor 1
+  };
+  Change make_change(Index element, double stiffness_lost) const;
+  void factorize();
+  void commit(const Change& change, Index element, double secant);
+  void scatter_solution();
+  double measure_residual(std::vector<double>& residual);
+  void add_ground_spring(Index unknown);
+  Index most_mobile_unknown(const SparseVector& x);
+
+  const Network& network_;
+  const Unknowns& unknowns_;
+  const Loads& loads_;
+  EngineOptions options_;
+  std::unique_ptr<Factor> factor_;
+  LimitSearch search_;
+
+  std::vector<double> secants_;
+  std::vector<int> teeth_;              ///< present tooth of each bar segment
+  std::vector<PlateauLaw> plateaus_;    ///< law of each bar segment
+  std::vector<Index> yielding_;         ///< segments that can yield
+  std::vector<Index> driven_elements_;  ///< elements that end at a driven particle
+  std::vector<std::size_t> loaded_slots_;
+  std::vector<std::size_t> slot_of_;    ///< particle * dim + axis of every unknown
+  std::vector<double> solution_;        ///< per unknown
+  std::vector<double> displacement_;
+  std::vector<double> ground_stiffness_;  ///< per unknown, empty until a fragment came loose
+  std::vector<double> ground_load_;
+  InternalForce internal_;
+  double load_norm_ = 0.0;
+  double residual_floor_ = 0.0;  ///< what a fresh factor can reach
+};
+
+}  // namespace perilink
