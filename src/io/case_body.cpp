@@ -1,0 +1,151 @@
+// [body] and [[materials]]: the solid itself.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "io/case_sections.hpp"
+#include "io/case_words.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr int fewest_columns = 2;
+constexpr int most_columns = 100000;
+
+void check_pattern(const CaseTable& table, const BodySection& body) {
+  const bool flat = is_flat(body.pattern);
+  if (flat == (dimension_of(body) == 2)) return;
+  table.refuse("pattern",
+               fmt::format("is \"{}\", a {}-dimensional pattern, but problem is \"{}\"",
+                           word_of(body.pattern), flat ? "two" : "three", body.problem),
+               flat ? "Allowed here: cubic, face_centred" : "Allowed here: rectangular, hexagonal");
+}
+
+void read_lattice(const CaseTable& table, BodySection& body) {
+  if (dimension_of(body) == 3) body.pattern = Pattern::cubic;
+  if (const auto word = table.choice("pattern", pattern_words())) body.pattern = pattern_of(*word);
+  check_pattern(table, body);
+  if (const auto word = table.choice("surface", surface_words())) body.surface = surface_of(*word);
+  if (body.surface == Surface::ghost && dimension_of(body) == 3) {
+    table.refuse("surface", "is \"ghost\", but the ghost layer is for two-dimensional bodies",
+                 "Allowed in three dimensions: none");
+  }
+  table.need_one_of({"columns", "spacing"});
+  body.columns = table.integer("columns", fewest_columns, most_columns);
+  body.spacing = table.positive("spacing");
+}
+
+void read_horizon(const CaseTable& table, BodySection& body) {
+  table.need_one_of({"horizon", "horizon_level", "horizon_ratio"});
+  body.horizon = table.positive("horizon");
+  if (body.horizon && body.spacing && *body.horizon < *body.spacing) {
+    table.refuse("horizon",
+                 fmt::format("is {}, less than the spacing {}: no particle would have a neighbour",
+                             *body.horizon, *body.spacing),
+                 "two to four spacings are usual");
+  }
+  if (table.has("horizon_level") && !is_flat(body.pattern)) {
+    table.refuse(
+        "horizon_level",
+        fmt::format("is given, but the pattern \"{}\" has no levels", word_of(body.pattern)),
+        "give `horizon` or `horizon_ratio`");
+  }
+  body.horizon_level = table.integer("horizon_level", 0, 8);
+  body.horizon_ratio = table.positive("horizon_ratio");
+  if (body.horizon_ratio && *body.horizon_ratio < 1.0) {
+    table.refuse(
+        "horizon_ratio",
+        fmt::format("is {}, less than 1: no particle would have a neighbour", *body.horizon_ratio),
+        "2 to 4 is usual");
+  }
+}
+
+/// Bonds that act along their length leave a solid no other choice (Gerstle, Sau & Silling 2005,
+/// section 2). The material module has the same two numbers; this module may not include it, and a
+/// test holds the two together.
+void check_poissons_ratio(const CaseTable& table, const BodySection& body) {
+  const std::optional<double> given = table.number("poissons_ratio");
+  if (!given) return;
+  constexpr double tolerance = 1e-3;  // users write 0.333
+  const bool third = body.problem == "plane_stress";
+  if (std::abs(*given - (third ? 1.0 / 3.0 : 0.25)) <= tolerance) return;
+  const char* only = third ? "1/3" : "1/4";
+  table.refuse(
+      "poissons_ratio",
+      fmt::format("is {}, but a bond-based solid in {} has the Poisson's ratio {}", *given,
+                  body.problem, only),
+      fmt::format("leave the key out. Another ratio would need micropolar bonds (up to {}) or the "
+                  "state-based lattice model (any ratio); this version has bond-based solids only",
+                  only));
+}
+
+double read_fracture_energy(const CaseTable& table) {
+  const std::string key = "fracture_energy";
+  const TomlValue* value = table.value(key);
+  if (value != nullptr && value->kind == TomlValue::Kind::text) {
+    table.choice(key, {"infinite"});
+    return std::numeric_limits<double>::infinity();
+  }
+  if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
+    table.refuse(key, fmt::format("is {}", describe(*value)),
+                 "write fracture_energy = \"infinite\" for a material that cannot break");
+  }
+  return table.need(key, table.positive(key),
+                    "the fracture energy, or \"infinite\" for a material that cannot break");
+}
+
+std::vector<std::string> read_material_regions(const CaseTable& table) {
+  table.need_one_of({"region", "regions"});
+  if (const auto single = table.text("region")) return {*single};
+  std::vector<std::string> names = *table.texts("regions");
+  if (names.empty()) {
+    table.refuse("regions", "names no region", "name at least one region, or delete the material");
+  }
+  std::vector<std::string> sorted = names;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) {
+    table.refuse("regions", fmt::format("names {} twice", quoted(*twice)), "name it once");
+  }
+  return names;
+}
+
+}  // namespace
+
+int dimension_of(const BodySection& body) { return body.problem == "three_dimensional" ? 3 : 2; }
+
+BodySection read_body(const CaseTable& table) {
+  BodySection body;
+  assign(body.problem,
+         table.choice("problem", {"plane_stress", "plane_strain", "three_dimensional"}));
+  if (dimension_of(body) == 3 && table.has("thickness")) {
+    table.refuse("thickness", "is given, but a three-dimensional body has none",
+                 "delete it; the regions' z intervals say how thick the body is");
+  }
+  assign(body.thickness, table.positive("thickness"));
+  read_lattice(table, body);
+  read_horizon(table, body);
+  assign(body.micromodulus, table.choice("micromodulus", {"lattice", "continuum"}));
+  assign(body.critical_stretch, table.choice("critical_stretch", {"lattice", "continuum"}));
+  return body;
+}
+
+MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index) {
+  MaterialSection material;
+  material.name = table.text("name").value_or(fmt::format("material {}", index + 1));
+  if (material.name.empty())
+    table.refuse("name", "is empty", "name the material, or delete the key");
+  material.regions = read_material_regions(table);
+  material.youngs_modulus =
+      table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");
+  check_poissons_ratio(table, body);
+  material.poissons_ratio = table.number("poissons_ratio");
+  material.fracture_energy = read_fracture_energy(table);
+  return material;
+}
+
+}  // namespace perilink

@@ -1,0 +1,160 @@
+#include "io/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <type_traits>
+
+#include "io/case_rules.hpp"
+#include "io/case_schema.hpp"
+#include "io/case_sections.hpp"
+#include "io/case_table.hpp"
+#include "io/toml_tree.hpp"
+
+namespace perilink {
+namespace {
+
+/// No case written by hand comes near; a mesh or an image named by mistake does.
+constexpr std::size_t largest_file = std::size_t{16} << 20;
+
+/// Records the line of a key and of all below it, but not of single numbers of a list.
+void collect_lines(const TomlValue& value, const std::string& key,
+                   std::map<std::string, int>& lines) {
+  if (!key.empty()) lines[key] = value.line;
+  for (const auto& [name, entry] : value.entries) {
+    collect_lines(entry, key.empty() ? name : key + "." + name, lines);
+  }
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    if (value.items[i].kind == TomlValue::Kind::table) {
+      collect_lines(value.items[i], item_key(key, i), lines);
+    }
+  }
+}
+
+/// The document's tables as CaseTable; absent ones are empty.
+class Document {
+ public:
+  Document(const TomlValue& root, const std::string& path) : root_(root), path_(path) {}
+
+  CaseTable top() const { return {root_, "", path_}; }
+
+  CaseTable table(const std::string& name) const {
+    static const TomlValue absent;
+    const TomlValue* found = root_.find(name);
+    return {found != nullptr ? *found : absent, name, path_};
+  }
+
+  CaseTable needed_table(const std::string& name) const {
+    if (root_.find(name) == nullptr) refuse_missing("[" + name + "]");
+    return table(name);
+  }
+
+  /// Reads every entry of a list of tables.
+  template <class Reader>
+  auto list(const std::string& name, Reader reader) const {
+    std::vector<std::decay_t<std::invoke_result_t<Reader, CaseTable, std::size_t>>> result;
+    const TomlValue* found = root_.find(name);
+    for (std::size_t i = 0; found != nullptr && i < found->items.size(); ++i) {
+      result.push_back(reader(CaseTable(found->items[i], item_key(name, i), path_), i));
+    }
+    return result;
+  }
+
+  template <class Reader>
+  auto needed_list(const std::string& name, Reader reader) const {
+    auto result = list(name, reader);
+    if (result.empty()) refuse_missing("[[" + name + "]]");
+    return result;
+  }
+
+ private:
+  [[noreturn]] void refuse_missing(const std::string& header) const {
+    throw InputError({path_, 0, ""}, fmt::format("the case has no {}", header),
+                     "a case needs [body], [[regions]], [[materials]] and [[loads]] or "
+                     "[[displacements]]; docs/case_file.md describes them");
+  }
+
+  const TomlValue& root_;
+  const std::string& path_;
+};
+
+using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+}  // namespace
+
+std::string item_key(const std::string& table, std::size_t index, const std::string& key) {
+  const std::string item = fmt::format("{}[{}]", table, index + 1);
+  return key.empty() ? item : item + "." + key;
+}
+
+SourceLocation CaseFile::where(const std::string& key) const {
+  std::string above = key;
+  while (!above.empty()) {
+    const auto found = lines.find(above);
+    if (found != lines.end()) return {path, found->second, key};
+    const std::size_t end = above.find_last_of(".[");
+    above.resize(end == std::string::npos ? 0 : end);
+  }
+  return {path, 0, key};
+}
+
+CaseFile parse_case(const std::string& text, const std::string& path) {
+  if (text.size() > largest_file) {
+    throw InputError(
+        {path, 0, ""},
+        fmt::format("is larger than {} MiB, so it is no case file", largest_file >> 20),
+        "name the .toml file of a case");
+  }
+  const TomlValue root = parse_toml(text, path);
+  check_against_schema(root, path);
+  const Document document(root, path);
+
+  CaseFile input;
+  input.path = path;
+  collect_lines(root, "", input.lines);
+  assign(input.title, document.top().text("title"));
+  assign(input.units, document.top().text("units"));
+  input.body = read_body(document.needed_table("body"));
+  const int dim = dimension_of(input.body);
+  const auto in_dimension = [dim](auto reader) {
+    return [dim, reader](const CaseTable& table, std::size_t) { return reader(table, dim); };
+  };
+  input.regions = document.needed_list("regions", in_dimension(read_region));
+  input.materials =
+      document.needed_list("materials", [&input](const CaseTable& table, std::size_t index) {
+        return read_material(table, input.body, index);
+      });
+  input.supports = document.list("supports", in_dimension(read_support));
+  input.displacements = document.list("displacements", in_dimension(read_displacement));
+  input.loads = document.list("loads", in_dimension(read_load));
+  input.rebar = document.list("rebar", in_dimension(read_rebar));
+  input.analysis = read_analysis(document.table("analysis"));
+  input.stop = read_stop(document.table("stop"));
+  input.output = read_output(document.table("output"));
+  check_case(input);
+  return input;
+}
+
+CaseFile read_case_file(const std::string& path) {
+  const FileHandle file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (file == nullptr) {
+    throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+  }
+  std::string text;
+  std::string block(std::size_t{1} << 16, '\0');
+  // One block beyond the limit is enough for parse_case to refuse; a device never ends.
+  while (text.size() <= largest_file) {
+    const std::size_t count = std::fread(block.data(), 1, block.size(), file.get());
+    if (count == 0) break;
+    text.append(block, 0, count);
+  }
+  if (std::ferror(file.get()) != 0) {
+    throw FileError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  }
+  return parse_case(text, path);
+}
+
+}  // namespace perilink

@@ -1,0 +1,128 @@
+#include "io/case_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/case_schema.hpp"
+#include "io/case_words.hpp"
+#include "io/toml_tree.hpp"
+
+namespace perilink {
+namespace {
+
+/// Names of all regions, each once.
+std::set<std::string> check_region_names(const CaseFile& input) {
+  std::map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < input.regions.size(); ++i) {
+    const std::string& name = input.regions[i].name;
+    const auto [at, is_new] = first.emplace(name, i);
+    if (is_new) continue;
+    throw InputError(input.where(item_key("regions", i, "name")),
+                     fmt::format("is {}, the name of another region at line {}", quoted(name),
+                                 input.where(item_key("regions", at->second, "name")).line),
+                     "give every region a name of its own");
+  }
+  std::set<std::string> names;
+  for (const auto& [name, index] : first) names.insert(name);
+  return names;
+}
+
+void check_reference(const CaseFile& input, const std::set<std::string>& names,
+                     const std::string& key, const std::string& region) {
+  if (names.count(region) > 0) return;
+  std::vector<std::string_view> allowed;
+  for (const Region& known : input.regions) allowed.push_back(known.name);
+  throw InputError(input.where(key),
+                   fmt::format("is {}, but no [[regions]] has that name", quoted(region)),
+                   suggest(region, allowed));
+}
+
+template <class Section>
+void check_references(const CaseFile& input, const std::set<std::string>& names,
+                      const std::string& table, const std::vector<Section>& sections) {
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    check_reference(input, names, item_key(table, i, "region"), sections[i].region);
+  }
+}
+
+/// Materials overlap on purpose (a weak patch within a body), but two for the very same region are
+/// a slip: the first would have no effect.
+void check_materials(const CaseFile& input, const std::set<std::string>& names) {
+  std::map<std::string, std::size_t> owner;
+  for (std::size_t i = 0; i < input.materials.size(); ++i) {
+    const std::string list = item_key("materials", i, "regions");
+    const std::string key = input.lines.count(list) > 0 ? list : item_key("materials", i, "region");
+    for (const std::string& region : input.materials[i].regions) {
+      check_reference(input, names, key, region);
+      const auto [at, is_new] = owner.emplace(region, i);
+      if (is_new) continue;
+      throw InputError(input.where(key),
+                       fmt::format("is {}, which has a material already: {}", quoted(region),
+                                   quoted(input.materials[at->second].name)),
+                       "give every region one material at most; a patch of another material is a "
+                       "region of its own, and the later material counts");
+    }
+  }
+}
+
+/// A displacement that is driven cannot be held or driven elsewhere too.
+void check_contradictions(const CaseFile& input) {
+  std::set<std::pair<std::string, int>> held;
+  for (const SupportSection& support : input.supports) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (support.fix[axis]) held.emplace(support.region, axis);
+    }
+  }
+  std::map<std::pair<std::string, int>, double> driven;
+  for (std::size_t i = 0; i < input.displacements.size(); ++i) {
+    const DisplacementSection& section = input.displacements[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!section.value[axis]) continue;
+      const double value = *section.value[axis];
+      const SourceLocation where = input.where(item_key("displacements", i, axis_names[axis]));
+      if (value != 0.0 && held.count({section.region, axis}) > 0) {
+        throw InputError(where,
+                         fmt::format("drives region {} by {}, but [[supports]] holds it in {}",
+                                     quoted(section.region), value, axis_names[axis]),
+                         "delete one of the two");
+      }
+      const auto [at, is_new] = driven.emplace(std::pair(section.region, axis), value);
+      if (!is_new && at->second != value) {
+        throw InputError(where,
+                         fmt::format("drives region {} by {}, but another table drives it by {}",
+                                     quoted(section.region), value, at->second),
+                         "delete one of the two");
+      }
+    }
+  }
+}
+
+void check_driven(const CaseFile& input) {
+  bool driven = !input.loads.empty();
+  for (const DisplacementSection& section : input.displacements) {
+    for (const auto& value : section.value) driven = driven || value.value_or(0.0) != 0.0;
+  }
+  if (driven) return;
+  throw InputError(input.where("loads"), "nothing loads the body",
+                   "add [[loads]], or [[displacements]] that are not zero");
+}
+
+}  // namespace
+
+void check_case(const CaseFile& input) {
+  const std::set<std::string> names = check_region_names(input);
+  check_materials(input, names);
+  check_references(input, names, "supports", input.supports);
+  check_references(input, names, "displacements", input.displacements);
+  check_references(input, names, "loads", input.loads);
+  check_contradictions(input);
+  check_driven(input);
+}
+
+}  // namespace perilink

@@ -1,0 +1,179 @@
+#include "io/case_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "io/case_schema.hpp"
+#include "io/case_words.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr int largest_count = std::numeric_limits<int>::max();
+
+void refuse_third_axis(const CaseTable& table, const std::string& key, int dim) {
+  if (dim == 3) return;
+  table.refuse(key, "is an axis that a two-dimensional body does not have",
+               "delete it, or set problem = \"three_dimensional\" in [body]");
+}
+
+std::string need_region(const CaseTable& table, const std::string& use) {
+  return table.need("region", table.text("region"), "the name of the region " + use);
+}
+
+}  // namespace
+
+Region read_region(const CaseTable& table, int dim) {
+  Region region;
+  region.name = table.need("name", table.text("name"), "a name for other tables to refer to");
+  if (region.name.empty()) table.refuse("name", "is empty", "give the region a name");
+  if (table.has("z")) refuse_third_axis(table, "z", dim);
+  for (int axis = 0; axis < dim; ++axis) {
+    const std::string key = axis_names[axis];
+    const std::vector<double> interval =
+        table.need(key, table.numbers(key), "the interval [lower, upper]");
+    if (interval.size() != 2) {
+      table.refuse(key, fmt::format("has {} values, but an interval has 2", interval.size()),
+                   "write [lower, upper]");
+    }
+    if (!(interval[0] < interval[1])) {
+      table.refuse(key,
+                   fmt::format("is [{}, {}], but the lower end must be less than the upper",
+                               interval[0], interval[1]),
+                   interval[0] > interval[1] ? "exchange the two ends" : "");
+    }
+    region.box.lower[axis] = interval[0];
+    region.box.upper[axis] = interval[1];
+  }
+  return region;
+}
+
+SupportSection read_support(const CaseTable& table, int dim) {
+  SupportSection support;
+  support.region = need_region(table, "that is held");
+  const std::vector<std::string> axes =
+      table.need("fix", table.texts("fix"), "the axes that are held, fix = [\"x\", \"y\"]");
+  if (axes.empty()) table.refuse("fix", "names no axis", "write fix = [\"x\", \"y\"]");
+  for (const std::string& axis : axes) {
+    const auto found = std::find(axis_names.begin(), axis_names.end(), axis);
+    if (found == axis_names.end()) {
+      table.refuse("fix", fmt::format("names {}, which is no axis", quoted(axis)),
+                   dim == 2 ? "Allowed: x, y" : "Allowed: x, y, z");
+    }
+    if (axis == "z") refuse_third_axis(table, "fix", dim);
+    bool& fixed = support.fix[static_cast<std::size_t>(found - axis_names.begin())];
+    if (fixed) table.refuse("fix", fmt::format("names \"{}\" twice", axis), "name it once");
+    fixed = true;
+  }
+  return support;
+}
+
+DisplacementSection read_displacement(const CaseTable& table, int dim) {
+  DisplacementSection driven;
+  driven.region = need_region(table, "that is driven");
+  if (table.has("z")) refuse_third_axis(table, "z", dim);
+  bool any = false;
+  for (int axis = 0; axis < dim; ++axis) {
+    driven.value[axis] = table.number(axis_names[axis]);
+    any = any || driven.value[axis].has_value();
+  }
+  if (!any) {
+    table.refuse("", "drives no axis",
+                 dim == 2 ? "give x or y or both" : "give one or more of x, y, z");
+  }
+  return driven;
+}
+
+LoadSection read_load(const CaseTable& table, int dim) {
+  LoadSection load;
+  load.region = need_region(table, "that is loaded");
+  table.need_one_of({"force", "body_force"});
+  load.force = table.vector("force", dim);
+  load.body_force = table.vector("body_force", dim);
+  const Vector3 value = load.force ? *load.force : *load.body_force;
+  if (value == Vector3{}) {
+    table.refuse(load.force ? "force" : "body_force", "is zero in every direction",
+                 "give the load at load factor 1, or delete the table");
+  }
+  return load;
+}
+
+RebarSection read_rebar(const CaseTable& table, int dim) {
+  RebarSection bar;
+  bar.from = table.need("from", table.vector("from", dim), "the point where the bar begins");
+  bar.to = table.need("to", table.vector("to", dim), "the point where the bar ends");
+  if (bar.from == bar.to) {
+    table.refuse("to", "is the same point as `from`, so the bar has no length",
+                 "give the two ends of the bar");
+  }
+  bar.youngs_modulus =
+      table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus of the bar");
+  bar.area = table.need("area", table.positive("area"), "the area of the bar's cross-section");
+  bar.yield_strength = table.positive("yield_strength");
+  assign(bar.yields, table.boolean("yields"));
+  assign(bar.ties_break, table.boolean("ties_break"));
+  if (table.has("yields") && bar.yields && !bar.yield_strength) {
+    table.refuse("yields", "is true, but the bar has no yield strength",
+                 "give `yield_strength`, or leave `yields` out for an elastic bar");
+  }
+  return bar;
+}
+
+AnalysisSection read_analysis(const CaseTable& table) {
+  AnalysisSection analysis;
+  assign(analysis.type, table.choice("type", {"damage", "elastic"}));
+  assign(analysis.control, table.choice("control", {"events", "steps"}));
+  assign(analysis.load_factors, table.numbers("load_factors"));
+  assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
+  assign(analysis.factor, table.choice("factor", {"in_place", "cholmod_updown", "refactorize"}));
+  const std::vector<double>& factors = analysis.load_factors;
+  if (analysis.control == "events") {
+    if (table.has("load_factors")) {
+      table.refuse("load_factors",
+                   "is given, but control = \"events\" finds the load factors itself",
+                   "set control = \"steps\", or delete `load_factors`");
+    }
+    return analysis;
+  }
+  if (!table.has("load_factors")) {
+    table.refuse_missing("load_factors", "the load factors of the steps: [0.1, 0.2, 0.3]");
+  }
+  if (factors.empty()) table.refuse("load_factors", "is empty", "give one number for each step");
+  if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 0.0; })) {
+    table.refuse("load_factors", "holds only zeros, so no step loads the body",
+                 "give one number for each step: [0.1, 0.2, 0.3]");
+  }
+  return analysis;
+}
+
+StopSection read_stop(const CaseTable& table) {
+  StopSection stop;
+  stop.broken_bonds = table.integer("broken_bonds", 1, largest_count);
+  stop.load_fraction = table.positive("load_fraction");
+  if (stop.load_fraction && *stop.load_fraction >= 1.0) {
+    table.refuse("load_fraction",
+                 fmt::format("is {}, but must be less than 1", *stop.load_fraction),
+                 "0.1 stops the run when the load has fallen to a tenth of its peak");
+  }
+  stop.displacement = table.positive("displacement");
+  return stop;
+}
+
+OutputSection read_output(const CaseTable& table) {
+  OutputSection output;
+  assign(output.fields_at, table.integers("fields_at", 1, largest_count));
+  for (std::size_t i = 1; i < output.fields_at.size(); ++i) {
+    if (output.fields_at[i] > output.fields_at[i - 1]) continue;
+    table.refuse("fields_at",
+                 fmt::format("has {} after {}, but the numbers must ascend", output.fields_at[i],
+                             output.fields_at[i - 1]),
+                 "sort the numbers of broken bonds, each once");
+  }
+  output.fields_every = table.integer("fields_every", 1, largest_count);
+  return output;
+}
+
+}  // namespace perilink

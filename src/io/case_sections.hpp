@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+
+#include "io/case_file.hpp"
+#include "io/case_table.hpp"
+
+/// \file
+/// Readers of the tables of a case. Each checks what is wrong within its table;
+/// case_rules.hpp checks what is wrong between tables.
+
+namespace perilink {
+
+/// 2 or 3.
+int dimension_of(const BodySection& body);
+
+BodySection read_body(const CaseTable& table);
+Region read_region(const CaseTable& table, int dim);
+/// \param index  zero-based, for the name of a nameless material
+MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index);
+SupportSection read_support(const CaseTable& table, int dim);
+DisplacementSection read_displacement(const CaseTable& table, int dim);
+LoadSection read_load(const CaseTable& table, int dim);
+RebarSection read_rebar(const CaseTable& table, int dim);
+AnalysisSection read_analysis(const CaseTable& table);
+StopSection read_stop(const CaseTable& table);
+OutputSection read_output(const CaseTable& table);
+
+}  // namespace perilink

@@ -1,0 +1,44 @@
+#include "io/case_words.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace perilink {
+namespace {
+
+/// The words stand in the order of the enumerators.
+template <class Enumeration>
+Enumeration find_word(const std::vector<std::string_view>& words, std::string_view word) {
+  return static_cast<Enumeration>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& pattern_words() {
+  static const std::vector<std::string_view> words = {"rectangular", "hexagonal", "cubic",
+                                                      "face_centred"};
+  return words;
+}
+
+const std::vector<std::string_view>& surface_words() {
+  static const std::vector<std::string_view> words = {"none", "ghost"};
+  return words;
+}
+
+std::string_view word_of(Pattern pattern) {
+  return pattern_words()[static_cast<std::size_t>(pattern)];
+}
+
+std::string_view word_of(Surface surface) {
+  return surface_words()[static_cast<std::size_t>(surface)];
+}
+
+Pattern pattern_of(std::string_view word) { return find_word<Pattern>(pattern_words(), word); }
+
+Surface surface_of(std::string_view word) { return find_word<Surface>(surface_words(), word); }
+
+bool is_flat(Pattern pattern) {
+  return pattern == Pattern::rectangular || pattern == Pattern::hexagonal;
+}
+
+}  // namespace perilink

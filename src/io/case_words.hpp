@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "discretization/lattice.hpp"
+
+/// \file
+/// How the case file spells the axes and the enumerations of the discretization.
+
+namespace perilink {
+
+inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
+
+const std::vector<std::string_view>& pattern_words();
+const std::vector<std::string_view>& surface_words();
+
+std::string_view word_of(Pattern pattern);
+std::string_view word_of(Surface surface);
+
+/// \param word  one of pattern_words()
+Pattern pattern_of(std::string_view word);
+/// \param word  one of surface_words()
+Surface surface_of(std::string_view word);
+
+/// Whether a pattern fills a plane and not space.
+bool is_flat(Pattern pattern);
+
+}  // namespace perilink

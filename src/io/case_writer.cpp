@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "io/case_file.hpp"
+#include "io/case_sections.hpp"
+#include "io/case_words.hpp"
+
+namespace perilink {
+namespace {
+
+/// TOML in the making: one call per line of the file.
+class Writer {
+ public:
+  void header(std::string_view name) { append("\n{}\n", name); }
+
+  /// `value` is TOML already.
+  void line(std::string_view key, std::string_view value) { append("{} = {}\n", key, value); }
+
+  void write(std::string_view key, double value) { line(key, fmt::format("{}", value)); }
+  void write(std::string_view key, int value) { line(key, fmt::format("{}", value)); }
+  void write(std::string_view key, bool value) { line(key, value ? "true" : "false"); }
+  void write(std::string_view key, std::string_view value) { line(key, text(value)); }
+  /// Without this a literal would turn into a bool.
+  void write(std::string_view key, const char* value) { line(key, text(value)); }
+  void write(std::string_view key, const Vector3& value, int dim) {
+    line(key, list(std::vector<double>(value.begin(), value.begin() + dim)));
+  }
+  template <class T>
+  void write(std::string_view key, const std::vector<T>& values) {
+    line(key, list(values));
+  }
+  template <class T>
+  void write(std::string_view key, const std::optional<T>& value) {
+    if (value) write(key, *value);
+  }
+
+  std::string take() { return std::move(text_); }
+
+ private:
+  template <class... Arguments>
+  void append(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+  }
+
+  static std::string text(std::string_view value) {
+    std::string result = "\"";
+    for (const char c : value) {
+      if (c == '"' || c == '\\') result += '\\';
+      result += c;
+    }
+    return result + "\"";
+  }
+
+  static std::string element(double value) { return fmt::format("{}", value); }
+  static std::string element(int value) { return fmt::format("{}", value); }
+  static std::string element(const std::string& value) { return text(value); }
+
+  template <class T>
+  static std::string list(const std::vector<T>& values) {
+    std::string result = "[";
+    for (const T& value : values) result += (result.size() > 1 ? ", " : "") + element(value);
+    return result + "]";
+  }
+
+  std::string text_;
+};
+
+void write_body(Writer& out, const BodySection& body) {
+  out.header("[body]");
+  out.write("problem", body.problem);
+  if (dimension_of(body) == 2) out.write("thickness", body.thickness);
+  out.write("pattern", word_of(body.pattern));
+  out.write("surface", word_of(body.surface));
+  out.write("columns", body.columns);
+  out.write("spacing", body.spacing);
+  out.write("horizon", body.horizon);
+  out.write("horizon_level", body.horizon_level);
+  out.write("horizon_ratio", body.horizon_ratio);
+  out.write("micromodulus", body.micromodulus);
+  out.write("critical_stretch", body.critical_stretch);
+}
+
+void write_solid(Writer& out, const CaseFile& input, int dim) {
+  for (const Region& region : input.regions) {
+    out.header("[[regions]]");
+    out.write("name", region.name);
+    for (int axis = 0; axis < dim; ++axis) {
+      out.write(axis_names[axis],
+                std::vector<double>{region.box.lower[axis], region.box.upper[axis]});
+    }
+  }
+  for (const MaterialSection& material : input.materials) {
+    out.header("[[materials]]");
+    out.write("name", material.name);
+    out.write("regions", material.regions);
+    out.write("youngs_modulus", material.youngs_modulus);
+    out.write("poissons_ratio", material.poissons_ratio);
+    if (std::isinf(material.fracture_energy)) {
+      out.write("fracture_energy", "infinite");
+    } else {
+      out.write("fracture_energy", material.fracture_energy);
+    }
+  }
+}
+
+void write_loading(Writer& out, const CaseFile& input, int dim) {
+  for (const SupportSection& support : input.supports) {
+    out.header("[[supports]]");
+    out.write("region", support.region);
+    std::vector<std::string> axes;
+    for (int axis = 0; axis < dim; ++axis) {
+      if (support.fix[axis]) axes.emplace_back(axis_names[axis]);
+    }
+    out.write("fix", axes);
+  }
+  for (const DisplacementSection& section : input.displacements) {
+    out.header("[[displacements]]");
+    out.write("region", section.region);
+    for (int axis = 0; axis < dim; ++axis) out.write(axis_names[axis], section.value[axis]);
+  }
+  for (const LoadSection& load : input.loads) {
+    out.header("[[loads]]");
+    out.write("region", load.region);
+    if (load.force) out.write("force", *load.force, dim);
+    if (load.body_force) out.write("body_force", *load.body_force, dim);
+  }
+}
+
+void write_rebar(Writer& out, const RebarSection& bar, int dim) {
+  out.header("[[rebar]]");
+  out.write("from", bar.from, dim);
+  out.write("to", bar.to, dim);
+  out.write("youngs_modulus", bar.youngs_modulus);
+  out.write("area", bar.area);
+  out.write("yield_strength", bar.yield_strength);
+  // `yields = true` without a yield strength is refused when it is written out.
+  if (bar.yield_strength || !bar.yields) out.write("yields", bar.yields);
+  out.write("ties_break", bar.ties_break);
+}
+
+void write_run(Writer& out, const CaseFile& input) {
+  out.header("[analysis]");
+  out.write("type", input.analysis.type);
+  out.write("control", input.analysis.control);
+  if (input.analysis.control == "steps") out.write("load_factors", input.analysis.load_factors);
+  out.write("rigid_body_modes", input.analysis.rigid_body_modes);
+  out.write("factor", input.analysis.factor);
+  out.header("[stop]");
+  out.write("broken_bonds", input.stop.broken_bonds);
+  out.write("load_fraction", input.stop.load_fraction);
+  out.write("displacement", input.stop.displacement);
+  out.header("[output]");
+  out.write("fields_at", input.output.fields_at);
+  out.write("fields_every", input.output.fields_every);
+}
+
+}  // namespace
+
+std::string write_case(const CaseFile& input) {
+  const int dim = dimension_of(input.body);
+  Writer out;
+  out.write("title", input.title);
+  out.write("units", input.units);
+  write_body(out, input.body);
+  write_solid(out, input, dim);
+  write_loading(out, input, dim);
+  for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);
+  write_run(out, input);
+  return out.take();
+}
+
+}  // namespace perilink

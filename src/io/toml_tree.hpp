@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// \file
+/// The TOML document as plain data. toml++ stays behind parse_toml: it is slow to compile, and the
+/// reader of cases needs of it only values and the lines that they stand on.
+
+namespace perilink {
+
+/// One value with the line of its key.
+struct TomlValue {
+  enum class Kind { boolean, integer, number, text, date, array, table };
+
+  Kind kind = Kind::table;
+  int line = 0;  ///< one-based
+  bool boolean = false;
+  std::int64_t integer = 0;
+  double number = 0.0;  ///< of integers too
+  std::string text;
+  std::vector<TomlValue> items;                            ///< of an array
+  std::vector<std::pair<std::string, TomlValue>> entries;  ///< of a table, in the file's order
+
+  /// Value of a key of a table, or nullptr.
+  const TomlValue* find(const std::string& key) const;
+};
+
+/// Reads a document.
+/// \param path  only named in messages
+/// \throws InputError  where the text is not TOML, or nested deeper than any case can be
+TomlValue parse_toml(const std::string& text, const std::string& path);
+
+/// What a value is and says, for messages: `the integer 3`, `an array of 2 values`.
+std::string describe(const TomlValue& value);
+
+/// Text between quotes as a message can carry it: one line, printable, cut where it is long.
+std::string quoted(const std::string& text);
+
+}  // namespace perilink
