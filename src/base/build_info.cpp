@@ -1,0 +1,33 @@
+#include "base/build_info.hpp"
+
+#include <string_view>
+#include <utility>
+
+#include "base/build_config.hpp"
+
+namespace perilink {
+
+std::string program_version() { return build_config::version; }
+
+std::string program_commit() { return build_config::commit; }
+
+std::string build_summary() {
+  constexpr std::size_t name_width = 10;
+  const std::string build =
+      std::string(build_config::build_type) + ", " + build_config::instructions + " instructions";
+  const std::pair<std::string_view, std::string_view> lines[] = {
+      {"commit", build_config::commit},   {"compiler", build_config::compiler},
+      {"build", build},                   {"OpenMP", build_config::openmp},
+      {"CHOLMOD", build_config::cholmod}, {"BLAS", build_config::blas},
+      {"METIS", build_config::metis},     {"Eigen", build_config::eigen},
+      {"PETSc", build_config::petsc},     {"gmsh", build_config::gmsh},
+  };
+  std::string text = "perilink " + program_version() + "\n";
+  for (const auto& [name, value] : lines) {
+    text += "  " + std::string(name) + std::string(name_width - name.size(), ' ');
+    text += std::string(value) + "\n";
+  }
+  return text;
+}
+
+}  // namespace perilink

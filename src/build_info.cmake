@@ -1,0 +1,65 @@
+# What the program tells about itself (perilink --version): its commit and the libraries it is built
+# with. Everything here is found when the build is configured.
+
+# perilink_header_version(RESULT HEADER MACRO...): "3.0.14" from the #define lines of a header.
+function(perilink_header_version result header)
+  set(parts)
+  foreach(macro ${ARGN})
+    file(STRINGS ${header} line REGEX "^#define[ \t]+${macro}[ \t]+[0-9]+" LIMIT_COUNT 1)
+    string(REGEX MATCH "[0-9]+$" part "${line}")
+    list(APPEND parts ${part})
+  endforeach()
+  list(JOIN parts "." version)
+  set(${result} ${version} PARENT_SCOPE)
+endfunction()
+
+perilink_header_version(PERILINK_CHOLMOD_VERSION ${SUITESPARSE_INCLUDE_DIR}/cholmod_core.h
+                        CHOLMOD_MAIN_VERSION CHOLMOD_SUB_VERSION CHOLMOD_SUBSUB_VERSION)
+perilink_header_version(PERILINK_METIS_VERSION ${METIS_INCLUDE_DIR}/metis.h
+                        METIS_VER_MAJOR METIS_VER_MINOR METIS_VER_SUBMINOR)
+
+# CHOLMOD calls whatever library stands behind this link.
+find_library(BLAS_LIBRARY NAMES blas openblas)
+if(BLAS_LIBRARY)
+  file(REAL_PATH ${BLAS_LIBRARY} PERILINK_BLAS_PATH)
+else()
+  set(PERILINK_BLAS_PATH "unknown")
+endif()
+
+# Optional backends. Nothing is linked before a source of the program uses it: PETSc alone would
+# double the start-up time.
+find_package(PkgConfig QUIET)
+if(PKG_CONFIG_FOUND)
+  pkg_check_modules(PETSC QUIET PETSc)
+endif()
+find_path(GMSH_INCLUDE_DIR gmsh.h)
+find_library(GMSH_LIBRARY gmsh)
+set(PERILINK_PETSC "no")
+set(PERILINK_GMSH "no")
+if(PETSC_FOUND)
+  set(PERILINK_PETSC "no (found ${PETSC_VERSION}, not used yet)")
+endif()
+if(GMSH_INCLUDE_DIR AND GMSH_LIBRARY)
+  perilink_header_version(gmsh_version ${GMSH_INCLUDE_DIR}/gmsh.h
+                          GMSH_API_VERSION_MAJOR GMSH_API_VERSION_MINOR GMSH_API_VERSION_PATCH)
+  set(PERILINK_GMSH "no (found ${gmsh_version}, not used yet)")
+endif()
+
+set(PERILINK_COMMIT "unknown")
+find_package(Git QUIET)
+if(GIT_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
+  execute_process(COMMAND ${GIT_EXECUTABLE} rev-parse --short=12 HEAD
+                  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE commit
+                  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+  if(NOT failed)
+    set(PERILINK_COMMIT ${commit})
+  endif()
+endif()
+
+set(PERILINK_INSTRUCTIONS "portable")
+if(PERILINK_NATIVE)
+  set(PERILINK_INSTRUCTIONS "native")
+endif()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/base/build_config.hpp.in
+               ${CMAKE_CURRENT_BINARY_DIR}/base/build_config.hpp @ONLY)
+target_include_directories(perilink_base PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
