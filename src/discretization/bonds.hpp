@@ -26,8 +26,8 @@ struct Bonds {
   void append(const Particles& particles, Index i, Index j);
 };
 
-/// Distances up to horizon * (1 + horizon_tolerance) are inside the horizon: a neighbour that lies on
-/// the horizon by construction must not be lost to round-off.
+/// Distances up to horizon * (1 + horizon_tolerance) are inside the horizon: a neighbour that lies
+/// on the horizon by construction must not be lost to round-off.
 inline constexpr double horizon_tolerance = 1e-9;
 
 /// Bonds between all solid and ghost particles within the horizon. Ghosts are not bonded to each
@@ -36,5 +36,10 @@ Bonds make_bonds(const Particles& particles, double horizon);
 
 /// Bonds at every particle (families): row i holds the numbers of the bonds that end at particle i.
 Csr bonds_of_particles(const Bonds& bonds, Index num_particles);
+
+/// Drops the ghosts that bonds in fewer than dim independent directions hold, with their bonds:
+/// they carry no force and would make the stiffness singular. To be called before bars are added.
+/// \return number of ghosts dropped
+Index remove_loose_ghosts(Particles& particles, Bonds& bonds);
 
 }  // namespace perilink

@@ -26,9 +26,9 @@ struct Lattice {
   Pattern pattern = Pattern::rectangular;
   Surface surface = Surface::none;
   int dim = 2;
-  double spacing = 0.0;        ///< between neighbouring columns [length]
-  Vector3 step{};              ///< distance of neighbouring columns, rows and layers [length]
-  double cell_volume = 0.0;    ///< volume of an interior particle [length^3]
+  double spacing = 0.0;      ///< between neighbouring columns [length]
+  Vector3 step{};            ///< distance of neighbouring columns, rows and layers [length]
+  double cell_volume = 0.0;  ///< volume of an interior particle [length^3]
 };
 
 /// Vectors from an interior particle to all its neighbours within the horizon.
@@ -41,11 +41,11 @@ struct BulkFamily {
 struct LatticeInput {
   Pattern pattern = Pattern::rectangular;
   Surface surface = Surface::none;
-  double spacing = 0.0;           ///< wanted; a conforming lattice adapts it to the body [length]
-  double horizon = 0.0;           ///< margin of the ghost layer [length]
-  double thickness = 1.0;         ///< of two-dimensional bodies [length]
-  std::vector<Box> solid;         ///< the body is the union of these boxes
-  std::vector<Index> material;    ///< of each box; where boxes overlap the last one counts
+  double spacing = 0.0;         ///< wanted; a conforming lattice adapts it to the body [length]
+  double horizon = 0.0;         ///< margin of the ghost layer [length]
+  double thickness = 1.0;       ///< of two-dimensional bodies [length]
+  std::vector<Box> solid;       ///< the body is the union of these boxes
+  std::vector<Index> material;  ///< of each box; where boxes overlap the last one counts
   double boundary_tolerance = 1e-6;  ///< of "inside a box", in spacings
 };
 

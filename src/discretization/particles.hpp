@@ -11,7 +11,8 @@ namespace perilink {
 /// What a particle stands for.
 enum class ParticleKind : std::uint8_t {
   solid,  ///< material of the body
-  ghost,  ///< Peri2D's ghost layer: no modulus of its own, bonds to solid particles at half stiffness
+  ghost,  ///< Peri2D's ghost layer: no modulus of its own, bonds to solid particles at half
+          ///< stiffness
   rebar,  ///< node of a reinforcing bar
 };
 
@@ -19,9 +20,9 @@ enum class ParticleKind : std::uint8_t {
 /// nodes of reinforcing bars.
 struct Particles {
   int dim = 2;
-  std::vector<double> positions;    ///< [length], shape (size, dim), row after row
-  std::vector<double> volumes;      ///< integral of the particle's shape function [length^3]
-  std::vector<Index> material;      ///< index into the case's materials; no_index for ghosts and bars
+  std::vector<double> positions;  ///< [length], shape (size, dim), row after row
+  std::vector<double> volumes;    ///< integral of the particle's shape function [length^3]
+  std::vector<Index> material;    ///< index into the case's materials; no_index for ghosts and bars
   std::vector<ParticleKind> kind;
 
   Index size() const { return static_cast<Index>(volumes.size()); }

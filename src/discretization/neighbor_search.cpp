@@ -1,0 +1,122 @@
+#include "discretization/neighbor_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace perilink {
+namespace {
+
+/// The points as nanoflann wants to read them.
+struct PointCloud {
+  std::span<const double> positions;
+  std::size_t dim;
+
+  std::size_t kdtree_get_point_count() const { return positions.size() / dim; }
+  double kdtree_get_pt(std::size_t point, std::size_t axis) const {
+    return positions[point * dim + axis];
+  }
+  template <class BoundingBox>
+  bool kdtree_get_bbox(BoundingBox&) const {
+    return false;
+  }
+};
+
+/// Collects the points above `lowest` whose squared distance is below `limit`.
+class RowCollector {
+ public:
+  using DistanceType = double;  // nanoflann's names
+  using IndexType = Index;
+
+  RowCollector(std::vector<Index>& found, Index lowest, double limit)
+      : found_(found), lowest_(lowest), limit_(limit) {}
+
+  std::size_t size() const { return found_.size(); }
+  bool full() const { return true; }
+  double worstDist() const { return limit_; }
+  bool addPoint(double /*squared_distance*/, Index point) {
+    if (point > lowest_) found_.push_back(point);
+    return true;
+  }
+
+ private:
+  std::vector<Index>& found_;
+  Index lowest_;
+  double limit_;
+};
+
+/// Row q holds the points within the radius of query q, those above q only when `upper_only`.
+template <int Dim>
+Csr search(std::span<const double> points, std::span<const double> queries, double radius,
+           bool upper_only) {
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<
+      nanoflann::L2_Simple_Adaptor<double, PointCloud, double, Index>, PointCloud, Dim, Index>;
+  const auto num_queries = static_cast<Index>(queries.size() / Dim);
+  Csr result;
+  result.offsets.assign(static_cast<std::size_t>(num_queries) + 1, 0);
+  if (points.empty() || num_queries == 0) return result;
+
+  const PointCloud cloud{points, Dim};
+  Tree tree(Dim, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  // nanoflann compares squared distances with "<"; the radius itself is inside.
+  const double limit = std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
+
+  // Chunks are searched in parallel and joined in order, so the result does not depend on threads.
+  constexpr Index chunk_size = 4096;
+  const Index num_chunks = (num_queries + chunk_size - 1) / chunk_size;
+  std::vector<std::vector<Index>> chunks(static_cast<std::size_t>(num_chunks));
+#pragma omp parallel for schedule(dynamic)
+  for (Index chunk = 0; chunk < num_chunks; ++chunk) {
+    std::vector<Index> row;
+    const Index end = std::min(num_queries, (chunk + 1) * chunk_size);
+    for (Index query = chunk * chunk_size; query < end; ++query) {
+      row.clear();
+      RowCollector collector(row, upper_only ? query : no_index, limit);
+      tree.findNeighbors(collector, queries.data() + static_cast<std::size_t>(query) * Dim,
+                         nanoflann::SearchParams(0, 0.0F, false));
+      std::sort(row.begin(), row.end());
+      result.offsets[query + 1] = static_cast<Index>(row.size());
+      chunks[chunk].insert(chunks[chunk].end(), row.begin(), row.end());
+    }
+  }
+
+  std::size_t total = 0;
+  for (const auto& chunk : chunks) total += chunk.size();
+  if (total > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
+    throw std::length_error("more than 2^31 - 1 neighbours: choose a smaller horizon");
+  }
+  for (Index query = 0; query < num_queries; ++query) {
+    result.offsets[query + 1] += result.offsets[query];
+  }
+  result.values.reserve(total);
+  for (auto& chunk : chunks) {
+    result.values.insert(result.values.end(), chunk.begin(), chunk.end());
+    chunk = {};
+  }
+  return result;
+}
+
+Csr search(std::span<const double> points, std::span<const double> queries, int dim, double radius,
+           bool upper_only) {
+  if (dim == 2) return search<2>(points, queries, radius, upper_only);
+  if (dim == 3) return search<3>(points, queries, radius, upper_only);
+  throw std::invalid_argument("neighbour search in " + std::to_string(dim) +
+                              " dimensions: only 2 and 3 are possible");
+}
+
+}  // namespace
+
+Csr find_upper_neighbors(std::span<const double> positions, int dim, double radius) {
+  return search(positions, positions, dim, radius, true);
+}
+
+Csr find_neighbors(std::span<const double> points, std::span<const double> queries, int dim,
+                   double radius) {
+  return search(points, queries, dim, radius, false);
+}
+
+}  // namespace perilink

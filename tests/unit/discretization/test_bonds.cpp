@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "discretization/bonds.hpp"
+#include "discretization/lattice.hpp"
+
+namespace perilink {
+namespace {
+
+Body square(Surface surface) {
+  LatticeInput input;
+  input.pattern = Pattern::rectangular;
+  input.surface = surface;
+  input.spacing = 0.1;
+  input.horizon = 0.3;
+  input.solid = {{{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}}};
+  input.material = {0};
+  return make_body(input);
+}
+
+TEST(Bonds, AreSortedUniqueAndWithinTheHorizon) {
+  const Body body = square(Surface::ghost);
+  const Bonds bonds = make_bonds(body.particles, 0.3);
+  ASSERT_GT(bonds.size(), 0);
+  for (Index b = 0; b < bonds.size(); ++b) {
+    EXPECT_LT(bonds.first[b], bonds.second[b]);
+    if (b > 0) {
+      EXPECT_LT(std::pair(bonds.first[b - 1], bonds.second[b - 1]),
+                std::pair(bonds.first[b], bonds.second[b]));
+    }
+    EXPECT_LE(bonds.lengths[b], 0.3 * (1.0 + horizon_tolerance));
+    EXPECT_EQ(body.particles.kind[bonds.first[b]], ParticleKind::solid);
+    const auto from = body.particles.position(bonds.first[b]);
+    const auto to = body.particles.position(bonds.second[b]);
+    const auto n = bonds.direction(b);
+    EXPECT_NEAR(n[0] * n[0] + n[1] * n[1], 1.0, 1e-15);  // round-off
+    for (int axis = 0; axis < 2; ++axis) {
+      EXPECT_NEAR(from[axis] + n[axis] * bonds.lengths[b], to[axis], 1e-15);
+    }
+  }
+}
+
+TEST(Bonds, KeepNeighboursOnTheHorizonInSpiteOfRoundOff) {
+  const Body body = square(Surface::none);
+  const Bonds bonds = make_bonds(body.particles, 0.3);
+  const Csr families = bonds_of_particles(bonds, body.particles.size());
+  const auto family = bulk_family(body.lattice, 0.3);
+  EXPECT_EQ(family.offsets.size(), 28U);
+  EXPECT_EQ(families.row(5 * 11 + 5).size(), 28U);
+  EXPECT_EQ(families.row(0).size(), 10U);  // a quarter of the disc with its two edges
+}
+
+TEST(Bonds, FamiliesListEveryBondAtBothEnds) {
+  const Body body = square(Surface::none);
+  const Bonds bonds = make_bonds(body.particles, 0.2);
+  const Csr families = bonds_of_particles(bonds, body.particles.size());
+  EXPECT_EQ(families.values.size(), 2U * bonds.size());
+  for (Index i = 0; i < families.rows(); ++i) {
+    for (const Index b : families.row(i)) {
+      EXPECT_TRUE(bonds.first[b] == i || bonds.second[b] == i);
+    }
+  }
+}
+
+TEST(Bonds, LeaveOutTheNodesOfBars) {
+  Body body = square(Surface::none);
+  const Bonds before = make_bonds(body.particles, 0.3);
+  body.particles.positions.insert(body.particles.positions.end(), {0.55, 0.55});
+  body.particles.volumes.push_back(0.01);
+  body.particles.material.push_back(no_index);
+  body.particles.kind.push_back(ParticleKind::rebar);
+  EXPECT_EQ(make_bonds(body.particles, 0.3).first, before.first);
+}
+
+}  // namespace
+}  // namespace perilink
