@@ -1,1 +1,64 @@
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands.hpp"
+#include "app/plot.hpp"
+#include "base/build_info.hpp"
+#include "base/error.hpp"
+
+/// The program: reads the command line, calls one command, turns failures into exit statuses.
+int main(int argc, char** argv) {
+  using namespace perilink;
+  CLI::App app{"Perilink: implicit quasistatic peridynamics, damage event by event"};
+  app.set_version_flag("--version", build_summary());
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 done (also when the specimen collapsed), 2 bad input, 3 solver failure,\n"
+      "4 interrupted (results so far are kept). The case file is described in docs/case_file.md.");
+
+  RunOptions run;
+  CLI::App* run_command = app.add_subcommand("run", "Run a case and write its results");
+  run_command->add_option("case", run.case_path, "Case file (.toml)")->required();
+  run_command->add_option("--out", run.directory, "Directory of the results [results/<case name>]");
+  run_command->add_option("--threads", run.threads, "Threads; results do not depend on it [all]")
+      ->check(CLI::Range(1, 1024));
+  run_command->add_flag("--quiet", run.quiet, "No progress, no summary");
+  run_command->add_flag("--force", run.force, "Overwrite the results of an earlier run");
+
+  std::string checked_case;
+  CLI::App* check_command = app.add_subcommand(
+      "check", "Validate a case; print its sizes, expected memory and time; compute nothing");
+  check_command->add_option("case", checked_case, "Case file (.toml)")->required();
+
+  PlotOptions plot;
+  CLI::App* plot_command = app.add_subcommand(
+      "plot", "Draw the load-displacement curve and the deformed body of a result (SVG)");
+  plot_command->add_option("directory", plot.directory, "Directory of the results")->required();
+  plot_command->add_option("--out", plot.out, "Directory of the pictures [the same]");
+  plot_command->add_option("--scale", plot.scale, "Factor on the displacements [automatic]")
+      ->check(CLI::NonNegativeNumber);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return exit_bad_input;
+  }
+  try {
+    if (run_command->parsed()) return run_case(run);
+    if (check_command->parsed()) return check_case(checked_case);
+    return plot_results(plot);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "perilink: bad input: {}\n", error.what());
+    return exit_bad_input;
+  } catch (const FileError& error) {
+    fmt::print(stderr, "perilink: {}\n", error.what());
+    return exit_bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "perilink: {}\n", error.what());
+    return exit_solver;
+  }
+}

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace perilink {
+
+/// Exit statuses of the program.
+enum ExitStatus : int { exit_done = 0, exit_bad_input = 2, exit_solver = 3, exit_interrupted = 4 };
+
+/// perilink run
+struct RunOptions {
+  std::string case_path;
+  std::optional<std::string> directory;
+  int threads = 0;  ///< 0: all processors
+  bool quiet = false;
+  bool force = false;
+};
+int run_case(const RunOptions& options);
+
+/// perilink check: validates a case and prints what it will cost; computes nothing.
+int check_case(const std::string& case_path);
+
+}  // namespace perilink

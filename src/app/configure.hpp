@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/damage_analysis.hpp"
+#include "assembly/network.hpp"
+#include "assembly/rigid_modes.hpp"
+#include "assembly/unknowns.hpp"
+#include "discretization/lattice.hpp"
+#include "io/case_file.hpp"
+#include "material/elasticity.hpp"
+
+namespace perilink {
+
+/// A case turned into particles, bonds, unknowns and loads.
+struct Model {
+  Problem problem = Problem::plane_stress;
+  Lattice lattice;
+  double horizon = 0.0;  ///< [length]
+  Network network;
+  Unknowns unknowns;
+  Loads loads;
+  ReferenceLoad reference;
+  LoadResultant resultant;
+  std::vector<std::string> notes;  ///< what the user should know: pinned modes, unbalanced moments
+};
+
+/// Builds the model of a case.
+/// \throws InputError where the case makes no sense for its body: empty regions, particles that
+/// nothing holds, free rigid-body modes, contradictory supports
+Model build_model(const CaseFile& input);
+
+/// Options of the damage analysis that a case asks for.
+DamageOptions damage_options(const CaseFile& input, int threads);
+
+}  // namespace perilink

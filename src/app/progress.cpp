@@ -1,0 +1,83 @@
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace perilink {
+namespace {
+
+constexpr double terminal_interval = 0.1;  // [s]
+constexpr double log_interval = 10.0;      // [s]
+constexpr int bar_width = 24;
+
+}  // namespace
+
+std::string format_duration(double seconds) {
+  const long whole = std::lround(std::max(seconds, 0.0));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+Progress::Progress(bool quiet, std::optional<Index> last_broken_bonds,
+                   std::optional<double> last_displacement)
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      last_broken_bonds_(last_broken_bonds),
+      last_displacement_(last_displacement),
+      next_update_(terminal_ ? terminal_interval : log_interval) {}
+
+std::optional<double> Progress::fraction(const StepRecord& record) const {
+  std::optional<double> done;
+  if (last_broken_bonds_ && *last_broken_bonds_ > 0) {
+    done = static_cast<double>(record.broken_bonds) / *last_broken_bonds_;
+  }
+  if (last_displacement_ && *last_displacement_ > 0.0) {
+    done = std::max(done.value_or(0.0), std::abs(record.displacement) / *last_displacement_);
+  }
+  if (done) done = std::clamp(*done, 0.0, 1.0);
+  return done;
+}
+
+void Progress::update(const StepRecord& record) {
+  if (quiet_) return;
+  const double now = since_start_.seconds();
+  if (now < next_update_) return;
+  next_update_ = now + (terminal_ ? terminal_interval : log_interval);
+  draw(record);
+}
+
+void Progress::draw(const StepRecord& record) {
+  const double now = since_start_.seconds();
+  const std::optional<double> done = fraction(record);
+  const std::string state = fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds,
+                                        record.load_factor);
+  const std::string left =
+      done && *done > 0.0 ? fmt::format(", {} left", format_duration(now / *done - now))
+                          : fmt::format(", {} so far", format_duration(now));
+  if (!terminal_) {
+    fmt::print(stderr, "{}{}\n", state, left);
+    return;
+  }
+  std::string bar;
+  if (done) {
+    const int full = static_cast<int>(*done * bar_width);
+    bar = "[" + std::string(full, '#') + std::string(bar_width - full, '.') + "] ";
+  }
+  fmt::print(stderr, "\r{}{}{}\033[K", bar, state, left);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void Progress::finish() {
+  if (!drawn_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+}  // namespace perilink

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/observer.hpp"
+#include "base/timer.hpp"
+
+namespace perilink {
+
+/// Where a run stands, for people: a bar that is drawn over itself on a terminal, a plain line now and
+/// then elsewhere, nothing when quiet. Goes to standard error.
+class Progress {
+ public:
+  /// \param last_broken_bonds  number of broken bonds at which the run stops, if it is known
+  /// \param last_displacement  displacement at which the run stops, if it is known
+  Progress(bool quiet, std::optional<Index> last_broken_bonds,
+           std::optional<double> last_displacement);
+
+  void update(const StepRecord& record);
+  /// Ends the line of the bar.
+  void finish();
+
+ private:
+  /// Fraction of the run that is done, where a stop rule tells.
+  std::optional<double> fraction(const StepRecord& record) const;
+  void draw(const StepRecord& record);
+
+  bool quiet_;
+  bool terminal_;
+  std::optional<Index> last_broken_bonds_;
+  std::optional<double> last_displacement_;
+  Timer since_start_;
+  double next_update_ = 0.0;  ///< [s]
+  bool drawn_ = false;
+};
+
+/// "3 s", "2 min 10 s", "1 h 05 min".
+std::string format_duration(double seconds);
+
+}  // namespace perilink

@@ -1,0 +1,57 @@
+#include "app/result_directory.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace perilink {
+namespace fs = std::filesystem;
+namespace {
+
+/// Whether a run of this program writes a file of this name.
+bool is_result_file(const std::string& name) {
+  constexpr std::array<std::string_view, 7> names = {
+      "case.toml",   "history.csv", "timing.csv", "summary.json",
+      "fields.pvd", "log.txt",     "load_displacement.svg"};
+  for (const std::string_view known : names) {
+    if (name == known) return true;
+  }
+  const bool is_field = name.starts_with("fields_");
+  return is_field && (name.ends_with(".vtu") || name.ends_with(".svg"));
+}
+
+}  // namespace
+
+fs::path default_result_directory(const std::string& case_path) {
+  return fs::path("results") / fs::path(case_path).stem();
+}
+
+void prepare_result_directory(const fs::path& directory, bool force) {
+  std::error_code error;
+  if (fs::exists(directory, error) && !fs::is_directory(directory, error)) {
+    throw FileError(fmt::format("{}: exists and is not a directory", directory.string()));
+  }
+  std::vector<fs::path> old;
+  if (fs::is_directory(directory, error)) {
+    for (const auto& entry : fs::directory_iterator(directory, error)) {
+      if (is_result_file(entry.path().filename().string())) old.push_back(entry.path());
+    }
+  }
+  if (!old.empty() && !force) {
+    throw FileError(fmt::format(
+        "{}: holds the results of an earlier run (found {})\n"
+        "  choose another directory with --out DIR, or overwrite them with --force",
+        directory.string(), old.front().filename().string()));
+  }
+  for (const fs::path& file : old) fs::remove(file, error);
+  fs::create_directories(directory, error);
+  if (error) {
+    throw FileError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
+  }
+}
+
+}  // namespace perilink

@@ -1,0 +1,107 @@
+#include "solver/supernodal_kernels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+namespace perilink {
+namespace {
+
+/// A supernode with every width below, at and above the panel of eight columns.
+struct Supernode {
+  Index rows, columns;
+  Eigen::MatrixXd block;  // rows x columns, what CHOLMOD leaves above the diagonal is NaN
+
+  explicit Supernode(Index row_count, Index column_count)
+      : rows(row_count), columns(column_count), block(rows, columns) {
+    for (Index j = 0; j < columns; ++j) {
+      for (Index r = 0; r < rows; ++r) {
+        block(r, j) = r < j ? std::nan("") : std::sin(1.0 + 3.0 * r + 7.0 * j) / (1.0 + columns);
+      }
+      block(j, j) = 2.0 + j;  // D
+    }
+  }
+  /// The whole unit lower factor, identity below the columns.
+  Eigen::MatrixXd lower() const {
+    Eigen::MatrixXd l = Eigen::MatrixXd::Identity(rows, rows);
+    for (Index j = 0; j < columns; ++j) {
+      for (Index r = j + 1; r < rows; ++r) l(r, j) = block(r, j);
+    }
+    return l;
+  }
+};
+
+Eigen::VectorXd test_vector(Index size) {
+  Eigen::VectorXd v(size);
+  for (Index k = 0; k < size; ++k) v[k] = std::cos(2.0 + 5.0 * k);
+  return v;
+}
+
+class Width : public testing::TestWithParam<std::pair<Index, Index>> {
+ protected:
+  Supernode node{GetParam().first, GetParam().second};
+};
+
+TEST_P(Width, ForwardSolvesTheTriangleAndEliminatesBelow) {
+  Eigen::VectorXd local = test_vector(node.rows);
+  const Eigen::VectorXd expected = node.lower().triangularView<Eigen::UnitLower>().solve(local);
+
+  supernodal::forward(node.block.data(), node.rows, node.columns, 0, local.data());
+
+  EXPECT_LT((local - expected).norm(), 1e-13 * expected.norm());  // round-off of a short sum
+}
+
+TEST_P(Width, ForwardMayStartAtTheFirstNonzero) {
+  const Index start = node.columns / 2;
+  Eigen::VectorXd local = test_vector(node.rows);
+  local.head(start).setZero();
+  const Eigen::VectorXd expected = node.lower().triangularView<Eigen::UnitLower>().solve(local);
+
+  supernodal::forward(node.block.data(), node.rows, node.columns, start, local.data());
+
+  EXPECT_LT((local - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST_P(Width, BackwardSolvesTheTransposedTriangle) {
+  Eigen::VectorXd local = test_vector(node.rows);
+  const Eigen::VectorXd expected =
+      node.lower().transpose().triangularView<Eigen::UnitUpper>().solve(local);
+
+  supernodal::backward(node.block.data(), node.rows, node.columns, local.data());
+
+  EXPECT_LT((local - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST_P(Width, ChangeGivesTheFactorOfTheChangedMatrix) {
+  const double sigma = -0.05;
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(node.rows);
+  for (Index j = 0; j < node.columns; ++j) diagonal[j] = node.block(j, j);
+  const Eigen::VectorXd x = test_vector(node.rows);
+  const Eigen::MatrixXd changed =
+      node.lower() * diagonal.asDiagonal() * node.lower().transpose() + sigma * x * x.transpose();
+  const Eigen::VectorXd p = node.lower().triangularView<Eigen::UnitLower>().solve(x);
+  Eigen::VectorXd beta(node.columns);
+  double s = sigma;
+  for (Index j = 0; j < node.columns; ++j) {
+    const double d = diagonal[j] + s * p[j] * p[j];
+    beta[j] = s * p[j] / d;
+    s *= diagonal[j] / d;
+    diagonal[j] = d;
+  }
+
+  Eigen::VectorXd local = x;
+  supernodal::change(node.block.data(), node.rows, node.columns, 0, p.data(), beta.data(),
+                     local.data());
+
+  // The columns of L D L' reproduce the columns of the changed matrix.
+  const Eigen::MatrixXd product = node.lower() * diagonal.asDiagonal() * node.lower().transpose();
+  EXPECT_LT((product - changed).leftCols(node.columns).norm(), 1e-13 * changed.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Width,
+                         testing::Values(std::pair{1, 1}, std::pair{5, 3}, std::pair{8, 8},
+                                         std::pair{30, 8}, std::pair{31, 13}, std::pair{40, 24},
+                                         std::pair{64, 17}));
+
+}  // namespace
+}  // namespace perilink
