@@ -23,7 +23,7 @@ std::vector<Fragment> find_fragments(const Network& network,
 /// Sums of the applied loads.
 struct LoadResultant {
   std::vector<double> force;   ///< size dim [force]
-  std::vector<double> moment;  ///< about the centroid, size 1 in 2D, 3 in 3D [force length]
+  std::vector<double> moment;  ///< about the solid's centroid, size 1 in 2D, 3 in 3D [force length]
   double scale = 0.0;          ///< sum of |forces|
 };
 LoadResultant load_resultant(const Network& network, const Loads& loads);

@@ -28,10 +28,12 @@ struct LatticeModuli {
 /// Young's modulus prescribed and Poisson's ratio free (Peri2D; Gerstle, Sau & Silling 2005,
 /// section 3). In plane stress c V^2 = (E V / 2) (1/U1 + 1/U2), where U1 and U2 are the energies of
 /// one particle at unit biaxial stretch and at unit pure shear, per unit of c V^2:
-/// U1 = 1/4 sum xi, U2 = 1/4 sum xi cos^2(2 theta).
+/// U1 = 1/4 sum xi, U2 = 1/4 sum xi cos^2(2 theta). In plane strain U1 / U2 = 1 / (1 - 2 nu) and
+/// c V^2 = E V / (U2 (1 + nu)). In three dimensions the shear modulus is the lattice's Voigt mean,
+/// which makes nu = 1/4 and c V^2 = 3 E V / U1, U1 the energy at unit hydrostatic stretch.
 /// \param offsets      vectors to all neighbours [length]
 /// \param cell_volume  V [length^3]
-LatticeModuli lattice_moduli(Problem problem, std::span<const Vector3> offsets,
-                             double cell_volume);
+/// \throws std::invalid_argument where the neighbours cannot resist every strain
+LatticeModuli lattice_moduli(Problem problem, std::span<const Vector3> offsets, double cell_volume);
 
 }  // namespace perilink

@@ -1,0 +1,107 @@
+#include "assembly/fields.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace perilink {
+namespace {
+
+Index other_end(const Bonds& bonds, Index element, Index particle) {
+  return bonds.first[element] == particle ? bonds.second[element] : bonds.first[element];
+}
+
+template <int Dim>
+Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double> values,
+                                                          Index number) {
+  return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(values.data() +
+                                                         static_cast<std::size_t>(number) * Dim);
+}
+
+template <int Dim>
+void fill_principal_strains(const Network& network, const Csr& families,
+                            std::span<const double> secants, std::span<const double> displacement,
+                            std::vector<double>& strains) {
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  const Bonds& bonds = network.bonds;
+  const Index num_particles = families.rows();
+#pragma omp parallel for schedule(static)
+  for (Index i = 0; i < num_particles; ++i) {
+    // Least squares of G xi = u_j - u_i: G = (sum du xi') (sum xi xi')^-1.
+    Matrix shape = Matrix::Zero();
+    Matrix moments = Matrix::Zero();
+    for (const Index e : families.row(i)) {
+      if (!(secants[e] > 0.0)) continue;
+      const Index j = other_end(bonds, e, i);
+      const Eigen::Matrix<double, Dim, 1> xi = vector_at<Dim>(network.particles.positions, j) -
+                                               vector_at<Dim>(network.particles.positions, i);
+      shape += xi * xi.transpose();
+      moments +=
+          (vector_at<Dim>(displacement, j) - vector_at<Dim>(displacement, i)) * xi.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix> axes(shape);
+    // Squared sines of the angles between bonds; round-off leaves 1e-15.
+    if (!(axes.eigenvalues()[0] > 1e-10 * axes.eigenvalues()[Dim - 1])) continue;
+    const Matrix gradient = moments * shape.inverse();
+    const Matrix strain = 0.5 * (gradient + gradient.transpose());
+    const auto principal =
+        Eigen::SelfAdjointEigenSolver<Matrix>(strain, Eigen::EigenvaluesOnly).eigenvalues().eval();
+    for (int n = 0; n < Dim; ++n) {
+      strains[static_cast<std::size_t>(i) * Dim + n] = principal[Dim - 1 - n];
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> damage_index(const Network& network, const Csr& families,
+                                 std::span<const double> secants) {
+  std::vector<double> damage(static_cast<std::size_t>(families.rows()), 0.0);
+  for (Index i = 0; i < families.rows(); ++i) {
+    double all = 0.0;
+    double broken = 0.0;
+    for (const Index e : families.row(i)) {
+      const double volume = network.particles.volumes[other_end(network.bonds, e, i)];
+      all += volume;
+      if (!(secants[e] > 0.0)) broken += volume;
+    }
+    if (all > 0.0) damage[i] = broken / all;
+  }
+  return damage;
+}
+
+std::vector<double> strain_energy_density(const Network& network, const Csr& families,
+                                          std::span<const double> secants,
+                                          std::span<const double> displacement) {
+  const Bonds& bonds = network.bonds;
+  const int dim = network.dim();
+  std::vector<double> energies(static_cast<std::size_t>(bonds.size()));
+  for (Index e = 0; e < bonds.size(); ++e) {
+    const auto n = bonds.direction(e);
+    double extension = 0.0;
+    for (int axis = 0; axis < dim; ++axis) {
+      extension += n[axis] * (displacement[static_cast<std::size_t>(bonds.second[e]) * dim + axis] -
+                              displacement[static_cast<std::size_t>(bonds.first[e]) * dim + axis]);
+    }
+    energies[e] = 0.5 * network.stiffness[e] * secants[e] * extension * extension;
+  }
+  std::vector<double> density(static_cast<std::size_t>(families.rows()), 0.0);
+  for (Index i = 0; i < families.rows(); ++i) {
+    double sum = 0.0;
+    for (const Index e : families.row(i)) sum += energies[e];
+    density[i] = 0.5 * sum / network.particles.volumes[i];
+  }
+  return density;
+}
+
+std::vector<double> principal_strains(const Network& network, const Csr& families,
+                                      std::span<const double> secants,
+                                      std::span<const double> displacement) {
+  std::vector<double> strains(displacement.size(), 0.0);
+  if (network.dim() == 2) {
+    fill_principal_strains<2>(network, families, secants, displacement, strains);
+  } else {
+    fill_principal_strains<3>(network, families, secants, displacement, strains);
+  }
+  return strains;
+}
+
+}  // namespace perilink

@@ -1,0 +1,48 @@
+#include "assembly/internal_force.hpp"
+
+namespace perilink {
+namespace {
+
+/// One thread: the sums then have one order, and reading the elements costs most of the time.
+template <int Dim>
+void add_elements(const Network& network, std::span<const double> secants,
+                  std::span<const double> displacement, InternalForce& result) {
+  const Bonds& bonds = network.bonds;
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
+    const std::size_t first = static_cast<std::size_t>(bonds.first[e]) * Dim;
+    const std::size_t second = static_cast<std::size_t>(bonds.second[e]) * Dim;
+    double extension = 0.0;
+    for (int axis = 0; axis < Dim; ++axis) {
+      extension += n[axis] * (displacement[second + axis] - displacement[first + axis]);
+    }
+    const double tension = network.stiffness[e] * secants[e] * extension;
+    result.energy += 0.5 * tension * extension;
+    for (int axis = 0; axis < Dim; ++axis) {
+      result.forces[first + axis] -= tension * n[axis];
+      result.forces[second + axis] += tension * n[axis];
+    }
+  }
+}
+
+}  // namespace
+
+void internal_force(const Network& network, std::span<const double> secants,
+                    std::span<const double> displacement, InternalForce& result) {
+  result.energy = 0.0;
+  result.forces.assign(displacement.size(), 0.0);
+  if (network.dim() == 2) {
+    add_elements<2>(network, secants, displacement, result);
+  } else {
+    add_elements<3>(network, secants, displacement, result);
+  }
+}
+
+InternalForce internal_force(const Network& network, std::span<const double> secants,
+                             std::span<const double> displacement) {
+  InternalForce result;
+  internal_force(network, secants, displacement, result);
+  return result;
+}
+
+}  // namespace perilink

@@ -1,0 +1,192 @@
+#include "assembly/network_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Eigenvalues>
+
+#include "material/critical_stretch.hpp"
+#include "material/micromodulus.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Ties are not stiffer than those of this length, in spacings.
+constexpr double shortest_tie = 0.1;
+
+void check_input(const Body& body, const NetworkInput& input) {
+  if (body.particles.dim != dimension_of(input.problem)) {
+    throw std::invalid_argument("a " + std::to_string(body.particles.dim) +
+                                "-dimensional lattice does not fit the kind of problem");
+  }
+  if (!(input.horizon > 0.0)) throw std::invalid_argument("the horizon must be positive");
+  if (input.bars.size() != input.bar_materials.size()) {
+    throw std::invalid_argument("every bar needs a material");
+  }
+  const auto last =
+      std::max_element(body.particles.material.begin(), body.particles.material.end());
+  if (last == body.particles.material.end() ||
+      *last >= static_cast<Index>(input.materials.size())) {
+    throw std::invalid_argument("a particle has a material that is not defined");
+  }
+}
+
+/// Micromodulus and critical stretch of every pair of materials.
+class PairConstants {
+ public:
+  PairConstants(const Body& body, const NetworkInput& input) : count_(input.materials.size()) {
+    std::vector<double> moduli;
+    for (const auto& material : input.materials) {
+      moduli.push_back(micromodulus_of(body, input, material));
+    }
+    const BulkFamily family = bulk_family(body.lattice, input.horizon);
+    for (std::size_t a = 0; a < count_; ++a) {
+      for (std::size_t b = 0; b < count_; ++b) {
+        const double c = 0.5 * (moduli[a] + moduli[b]);
+        const double energy =
+            0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy);
+        const double stretch = input.critical_stretch == Constants::continuum
+                                   ? continuum_critical_stretch(input.problem, energy, c,
+                                                                input.horizon, input.thickness)
+                                   : lattice_critical_stretch(
+                                         energy, lattice_fracture_sum(input.problem, family.offsets,
+                                                                      body.lattice.cell_volume, c));
+        micromodulus_.push_back(c);
+        critical_stretch_.push_back(stretch);
+      }
+    }
+  }
+
+  double micromodulus(Index a, Index b) const { return micromodulus_[a * count_ + b]; }
+  double critical_stretch(Index a, Index b) const { return critical_stretch_[a * count_ + b]; }
+
+ private:
+  std::size_t count_;
+  std::vector<double> micromodulus_;
+  std::vector<double> critical_stretch_;
+};
+
+void add_bonds(const PairConstants& constants, Network& network) {
+  const Particles& particles = network.particles;
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const Index i = network.bonds.first[b];
+    const Index j = network.bonds.second[b];
+    const Index own = particles.material[i];  // a ghost is never first
+    const bool ghost = particles.kind[j] == ParticleKind::ghost;
+    const Index other = ghost ? own : particles.material[j];
+    const double c = constants.micromodulus(own, other) * (ghost ? 0.5 : 1.0);
+    network.stiffness.push_back(c * particles.volumes[i] * particles.volumes[j] /
+                                network.bonds.lengths[b]);
+    network.critical_stretch.push_back(constants.critical_stretch(own, other));
+  }
+}
+
+/// Nodes of bars whose ties do not break.
+std::vector<std::uint8_t> perfectly_tied(const RebarMesh& mesh, const NetworkInput& input,
+                                         Index num_particles) {
+  std::vector<std::uint8_t> perfect(static_cast<std::size_t>(num_particles), 0);
+  for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
+    if (input.bar_materials[mesh.bar_of_segment[segment]].ties_break) continue;
+    perfect[mesh.segments.first[segment]] = 1;
+    perfect[mesh.segments.second[segment]] = 1;
+  }
+  return perfect;
+}
+
+void append_elements(const Bonds& elements, Bonds& all) {
+  const auto extend = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  extend(all.first, elements.first);
+  extend(all.second, elements.second);
+  extend(all.lengths, elements.lengths);
+  extend(all.directions, elements.directions);
+}
+
+void add_bars(const Body& body, const NetworkInput& input, const PairConstants& constants,
+              Network& network) {
+  Particles& particles = network.particles;
+  const RebarMesh mesh = add_rebar(particles, input.bars, body.lattice.spacing, input.horizon,
+                                   body.lattice.cell_volume);
+  const auto perfect = perfectly_tied(mesh, input, particles.size());
+  const double least_length = shortest_tie * body.lattice.spacing;
+  network.first_tie = network.bonds.size();
+  append_elements(mesh.ties, network.bonds);
+  for (Index tie = 0; tie < mesh.ties.size(); ++tie) {
+    const Index solid = mesh.ties.first[tie];
+    const Index node = mesh.ties.second[tie];
+    const Index material = particles.material[solid];
+    network.stiffness.push_back(constants.micromodulus(material, material) *
+                                particles.volumes[solid] * particles.volumes[node] /
+                                std::max(mesh.ties.lengths[tie], least_length));
+    network.critical_stretch.push_back(
+        perfect[node] ? infinity : constants.critical_stretch(material, material));
+  }
+  network.first_segment = network.bonds.size();
+  append_elements(mesh.segments, network.bonds);
+  for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
+    const BarMaterial& bar = input.bar_materials[mesh.bar_of_segment[segment]];
+    network.stiffness.push_back(bar.youngs_modulus * bar.area / mesh.segments.lengths[segment]);
+    network.critical_stretch.push_back(infinity);
+    network.yield_strain.push_back(bar.yield_strength / bar.youngs_modulus);
+  }
+}
+
+}  // namespace
+
+double micromodulus_of(const Body& body, const NetworkInput& input, const SolidMaterial& material) {
+  if (input.micromodulus == Constants::continuum) {
+    return continuum_micromodulus(input.problem, material.youngs_modulus, input.horizon,
+                                  input.thickness);
+  }
+  const BulkFamily family = bulk_family(body.lattice, input.horizon);
+  const LatticeModuli moduli =
+      lattice_moduli(input.problem, family.offsets, body.lattice.cell_volume);
+  return moduli.micromodulus_per_modulus * material.youngs_modulus;
+}
+
+Network build_network(const Body& body, const NetworkInput& input) {
+  check_input(body, input);
+  const PairConstants constants(body, input);
+  Network network;
+  network.particles = body.particles;
+  network.bonds = make_bonds(network.particles, input.horizon);
+  remove_loose_ghosts(network.particles, network.bonds);
+  network.stiffness.reserve(static_cast<std::size_t>(network.bonds.size()));
+  network.critical_stretch.reserve(static_cast<std::size_t>(network.bonds.size()));
+  add_bonds(constants, network);
+  add_bars(body, input, constants, network);
+  return network;
+}
+
+std::vector<Index> find_loose_particles(const Network& network) {
+  const int dim = network.dim();
+  const Bonds& bonds = network.bonds;
+  std::vector<Eigen::Matrix3d> grams(static_cast<std::size_t>(network.particles.size()),
+                                     Eigen::Matrix3d::Zero());
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!(network.stiffness[e] > 0.0)) continue;
+    Eigen::Vector3d n = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < dim; ++axis) n[axis] = bonds.direction(e)[axis];
+    grams[bonds.first[e]] += n * n.transpose();
+    grams[bonds.second[e]] += n * n.transpose();
+  }
+  std::vector<Index> loose;
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    Eigen::Matrix3d& gram = grams[i];
+    const double trace = gram.trace();
+    if (dim == 2) gram(2, 2) = trace;  // the third direction is not asked for
+    const Eigen::Vector3d eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+    // Squared sines between directions; round-off leaves 1e-15.
+    if (!(eigenvalues[0] > 1e-10 * trace)) loose.push_back(i);
+  }
+  return loose;
+}
+
+}  // namespace perilink

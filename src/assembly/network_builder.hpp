@@ -1,0 +1,71 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "assembly/network.hpp"
+#include "discretization/lattice.hpp"
+#include "discretization/rebar.hpp"
+#include "material/elasticity.hpp"
+
+namespace perilink {
+
+/// Where a constant of the bonds comes from.
+enum class Constants {
+  lattice,    ///< sums over the neighbours that a particle of the lattice really has
+  continuum,  ///< integrals over the infinite body
+};
+
+/// A brittle elastic solid.
+struct SolidMaterial {
+  double youngs_modulus = 0.0;                                       ///< E [force/length^2]
+  double fracture_energy = std::numeric_limits<double>::infinity();  ///< G_F [force/length];
+                                                                     ///< infinity: unbreakable
+};
+
+/// A reinforcing bar.
+struct BarMaterial {
+  double youngs_modulus = 0.0;                                      ///< E [force/length^2]
+  double area = 0.0;                                                ///< A [length^2]
+  double yield_strength = std::numeric_limits<double>::infinity();  ///< f_y [force/length^2];
+                                                                    ///< infinity: stays elastic
+  bool ties_break = true;  ///< false: nothing breaks between the bar and the solid
+};
+
+/// What makes a network out of the particles of a body.
+struct NetworkInput {
+  Problem problem = Problem::plane_stress;
+  double horizon = 0.0;    ///< delta [length]
+  double thickness = 1.0;  ///< t of two-dimensional bodies [length]
+  Constants micromodulus = Constants::lattice;
+  Constants critical_stretch = Constants::lattice;
+  std::vector<SolidMaterial> materials;  ///< by Particles::material
+  std::vector<RebarLine> bars;
+  std::vector<BarMaterial> bar_materials;  ///< of each bar
+};
+
+/// Micromodulus c of a material of the body [force/length^6].
+double micromodulus_of(const Body& body, const NetworkInput& input, const SolidMaterial& material);
+
+/// Bonds, bars and ties of a body with their constants.
+/// - Bond: k = c V_i V_j / xi with the mean c of its ends; a ghost's c is zero, hence half
+/// stiffness
+///   (Gerstle, Sau & Silling 2005, section 4). It breaks at the critical stretch of the mean
+///   fracture energy and mean micromodulus of its ends; a bond to a ghost at that of its solid end.
+///   It cannot break where either end is unbreakable.
+/// - Tie: stiffness and critical stretch of a bond of its solid end, k = c V_i V / max(xi, spacing
+/// /
+///   10), V the volume of a particle inside the lattice. Where bars share a node its ties are
+///   unbreakable as soon as those of one of the bars are.
+/// - Segment: k = E A / L, yield strain f_y / E, cannot break.
+/// Ghosts that too few bonds hold are left out, and bars add particles: the network's particles,
+/// not the body's, are the ones that count from here on. \throws std::invalid_argument where a
+/// material is missing, the numbers of bars and of their
+///         materials differ, or the horizon is too small for the lattice
+Network build_network(const Body& body, const NetworkInput& input);
+
+/// Particles that elements in fewer than dim independent directions hold: without a support they
+/// move freely. Ascending.
+std::vector<Index> find_loose_particles(const Network& network);
+
+}  // namespace perilink

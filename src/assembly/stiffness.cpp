@@ -1,0 +1,204 @@
+#include "assembly/stiffness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
+
+#include "assembly/internal_force.hpp"
+#include "base/csr.hpp"
+
+namespace perilink {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
+
+Index low_end(const Bonds& bonds, Index e) { return std::min(bonds.first[e], bonds.second[e]); }
+Index high_end(const Bonds& bonds, Index e) { return std::max(bonds.first[e], bonds.second[e]); }
+
+/// Elements of every particle to particles of higher number, sorted by that number.
+Csr elements_by_low_end(const Bonds& bonds, Index num_particles) {
+  Csr rows;
+  rows.offsets.assign(static_cast<std::size_t>(num_particles) + 1, 0);
+  for (Index e = 0; e < bonds.size(); ++e) ++rows.offsets[low_end(bonds, e) + 1];
+  for (Index i = 0; i < num_particles; ++i) rows.offsets[i + 1] += rows.offsets[i];
+  rows.values.resize(static_cast<std::size_t>(bonds.size()));
+  std::vector<Index> next(rows.offsets.begin(), rows.offsets.end() - 1);
+  for (Index e = 0; e < bonds.size(); ++e) rows.values[next[low_end(bonds, e)]++] = e;
+  // Bonds come sorted; only ties and bars that start at a solid particle can be out of order.
+  const auto by_high_end = [&](Index a, Index b) {
+    return high_end(bonds, a) < high_end(bonds, b);
+  };
+  for (Index i = 0; i < num_particles; ++i) {
+    const auto begin = rows.values.begin() + rows.offsets[i];
+    const auto end = rows.values.begin() + rows.offsets[i + 1];
+    if (!std::is_sorted(begin, end, by_high_end)) std::stable_sort(begin, end, by_high_end);
+  }
+  return rows;
+}
+
+template <int Dim>
+class StiffnessBuilder {
+ public:
+  StiffnessBuilder(const Network& network, std::span<const double> secants,
+                   const Unknowns& unknowns)
+      : network_(network),
+        secants_(secants),
+        unknowns_(unknowns),
+        elements_(elements_by_low_end(network.bonds, network.particles.size())) {}
+
+  SparseMatrix build() {
+    SparseMatrix matrix(unknowns_.count, unknowns_.count);
+    lay_out(matrix);
+    sum_diagonal_blocks();
+    const Index num_particles = network_.particles.size();
+#pragma omp parallel for schedule(static)
+    for (Index i = 0; i < num_particles; ++i) fill_columns(i, matrix);
+    return matrix;
+  }
+
+ private:
+  using Block = std::array<double, Dim * Dim>;
+
+  int num_free(Index particle) const {
+    int count = 0;
+    for (int axis = 0; axis < Dim; ++axis) count += unknowns_.at(particle, axis) != no_index;
+    return count;
+  }
+
+  double weight(Index element) const { return network_.stiffness[element] * secants_[element]; }
+
+  /// Column starts: the free axes of the particle itself from the column's own on, then those of
+  /// every higher neighbour once, however many elements lead there.
+  void lay_out(SparseMatrix& matrix) const {
+    Index* outer = matrix.outerIndexPtr();
+    std::size_t total = 0;
+    outer[0] = 0;
+    for (Index i = 0; i < network_.particles.size(); ++i) {
+      std::size_t below = 0;
+      Index last = no_index;
+      for (const Index e : elements_.row(i)) {
+        const Index j = high_end(network_.bonds, e);
+        if (j != last) below += num_free(j);
+        last = j;
+      }
+      int own = num_free(i);
+      for (int axis = 0; axis < Dim; ++axis) {
+        const Index column = unknowns_.at(i, axis);
+        if (column == no_index) continue;
+        total += own-- + below;
+        if (total > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
+          throw std::length_error("the stiffness matrix has more than 2^31 - 1 entries");
+        }
+        outer[column + 1] = static_cast<Index>(total);
+      }
+    }
+    matrix.resizeNonZeros(static_cast<Index>(total));
+  }
+
+  void sum_diagonal_blocks() {
+    diagonal_.assign(static_cast<std::size_t>(network_.particles.size()), Block{});
+    for (Index e = 0; e < network_.num_elements(); ++e) {
+      const double* n = network_.bonds.direction(e).data();
+      const double k = weight(e);
+      Block& first = diagonal_[network_.bonds.first[e]];
+      Block& second = diagonal_[network_.bonds.second[e]];
+      for (int row = 0; row < Dim; ++row) {
+        for (int col = 0; col <= row; ++col) {
+          const double value = k * n[row] * n[col];
+          first[row * Dim + col] += value;
+          second[row * Dim + col] += value;
+        }
+      }
+    }
+  }
+
+  /// Columns of one particle. Numbers of unknowns rise with those of the particles, so rows come
+  /// out sorted.
+  void fill_columns(Index i, SparseMatrix& matrix) const {
+    Index* inner = matrix.innerIndexPtr();
+    double* values = matrix.valuePtr();
+    std::array<Index, Dim> position{};  // next entry of each column, no_index for a held one
+    for (int col = 0; col < Dim; ++col) {
+      const Index column = unknowns_.at(i, col);
+      position[col] = column == no_index ? no_index : matrix.outerIndexPtr()[column];
+      if (column == no_index) continue;
+      for (int row = col; row < Dim; ++row) {
+        if (unknowns_.at(i, row) == no_index) continue;
+        inner[position[col]] = unknowns_.at(i, row);
+        values[position[col]++] = diagonal_[i][row * Dim + col];
+      }
+    }
+    Index last = no_index;
+    for (const Index e : elements_.row(i)) {
+      const Index j = high_end(network_.bonds, e);
+      const int rows = num_free(j);
+      const double* n = network_.bonds.direction(e).data();
+      for (int col = 0; col < Dim; ++col) {
+        if (position[col] == no_index) continue;
+        // A second element to the same particle adds to the entries of the first.
+        Index entry = j == last ? position[col] - rows : position[col];
+        for (int row = 0; row < Dim; ++row) {
+          if (unknowns_.at(j, row) == no_index) continue;
+          const double value = -weight(e) * n[row] * n[col];
+          inner[entry] = unknowns_.at(j, row);
+          values[entry] = j == last ? values[entry] + value : value;
+          ++entry;
+        }
+        position[col] = entry;
+      }
+      last = j;
+    }
+  }
+
+  const Network& network_;
+  std::span<const double> secants_;
+  const Unknowns& unknowns_;
+  Csr elements_;
+  std::vector<Block> diagonal_;  // lower triangles
+};
+
+}  // namespace
+
+SparseMatrix assemble_stiffness(const Network& network, std::span<const double> secants,
+                                const Unknowns& unknowns) {
+  if (network.dim() == 2) return StiffnessBuilder<2>(network, secants, unknowns).build();
+  return StiffnessBuilder<3>(network, secants, unknowns).build();
+}
+
+std::vector<double> assemble_right_hand_side(const Network& network,
+                                             std::span<const double> secants,
+                                             const Unknowns& unknowns, const Loads& loads) {
+  std::vector<double> forces = loads.forces;
+  const auto& prescribed = unknowns.prescribed;
+  if (std::any_of(prescribed.begin(), prescribed.end(), [](double u) { return u != 0.0; })) {
+    const InternalForce driven = internal_force(network, secants, prescribed);
+    for (std::size_t slot = 0; slot < forces.size(); ++slot) forces[slot] -= driven.forces[slot];
+  }
+  std::vector<double> result(static_cast<std::size_t>(unknowns.count));
+  for (std::size_t slot = 0; slot < forces.size(); ++slot) {
+    if (unknowns.number[slot] != no_index) result[unknowns.number[slot]] = forces[slot];
+  }
+  return result;
+}
+
+std::vector<Index> particle_of_unknown(const Unknowns& unknowns) {
+  std::vector<Index> particles(static_cast<std::size_t>(unknowns.count));
+  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+    const Index number = unknowns.number[slot];
+    if (number != no_index) {
+      particles[number] = static_cast<Index>(slot / static_cast<std::size_t>(unknowns.dim));
+    }
+  }
+  return particles;
+}
+
+std::vector<double> expand(const Unknowns& unknowns, std::span<const double> solution) {
+  std::vector<double> displacement = unknowns.prescribed;
+  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+    if (unknowns.number[slot] != no_index) displacement[slot] = solution[unknowns.number[slot]];
+  }
+  return displacement;
+}
+
+}  // namespace perilink
