@@ -1,0 +1,126 @@
+// Dependencies between modules point one way, and libraries stay behind the module that wraps them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "quality/source_tree.hpp"
+
+namespace perilink::quality {
+namespace {
+
+// docs/developers/architecture.md shows the same table.
+const std::map<std::string, std::set<std::string>>& allowed_modules() {
+  static const std::map<std::string, std::set<std::string>> table = {
+      {"base", {}},
+      {"material", {"base"}},
+      {"discretization", {"base"}},
+      {"solver", {"base"}},
+      {"assembly", {"base", "discretization", "material"}},
+      {"analysis", {"base", "discretization", "material", "assembly", "solver"}},
+      {"io", {"base", "discretization"}},
+      {"app", {"base", "discretization", "material", "assembly", "solver", "analysis", "io"}},
+  };
+  return table;
+}
+
+struct Confinement {
+  std::regex header;
+  std::string place;  // files below which it may be included, from src/
+};
+
+const std::vector<Confinement>& confined_headers() {
+  static const std::vector<Confinement> table = {
+      {std::regex("^(suitesparse/)?cholmod.*\\.h$"), "solver/"},
+      {std::regex("^metis\\.h$"), "solver/"},
+      {std::regex("^(cblas|lapacke?)\\.h$"), "solver/"},
+      {std::regex("^petsc.*\\.h(pp)?$"), "solver/"},
+      {std::regex("^nanoflann\\.hpp$"), "discretization/neighbor_search.cpp"},
+      {std::regex("^toml\\+\\+/.*"), "io/"},
+      {std::regex("^pugi(xml|config)\\.hpp$"), "io/"},
+      {std::regex("^zlib\\.h$"), "io/"},
+      {std::regex("^gmsh\\.h(_cwrap)?$"), "io/"},
+      {std::regex("^CLI/.*"), "app/"},
+      {std::regex("^nlohmann/.*"), "app/"},
+  };
+  return table;
+}
+
+struct Include {
+  std::filesystem::path file;
+  int line;
+  std::string header;
+  bool quoted;  // "header" as against <header>
+
+  std::string place() const { return shown(file) + ":" + std::to_string(line); }
+  std::string place_in_src() const {
+    return file.lexically_relative(project_root() / "src").generic_string();
+  }
+  std::string module() const { return place_in_src().substr(0, place_in_src().find('/')); }
+};
+
+std::vector<Include> all_includes() {
+  static const std::regex directive("^\\s*#\\s*include\\s*([<\"])([^>\"]+)[>\"]");
+  std::vector<Include> includes;
+  for (const auto& file : cpp_files("src")) {
+    int number = 0;
+    for (const std::string& line : read_lines(file)) {
+      ++number;
+      std::smatch match;
+      if (!std::regex_search(line, match, directive)) continue;
+      includes.push_back({file, number, match[2], match[1] == "\""});
+    }
+  }
+  return includes;
+}
+
+TEST(Includes, everyModuleIsInTheTable) {
+  for (const auto& entry : std::filesystem::directory_iterator(project_root() / "src")) {
+    if (!entry.is_directory()) continue;
+    EXPECT_EQ(allowed_modules().count(entry.path().filename()), 1u)
+        << shown(entry.path()) << ": a new module needs a row here and in architecture.md";
+  }
+}
+
+TEST(Includes, modulesIncludeOnlyWhatTheTableAllows) {
+  for (const Include& include : all_includes()) {
+    if (!include.quoted) continue;
+    const std::string target = include.header.substr(0, include.header.find('/'));
+    ASSERT_EQ(allowed_modules().count(target), 1u)
+        << include.place() << ": \"" << include.header << "\" is no module/file of src";
+    if (target == include.module()) continue;
+    EXPECT_EQ(allowed_modules().at(include.module()).count(target), 1u)
+        << include.place() << ": " << include.module() << " may not include " << include.header;
+  }
+}
+
+TEST(Includes, ownHeadersAreQuotedAndExist) {
+  for (const Include& include : all_includes()) {
+    if (!include.quoted) {
+      const std::string folder = include.header.substr(0, include.header.find('/'));
+      EXPECT_EQ(allowed_modules().count(folder), 0u) << include.place() << ": use quotes";
+      continue;
+    }
+    const auto source = project_root() / "src" / include.header;
+    const bool exists = std::filesystem::exists(source) ||
+                        std::filesystem::exists(source.string() + ".in");  // made by CMake
+    EXPECT_TRUE(exists) << include.place() << ": " << include.header;
+  }
+}
+
+TEST(Includes, librariesStayBehindTheirModule) {
+  for (const Include& include : all_includes()) {
+    for (const Confinement& rule : confined_headers()) {
+      if (!std::regex_match(include.header, rule.header)) continue;
+      EXPECT_EQ(include.place_in_src().rfind(rule.place, 0), 0u)
+          << include.place() << ": " << include.header << " belongs in src/" << rule.place;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace perilink::quality

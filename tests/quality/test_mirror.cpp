@@ -1,0 +1,57 @@
+// tests/unit mirrors src: whoever opens a source file knows where its tests are.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "quality/source_tree.hpp"
+
+namespace perilink::quality {
+namespace {
+
+/// Sources without a unit test of their own, and what tests them instead.
+const std::map<std::string, std::string>& tested_elsewhere() {
+  static const std::map<std::string, std::string> table = {
+      {"app/main.cpp", "only calls the commands; tests/cli runs the program"},
+  };
+  return table;
+}
+
+std::filesystem::path unit_test_of(const std::string& source) {
+  const std::filesystem::path path = source;
+  return project_root() / "tests/unit" / path.parent_path() / ("test_" + path.filename().string());
+}
+
+TEST(Mirror, everySourceHasAUnitTestOrAReason) {
+  for (const auto& file : cpp_files("src")) {
+    if (file.extension() != ".cpp") continue;
+    const std::string source = file.lexically_relative(project_root() / "src").generic_string();
+    if (tested_elsewhere().count(source) > 0) continue;
+    EXPECT_TRUE(std::filesystem::exists(unit_test_of(source)))
+        << shown(file) << ": write " << shown(unit_test_of(source));
+  }
+}
+
+TEST(Mirror, everyExceptionIsStillNeeded) {
+  for (const auto& [source, reason] : tested_elsewhere()) {
+    EXPECT_TRUE(std::filesystem::exists(project_root() / "src" / source)) << source;
+    EXPECT_FALSE(std::filesystem::exists(unit_test_of(source))) << source << ": " << reason;
+  }
+}
+
+TEST(Mirror, everyUnitTestHasASource) {
+  for (const auto& file : cpp_files("tests/unit")) {
+    const std::string name = file.filename().string();
+    if (name.rfind("test_", 0) != 0) continue;  // helper
+    const auto module = file.parent_path().filename();
+    const auto source = project_root() / "src" / module / name.substr(5);
+    const bool exists =
+        std::filesystem::exists(source) ||
+        std::filesystem::exists(std::filesystem::path(source).replace_extension("hpp"));
+    EXPECT_TRUE(exists) << shown(file) << " tests no " << shown(source);
+  }
+}
+
+}  // namespace
+}  // namespace perilink::quality

@@ -1,0 +1,54 @@
+// Nothing that the project publishes depends on, or speaks of, the machine it was written on.
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string>
+
+#include "quality/source_tree.hpp"
+
+namespace perilink::quality {
+namespace {
+
+bool is_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(4096, '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(stream.gcount()));
+  return start.find('\0') == std::string::npos;
+}
+
+TEST(Text, noFileNamesThePlacesOfOneMachine) {
+  // Written in pieces, so that this file passes its own test.
+  const std::regex place(
+      "/wor"
+      "k/|/tm"
+      "p/|/hom"
+      "e/|(^|[^A-Za-z0-9_/-])(\\.\\./)?share"
+      "d/");
+  const auto files = tracked_files();
+  if (files.empty()) GTEST_SKIP() << "not a git checkout";
+  for (const auto& file : files) {
+    if (!is_text(file)) continue;
+    int number = 0;
+    for (const std::string& line : read_lines(file)) {
+      ++number;
+      EXPECT_FALSE(std::regex_search(line, place)) << shown(file) << ":" << number << ": " << line;
+    }
+  }
+}
+
+TEST(Text, sourcesUseUnixLineEndsAndNoTabs) {
+  for (const char* folder : {"src", "tests", "verification"}) {
+    for (const auto& file : cpp_files(folder)) {
+      int number = 0;
+      for (const std::string& line : read_lines(file)) {
+        ++number;
+        EXPECT_EQ(line.find_first_of("\t\r"), std::string::npos) << shown(file) << ":" << number;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace perilink::quality
