@@ -207,6 +207,7 @@ DamageResult Run::by_steps() {
 }
 
 DamageResult Run::finish() {
+  observer_.on_end(row_, state_);
   result_.last = row_;
   result_.broken_bonds = broken_bonds_;
   result_.factor = engine_->factor_statistics();

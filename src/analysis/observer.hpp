@@ -44,22 +44,24 @@ enum class Ending {
 };
 std::string to_string(Ending ending);
 
+/// Makes the state when an observer asks for it.
+class StateSource {
+ public:
+  virtual ~StateSource() = default;
+  virtual StepState state() = 0;
+};
+
 /// Watches an analysis. The analysis knows nothing of files.
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
   /// After every row. `source` gives the network in that equilibrium when asked, since displacements
   /// of the whole body may cost a solve.
-  virtual void on_step(const StepRecord& record, class StateSource& source) = 0;
+  virtual void on_step(const StepRecord& record, StateSource& source) = 0;
+  /// Once, at the end: the last equilibrium (before the body separated, if it did).
+  virtual void on_end(const StepRecord& /*last*/, StateSource& /*source*/) {}
   /// Whether to stop now (a signal came).
   virtual bool stop_requested() { return false; }
-};
-
-/// Makes the state when an observer asks for it.
-class StateSource {
- public:
-  virtual ~StateSource() = default;
-  virtual StepState state() = 0;
 };
 
 }  // namespace perilink

@@ -80,6 +80,10 @@ class Factor {
 /// \param threads  threads that the factor may use; results do not depend on it
 std::unique_ptr<Factor> make_factor(FactorRoute route, int threads);
 
+/// Size and cost of the factor of a matrix from its pattern alone: orders and analyses, computes no
+/// number of L.
+FactorStatistics estimate_factor(const SparseMatrix& matrix, std::span<const Index> groups);
+
 /// Name of a route as the case file spells it.
 std::string to_string(FactorRoute route);
 

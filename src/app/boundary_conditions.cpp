@@ -1,0 +1,197 @@
+#include "app/boundary_conditions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/model_regions.hpp"
+#include "assembly/network_builder.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+namespace {
+
+/// Forces on a free body that differ by more than this fraction of their sum are not in balance.
+constexpr double force_balance_tolerance = 1e-6;
+/// A net couple above this fraction of force times size is told to the user.
+constexpr double couple_note = 1e-9;
+
+/// Displacements that are prescribed, and by which key of the case.
+struct Prescription {
+  std::vector<std::uint8_t> held;  ///< shape (particles, dim)
+  std::vector<double> value;       ///< at load factor 1 [length]
+};
+
+void prescribe(const CaseFile& input, const Model& model, Prescription& prescription,
+               const std::string& region, const std::string& key, int axis, double value) {
+  const int dim = model.network.dim();
+  for (const Index i : particles_of_region(input, model, region, key + ".region")) {
+    const std::size_t slot = static_cast<std::size_t>(i) * dim + axis;
+    if (prescription.held[slot] && prescription.value[slot] != value) {
+      const std::span<const double> x = model.network.particles.position(i);
+      throw InputError(
+          input.where(key),
+          fmt::format("sets the displacement along {} of the particle at ({}) to {}, where another "
+                      "entry sets it to {}",
+                      "xyz"[axis], fmt::join(x, ", "), value, prescription.value[slot]),
+          "let the regions of [[supports]] and [[displacements]] not overlap");
+    }
+    prescription.held[slot] = 1;
+    prescription.value[slot] = value;
+  }
+}
+
+Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
+  const int dim = model.network.dim();
+  Prescription prescription;
+  prescription.held.assign(static_cast<std::size_t>(model.network.particles.size()) * dim, 0);
+  prescription.value.assign(prescription.held.size(), 0.0);
+  for (std::size_t k = 0; k < input.supports.size(); ++k) {
+    for (int a = 0; a < dim; ++a) {
+      if (!input.supports[k].fix[a]) continue;
+      prescribe(input, model, prescription, input.supports[k].region, item_key("supports", k), a,
+                0.0);
+    }
+  }
+  for (std::size_t k = 0; k < input.displacements.size(); ++k) {
+    for (int a = 0; a < dim; ++a) {
+      if (!input.displacements[k].value[a]) continue;
+      prescribe(input, model, prescription, input.displacements[k].region,
+                item_key("displacements", k), a, *input.displacements[k].value[a]);
+    }
+  }
+  return prescription;
+}
+
+/// Shares a total force over the solid particles of a region in proportion to their volumes, or
+/// integrates a body force. \return largest resultant component-wise norm of the entry [force]
+double add_load(const CaseFile& input, const Model& model, std::size_t k, Loads& loads) {
+  const LoadSection& section = input.loads[k];
+  const Particles& particles = model.network.particles;
+  double volume = 0.0;
+  const std::vector<Index> region =
+      particles_of_region(input, model, section.region, item_key("loads", k, "region"));
+  for (const Index i : region) {
+    if (particles.kind[i] == ParticleKind::solid) volume += particles.volumes[i];
+  }
+  double square = 0.0;
+  for (int a = 0; a < particles.dim; ++a) {
+    const double total = section.force ? (*section.force)[a] : (*section.body_force)[a] * volume;
+    square += total * total;
+    for (const Index i : region) {
+      if (particles.kind[i] != ParticleKind::solid) continue;
+      loads.forces[static_cast<std::size_t>(i) * particles.dim + a] +=
+          total * particles.volumes[i] / volume;
+    }
+  }
+  return std::sqrt(square);
+}
+
+double size_of_body(const Particles& particles) {
+  double size = 0.0;
+  for (int a = 0; a < particles.dim; ++a) {
+    double lower = particles.positions[a], upper = lower;
+    for (Index i = 0; i < particles.size(); ++i) {
+      lower = std::min(lower, particles.position(i)[a]);
+      upper = std::max(upper, particles.position(i)[a]);
+    }
+    size = std::max(size, upper - lower);
+  }
+  return size;
+}
+
+/// The loads of a body that is pinned must balance by themselves; a small net couple is unavoidable
+/// where the rows of a lattice are not symmetric, and the pins take it.
+void require_balance(const CaseFile& input, Model& model) {
+  const LoadResultant& sum = model.resultant;
+  double force = 0.0, moment = 0.0;
+  for (const double f : sum.force) force = std::max(force, std::abs(f));
+  for (const double m : sum.moment) moment = std::max(moment, std::abs(m));
+  if (force > force_balance_tolerance * sum.scale) {
+    throw InputError(input.where("analysis.rigid_body_modes"),
+                     fmt::format("is \"pin\", but the loads of the free body are not in balance: "
+                                 "their sum is ({})",
+                                 fmt::join(sum.force, ", ")),
+                     "balance the loads or hold the body with [[supports]]");
+  }
+  if (moment > couple_note * sum.scale * size_of_body(model.network.particles)) {
+    model.notes.push_back(fmt::format(
+        "the loads leave a net couple of {:.3g}, which the three pinned displacements take: {:.2g} "
+        "of the sum of forces times the body's size",
+        moment, moment / (sum.scale * size_of_body(model.network.particles))));
+  }
+}
+
+void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription) {
+  const std::vector<Fragment> fragments = find_fragments(model.network, prescription.held);
+  const bool pin = input.analysis.rigid_body_modes == "pin";
+  if (fragments.size() > 1) {
+    model.notes.push_back(
+        fmt::format("the body consists of {} parts that no bond connects", fragments.size()));
+  }
+  for (const Fragment& fragment : fragments) {
+    if (fragment.free_modes == 0) continue;
+    const int all = model.network.dim() == 2 ? 3 : 6;
+    const auto x = model.network.particles.position(fragment.particles.front());
+    const std::string where = fmt::format("the part of {} particles at ({})",
+                                          fragment.particles.size(), fmt::join(x, ", "));
+    if (!pin) {
+      throw InputError(
+          input.where(input.supports.empty() ? "analysis" : "supports[1]"),
+          fmt::format("{} of the {} rigid-body modes of {} are free", fragment.free_modes, all,
+                      fragments.size() == 1 ? "the body" : where),
+          "hold the body with [[supports]], or, when the loads balance by themselves, set "
+          "analysis.rigid_body_modes = \"pin\"");
+    }
+    if (fragment.free_modes != all) {
+      throw InputError(input.where("analysis.rigid_body_modes"),
+                       fmt::format("is \"pin\", but {} is partly supported: {} of {} rigid-body "
+                                   "modes are free",
+                                   where, fragment.free_modes, all),
+                       "support all of them, or none");
+    }
+    require_balance(input, model);
+    pin_rigid_modes(model.network, fragment, prescription.held);
+    model.notes.push_back(fmt::format("{} rigid-body modes of the free body are pinned", all));
+  }
+}
+
+void refuse_loose_particles(const CaseFile& input, const Model& model,
+                            const Prescription& prescription) {
+  const int dim = model.network.dim();
+  for (const Index i : find_loose_particles(model.network)) {
+    bool held = true;
+    for (int a = 0; a < dim; ++a) held &= prescription.held[static_cast<std::size_t>(i) * dim + a] != 0;
+    if (held) continue;
+    throw InputError(
+        input.where(input.body.horizon ? "body.horizon" : "body"),
+        fmt::format("the particle at ({}) is held by bonds in fewer than {} directions",
+                    fmt::join(model.network.particles.position(i), ", "), dim),
+        "enlarge the horizon or refine the spacing so that every particle has enough neighbours");
+  }
+}
+
+}  // namespace
+
+void apply_boundary_conditions(const CaseFile& input, Model& model) {
+  const int dim = model.network.dim();
+  Prescription prescription = collect_prescriptions(input, model);
+  model.loads.forces.assign(prescription.held.size(), 0.0);
+  double largest_load = 0.0;
+  for (std::size_t k = 0; k < input.loads.size(); ++k) {
+    largest_load = std::max(largest_load, add_load(input, model, k, model.loads));
+  }
+  double largest_displacement = 0.0;
+  for (const double value : prescription.value) {
+    largest_displacement = std::max(largest_displacement, std::abs(value));
+  }
+  model.reference.driven = largest_load == 0.0;
+  model.reference.value = model.reference.driven ? largest_displacement : largest_load;
+  model.resultant = load_resultant(model.network, model.loads);
+  refuse_loose_particles(input, model, prescription);
+  hold_rigid_modes(input, model, prescription);
+  model.unknowns = number_unknowns(dim, prescription.held, std::move(prescription.value));
+}
+
+}  // namespace perilink

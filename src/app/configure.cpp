@@ -1,0 +1,208 @@
+#include "app/configure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/boundary_conditions.hpp"
+#include "assembly/network_builder.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+namespace {
+
+/// More particles than this would overflow the 32-bit numbers of bonds at the usual horizons.
+constexpr double most_particles = 3e7;
+
+Problem problem_of(const CaseFile& input) {
+  if (input.body.problem == "plane_strain") return Problem::plane_strain;
+  if (input.body.problem == "three_dimensional") return Problem::three_dimensional;
+  return Problem::plane_stress;
+}
+
+const Region& region_named(const CaseFile& input, const std::string& name) {
+  return *std::find_if(input.regions.begin(), input.regions.end(),
+                       [&](const Region& region) { return region.name == name; });
+}
+
+Box bounding_box(const std::vector<Box>& boxes) {
+  Box all = boxes.front();
+  for (const Box& box : boxes) {
+    for (int a = 0; a < 3; ++a) {
+      all.lower[a] = std::min(all.lower[a], box.lower[a]);
+      all.upper[a] = std::max(all.upper[a], box.upper[a]);
+    }
+  }
+  return all;
+}
+
+/// Spacing that the case asks for: given, or from the number of particles across the body, which
+/// stand in cells (ghost surface) or on both ends (conforming lattice).
+double wanted_spacing(const BodySection& body, double width) {
+  if (body.spacing) return *body.spacing;
+  return body.surface == Surface::ghost ? width / *body.columns : width / (*body.columns - 1);
+}
+
+double horizon_of(const BodySection& body, double spacing) {
+  if (body.horizon) return *body.horizon;
+  if (body.horizon_ratio) return *body.horizon_ratio * spacing;
+  return horizon_of_level(body.pattern, *body.horizon_level) * spacing;
+}
+
+std::string horizon_key(const BodySection& body) {
+  if (body.horizon) return "body.horizon";
+  return body.horizon_ratio ? "body.horizon_ratio" : "body.horizon_level";
+}
+
+void refuse_too_many_particles(const CaseFile& input, const Box& box, double spacing, int dim) {
+  double count = 1.0;
+  for (int a = 0; a < dim; ++a) count *= std::max(1.0, (box.upper[a] - box.lower[a]) / spacing);
+  if (count <= most_particles) return;
+  throw InputError(input.where(input.body.spacing ? "body.spacing" : "body.columns"),
+                   fmt::format("gives about {:.1e} particles", count),
+                   fmt::format("at most {:.0e} are possible: choose a coarser spacing",
+                               most_particles));
+}
+
+Body build_body(const CaseFile& input, int dim, double& horizon) {
+  LatticeInput lattice;
+  lattice.pattern = input.body.pattern;
+  lattice.surface = input.body.surface;
+  lattice.thickness = dim == 2 ? input.body.thickness : 1.0;
+  for (std::size_t m = 0; m < input.materials.size(); ++m) {
+    for (const std::string& name : input.materials[m].regions) {
+      lattice.solid.push_back(region_named(input, name).box);
+      lattice.material.push_back(static_cast<Index>(m));
+    }
+  }
+  const Box box = bounding_box(lattice.solid);
+  lattice.spacing = wanted_spacing(input.body, box.upper[0] - box.lower[0]);
+  refuse_too_many_particles(input, box, lattice.spacing, dim);
+  lattice.horizon = horizon_of(input.body, lattice.spacing);
+  const std::string spacing_key = input.body.spacing ? "body.spacing" : "body.columns";
+  if (lattice.horizon < lattice.spacing * (1.0 - 1e-9)) {
+    throw InputError(input.where(horizon_key(input.body)),
+                     fmt::format("the horizon {:.6g} is smaller than the spacing {:.6g}: no particle "
+                                 "would have a neighbour",
+                                 lattice.horizon, lattice.spacing),
+                     "use two to four spacings");
+  }
+  try {
+    Body body = make_body(lattice);
+    // A horizon in spacings means spacings of the lattice that fits the body.
+    horizon = horizon_of(input.body, body.lattice.spacing);
+    return body;
+  } catch (const std::invalid_argument& error) {
+    throw InputError(input.where(spacing_key), error.what(), "");
+  }
+}
+
+void refuse_materials_without_particles(const CaseFile& input, const Body& body) {
+  std::vector<Index> count(input.materials.size(), 0);
+  for (const Index material : body.particles.material) {
+    if (material != no_index) ++count[material];
+  }
+  for (std::size_t m = 0; m < count.size(); ++m) {
+    if (count[m] > 0) continue;
+    throw InputError(input.where(item_key("materials", m)),
+                     fmt::format("no particle is made of \"{}\"", input.materials[m].name),
+                     fmt::format("later materials cover its regions, or these are smaller than the "
+                                 "spacing {:.6g}",
+                                 body.lattice.spacing));
+  }
+}
+
+void refuse_bars_outside(const CaseFile& input, const Body& body, double horizon) {
+  for (std::size_t k = 0; k < input.rebar.size(); ++k) {
+    for (const char* end : {"from", "to"}) {
+      const Vector3& point = end[0] == 'f' ? input.rebar[k].from : input.rebar[k].to;
+      double nearest = horizon * horizon;
+      for (Index i = 0; i < body.particles.size(); ++i) {
+        if (body.particles.kind[i] != ParticleKind::solid) continue;
+        double square = 0.0;
+        for (int a = 0; a < body.particles.dim; ++a) {
+          square += std::pow(body.particles.position(i)[a] - point[a], 2);
+        }
+        nearest = std::min(nearest, square);
+      }
+      if (std::sqrt(nearest) <= body.lattice.spacing) continue;
+      throw InputError(input.where(item_key("rebar", k, end)),
+                       fmt::format("the end ({}) of the bar lies outside the body",
+                                   fmt::join(point.begin(), point.begin() + body.particles.dim, ", ")),
+                       "move it to within one spacing of a particle");
+    }
+  }
+}
+
+NetworkInput network_input(const CaseFile& input, Problem problem, double horizon) {
+  NetworkInput network;
+  network.problem = problem;
+  network.horizon = horizon;
+  network.thickness = input.body.thickness;
+  network.micromodulus =
+      input.body.micromodulus == "lattice" ? Constants::lattice : Constants::continuum;
+  network.critical_stretch =
+      input.body.critical_stretch == "lattice" ? Constants::lattice : Constants::continuum;
+  for (const MaterialSection& material : input.materials) {
+    network.materials.push_back({material.youngs_modulus, material.fracture_energy});
+  }
+  for (const RebarSection& bar : input.rebar) {
+    network.bars.push_back({bar.from, bar.to});
+    BarMaterial material;
+    material.youngs_modulus = bar.youngs_modulus;
+    material.area = bar.area;
+    if (bar.yields && bar.yield_strength) material.yield_strength = *bar.yield_strength;
+    material.ties_break = bar.ties_break;
+    network.bar_materials.push_back(material);
+  }
+  return network;
+}
+
+void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
+  if (input.analysis.type != "damage") return;
+  auto finite = [](double value) { return std::isfinite(value); };
+  if (std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite) ||
+      std::any_of(network.yield_strain.begin(), network.yield_strain.end(), finite)) {
+    return;
+  }
+  throw InputError(input.where("materials[1].fracture_energy"),
+                   "is infinite in every material: nothing can break in a damage analysis",
+                   "give a material a finite fracture energy, or set analysis.type = \"elastic\"");
+}
+
+}  // namespace
+
+Model build_model(const CaseFile& input) {
+  Model model;
+  model.problem = problem_of(input);
+  const int dim = dimension_of(model.problem);
+  const Body body = build_body(input, dim, model.horizon);
+  model.lattice = body.lattice;
+  refuse_materials_without_particles(input, body);
+  refuse_bars_outside(input, body, model.horizon);
+  try {
+    model.network = build_network(body, network_input(input, model.problem, model.horizon));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(input.where(horizon_key(input.body)), error.what(), "");
+  }
+  refuse_unbreakable_bodies(input, model.network);
+  apply_boundary_conditions(input, model);
+  return model;
+}
+
+DamageOptions damage_options(const CaseFile& input, int threads) {
+  DamageOptions options;
+  options.engine.threads = threads;
+  for (const FactorRoute route :
+       {FactorRoute::in_place, FactorRoute::cholmod_updown, FactorRoute::refactorize}) {
+    if (to_string(route) == input.analysis.factor) options.engine.route = route;
+  }
+  if (input.analysis.control == "steps") options.load_factors = input.analysis.load_factors;
+  options.stop.broken_bonds = input.stop.broken_bonds;
+  options.stop.load_fraction = input.stop.load_fraction;
+  options.stop.displacement = input.stop.displacement;
+  return options;
+}
+
+}  // namespace perilink

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "analysis/elastic_analysis.hpp"
+#include "app/commands.hpp"
+#include "app/configure.hpp"
+#include "app/result_directory.hpp"
+#include "app/run_observer.hpp"
+#include "app/signals.hpp"
+#include "app/summary.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+
+namespace perilink {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::shared_ptr<spdlog::logger> open_log(const fs::path& directory) {
+  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>((directory / "log.txt").string(),
+                                                                  true);
+  auto log = std::make_shared<spdlog::logger>("perilink", sink);
+  log->flush_on(spdlog::level::info);
+  return log;
+}
+
+void write_resolved_case(const fs::path& directory, const CaseFile& input) {
+  std::ofstream file(directory / "case.toml");
+  file << write_case(input);
+  file.close();
+  if (!file) throw FileError(fmt::format("{}: cannot be written", (directory / "case.toml").string()));
+}
+
+/// The elastic answer as a history of one row at load factor 1.
+DamageResult run_elastic(const Model& model, int threads, RunObserver& observer) {
+  const ElasticResult elastic =
+      run_elastic_analysis(model.network, model.unknowns, model.loads, threads);
+  const std::vector<double> secants(static_cast<std::size_t>(model.network.num_elements()), 1.0);
+  class Source final : public StateSource {
+   public:
+    Source(const Network& network, const std::vector<double>& intact, const ElasticResult& result)
+        : state_{network, intact, result.displacement} {}
+    StepState state() override { return state_; }
+
+   private:
+    StepState state_;
+  } source(model.network, secants, elastic);
+
+  DamageResult result;
+  result.ending = Ending::completed;
+  result.reason = "elastic equilibrium at load factor 1";
+  StepRecord& row = result.last;
+  row.step = 1;
+  row.load_factor = 1.0;
+  row.strain_energy = row.external_work = elastic.strain_energy;
+  row.load = model.reference.driven ? 2.0 * elastic.strain_energy / model.reference.value
+                                    : model.reference.value;
+  row.displacement = row.load != 0.0 ? 2.0 * elastic.strain_energy / row.load : 0.0;
+  row.residual = result.largest_residual = elastic.residual;
+  row.factorizations = 1;
+  result.peak_load = row.load;
+  result.peak_displacement = row.displacement;
+  result.initial_stiffness = row.displacement != 0.0 ? row.load / row.displacement : 0.0;
+  result.factor = elastic.factor;
+  observer.on_step(row, source);
+  return result;
+}
+
+int exit_status_of(Ending ending) {
+  if (ending == Ending::interrupted) return exit_interrupted;
+  return ending == Ending::failed ? exit_solver : exit_done;
+}
+
+}  // namespace
+
+int run_case(const RunOptions& options) {
+  Timer timer;
+  const CaseFile input = read_case_file(options.case_path);
+  const Model model = build_model(input);
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const fs::path directory = options.directory ? fs::path(*options.directory)
+                                               : default_result_directory(options.case_path);
+  prepare_result_directory(directory, options.force);
+  catch_stop_signals();
+  write_resolved_case(directory, input);
+  const auto log = open_log(directory);
+  log->info("{} : {} particles, {} bonds, {} unknowns, {} threads", input.path,
+            model.network.particles.size(), model.network.first_segment, model.unknowns.count,
+            threads);
+  for (const std::string& note : model.notes) log->info("note: {}", note);
+
+  PhaseSeconds seconds;
+  seconds.set_up = timer.seconds();
+  timer.restart();
+  RunObserver observer(input, model, directory, options.quiet);
+  DamageResult result;
+  try {
+    result = input.analysis.type == "elastic"
+                 ? run_elastic(model, threads, observer)
+                 : run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
+                                       damage_options(input, threads), observer);
+  } catch (const SolverError& error) {
+    result.ending = Ending::failed;
+    result.reason = error.what();
+    fmt::print(stderr, "perilink: {}\n", error.what());
+  }
+  observer.finish();
+  seconds.output = observer.seconds_writing();
+  seconds.analysis = timer.seconds() - seconds.output;
+  write_summary(directory, input, model, result, seconds, threads);
+  log->info("{}: {}; {} broken bonds, {} factorisations, largest residual {:.2e}",
+            to_string(result.ending), result.reason, result.broken_bonds,
+            result.factor.factorizations, result.largest_residual);
+  if (!options.quiet) print_summary(input, model, result, seconds, directory);
+  return exit_status_of(result.ending);
+}
+
+}  // namespace perilink

@@ -1,0 +1,91 @@
+#include "app/run_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/field_file.hpp"
+#include "app/signals.hpp"
+#include "base/timer.hpp"
+
+namespace perilink {
+namespace {
+
+std::optional<Index> last_broken_bonds(const CaseFile& input) {
+  if (!input.stop.broken_bonds) return std::nullopt;
+  return static_cast<Index>(*input.stop.broken_bonds);
+}
+
+}  // namespace
+
+RunObserver::RunObserver(const CaseFile& input, const Model& model,
+                         std::filesystem::path directory, bool quiet)
+    : input_(input),
+      model_(model),
+      directory_(std::move(directory)),
+      history_(directory_.string()),
+      progress_(quiet, last_broken_bonds(input), input.stop.displacement),
+      is_broken_(static_cast<std::size_t>(model.network.num_elements()), 0) {}
+
+/// The element of the last row has failed by now; where several failed in one load step their order
+/// within the step is that of their numbers.
+void RunObserver::note_broken(const StepRecord& record, StateSource& source) {
+  const std::size_t count = static_cast<std::size_t>(record.broken_bonds);
+  if (count == broken_.size()) return;
+  if (count == broken_.size() + 1 && last_element_ != no_index &&
+      input_.analysis.control == "events") {
+    broken_.push_back(last_element_);
+    is_broken_[last_element_] = 1;
+    return;
+  }
+  const StepState state = source.state();
+  for (Index e = 0; e < model_.network.num_elements(); ++e) {
+    if (state.secants[e] != 0.0 || is_broken_[e]) continue;
+    broken_.push_back(e);
+    is_broken_[e] = 1;
+  }
+}
+
+bool RunObserver::wants_fields(Index broken_bonds) const {
+  if (written_.contains(broken_bonds)) return false;
+  if (written_.empty()) return true;
+  const std::vector<int>& at = input_.output.fields_at;
+  if (std::find(at.begin(), at.end(), broken_bonds) != at.end()) return true;
+  return input_.output.fields_every && broken_bonds % *input_.output.fields_every == 0;
+}
+
+void RunObserver::write_fields(const StepRecord& record, StateSource& source) {
+  const Timer timer;
+  if (families_.rows() == 0) {
+    families_ = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
+  }
+  const std::string name = fmt::format("fields_{:06}.vtu", record.broken_bonds);
+  write_vtu((directory_ / name).string(),
+            make_field_grid(model_.network, source.state(), record, broken_, families_,
+                            model_.lattice.spacing));
+  written_.insert(record.broken_bonds);
+  series_.push_back({static_cast<double>(record.broken_bonds), name});
+  write_pvd((directory_ / "fields.pvd").string(), series_);
+  seconds_writing_ += timer.seconds();
+}
+
+void RunObserver::on_step(const StepRecord& record, StateSource& source) {
+  note_broken(record, source);
+  history_.append(record);
+  progress_.update(record);
+  if (wants_fields(record.broken_bonds)) write_fields(record, source);
+  last_element_ = model_.network.is_segment(record.element) ? no_index : record.element;
+}
+
+void RunObserver::on_end(const StepRecord& last, StateSource& source) {
+  if (last.step > 0 && !written_.contains(last.broken_bonds)) write_fields(last, source);
+}
+
+bool RunObserver::stop_requested() { return stop_signal_received(); }
+
+void RunObserver::finish() {
+  progress_.finish();
+  history_.flush();
+}
+
+}  // namespace perilink

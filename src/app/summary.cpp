@@ -1,0 +1,84 @@
+#include "app/summary.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/progress.hpp"
+#include "base/build_info.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+
+double peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts kilobytes
+}
+
+void write_summary(const std::filesystem::path& directory, const CaseFile& input,
+                   const Model& model, const DamageResult& result, const PhaseSeconds& seconds,
+                   int threads) {
+  nlohmann::ordered_json json;
+  json["title"] = input.title;
+  json["units"] = input.units;
+  json["status"] = to_string(result.ending);
+  json["reason"] = result.reason;
+  json["peak_load"] = result.peak_load;
+  json["peak_displacement"] = result.peak_displacement;
+  json["initial_stiffness"] = result.initial_stiffness;
+  json["steps"] = result.last.step;
+  json["broken_bonds"] = result.broken_bonds;
+  json["yield_events"] = result.last.yield_events;
+  json["external_work"] = result.last.external_work;
+  json["strain_energy"] = result.last.strain_energy;
+  json["dissipated_energy"] = result.last.dissipated_energy;
+  json["energy_error"] = result.energy_error;
+  json["largest_residual"] = result.largest_residual;
+  json["particles"] = model.network.particles.size();
+  json["bonds"] = model.network.first_segment;
+  json["unknowns"] = model.unknowns.count;
+  json["spacing"] = model.lattice.spacing;
+  json["horizon"] = model.horizon;
+  json["factorizations"] = result.factor.factorizations;
+  json["factor_bytes"] = result.factor.bytes;
+  json["seconds"] = {{"set_up", seconds.set_up},
+                     {"analysis", seconds.analysis},
+                     {"output", seconds.output}};
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  json["threads"] = threads;
+  json["version"] = program_version();
+  json["commit"] = program_commit();
+
+  const std::filesystem::path path = directory / "summary.json";
+  std::ofstream file(path);
+  file << json.dump(2) << "\n";
+  file.close();
+  if (!file) throw FileError(fmt::format("{}: cannot be written", path.string()));
+}
+
+void print_summary(const CaseFile& input, const Model& model, const DamageResult& result,
+                   const PhaseSeconds& seconds, const std::filesystem::path& directory) {
+  const double per_event =
+      result.last.step > 1 ? seconds.analysis / static_cast<double>(result.last.step) * 1e3 : 0.0;
+  fmt::print("{}\n", input.title.empty() ? input.path : input.title);
+  fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
+  fmt::print("  {:<14} {:.6g} at displacement {:.6g}{}\n", "peak load", result.peak_load,
+             result.peak_displacement, input.units.empty() ? "" : "  [" + input.units + "]");
+  fmt::print("  {:<14} {} broken bonds, {} yield events, {} rows\n", "events", result.broken_bonds,
+             result.last.yield_events, result.last.step);
+  fmt::print("  {:<14} {:.6g} dissipated, balance to {:.1e}\n", "energy",
+             result.last.dissipated_energy, result.energy_error);
+  fmt::print("  {:<14} {} particles, {} bonds, {} unknowns\n", "size",
+             model.network.particles.size(), model.network.first_segment, model.unknowns.count);
+  fmt::print("  {:<14} {} factorisations, largest residual {:.1e}\n", "solver",
+             result.factor.factorizations, result.largest_residual);
+  fmt::print("  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} ms per row), output {:.2f} s\n",
+             "time", seconds.set_up, seconds.analysis, per_event, seconds.output);
+  for (const std::string& note : model.notes) fmt::print("  {:<14} {}\n", "note", note);
+  fmt::print("  {:<14} {}\n", "results", directory.string());
+}
+
+}  // namespace perilink

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "analysis/damage_analysis.hpp"
+#include "app/configure.hpp"
+
+namespace perilink {
+
+/// Wall seconds of the phases of a run.
+struct PhaseSeconds {
+  double set_up = 0.0;    ///< reading, particles, bonds, constants
+  double analysis = 0.0;  ///< assembly, factorisation, events
+  double output = 0.0;    ///< field files
+};
+
+/// Peak memory of this process [bytes].
+double peak_memory_bytes();
+
+/// Writes DIR/summary.json. \throws FileError
+void write_summary(const std::filesystem::path& directory, const CaseFile& input,
+                   const Model& model, const DamageResult& result, const PhaseSeconds& seconds,
+                   int threads);
+
+/// The same for people, on standard output.
+void print_summary(const CaseFile& input, const Model& model, const DamageResult& result,
+                   const PhaseSeconds& seconds, const std::filesystem::path& directory);
+
+}  // namespace perilink
