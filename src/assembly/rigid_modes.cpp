@@ -28,8 +28,9 @@ class UnionFind {
   }
   /// The lower number becomes the root.
   void join(Index i, Index j) {
-    const auto [low, high] = std::minmax(root(i), root(j));
-    parent_[high] = low;
+    const Index a = root(i);
+    const Index b = root(j);
+    parent_[std::max(a, b)] = std::min(a, b);
   }
 
  private:

@@ -12,7 +12,7 @@
 namespace perilink {
 namespace {
 
-using namespace testing_support;
+using namespace test;
 
 /// Round-off of a sum over the bonds of a particle, relative to the stiffest one times
 /// displacement.

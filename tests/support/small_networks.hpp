@@ -10,7 +10,7 @@
 
 #include "assembly/network_builder.hpp"
 
-namespace perilink::testing_support {
+namespace perilink::test {
 
 /// One lattice that a test runs on.
 struct LatticeCase {
@@ -89,4 +89,4 @@ inline std::vector<double> linear_field(const Particles& particles,
   return field;
 }
 
-}  // namespace perilink::testing_support
+}  // namespace perilink::test
