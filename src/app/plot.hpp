@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+namespace perilink {
+
+/// perilink plot
+struct PlotOptions {
+  std::string directory;  ///< of the results
+  std::string out;        ///< of the pictures; empty: the same
+  double scale = 0.0;     ///< factor on the displacements; 0: automatic
+};
+
+/// Draws what DIR holds: history.csv as load_displacement.svg and every file of fields.pvd as
+/// fields_<broken bonds>.svg. Title and units come from summary.json when it is there.
+/// \returns the exit status
+/// \throws FileError
+int plot_results(const PlotOptions& options);
+
+}  // namespace perilink

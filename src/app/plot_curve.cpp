@@ -1,0 +1,163 @@
+#include "app/plot_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/plot_axes.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr std::size_t events_for_envelope = 200;
+constexpr double figure_width = 820.0;
+constexpr double figure_height = 560.0;
+constexpr const char* title_style = "font-size=\"18\" font-weight=\"bold\" fill=\"#222\"";
+constexpr const char* note_style = "font-size=\"13\" fill=\"#444\"";
+constexpr const char* envelope_style =
+    "fill=\"none\" stroke=\"#0b3c6f\" stroke-width=\"2.4\" stroke-linejoin=\"round\" "
+    "stroke-linecap=\"round\"";
+constexpr const char* few_events_style =
+    "fill=\"none\" stroke=\"#0b3c6f\" stroke-width=\"1.5\" stroke-linejoin=\"round\"";
+constexpr const char* many_events_style =
+    "fill=\"none\" stroke=\"#9dbfe0\" stroke-width=\"0.5\" stroke-linejoin=\"round\"";
+
+/// Smallest distance worth a line: thousands of events that fall on one pixel would make large
+/// files.
+constexpr double visible_distance = 0.3;
+
+class Frame {
+ public:
+  explicit Frame(std::span<const StepRecord> records) {
+    double low_u = 0.0, high_u = 0.0, low_p = 0.0, high_p = 0.0;
+    for (const StepRecord& record : records) {
+      low_u = std::min(low_u, record.displacement);
+      high_u = std::max(high_u, record.displacement);
+      low_p = std::min(low_p, record.load);
+      high_p = std::max(high_p, record.load);
+    }
+    x = make_axis(low_u, high_u, 92.0, figure_width - 32.0);
+    y = make_axis(low_p, high_p, figure_height - 72.0, 62.0);
+  }
+  SvgPoint at(CurvePoint point) const { return {x.map(point.displacement), y.map(point.load)}; }
+
+  Axis x;
+  Axis y;
+};
+
+SvgPath make_path(const Frame& frame, std::span<const CurvePoint> points) {
+  SvgPath path;
+  SvgPoint last = frame.at({});
+  path.move_to(last);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const SvgPoint at = frame.at(points[k]);
+    const bool end = k + 1 == points.size();
+    if (!end && std::hypot(at.x - last.x, at.y - last.y) < visible_distance) continue;
+    path.line_to(at);
+    last = at;
+  }
+  return path;
+}
+
+void mark_peak(Svg& svg, const Frame& frame, const StepRecord& peak, const PlotLabels& labels) {
+  const SvgPoint at = frame.at({peak.displacement, peak.load});
+  svg.circle(at, 4.5, "fill=\"#fff\" stroke=\"#b3202a\" stroke-width=\"2\"");
+  const std::string text =
+      fmt::format("peak {} at {}", in_unit(short_number(peak.load), labels.force),
+                  in_unit(short_number(peak.displacement), labels.length));
+  const bool left_half = at.x < (frame.x.pixel_low + frame.x.pixel_high) / 2;
+  const bool downward = peak.load < 0.0;
+  svg.text({at.x + (left_half ? 10.0 : -10.0), at.y + (downward ? 20.0 : -8.0)}, text,
+           left_half ? "start" : "end",
+           "font-size=\"14\" fill=\"#b3202a\" stroke=\"#fff\" stroke-width=\"4\" "
+           "paint-order=\"stroke\"");
+}
+
+void draw_legend(Svg& svg, const Frame& frame, bool downward) {
+  const double x = frame.x.pixel_high - 212.0;
+  const double y = downward ? frame.y.pixel_low - 44.0 : frame.y.pixel_high + 16.0;
+  svg.rect({x - 10, y - 14}, 222.0, 48.0, "fill=\"#fff\"");
+  SvgPath smooth, events;
+  smooth.move_to({x, y});
+  smooth.line_to({x + 30, y});
+  events.move_to({x, y + 20});
+  for (int k = 0; k < 5; ++k) {
+    events.line_to({x + 6.0 * k + 4.0, y + 15});
+    events.line_to({x + 6.0 * k + 6.0, y + 24});
+  }
+  svg.path(smooth, envelope_style);
+  svg.path(events, many_events_style);
+  svg.text({x + 40, y + 4.5}, "envelope of equal energy", "start", note_style);
+  svg.text({x + 40, y + 24.5}, "events", "start", note_style);
+}
+
+}  // namespace
+
+std::size_t envelope_window(std::size_t events) { return std::max<std::size_t>(10, events / 120); }
+
+std::vector<CurvePoint> smooth_envelope(std::span<const StepRecord> records, std::size_t window) {
+  std::vector<CurvePoint> curve;
+  const auto compliance = [&](std::size_t k) {
+    return records[k].displacement / records[k].load_factor;
+  };
+  // Event k takes the compliance from row k to row k + 1, so the last row has none.
+  for (std::size_t begin = 0; begin + 1 < records.size(); begin += window) {
+    const std::size_t end = std::min(begin + window, records.size() - 1);
+    double growth = 0.0, weighted = 0.0;
+    CurvePoint mean;
+    bool usable = records[end].load_factor != 0.0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const StepRecord& record = records[k];
+      mean.displacement += record.displacement / static_cast<double>(end - begin);
+      mean.load += record.load / static_cast<double>(end - begin);
+      usable = usable && record.load_factor != 0.0 && records[k + 1].load_factor != 0.0;
+      if (!usable) continue;
+      const double change = compliance(k + 1) - compliance(k);
+      growth += change;
+      weighted += record.load_factor * record.load_factor * change;
+    }
+    if (!usable || !(growth > 0.0) || !(weighted > 0.0)) {
+      curve.push_back(mean);
+      continue;
+    }
+    const double factor = std::copysign(std::sqrt(weighted / growth), records[begin].load_factor);
+    const double reference_load = records[begin].load / records[begin].load_factor;
+    const double middle = 0.5 * (compliance(begin) + compliance(end));
+    curve.push_back({factor * middle, factor * reference_load});
+  }
+  return curve;
+}
+
+std::size_t peak_row(std::span<const StepRecord> records) {
+  const auto peak = std::max_element(
+      records.begin(), records.end(),
+      [](const auto& a, const auto& b) { return std::abs(a.load) < std::abs(b.load); });
+  return static_cast<std::size_t>(peak - records.begin());
+}
+
+Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels) {
+  const Frame frame(records);
+  Svg svg(figure_width, figure_height);
+  svg.text({frame.x.pixel_low, 32}, labels.title, "start", title_style);
+  draw_axes(svg, frame.x, frame.y, with_unit("displacement", labels.length),
+            with_unit("load", labels.force), Grid::lines);
+  if (records.empty()) return svg;
+
+  std::vector<CurvePoint> events;
+  events.reserve(records.size());
+  for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
+  const StepRecord& peak = records[peak_row(records)];
+  if (records.size() > events_for_envelope) {
+    svg.path(make_path(frame, events), many_events_style);
+    const std::size_t window = envelope_window(records.size());
+    svg.path(make_path(frame, smooth_envelope(records, window)), envelope_style);
+    draw_legend(svg, frame, peak.load < 0.0);
+  } else {
+    svg.path(make_path(frame, events), few_events_style);
+  }
+  mark_peak(svg, frame, peak, labels);
+  return svg;
+}
+
+}  // namespace perilink

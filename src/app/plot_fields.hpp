@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "app/plot_body.hpp"
+#include "app/plot_labels.hpp"
+#include "app/svg.hpp"
+
+namespace perilink {
+
+/// Numbers of the state that the figure quotes.
+struct FieldsCaption {
+  Index broken_bonds = 0;
+  double load_factor = 0.0;
+  double load = 0.0;
+};
+
+/// The deformed body: particles coloured by damage, the faces of cracks, bars, ghosts.
+/// \param scale  factor on the displacements; 0: automatic
+Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLabels& labels,
+                double scale);
+
+}  // namespace perilink

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+namespace perilink {
+
+/// What a figure says beside its data.
+struct PlotLabels {
+  std::string title;
+  std::string force;   ///< unit; empty: none is known
+  std::string length;  ///< unit; empty: none is known
+};
+
+/// "load (kip)", or "load" without a unit.
+inline std::string with_unit(const std::string& quantity, const std::string& unit) {
+  return unit.empty() ? quantity : quantity + " (" + unit + ")";
+}
+
+/// "12.5 kip", or "12.5" without a unit.
+inline std::string in_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + " " + unit;
+}
+
+}  // namespace perilink
