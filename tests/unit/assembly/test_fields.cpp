@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "assembly/fields.hpp"
+#include "assembly/internal_force.hpp"
+#include "support/small_networks.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+Csr families_of(const Network& network) {
+  return bonds_of_particles(network.bonds, network.particles.size());
+}
+
+TEST(DamageIndex, IsTheBrokenShareOfTheFamilyVolume) {
+  const Network network = make_network({"", Pattern::rectangular, Surface::none}, 5);
+  const Csr families = families_of(network);
+  std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
+  for (const double damage : damage_index(network, families, secants)) EXPECT_EQ(damage, 0.0);
+  // Break all bonds of particle 0, a corner.
+  for (const Index b : families.row(0)) secants[b] = 0.0;
+  const auto damage = damage_index(network, families, secants);
+  EXPECT_EQ(damage[0], 1.0);
+  double volume = 0.0;
+  for (const Index b : families.row(1)) {
+    const Index j = network.bonds.first[b] == 1 ? network.bonds.second[b] : network.bonds.first[b];
+    volume += network.particles.volumes[j];
+  }
+  EXPECT_NEAR(damage[1], network.particles.volumes[0] / volume, 1e-15);
+  EXPECT_EQ(damage.back(), 0.0);
+}
+
+TEST(StrainEnergyDensity, SumsToTheEnergyOfTheNetwork) {
+  const Network network = make_network({"", Pattern::hexagonal, Surface::none}, 5);
+  const auto secants = random_secants(network.num_elements(), 1);
+  const auto displacement = random_vector(network.particles.positions.size(), 2);
+  const auto density = strain_energy_density(network, families_of(network), secants, displacement);
+  const double sum =
+      std::inner_product(density.begin(), density.end(), network.particles.volumes.begin(), 0.0);
+  const double energy = internal_force(network, secants, displacement).energy;
+  EXPECT_NEAR(sum, energy, 1e-13 * energy);
+}
+
+TEST(PrincipalStrains, OfALinearFieldAreExactWhateverBondsAreBroken) {
+  const std::array<Vector3, 3> gradient = {
+      {{3e-3, 4e-3, 1e-3}, {-2e-3, 1e-3, 0}, {3e-3, 2e-3, 5e-3}}};
+  for (const Pattern pattern : {Pattern::hexagonal, Pattern::cubic}) {
+    const Network network = make_network({"", pattern, Surface::none}, 4);
+    const int dim = network.dim();
+    const auto displacement = linear_field(network.particles, gradient);
+    const auto secants = random_secants(network.num_elements(), 3);
+    const auto strains = principal_strains(network, families_of(network), secants, displacement);
+    double trace = 0.0;
+    double squares = 0.0;  // of the symmetric part
+    for (int row = 0; row < dim; ++row) {
+      trace += gradient[row][row];
+      for (int col = 0; col < dim; ++col) {
+        squares += std::pow(0.5 * (gradient[row][col] + gradient[col][row]), 2);
+      }
+    }
+    for (Index i = 0; i < network.particles.size(); ++i) {
+      const double* own = strains.data() + static_cast<std::size_t>(i) * dim;
+      EXPECT_TRUE(std::is_sorted(own, own + dim, std::greater<>()));
+      // The least-squares matrix of a particle with few intact bonds has a condition of 1e3.
+      EXPECT_NEAR(std::accumulate(own, own + dim, 0.0), trace, 1e-14);
+      EXPECT_NEAR(std::inner_product(own, own + dim, own, 0.0), squares, 1e-16);
+    }
+  }
+}
+
+TEST(PrincipalStrains, AreZeroWhereTheBondsDoNotSpanTheSpace) {
+  const Network network = make_network({"", Pattern::rectangular, Surface::none}, 4);
+  const Csr families = families_of(network);
+  std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
+  for (const Index b : families.row(0)) secants[b] = 0.0;
+  secants[families.row(0)[0]] = 1.0;
+  const auto displacement = random_vector(network.particles.positions.size(), 2);
+  const auto strains = principal_strains(network, families, secants, displacement);
+  EXPECT_EQ(strains[0], 0.0);
+  EXPECT_EQ(strains[1], 0.0);
+  EXPECT_NE(strains[2], 0.0);
+}
+
+}  // namespace
+}  // namespace perilink

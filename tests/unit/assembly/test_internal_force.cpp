@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include "assembly/internal_force.hpp"
+#include "support/small_networks.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+TEST(InternalForce, OfOneElementByHand) {
+  Network network;
+  network.particles.positions = {0.0, 0.0, 3.0, 4.0};
+  network.particles.volumes = {1.0, 1.0};
+  network.bonds.append(network.particles, 0, 1);
+  network.stiffness = {100.0};
+  const std::vector<double> displacement = {0.0, 0.0, 0.5, 0.0};  // extension 0.6 * 0.5
+  const InternalForce result = internal_force(network, std::vector<double>{0.5}, displacement);
+  EXPECT_NEAR(result.energy, 0.5 * 50.0 * 0.3 * 0.3, 1e-15);
+  // Tension 15: the far end must be pulled away, the near end held back.
+  const std::vector<double> expected = {-9.0, -12.0, 9.0, 12.0};
+  for (std::size_t slot = 0; slot < 4; ++slot) {
+    EXPECT_NEAR(result.forces[slot], expected[slot], 1e-14);
+  }
+}
+
+TEST(InternalForce, ReusesItsMemoryWithoutRemembering) {
+  const Network network = make_network({"", Pattern::cubic, Surface::none}, 3);
+  const auto secants = random_secants(network.num_elements(), 1);
+  const auto displacement = random_vector(network.particles.positions.size(), 2);
+  InternalForce again;
+  internal_force(network, secants, displacement, again);
+  internal_force(network, secants, displacement, again);
+  const InternalForce fresh = internal_force(network, secants, displacement);
+  EXPECT_EQ(again.forces, fresh.forces);
+  EXPECT_EQ(again.energy, fresh.energy);
+}
+
+}  // namespace
+}  // namespace perilink
