@@ -24,8 +24,8 @@ constexpr std::size_t largest_file = std::size_t{16} << 20;
 void collect_lines(const TomlValue& value, const std::string& key,
                    std::map<std::string, int>& lines) {
   if (!key.empty()) lines[key] = value.line;
-  for (const auto& [name, entry] : value.entries) {
-    collect_lines(entry, key.empty() ? name : key + "." + name, lines);
+  for (const TomlValue& entry : value.entries) {
+    collect_lines(entry, key.empty() ? entry.key : key + "." + entry.key, lines);
   }
   for (std::size_t i = 0; i < value.items.size(); ++i) {
     if (value.items[i].kind == TomlValue::Kind::table) {

@@ -56,7 +56,8 @@ void check_keys(const TableSchema& schema, const TomlValue& table, const std::st
                      fmt::format("is {}, but must be a table", describe(table)),
                      fmt::format("write {} and its keys on the lines below", header(schema)));
   }
-  for (const auto& [key, value] : table.entries) {
+  for (const TomlValue& value : table.entries) {
+    const std::string& key = value.key;
     if (has_key(schema, key)) continue;
     throw InputError({path, value.line, join_path(table_path, key)},
                      fmt::format("{} has no such key", header(schema)), suggest_key(schema, key));
@@ -115,7 +116,8 @@ void check_against_schema(const TomlValue& document, const std::string& path) {
   for (const TableSchema& table : schema) {
     if (!table.name.empty()) tables.push_back(table.name);
   }
-  for (const auto& [key, value] : document.entries) {
+  for (const TomlValue& value : document.entries) {
+    const std::string& key = value.key;
     if (has_key(schema.front(), key)) continue;
     const auto found = std::find_if(schema.begin(), schema.end(),
                                     [name = std::string_view(key)](const auto& table) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -13,61 +14,84 @@ namespace {
 /// A case needs two levels of tables and two of arrays.
 constexpr int deepest_level = 16;
 
-/// First character after the string that begins at `begin` with a quote. An unclosed string of one
-/// line ends with its line: the parser reports it.
-std::size_t end_of_string(std::string_view text, std::size_t begin) {
-  const char quote = text[begin];
-  const bool escapes = quote == '"';
-  const std::string triple(3, quote);
-  const bool multiline = text.substr(begin, 3) == triple;
-  std::size_t i = begin + (multiline ? 3 : 1);
-  while (i < text.size()) {
-    if (escapes && text[i] == '\\') {
-      i += 2;
-    } else if (multiline && text.substr(i, 3) == triple) {
-      i += 3;
-      // Up to two quotes may stand directly before the closing three.
-      for (int extra = 0; extra < 2 && i < text.size() && text[i] == quote; ++extra) ++i;
-      return i;
-    } else if (!multiline && (text[i] == quote || text[i] == '\n')) {
-      return i + 1;
-    } else {
-      ++i;
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// Walks over the document once, outside of strings and comments.
+class Guard {
+ public:
+  Guard(std::string_view text, const std::string& path) : text_(text), path_(path) {
+    if (text_.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+  }
+
+  void run() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '"' || c == '\'') {
+        skip_string(c);
+      } else if (c == '#') {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      } else {
+        look_at(c);
+        ++at_;
+      }
     }
   }
-  return text.size();
-}
+
+ private:
+  [[noreturn]] void refuse(const std::string& fault, const std::string& suggestion) const {
+    throw InputError({path_, line_, ""}, fault, suggestion);
+  }
+
+  void skip_string(char quote) {
+    if (text_.substr(at_, 3) == std::string(3, quote)) {
+      refuse("a string begins with three quotes",
+             "write text on one line between single or double quotes");
+    }
+    // Both this walk and the parser must agree on where strings begin.
+    if (at_ > 0 &&
+        std::string_view(" \t\r\n=,[{.").find(text_[at_ - 1]) == std::string_view::npos) {
+      refuse("a quote stands in the midst of a word", "put whole words between quotes");
+    }
+    for (++at_; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '\n') refuse("a string is not closed", "end it with a quote on its line");
+      if (quote == '"' && text_.substr(at_, 1) == "\\" && text_.substr(at_, 2) != "\\\n") {
+        ++at_;
+      } else if (text_[at_] == quote) {
+        ++at_;
+        return;
+      }
+    }
+    refuse("a string is not closed", "end it with a quote on its line");
+  }
+
+  void look_at(char c) {
+    if (static_cast<unsigned char>(c) >= 0x80) {
+      refuse("a character beyond ASCII stands outside of quotes",
+             "put text between straight quotes (\"), and only plain spaces between words");
+    }
+    if (c == '[' || c == '{') ++brackets_;
+    if ((c == ']' || c == '}') && brackets_ > 0) --brackets_;
+    if (c == '\n' || c == ',' || c == '=' || c == '[' || c == '{') dots_ = 0;
+    if (c == '.') ++dots_;
+    if (brackets_ > deepest_level || dots_ > deepest_level) {
+      refuse(fmt::format("the values nest deeper than {} levels", deepest_level),
+             "a case needs no more than tables and lists of numbers");
+    }
+    if (c == '\n') ++line_;
+  }
+
+  std::string_view text_;
+  const std::string& path_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  int brackets_ = 0;
+  int dots_ = 0;
+};
 
 }  // namespace
 
-void refuse_deep_nesting(const std::string& text, const std::string& path) {
-  int line = 1;
-  int brackets = 0;
-  int dots = 0;
-  for (std::size_t i = 0; i < text.size();) {
-    const char c = text[i];
-    if (c == '"' || c == '\'') {
-      const std::size_t end = end_of_string(text, i);
-      for (; i < end; ++i) line += text[i] == '\n';
-      continue;
-    }
-    if (c == '#') {
-      i = text.find('\n', i);
-      if (i == std::string::npos) return;
-      continue;
-    }
-    if (c == '[' || c == '{') ++brackets;
-    if ((c == ']' || c == '}') && brackets > 0) --brackets;
-    dots += c == '.';
-    if (c == '\n' || c == ',' || c == '=' || c == '[' || c == '{') dots = 0;
-    if (brackets > deepest_level || dots > deepest_level) {
-      throw InputError({path, line, ""},
-                       fmt::format("the values nest deeper than {} levels", deepest_level),
-                       "a case needs no more than two levels of tables and lists of numbers");
-    }
-    line += c == '\n';
-    ++i;
-  }
+void refuse_dangerous_text(const std::string& text, const std::string& path) {
+  Guard(text, path).run();
 }
 
 }  // namespace perilink

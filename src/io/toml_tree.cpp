@@ -2,12 +2,29 @@
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <string_view>
 
 #include "base/error.hpp"
 #include "io/toml_guard.hpp"
+
+namespace perilink {
+namespace {
+
+class BrokenAssumption {};
+
+/// A function of its own, for a throw within the assertions of functions that are noexcept would
+/// draw a warning at each.
+[[noreturn]] void break_assumption() { throw BrokenAssumption(); }
+
+}  // namespace
+}  // namespace perilink
+
+// toml++ 3.3 asserts what some malformed documents violate (`[= 1]`), and compiled with NDEBUG it
+// takes these assertions for granted. Here they end the parse instead, in every build.
+#undef NDEBUG
+#define TOML_ASSERT(condition) ((condition) ? void() : perilink::break_assumption())
+#include <toml++/toml.h>
 
 namespace perilink {
 namespace {
@@ -29,7 +46,8 @@ void convert_entries(const toml::table& table, TomlValue& result) {
                    [](const Entry& a, const Entry& b) { return a.position < b.position; });
   for (const Entry& entry : order) {
     const int line = static_cast<int>(entry.position.line);
-    result.entries.emplace_back(std::string(entry.key->str()), convert(*entry.node, line));
+    result.entries.push_back(convert(*entry.node, line));
+    result.entries.back().key = entry.key->str();
   }
 }
 
@@ -72,14 +90,21 @@ std::size_t utf8_length(unsigned char lead) {
   return 0;
 }
 
-/// Line of the first byte that is not UTF-8, or 0. The parser's own message for such a file shows
-/// the byte but names no line that an editor would show.
-int line_without_utf8(const std::string& text) {
+/// Whether TOML forbids the character, even within comments. toml++ relies on its absence in places
+/// where a release build would go on undefined.
+bool is_forbidden(unsigned char c) {
+  return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
+}
+
+/// Line of the first byte that is not UTF-8 text, or 0. The parser's own message for such a file
+/// shows the byte but names no line that an editor would show.
+int line_without_text(const std::string& text) {
   int line = 1;
   for (std::size_t i = 0; i < text.size();) {
-    line += text[i] == '\n';
-    const std::size_t length = utf8_length(static_cast<unsigned char>(text[i]));
-    if (length == 0 || i + length > text.size()) return line;
+    const auto lead = static_cast<unsigned char>(text[i]);
+    line += lead == '\n';
+    const std::size_t length = utf8_length(lead);
+    if (length == 0 || i + length > text.size() || is_forbidden(lead)) return line;
     for (std::size_t k = 1; k < length; ++k) {
       if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80U) return line;
     }
@@ -90,19 +115,19 @@ int line_without_utf8(const std::string& text) {
 
 }  // namespace
 
-const TomlValue* TomlValue::find(const std::string& key) const {
-  for (const auto& [name, value] : entries) {
-    if (name == key) return &value;
+const TomlValue* TomlValue::find(const std::string& name) const {
+  for (const TomlValue& value : entries) {
+    if (value.key == name) return &value;
   }
   return nullptr;
 }
 
 TomlValue parse_toml(const std::string& text, const std::string& path) {
-  if (const int line = line_without_utf8(text); line > 0) {
+  if (const int line = line_without_text(text); line > 0) {
     throw InputError({path, line, ""}, "the line holds bytes that are not UTF-8 text",
-                     "save the file as UTF-8");
+                     "name the .toml file of a case, saved as UTF-8");
   }
-  refuse_deep_nesting(text, path);
+  refuse_dangerous_text(text, path);
   try {
     const toml::table document = toml::parse(std::string_view(text), std::string_view(path));
     return convert(document, 1);
@@ -110,6 +135,9 @@ TomlValue parse_toml(const std::string& text, const std::string& path) {
     throw InputError({path, line_of(error.source()), ""},
                      fmt::format("is not valid TOML: {}", error.description()),
                      "docs/case_file.md shows how a case is written; text stands between quotes");
+  } catch (const BrokenAssumption&) {
+    throw InputError({path, 0, ""}, "is not valid TOML",
+                     "docs/case_file.md shows how a case is written; look for a misplaced bracket");
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 /// \file
@@ -21,11 +20,12 @@ struct TomlValue {
   std::int64_t integer = 0;
   double number = 0.0;  ///< of integers too
   std::string text;
-  std::vector<TomlValue> items;                            ///< of an array
-  std::vector<std::pair<std::string, TomlValue>> entries;  ///< of a table, in the file's order
+  std::string key;                 ///< of an entry of a table
+  std::vector<TomlValue> items;    ///< of an array
+  std::vector<TomlValue> entries;  ///< of a table, in the file's order
 
   /// Value of a key of a table, or nullptr.
-  const TomlValue* find(const std::string& key) const;
+  const TomlValue* find(const std::string& name) const;
 };
 
 /// Reads a document.
