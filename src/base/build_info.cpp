@@ -16,11 +16,16 @@ std::string build_summary() {
   const std::string build =
       std::string(build_config::build_type) + ", " + build_config::instructions + " instructions";
   const std::pair<std::string_view, std::string_view> lines[] = {
-      {"commit", build_config::commit},   {"compiler", build_config::compiler},
-      {"build", build},                   {"OpenMP", build_config::openmp},
-      {"CHOLMOD", build_config::cholmod}, {"BLAS", build_config::blas},
-      {"METIS", build_config::metis},     {"Eigen", build_config::eigen},
-      {"PETSc", build_config::petsc},     {"gmsh", build_config::gmsh},
+      {"commit", build_config::commit},
+      {"compiler", build_config::compiler},
+      {"build", build},
+      {"OpenMP", build_config::openmp},
+      {"CHOLMOD", build_config::cholmod},
+      {"BLAS", build_config::blas},
+      {"METIS", build_config::metis},
+      {"Eigen", build_config::eigen},
+      {"PETSc", build_config::petsc},
+      {"gmsh", build_config::gmsh},
   };
   std::string text = "perilink " + program_version() + "\n";
   for (const auto& [name, value] : lines) {
