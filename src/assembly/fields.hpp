@@ -20,8 +20,8 @@ std::vector<double> strain_energy_density(const Network& network, const Csr& fam
                                           std::span<const double> secants,
                                           std::span<const double> displacement);
 
-/// Principal strains, largest first, of the least-squares displacement gradient over the intact bonds
-/// of each particle; shape (particles, dim). Zero where the bonds do not span the space.
+/// Principal strains, largest first, of the least-squares displacement gradient over the intact
+/// bonds of each particle; shape (particles, dim). Zero where the bonds do not span the space.
 std::vector<double> principal_strains(const Network& network, const Csr& families,
                                       std::span<const double> secants,
                                       std::span<const double> displacement);

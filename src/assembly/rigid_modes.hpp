@@ -1,7 +1,7 @@
 #pragma once
 
-#include <string>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "assembly/network.hpp"
@@ -17,8 +17,7 @@ struct Fragment {
 
 /// Connected parts of the network (elements of zero stiffness do not connect) with the number of
 /// rigid-body modes that `held` (shape (particles, dim)) leaves free in each.
-std::vector<Fragment> find_fragments(const Network& network,
-                                     const std::vector<std::uint8_t>& held);
+std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held);
 
 /// Sums of the applied loads.
 struct LoadResultant {
@@ -28,8 +27,8 @@ struct LoadResultant {
 };
 LoadResultant load_resultant(const Network& network, const Loads& loads);
 
-/// Holds exactly the rigid-body modes of a free fragment (three unknowns in 2D, six in 3D) by marking
-/// them in `held`; prefers particles whose bonds cannot break.
+/// Holds exactly the rigid-body modes of a free fragment (three unknowns in 2D, six in 3D) by
+/// marking them in `held`; prefers particles whose bonds cannot break.
 void pin_rigid_modes(const Network& network, const Fragment& fragment,
                      std::vector<std::uint8_t>& held);
 

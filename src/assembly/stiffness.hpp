@@ -13,8 +13,8 @@ namespace perilink {
 
 /// Lower triangle of K = sum over elements of k n n' between its free ends (unknown by unknown).
 /// \param secants  present stiffness of each element as a fraction of the intact one; broken
-///                 elements keep their place in the pattern (as zeros), so that the pattern does not
-///                 change while bonds break
+///                 elements keep their place in the pattern (as zeros), so that the pattern does
+///                 not change while bonds break
 Eigen::SparseMatrix<double, Eigen::ColMajor, Index> assemble_stiffness(
     const Network& network, std::span<const double> secants, const Unknowns& unknowns);
 

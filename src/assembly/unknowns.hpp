@@ -13,8 +13,8 @@ struct Unknowns {
   int dim = 2;
   Index count = 0;
   std::vector<Index> number;       ///< shape (particles, dim): number of the unknown, or no_index
-  std::vector<double> prescribed;  ///< shape (particles, dim): displacement at load factor 1 [length]
-                                   ///< where there is no unknown, else 0
+  std::vector<double> prescribed;  ///< shape (particles, dim): displacement at load factor 1
+                                   ///< [length] where there is no unknown, else 0
 
   Index at(Index particle, int axis) const {
     return number[static_cast<std::size_t>(particle) * dim + axis];

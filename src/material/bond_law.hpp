@@ -4,11 +4,11 @@
 #include <limits>
 
 /// \file
-/// Laws of a bond as a falling series of secant stiffnesses ("teeth"). A bond on tooth k carries the
-/// force a_k s (per unit of its intact stiffness) up to the stretch s_k; there the next event of the
-/// bond comes and its secant falls to a_(k+1). The implicit mode asks for secant and limit; `force`,
-/// `energy` and `tangent` are the same law for every other use. Evaluation changes nothing: the
-/// tooth is the only state and the caller owns it.
+/// Laws of a bond as a falling series of secant stiffnesses ("teeth"). A bond on tooth k carries
+/// the force a_k s (per unit of its intact stiffness) up to the stretch s_k; there the next event
+/// of the bond comes and its secant falls to a_(k+1). The implicit mode asks for secant and limit;
+/// `force`, `energy` and `tangent` are the same law for every other use. Evaluation changes
+/// nothing: the tooth is the only state and the caller owns it.
 
 namespace perilink {
 

@@ -11,8 +11,8 @@
 
 namespace perilink {
 
-/// Critical stretch of the infinite body: 2D G_F = c t s^2 delta^4 / 4, 3D G_F = pi c s^2 delta^5 / 10
-/// (Gerstle, Sau & Silling 2005, Eqs. 7b and 7c).
+/// Critical stretch of the infinite body: 2D G_F = c t s^2 delta^4 / 4, 3D G_F = pi c s^2 delta^5 /
+/// 10 (Gerstle, Sau & Silling 2005, Eqs. 7b and 7c).
 double continuum_critical_stretch(Problem problem, double fracture_energy, double micromodulus,
                                   double horizon, double thickness);
 
