@@ -35,7 +35,7 @@ std::string section_of(const TableSchema& table, const std::vector<std::string>&
   return text;
 }
 
-TEST(CaseKeys, everyKeyIsDocumented) {
+TEST(CaseKeys, EveryKeyIsDocumented) {
   const auto page = read_lines(project_root() / "docs/case_file.md");
   for (const TableSchema& table : case_schema()) {
     const std::string section = section_of(table, page);

@@ -78,7 +78,7 @@ std::vector<Include> all_includes() {
   return includes;
 }
 
-TEST(Includes, everyModuleIsInTheTable) {
+TEST(Includes, EveryModuleIsInTheTable) {
   for (const auto& entry : std::filesystem::directory_iterator(project_root() / "src")) {
     if (!entry.is_directory()) continue;
     EXPECT_EQ(allowed_modules().count(entry.path().filename()), 1u)
@@ -86,7 +86,7 @@ TEST(Includes, everyModuleIsInTheTable) {
   }
 }
 
-TEST(Includes, modulesIncludeOnlyWhatTheTableAllows) {
+TEST(Includes, ModulesIncludeOnlyWhatTheTableAllows) {
   for (const Include& include : all_includes()) {
     if (!include.quoted) continue;
     const std::string target = include.header.substr(0, include.header.find('/'));
@@ -98,7 +98,7 @@ TEST(Includes, modulesIncludeOnlyWhatTheTableAllows) {
   }
 }
 
-TEST(Includes, ownHeadersAreQuotedAndExist) {
+TEST(Includes, OwnHeadersAreQuotedAndExist) {
   for (const Include& include : all_includes()) {
     if (!include.quoted) {
       const std::string folder = include.header.substr(0, include.header.find('/'));
@@ -112,7 +112,7 @@ TEST(Includes, ownHeadersAreQuotedAndExist) {
   }
 }
 
-TEST(Includes, librariesStayBehindTheirModule) {
+TEST(Includes, LibrariesStayBehindTheirModule) {
   for (const Include& include : all_includes()) {
     for (const Confinement& rule : confined_headers()) {
       if (!std::regex_match(include.header, rule.header)) continue;

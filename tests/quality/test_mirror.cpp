@@ -14,6 +14,12 @@ namespace {
 const std::map<std::string, std::string>& tested_elsewhere() {
   static const std::map<std::string, std::string> table = {
       {"app/main.cpp", "only calls the commands; tests/cli runs the program"},
+      {"discretization/lattice_conforming.cpp", "a part of make_body: test_lattice.cpp"},
+      {"discretization/lattice_fit.cpp", "a part of make_body: test_lattice.cpp"},
+      {"discretization/lattice_hexagonal.cpp", "a part of make_body: test_lattice.cpp"},
+      {"solver/cholmod_support.cpp", "what the routes share: test_factor.cpp runs every route"},
+      {"solver/cholmod_updown_factor.cpp", "a route: test_factor.cpp runs every route"},
+      {"solver/refactorizing_factor.cpp", "a route: test_factor.cpp runs every route"},
   };
   return table;
 }
@@ -23,7 +29,7 @@ std::filesystem::path unit_test_of(const std::string& source) {
   return project_root() / "tests/unit" / path.parent_path() / ("test_" + path.filename().string());
 }
 
-TEST(Mirror, everySourceHasAUnitTestOrAReason) {
+TEST(Mirror, EverySourceHasAUnitTestOrAReason) {
   for (const auto& file : cpp_files("src")) {
     if (file.extension() != ".cpp") continue;
     const std::string source = file.lexically_relative(project_root() / "src").generic_string();
@@ -33,14 +39,14 @@ TEST(Mirror, everySourceHasAUnitTestOrAReason) {
   }
 }
 
-TEST(Mirror, everyExceptionIsStillNeeded) {
+TEST(Mirror, EveryExceptionIsStillNeeded) {
   for (const auto& [source, reason] : tested_elsewhere()) {
     EXPECT_TRUE(std::filesystem::exists(project_root() / "src" / source)) << source;
     EXPECT_FALSE(std::filesystem::exists(unit_test_of(source))) << source << ": " << reason;
   }
 }
 
-TEST(Mirror, everyUnitTestHasASource) {
+TEST(Mirror, EveryUnitTestHasASource) {
   for (const auto& file : cpp_files("tests/unit")) {
     const std::string name = file.filename().string();
     if (name.rfind("test_", 0) != 0) continue;  // helper

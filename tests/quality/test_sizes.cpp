@@ -30,13 +30,13 @@ std::vector<std::filesystem::path> all_cpp_files() {
   return files;
 }
 
-TEST(Sizes, filesAreUnder400Lines) {
+TEST(Sizes, FilesAreUnder400Lines) {
   for (const auto& file : all_cpp_files()) {
     EXPECT_LT(read_lines(file).size(), longest_file) << shown(file);
   }
 }
 
-TEST(Sizes, functionsOfTheProgramAreUnder60Lines) {
+TEST(Sizes, FunctionsOfTheProgramAreUnder60Lines) {
   int seen = 0;
   for (const auto& file : cpp_files("src")) {
     for (const FunctionExtent& function : find_functions(join(read_lines(file)))) {
@@ -48,7 +48,7 @@ TEST(Sizes, functionsOfTheProgramAreUnder60Lines) {
   EXPECT_GT(seen, 100) << "the scanner has lost the functions";
 }
 
-TEST(Sizes, everyHeaderIsGuardedByPragmaOnce) {
+TEST(Sizes, EveryHeaderIsGuardedByPragmaOnce) {
   for (const auto& file : all_cpp_files()) {
     if (file.extension() != ".hpp") continue;
     const auto lines = read_lines(file);
@@ -67,7 +67,7 @@ void PrintTo(const Snippet& snippet, std::ostream* stream) { *stream << snippet.
 
 class FunctionScannerTest : public ::testing::TestWithParam<Snippet> {};
 
-TEST_P(FunctionScannerTest, findsFunctionsAndTheirLengths) {
+TEST_P(FunctionScannerTest, FindsFunctionsAndTheirLengths) {
   std::vector<int> lengths;
   for (const auto& function : find_functions(GetParam().text)) lengths.push_back(function.length());
   EXPECT_EQ(lengths, GetParam().lengths);

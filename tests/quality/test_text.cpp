@@ -18,7 +18,7 @@ bool is_text(const std::filesystem::path& file) {
   return start.find('\0') == std::string::npos;
 }
 
-TEST(Text, noFileNamesThePlacesOfOneMachine) {
+TEST(Text, NoFileNamesThePlacesOfOneMachine) {
   // Written in pieces, so that this file passes its own test.
   const std::regex place(
       "/wor"
@@ -38,7 +38,7 @@ TEST(Text, noFileNamesThePlacesOfOneMachine) {
   }
 }
 
-TEST(Text, sourcesUseUnixLineEndsAndNoTabs) {
+TEST(Text, SourcesUseUnixLineEndsAndNoTabs) {
   for (const char* folder : {"src", "tests", "verification"}) {
     for (const auto& file : cpp_files(folder)) {
       int number = 0;

@@ -10,15 +10,15 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(BuildInfo, versionHasThreeNumbers) {
+TEST(BuildInfo, VersionHasThreeNumbers) {
   EXPECT_THAT(program_version(), ContainsRegex("^[0-9]+\\.[0-9]+\\.[0-9]+$"));
 }
 
-TEST(BuildInfo, commitIsAHashOrUnknown) {
+TEST(BuildInfo, CommitIsAHashOrUnknown) {
   EXPECT_THAT(program_commit(), ContainsRegex("^([0-9a-f]{12,}|unknown)$"));
 }
 
-TEST(BuildInfo, summaryStartsWithTheVersionAndNamesEveryLibrary) {
+TEST(BuildInfo, SummaryStartsWithTheVersionAndNamesEveryLibrary) {
   const std::string summary = build_summary();
 
   EXPECT_EQ(summary.rfind("perilink " + program_version() + "\n", 0), 0u);
@@ -30,7 +30,7 @@ TEST(BuildInfo, summaryStartsWithTheVersionAndNamesEveryLibrary) {
   EXPECT_THAT(summary, ContainsRegex("gmsh +(yes|no)"));
 }
 
-TEST(BuildInfo, nothingWasLeftUnfilled) { EXPECT_THAT(build_summary(), Not(HasSubstr("@"))); }
+TEST(BuildInfo, NothingWasLeftUnfilled) { EXPECT_THAT(build_summary(), Not(HasSubstr("@"))); }
 
 }  // namespace
 }  // namespace perilink
