@@ -31,16 +31,24 @@ inline std::vector<std::string> read_lines(const std::filesystem::path& file) {
   return lines;
 }
 
-/// C++ files below a folder of the project, sorted.
-inline std::vector<std::filesystem::path> cpp_files(const std::string& folder) {
+/// Files below a folder of the project, sorted.
+inline std::vector<std::filesystem::path> files_below(const std::string& folder) {
   std::vector<std::filesystem::path> files;
   const std::filesystem::path top = project_root() / folder;
   if (!std::filesystem::exists(top)) return files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(top)) {
-    const std::string extension = entry.path().extension();
-    if (extension == ".cpp" || extension == ".hpp") files.push_back(entry.path());
+    if (entry.is_regular_file()) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// C++ files below a folder of the project, sorted.
+inline std::vector<std::filesystem::path> cpp_files(const std::string& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& file : files_below(folder)) {
+    if (file.extension() == ".cpp" || file.extension() == ".hpp") files.push_back(file);
+  }
   return files;
 }
 
@@ -64,6 +72,11 @@ inline std::vector<std::filesystem::path> tracked_files() {
     name.clear();
   }
   pclose(pipe);
+  if (!files.empty()) return files;
+  for (const char* folder : {"src", "tests", "verification", "docs", "meshes"}) {
+    const auto more = files_below(folder);
+    files.insert(files.end(), more.begin(), more.end());
+  }
   return files;
 }
 
