@@ -1,6 +1,7 @@
 #include "solver/cholmod_support.hpp"
 
 #include <dlfcn.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <numeric>
@@ -20,6 +21,20 @@ void use_one_blas_thread() {
     set(1);
   }
 }
+
+/// Debian's CHOLMOD asks OpenMP for four threads in small copying loops, whatever the machine has; on
+/// fewer processors they wait for each other longer than they work. No region is parallel while this
+/// lives.
+class SerialOpenMp {
+ public:
+  SerialOpenMp() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+  ~SerialOpenMp() { omp_set_max_active_levels(levels_); }
+  SerialOpenMp(const SerialOpenMp&) = delete;
+  SerialOpenMp& operator=(const SerialOpenMp&) = delete;
+
+ private:
+  int levels_;
+};
 
 void check(cholmod_common* common, const char* phase) {
   const std::string where = std::string(" while ") + phase;
@@ -88,6 +103,7 @@ CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix&
 
 void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
                            cholmod_factor* factor) {
+  const SerialOpenMp serial;
   cholmod_sparse matrix = view_lower(lower);
   cholmod_factorize(&matrix, factor, session.get());
   check(session.get(), "factorising the stiffness matrix");

@@ -62,6 +62,10 @@ class Factor {
   /// Solves K u = f and follows this load through the downdates to come.
   virtual void follow_load(std::span<const double> load, std::span<double> solution) = 0;
 
+  /// Says which entries of the solution commit_downdate has to keep current, size n; the others may be
+  /// left as they are until follow_load is called again. A route may ignore it.
+  virtual void keep_current(std::span<const std::uint8_t> /*wanted*/) {}
+
   /// Looks at the removal of x x' and changes nothing: the pivot 1 - x' K^-1 x, which is
   /// det(K - x x') / det(K). At or below zero the removal would leave a mechanism.
   virtual double prepare_downdate(const SparseVector& x) = 0;

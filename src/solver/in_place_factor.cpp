@@ -30,6 +30,11 @@ InPlaceFactor::Block InPlaceFactor::block(Index supernode) const {
           super[supernode + 1] - super[supernode]};
 }
 
+double* InPlaceFactor::diagonal(Index supernode, Index column) const {
+  const Block b = block(supernode);
+  return b.values + static_cast<std::size_t>(column) * (b.rows + 1);
+}
+
 void InPlaceFactor::factorize(const SparseMatrix& matrix, std::span<const Index> groups) {
   size_ = static_cast<Index>(matrix.cols());
   factor_ = analyze_supernodal(session_, matrix, groups);
@@ -63,7 +68,10 @@ void InPlaceFactor::adopt_pattern() {
   vector_.assign(size_, 0.0);
   p_.assign(size_, 0.0);
   beta_.assign(size_, 0.0);
-  local_.assign(static_cast<std::size_t>(longest_) * threads_, 0.0);
+  w_.assign(size_, 0.0);
+  on_path_.assign(count, 0);
+  wanted_.clear();
+  local_.assign(static_cast<std::size_t>(longest_) * 2 * threads_, 0.0);
 }
 
 /// Cuts the elimination tree into independent subtrees and a top. In postorder a subtree is a range
@@ -132,19 +140,44 @@ void InPlaceFactor::backward_on(Index supernode, double* vector, double* local) 
   std::copy_n(local, b.columns, vector + b.first_column);
 }
 
-void InPlaceFactor::backward_all(double* vector) {
-  for (const Index s : top_) backward_on(s, vector, local_.data());
+void InPlaceFactor::backward_and_change_on(Index supernode, double* vector, double* local) {
+  const Block b = block(supernode);
+  double* w = local + longest_;
+  std::copy_n(vector + b.first_column, b.columns, local);
+  std::copy_n(w_.data() + b.first_column, b.columns, w);
+  for (Index r = b.columns; r < b.rows; ++r) {
+    local[r] = vector[b.row_numbers[r]];
+    w[r] = w_[b.row_numbers[r]];
+  }
+  supernodal::backward_and_change(b.values, b.rows, b.columns, p_.data() + b.first_column,
+                                  beta_.data() + b.first_column, local, w);
+  std::copy_n(local, b.columns, vector + b.first_column);
+  for (Index r = 0; r < b.rows; ++r) w_[b.row_numbers[r]] = w[r];
+}
+
+template <typename Function>
+void InPlaceFactor::descend(const Function& on_supernode) {
+  for (const Index s : top_) on_supernode(s, local_.data());
   const Index count = static_cast<Index>(subtrees_.size());
   if (count == 0) return;
 #pragma omp parallel num_threads(threads_)
   {
-    double* local = local_.data() + static_cast<std::size_t>(omp_get_thread_num()) * longest_;
+    double* local = local_.data() + static_cast<std::size_t>(omp_get_thread_num()) * 2 * longest_;
 #pragma omp for schedule(dynamic, 1)
     for (Index t = 0; t < count; ++t) {
-      for (Index s = subtrees_[t].second; s >= subtrees_[t].first; --s) {
-        backward_on(s, vector, local);
-      }
+      for (Index s = subtrees_[t].second; s >= subtrees_[t].first; --s) on_supernode(s, local);
     }
+  }
+}
+
+/// The supernodes of the wanted unknowns and all above them, which they need.
+void InPlaceFactor::keep_current(std::span<const std::uint8_t> wanted) {
+  wanted_.assign(parent_.size(), 0);
+  for (Index k = 0; k < size_; ++k) {
+    if (wanted[k]) wanted_[supernode_of_[position_[k]]] = 1;
+  }
+  for (std::size_t s = 0; s < parent_.size(); ++s) {
+    if (wanted_[s] && parent_[s] != no_index) wanted_[parent_[s]] = 1;
   }
 }
 
@@ -154,11 +187,9 @@ void InPlaceFactor::solve(std::span<const double> rhs, std::span<double> solutio
   for (Index s = 0; s < count; ++s) {
     forward_on(s, 0, vector_.data(), local_.data());
     const Block b = block(s);
-    for (Index j = 0; j < b.columns; ++j) {
-      vector_[b.first_column + j] /= b.values[static_cast<std::size_t>(j) * (b.rows + 1)];
-    }
+    for (Index j = 0; j < b.columns; ++j) vector_[b.first_column + j] /= *diagonal(s, j);
   }
-  backward_all(vector_.data());
+  descend([this](Index s, double* local) { backward_on(s, vector_.data(), local); });
   for (Index k = 0; k < size_; ++k) solution[k] = vector_[position_[k]];
 }
 
@@ -174,6 +205,7 @@ void InPlaceFactor::forward_path(const SparseVector& permuted) {
   Index start = permuted.rows[0];
   for (Index s = supernode_of_[start]; s != no_index; s = parent_[s]) {
     path_.push_back(s);
+    on_path_[s] = 1;
     const Index first = block(s).first_column;
     forward_on(s, std::max<Index>(start - first, 0), p_.data(), local_.data());
     start = 0;
@@ -184,6 +216,7 @@ void InPlaceFactor::clear_path() {
   for (const Index s : path_) {
     const Block b = block(s);
     std::fill_n(p_.begin() + b.first_column, b.columns, 0.0);
+    on_path_[s] = 0;
   }
   path_.clear();
 }
@@ -196,66 +229,57 @@ double InPlaceFactor::prepare_downdate(const SparseVector& x) {
     const Block b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
       const double p = p_[b.first_column + j];
-      removed += p * p / b.values[static_cast<std::size_t>(j) * (b.rows + 1)];
+      removed += p * p / *diagonal(s, j);
     }
   }
   pivot_ = 1.0 - removed;
   return pivot_;
 }
 
-/// K -+ x x' on the columns of the path: the diagonal first (its recurrence is a chain of scalars),
-/// then the blocks.
-void InPlaceFactor::change_path(double sign) {
+/// D of K -+ x x' on the path, whose recurrence is a chain of scalars, and what the change of the
+/// columns needs; sets vector_ to the right-hand side D^-1 p (old D) of the backward pass.
+void InPlaceFactor::start_change(double sign) {
+  std::fill(vector_.begin(), vector_.end(), 0.0);
   double sigma = sign;
   for (const Index s : path_) {
     const Block b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
-      double& d = b.values[static_cast<std::size_t>(j) * (b.rows + 1)];
-      const double p = p_[b.first_column + j];
-      const double changed = d + sigma * p * p;
-      beta_[b.first_column + j] = sigma * p / changed;
+      double& d = *diagonal(s, j);
+      const Index k = b.first_column + j;
+      const double changed = d + sigma * p_[k] * p_[k];
+      vector_[k] = p_[k] / d;
+      beta_[k] = sigma * p_[k] / changed;
+      w_[k] = p_[k];
       sigma *= d / changed;
       d = changed;
     }
   }
-  for (int k = 0; k < x_.size; ++k) vector_[x_.rows[k]] = x_.values[k];
-  Index start = x_.size > 0 ? x_.rows[0] : 0;
-  for (const Index s : path_) {
-    const Block b = block(s);
-    double* local = local_.data();
-    std::copy_n(vector_.begin() + b.first_column, b.columns, local);
-    for (Index r = b.columns; r < b.rows; ++r) local[r] = vector_[b.row_numbers[r]];
-    supernodal::change(b.values, b.rows, b.columns, std::max<Index>(start - b.first_column, 0),
-                       p_.data() + b.first_column, beta_.data() + b.first_column, local);
-    for (Index r = b.columns; r < b.rows; ++r) vector_[b.row_numbers[r]] = local[r];
-    start = 0;
-  }
 }
 
 void InPlaceFactor::commit_downdate(double load_change, std::span<double> solution) {
-  std::fill(vector_.begin(), vector_.end(), 0.0);
-  for (const Index s : path_) {
-    const Block b = block(s);
-    for (Index j = 0; j < b.columns; ++j) {
-      vector_[b.first_column + j] =
-          p_[b.first_column + j] / b.values[static_cast<std::size_t>(j) * (b.rows + 1)];
-    }
-  }
-  backward_all(vector_.data());
   const Index* permutation = ints(factor_->Perm);
   double extension = load_change;
   for (int k = 0; k < x_.size; ++k) extension += x_.values[k] * solution[permutation[x_.rows[k]]];
   const double scale = extension / pivot_;
+  start_change(-1.0);
+  descend([this](Index s, double* local) {
+    if (on_path_[s]) {
+      backward_and_change_on(s, vector_.data(), local);
+    } else if (wanted_.empty() || wanted_[s]) {
+      backward_on(s, vector_.data(), local);
+    }
+  });
+  // Supernodes that were skipped left zeros: their solution stays as it is.
   for (Index k = 0; k < size_; ++k) solution[k] += scale * vector_[position_[k]];
-  std::fill(vector_.begin(), vector_.end(), 0.0);
-  change_path(-1.0);
 }
 
 void InPlaceFactor::update(const SparseVector& x, std::span<const double> /*solution*/) {
   x_ = permute(x, position_);
   forward_path(x_);
-  std::fill(vector_.begin(), vector_.end(), 0.0);
-  change_path(1.0);
+  start_change(1.0);
+  for (auto s = path_.rbegin(); s != path_.rend(); ++s) {
+    backward_and_change_on(*s, vector_.data(), local_.data());
+  }
 }
 
 FactorStatistics InPlaceFactor::statistics() const {

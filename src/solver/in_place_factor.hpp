@@ -14,7 +14,8 @@ namespace perilink {
 ///
 /// Per event: the forward elimination of x runs along one path of the elimination tree only (the
 /// unknowns of a bond are mutually coupled, so one path holds them all); one backward pass gives
-/// K^-1 x and with it the new solution (Sherman & Morrison); the columns of the path are changed.
+/// K^-1 x, and with it the new solution (Sherman & Morrison), and changes the columns of the path as
+/// it comes by.
 class InPlaceFactor final : public Factor {
  public:
   explicit InPlaceFactor(int threads);
@@ -23,6 +24,7 @@ class InPlaceFactor final : public Factor {
   void refactorize(const SparseMatrix& matrix) override;
   void solve(std::span<const double> rhs, std::span<double> solution) override;
   void follow_load(std::span<const double> load, std::span<double> solution) override;
+  void keep_current(std::span<const std::uint8_t> wanted) override;
   double prepare_downdate(const SparseVector& x) override;
   void commit_downdate(double load_change, std::span<double> solution) override;
   void update(const SparseVector& x, std::span<const double> solution) override;
@@ -40,15 +42,19 @@ class InPlaceFactor final : public Factor {
   };
   Block block(Index supernode) const;
 
+  double* diagonal(Index supernode, Index column) const;
   void adopt_pattern();
   void plan_backward();
   void turn_into_ldl();
   void forward_on(Index supernode, Index start, double* vector, double* local) const;
   void backward_on(Index supernode, double* vector, double* local) const;
-  void backward_all(double* vector);
+  void backward_and_change_on(Index supernode, double* vector, double* local);
+  /// Runs `on_supernode(supernode, local)` from the roots to the leaves.
+  template <typename Function>
+  void descend(const Function& on_supernode);
   void forward_path(const SparseVector& permuted);
-  void change_path(double sign);
   void clear_path();
+  void start_change(double sign);
 
   int threads_;
   CholmodSession session_;
@@ -64,11 +70,14 @@ class InPlaceFactor final : public Factor {
   Index longest_ = 0;                   ///< most rows of a supernode
 
   std::vector<double> vector_;          ///< work vector in the factor's order
-  std::vector<double> local_;           ///< rows of a supernode, one part per thread
+  std::vector<double> local_;           ///< rows of a supernode, two parts per thread
   SparseVector x_;                      ///< change prepared, in the factor's order
   std::vector<Index> path_;             ///< supernodes of the path, ascending
+  std::vector<std::uint8_t> on_path_;   ///< per supernode
+  std::vector<std::uint8_t> wanted_;    ///< supernodes that backward passes compute; empty: all
   std::vector<double> p_;               ///< L^-1 x along the path, in the factor's order
   std::vector<double> beta_;            ///< per column of the path
+  std::vector<double> w_;               ///< x less its eliminations, along the path
   double pivot_ = 0.0;
 };
 

@@ -44,28 +44,34 @@ void dot_panel(const double* c, Index rows, Index from, const double* local, dou
   sums[4] = s4, sums[5] = s5, sums[6] = s6, sums[7] = s7;
 }
 
-/// For each column in turn: local -= p l; l += beta local; rows from `from`, `width` columns at c.
-void change_panel(double* c, Index rows, Index from, const double* p, const double* b,
-                  double* local) {
+/// dot_panel, and for each column, last one first: l += beta w; w += p l (the old l).
+void dot_and_change_panel(double* c, Index rows, Index from, const double* p, const double* b,
+                          const double* local, double* w, double* sums) {
   double *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
   double *c4 = c3 + rows, *c5 = c4 + rows, *c6 = c5 + rows, *c7 = c6 + rows;
   const double p0 = p[0], p1 = p[1], p2 = p[2], p3 = p[3];
   const double p4 = p[4], p5 = p[5], p6 = p[6], p7 = p[7];
   const double b0 = b[0], b1 = b[1], b2 = b[2], b3 = b[3];
   const double b4 = b[4], b5 = b[5], b6 = b[6], b7 = b[7];
-#pragma omp simd
+  double s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, s6 = 0, s7 = 0;
+#pragma omp simd reduction(+ : s0, s1, s2, s3, s4, s5, s6, s7)
   for (Index r = from; r < rows; ++r) {
-    double w = local[r];
-    w -= p0 * c0[r], c0[r] += b0 * w;
-    w -= p1 * c1[r], c1[r] += b1 * w;
-    w -= p2 * c2[r], c2[r] += b2 * w;
-    w -= p3 * c3[r], c3[r] += b3 * w;
-    w -= p4 * c4[r], c4[r] += b4 * w;
-    w -= p5 * c5[r], c5[r] += b5 * w;
-    w -= p6 * c6[r], c6[r] += b6 * w;
-    w -= p7 * c7[r], c7[r] += b7 * w;
-    local[r] = w;
+    const double y = local[r];
+    double v = w[r];
+    const double l7 = c7[r], l6 = c6[r], l5 = c5[r], l4 = c4[r];
+    s7 += l7 * y, c7[r] = l7 + b7 * v, v += p7 * l7;
+    s6 += l6 * y, c6[r] = l6 + b6 * v, v += p6 * l6;
+    s5 += l5 * y, c5[r] = l5 + b5 * v, v += p5 * l5;
+    s4 += l4 * y, c4[r] = l4 + b4 * v, v += p4 * l4;
+    const double l3 = c3[r], l2 = c2[r], l1 = c1[r], l0 = c0[r];
+    s3 += l3 * y, c3[r] = l3 + b3 * v, v += p3 * l3;
+    s2 += l2 * y, c2[r] = l2 + b2 * v, v += p2 * l2;
+    s1 += l1 * y, c1[r] = l1 + b1 * v, v += p1 * l1;
+    s0 += l0 * y, c0[r] = l0 + b0 * v, v += p0 * l0;
+    w[r] = v;
   }
+  sums[0] = s0, sums[1] = s1, sums[2] = s2, sums[3] = s3;
+  sums[4] = s4, sums[5] = s5, sums[6] = s6, sums[7] = s7;
 }
 
 }  // namespace
@@ -119,31 +125,41 @@ void backward(const double* block, Index rows, Index columns, double* local) {
   }
 }
 
-void change(double* block, Index rows, Index columns, Index start, const double* p,
-            const double* beta, double* local) {
-  Index j = start;
-  while (j < columns) {
-    const Index count = columns - j < width ? columns - j : width;
-    for (Index k = j; k < j + count; ++k) {
-      double* l = column(block, rows, k);
-      for (Index r = k + 1; r < j + count; ++r) {
-        local[r] -= p[k] * l[r];
-        l[r] += beta[k] * local[r];
-      }
-    }
+void backward_and_change(double* block, Index rows, Index columns, const double* p,
+                         const double* beta, double* local, double* w) {
+  Index end = columns;
+  while (end > 0) {
+    const Index count = end < width ? end : width;
+    const Index j = end - count;
+    double sums[width];
     if (count == width) {
-      change_panel(column(block, rows, j), rows, j + width, p + j, beta + j, local);
+      dot_and_change_panel(column(block, rows, j), rows, end, p + j, beta + j, local, w, sums);
     } else {
-      for (Index k = j; k < j + count; ++k) {
+      for (Index k = end - 1; k >= j; --k) {
         double* l = column(block, rows, k);
-#pragma omp simd
-        for (Index r = j + count; r < rows; ++r) {
-          local[r] -= p[k] * l[r];
-          l[r] += beta[k] * local[r];
+        double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+        for (Index r = end; r < rows; ++r) {
+          const double old = l[r];
+          sum += old * local[r];
+          l[r] = old + beta[k] * w[r];
+          w[r] += p[k] * old;
         }
+        sums[k - j] = sum;
       }
     }
-    j += count;
+    for (Index k = end - 1; k >= j; --k) {
+      double* l = column(block, rows, k);
+      double y = local[k] - sums[k - j];
+      for (Index r = k + 1; r < end; ++r) {
+        const double old = l[r];
+        y -= old * local[r];
+        l[r] = old + beta[k] * w[r];
+        w[r] += p[k] * old;
+      }
+      local[k] = y;
+    }
+    end = j;
   }
 }
 

@@ -20,13 +20,16 @@ void forward(const double* block, Index rows, Index columns, Index start, double
 /// on return the columns hold the solution y1 = L11^-T (z1 - L21' y2).
 void backward(const double* block, Index rows, Index columns, double* local);
 
-/// Rank-one change of the columns from `start` on (Gill, Golub, Murray & Saunders 1974, method C1):
-/// with p = L^-1 x known, column j becomes l_j + beta_j w, w the part of x not yet eliminated. The
-/// diagonal is not touched here.
+/// Backward substitution as above with the old columns, and at the same time the rank-one change that
+/// turns them into the columns of L D L' - x x' (Gill, Golub, Murray & Saunders 1974, method C1):
+/// with p = L^-1 x known, column j becomes l_j + beta_j w_j, where w_j is x less its eliminations by
+/// columns up to j. Going down from the last column, w is won back from p: w_(j-1) = w_j + p_j l_j.
+/// One pass over the block does what three would. The diagonal is not touched.
 /// \param p      p on the columns, size `columns`
 /// \param beta   beta on the columns, size `columns`
-/// \param local  on entry w on the rows; on return the w that is left below the supernode
-void change(double* block, Index rows, Index columns, Index start, const double* p,
-            const double* beta, double* local);
+/// \param local  as in backward()
+/// \param w      on entry w left after the last column, on the rows; on return w before the first
+void backward_and_change(double* block, Index rows, Index columns, const double* p,
+                         const double* beta, double* local, double* w);
 
 }  // namespace perilink::supernodal

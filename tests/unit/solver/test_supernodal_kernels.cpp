@@ -72,7 +72,7 @@ TEST_P(Width, BackwardSolvesTheTransposedTriangle) {
   EXPECT_LT((local - expected).norm(), 1e-13 * expected.norm());
 }
 
-TEST_P(Width, ChangeGivesTheFactorOfTheChangedMatrix) {
+TEST_P(Width, ChangeGivesTheFactorOfTheChangedMatrixAndSolvesWithTheOldOne) {
   const double sigma = -0.05;
   Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(node.rows);
   for (Index j = 0; j < node.columns; ++j) diagonal[j] = node.block(j, j);
@@ -89,9 +89,17 @@ TEST_P(Width, ChangeGivesTheFactorOfTheChangedMatrix) {
     diagonal[j] = d;
   }
 
-  Eigen::VectorXd local = x;
-  supernodal::change(node.block.data(), node.rows, node.columns, 0, p.data(), beta.data(),
-                     local.data());
+  // Columns that this supernode does not have would take p to what is left of x.
+  Eigen::VectorXd w = p;
+  Eigen::VectorXd local = test_vector(node.rows);
+  const Eigen::VectorXd solved =
+      node.lower().transpose().triangularView<Eigen::UnitUpper>().solve(local);
+
+  supernodal::backward_and_change(node.block.data(), node.rows, node.columns, p.data(),
+                                  beta.data(), local.data(), w.data());
+
+  EXPECT_LT((local - solved).norm(), 1e-13 * solved.norm());
+  EXPECT_LT((w - x).norm(), 1e-13 * x.norm());
 
   // The columns of L D L' reproduce the columns of the changed matrix.
   const Eigen::MatrixXd product = node.lower() * diagonal.asDiagonal() * node.lower().transpose();
