@@ -165,11 +165,7 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
     if (scene.body.kind[i] == 1) ghosts.dot(scene.at(i));
   }
   if (scene.body.dim == 3) {
-    draw_balls(svg, scene);
-    draw_bond_hairlines(svg, scene);
-    if (!scene.body.broken_bonds.empty()) {
-      key.push_back({"broken bond", "stroke=\"#8b1020\" stroke-width=\"0.8\""});
-    }
+    draw_balls(svg, scene);  // bonds would shine through from the far side
   } else {
     draw_cells(svg, scene);
     draw_bond_hairlines(svg, scene);

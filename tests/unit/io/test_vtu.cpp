@@ -4,19 +4,12 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 #include "base/error.hpp"
-#include "io/vtk_encoding.hpp"
 #include "io/vtu.hpp"
 
 namespace perilink {
 namespace {
-
-std::vector<std::byte> bytes_of(const std::string& text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
@@ -66,33 +59,6 @@ class Vtu : public ::testing::Test {
 
   std::string path_;
 };
-
-// Test vectors of RFC 4648, section 10.
-TEST(VtkEncoding, Base64AgreesWithTheStandard) {
-  const std::vector<std::pair<std::string, std::string>> vectors = {{"", ""},
-                                                                    {"f", "Zg=="},
-                                                                    {"fo", "Zm8="},
-                                                                    {"foo", "Zm9v"},
-                                                                    {"foob", "Zm9vYg=="},
-                                                                    {"fooba", "Zm9vYmE="},
-                                                                    {"foobar", "Zm9vYmFy"}};
-  for (const auto& [plain, coded] : vectors) {
-    EXPECT_EQ(encode_base64(bytes_of(plain)), coded);
-    EXPECT_EQ(decode_base64(coded), bytes_of(plain));
-  }
-  EXPECT_THROW(decode_base64("Zg="), std::invalid_argument);
-  EXPECT_THROW(decode_base64("Z!=="), std::invalid_argument);
-  EXPECT_THROW(decode_base64("Zg==Zg=="), std::invalid_argument);
-}
-
-TEST(VtkEncoding, ArraysOfEveryLengthComeBack) {
-  // Around the block size of 256 KiB: empty, partial, exactly full, one more.
-  for (const std::size_t size : {0u, 1u, 1000u, 262143u, 262144u, 262145u, 600000u}) {
-    std::vector<std::byte> bytes(size);
-    for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::byte>(i * i / 7 % 251);
-    EXPECT_EQ(decode_array(encode_array(bytes)), bytes) << size;
-  }
-}
 
 TEST_F(Vtu, ComesBackAsWritten) {
   const VtuGrid grid = make_grid(20000);

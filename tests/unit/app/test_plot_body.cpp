@@ -1,0 +1,73 @@
+#include "app/plot_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "support/cracked_field.hpp"
+
+namespace perilink {
+namespace {
+
+using test::CrackedPlate;
+using test::make_cracked_field;
+
+TEST(PlotBody, ReadsAFieldFile) {
+  const PlotBody body = read_body(make_cracked_field({}, true), "plate.vtu");
+  EXPECT_EQ(body.size(), 25 * 8 + 25 + 25);
+  EXPECT_EQ(body.broken_bonds.size(), 4u);
+  EXPECT_EQ(body.segments.size(), 24u);
+  EXPECT_EQ(body.kind.back(), 2);
+  EXPECT_EQ(body.spacing, 2.0);
+}
+
+TEST(PlotBody, NamesTheArrayThatIsMissing) {
+  VtuGrid grid = make_cracked_field({}, false);
+  grid.point_data.erase(grid.point_data.begin() + 1);
+  try {
+    read_body(grid, "plate.vtu");
+    FAIL() << "accepted a file without damage";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("plate.vtu: array 'damage'"), std::string::npos);
+  }
+  grid = make_cracked_field({}, false);
+  grid.field_data.clear();
+  EXPECT_THROW(read_body(grid, "plate.vtu"), FileError);
+}
+
+TEST(PlotBody, AutomaticScaleShowsAboutATwelfthOfTheSize) {
+  PlotBody body = read_body(make_cracked_field({}, false), "");
+  const double size = 24 * 2.0;
+  const double largest = 8e-4;  // 1e-4 times the height 8 of the crack tip
+  const double share = automatic_scale(body) * largest / size;
+  EXPECT_GT(share, 0.04);  // 1-2-5 steps are at most a factor 2.5 apart, 10 % the upper end
+  EXPECT_LE(share, 0.1 + 1e-9);
+
+  const double scale = automatic_scale(body);
+  body.displacements[3] = {1e6, 0.0, 0.0};
+  body.damage[3] = 1.0;  // a crumb that flew away
+  EXPECT_EQ(automatic_scale(body), scale);
+  body.displacements.assign(body.displacements.size(), {});
+  EXPECT_EQ(automatic_scale(body), 1.0);
+}
+
+TEST(PlotBody, TellsSquareLatticesFromOthers) {
+  EXPECT_TRUE(on_square_lattice(read_body(make_cracked_field({}, true), "")));
+  EXPECT_FALSE(on_square_lattice(read_body(make_cracked_field({.hexagonal = true}, false), "")));
+}
+
+TEST(PlotBody, ViewIsARotation) {
+  const Vector3 x = view({1, 0, 0}, 3), y = view({0, 1, 0}, 3), z = view({0, 0, 1}, 3);
+  const auto dot = [](const Vector3& a, const Vector3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  EXPECT_NEAR(dot(x, x), 1.0, 1e-15);
+  EXPECT_NEAR(dot(x, y), 0.0, 1e-15);
+  EXPECT_NEAR(dot(y, z), 0.0, 1e-15);
+  EXPECT_GT(z[1], 0.9);  // up is up
+  EXPECT_EQ(view({3, 4, 0}, 2), (Vector3{3, 4, 0}));
+}
+
+}  // namespace
+}  // namespace perilink
