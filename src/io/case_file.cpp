@@ -134,7 +134,7 @@ CaseFile parse_case(const std::string& text, const std::string& path) {
   input.analysis = read_analysis(document.table("analysis"));
   input.stop = read_stop(document.table("stop"));
   input.output = read_output(document.table("output"));
-  check_case(input);
+  check_rules(input);
   return input;
 }
 

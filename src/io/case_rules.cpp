@@ -115,7 +115,7 @@ void check_driven(const CaseFile& input) {
 
 }  // namespace
 
-void check_case(const CaseFile& input) {
+void check_rules(const CaseFile& input) {
   const std::set<std::string> names = check_region_names(input);
   check_materials(input, names);
   check_references(input, names, "supports", input.supports);

@@ -54,7 +54,7 @@ class Guard {
     }
     for (++at_; at_ < text_.size(); ++at_) {
       if (text_[at_] == '\n') refuse("a string is not closed", "end it with a quote on its line");
-      if (quote == '"' && text_.substr(at_, 1) == "\\" && text_.substr(at_, 2) != "\\\n") {
+      if (quote == '"' && text_[at_] == '\\' && !text_.substr(at_ + 1).starts_with('\n')) {
         ++at_;
       } else if (text_[at_] == quote) {
         ++at_;

@@ -1,0 +1,345 @@
+#include "io/case_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "material/elasticity.hpp"
+
+namespace perilink {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const char* const small_case = R"([body]
+columns = 11
+horizon_ratio = 3
+
+[[regions]]
+name = "body"
+x = [0, 1]
+y = [0, 2]
+
+[[materials]]
+region = "body"
+youngs_modulus = 30
+fracture_energy = 0.1
+
+[[loads]]
+region = "body"
+force = [0, -1]
+)";
+
+const char* const full_case = R"(title = "Say \"beam\" \\ Träger"
+units = "kN, m"
+
+[body]
+problem = "three_dimensional"
+pattern = "face_centred"
+spacing = 0.1
+horizon = 0.25
+micromodulus = "continuum"
+critical_stretch = "continuum"
+
+[[regions]]
+name = "beam"
+x = [0, 1]
+y = [-2.5, 2.5e0]
+z = [0, 0.333333333333333314829616256247390992939472198486328125]
+
+[[regions]]
+name = "cap"
+x = [0, 1]
+y = [2.5, 3]
+z = [0, 1]
+
+[[materials]]
+name = "concrete"
+region = "beam"
+youngs_modulus = 30e6
+poissons_ratio = 0.25
+fracture_energy = 0.1
+
+[[materials]]
+regions = ["cap"]
+youngs_modulus = 1e-7
+fracture_energy = "infinite"
+
+[[supports]]
+region = "beam"
+fix = ["z", "x"]
+
+[[displacements]]
+region = "cap"
+x = 0.1
+z = -1
+
+[[loads]]
+region = "cap"
+body_force = [0, 0, -25]
+
+[[loads]]
+region = "beam"
+force = [1, 2, 3]
+
+[[rebar]]
+from = [0.5, -2.5, 0.05]
+to = [0.5, 3, 0.05]
+youngs_modulus = 2e8
+area = 1e-4
+yield_strength = 500e3
+yields = false
+ties_break = false
+
+[[rebar]]
+from = [0.5, -2.5, 0.1]
+to = [0.5, 3, 0.1]
+youngs_modulus = 2e8
+area = 1e-4
+
+[analysis]
+control = "steps"
+load_factors = [0.1, 0.2, 1]
+rigid_body_modes = "pin"
+factor = "cholmod_updown"
+
+[stop]
+broken_bonds = 10
+load_fraction = 0.1
+displacement = 0.3
+
+[output]
+fields_at = [1, 20]
+fields_every = 50
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_case(text, "case.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(CaseFile, FillsInDefaults) {
+  const CaseFile input = parse_case(small_case, "case.toml");
+  EXPECT_EQ(input.path, "case.toml");
+  EXPECT_EQ(input.title, "");
+  EXPECT_EQ(input.body.problem, "plane_stress");
+  EXPECT_EQ(input.body.thickness, 1.0);
+  EXPECT_EQ(input.body.pattern, Pattern::rectangular);
+  EXPECT_EQ(input.body.surface, Surface::none);
+  EXPECT_EQ(input.body.columns, 11);
+  EXPECT_EQ(input.body.spacing, std::nullopt);
+  EXPECT_EQ(input.body.horizon_ratio, 3.0);
+  EXPECT_EQ(input.body.micromodulus, "lattice");
+  EXPECT_EQ(input.body.critical_stretch, "lattice");
+  ASSERT_EQ(input.materials.size(), 1u);
+  EXPECT_EQ(input.materials[0].name, "material 1");
+  EXPECT_EQ(input.materials[0].poissons_ratio, std::nullopt);
+  EXPECT_EQ(input.analysis.type, "damage");
+  EXPECT_EQ(input.analysis.control, "events");
+  EXPECT_EQ(input.analysis.rigid_body_modes, "refuse");
+  EXPECT_EQ(input.analysis.factor, "in_place");
+  EXPECT_TRUE(input.analysis.load_factors.empty());
+  EXPECT_EQ(input.stop.broken_bonds, std::nullopt);
+  EXPECT_TRUE(input.output.fields_at.empty());
+  EXPECT_TRUE(input.rebar.empty());
+}
+
+TEST(CaseFile, ReadsEveryKey) {
+  const CaseFile input = parse_case(full_case, "case.toml");
+  EXPECT_EQ(input.title, "Say \"beam\" \\ Träger");
+  EXPECT_EQ(input.units, "kN, m");
+  EXPECT_EQ(input.body.problem, "three_dimensional");
+  EXPECT_EQ(input.body.pattern, Pattern::face_centred);
+  EXPECT_EQ(input.body.spacing, 0.1);
+  EXPECT_EQ(input.body.horizon, 0.25);
+  EXPECT_EQ(input.body.micromodulus, "continuum");
+  EXPECT_EQ(input.body.critical_stretch, "continuum");
+  ASSERT_EQ(input.regions.size(), 2u);
+  EXPECT_EQ(input.regions[0].name, "beam");
+  EXPECT_THAT(input.regions[0].box.lower, ElementsAre(0.0, -2.5, 0.0));
+  EXPECT_THAT(input.regions[0].box.upper, ElementsAre(1.0, 2.5, 1.0 / 3.0));
+  ASSERT_EQ(input.materials.size(), 2u);
+  EXPECT_EQ(input.materials[0].name, "concrete");
+  EXPECT_EQ(input.materials[0].poissons_ratio, 0.25);
+  EXPECT_EQ(input.materials[0].youngs_modulus, 30e6);
+  EXPECT_EQ(input.materials[1].name, "material 2");
+  EXPECT_THAT(input.materials[1].regions, ElementsAre("cap"));
+  EXPECT_EQ(input.materials[1].fracture_energy, std::numeric_limits<double>::infinity());
+  EXPECT_THAT(input.supports.at(0).fix, ElementsAre(true, false, true));
+  EXPECT_THAT(input.displacements.at(0).value, ElementsAre(0.1, std::nullopt, -1.0));
+  EXPECT_EQ(input.loads.at(0).body_force, (Vector3{0.0, 0.0, -25.0}));
+  EXPECT_EQ(input.loads.at(0).force, std::nullopt);
+  EXPECT_EQ(input.loads.at(1).force, (Vector3{1.0, 2.0, 3.0}));
+  ASSERT_EQ(input.rebar.size(), 2u);
+  EXPECT_EQ(input.rebar[0].to, (Vector3{0.5, 3.0, 0.05}));
+  EXPECT_EQ(input.rebar[0].yield_strength, 500e3);
+  EXPECT_FALSE(input.rebar[0].yields);
+  EXPECT_FALSE(input.rebar[0].ties_break);
+  EXPECT_EQ(input.rebar[1].yield_strength, std::nullopt);
+  EXPECT_TRUE(input.rebar[1].yields);
+  EXPECT_TRUE(input.rebar[1].ties_break);
+  EXPECT_EQ(input.analysis.control, "steps");
+  EXPECT_THAT(input.analysis.load_factors, ElementsAre(0.1, 0.2, 1.0));
+  EXPECT_EQ(input.analysis.rigid_body_modes, "pin");
+  EXPECT_EQ(input.analysis.factor, "cholmod_updown");
+  EXPECT_EQ(input.stop.broken_bonds, 10);
+  EXPECT_EQ(input.stop.load_fraction, 0.1);
+  EXPECT_EQ(input.stop.displacement, 0.3);
+  EXPECT_THAT(input.output.fields_at, ElementsAre(1, 20));
+  EXPECT_EQ(input.output.fields_every, 50);
+}
+
+TEST(CaseFile, TakesCubicPatternInSpaceByDefault) {
+  const std::string text = replaced(full_case, "pattern = \"face_centred\"\n", "");
+  EXPECT_EQ(parse_case(text, "").body.pattern, Pattern::cubic);
+}
+
+TEST(CaseFile, KnowsLinesOfKeys) {
+  const CaseFile input = parse_case(small_case, "case.toml");
+  EXPECT_EQ(input.where("body").line, 1);
+  EXPECT_EQ(input.where("body.horizon_ratio").line, 3);
+  EXPECT_EQ(input.where("regions[1].y").line, 8);
+  EXPECT_EQ(input.where(item_key("loads", 0, "force")).line, 17);
+  EXPECT_EQ(input.where("body.spacing").line, 1) << "an absent key has the line of its table";
+  EXPECT_EQ(input.where("body.spacing").key, "body.spacing");
+  EXPECT_EQ(input.where("analysis.type").line, 0);
+  EXPECT_EQ(input.where("").line, 0);
+  EXPECT_EQ(parse_case(full_case, "").where("materials[2].regions").line, 32);
+}
+
+TEST(CaseFile, AcceptsThePoissonsRatioOfItsBonds) {
+  for (const auto& [problem, word] : {std::pair(Problem::plane_stress, "plane_stress"),
+                                      std::pair(Problem::plane_strain, "plane_strain")}) {
+    const double ratio = bond_poissons_ratio(problem);
+    const auto text = [&, name = word](double given) {
+      return replaced(
+          replaced(small_case, "columns", std::string("problem = \"") + name + "\"\ncolumns"),
+          "fracture_energy", "poissons_ratio = " + std::to_string(given) + "\nfracture_energy");
+    };
+    EXPECT_EQ(message_of(text(ratio)), "accepted");
+    EXPECT_EQ(message_of(text(ratio - 0.9e-3)), "accepted");
+    EXPECT_THAT(message_of(text(ratio + 1.1e-3)), HasSubstr("bond-based"));
+    EXPECT_THAT(message_of(text(ratio - 1.1e-3)), HasSubstr("micropolar"));
+  }
+  const double ratio = bond_poissons_ratio(Problem::three_dimensional);
+  EXPECT_EQ(parse_case(full_case, "").materials[0].poissons_ratio, ratio);
+}
+
+TEST(CaseFile, AcceptsTomlOfOtherShapes) {
+  const std::string inline_tables = R"(body = { columns = 11, horizon_ratio = 3 }
+regions = [ { name = 'body', x = [0, 1], y = [0, 2] } ]
+materials = [ { region = "body", youngs_modulus = 3_0, fracture_energy = 0.1 } ]
+loads = [ { region = "body", force = [0, -1] } ]
+)";
+  EXPECT_EQ(write_case(parse_case(inline_tables, "")), write_case(parse_case(small_case, "")));
+  const std::string marked = "\xEF\xBB\xBF# Maße in m\r\n" + std::string(small_case);
+  EXPECT_EQ(write_case(parse_case(marked, "")), write_case(parse_case(small_case, "")));
+}
+
+TEST(CaseFile, WritesWhatItReads) {
+  for (const char* text : {small_case, full_case}) {
+    const CaseFile input = parse_case(text, "case.toml");
+    const std::string written = write_case(input);
+    const CaseFile again = parse_case(written, "written.toml");
+    EXPECT_EQ(write_case(again), written);
+    EXPECT_EQ(again.title, input.title);
+    ASSERT_EQ(again.regions.size(), input.regions.size());
+    for (std::size_t i = 0; i < input.regions.size(); ++i) {
+      EXPECT_EQ(again.regions[i].box.upper, input.regions[i].box.upper) << "to the last bit";
+    }
+    EXPECT_EQ(again.materials.back().fracture_energy, input.materials.back().fracture_energy);
+    EXPECT_EQ(again.supports.size(), input.supports.size());
+    EXPECT_EQ(again.displacements.size(), input.displacements.size());
+    EXPECT_EQ(again.loads.back().force, input.loads.back().force);
+    EXPECT_EQ(again.rebar.size(), input.rebar.size());
+    EXPECT_EQ(again.analysis.load_factors, input.analysis.load_factors);
+    EXPECT_EQ(again.stop.displacement, input.stop.displacement);
+    EXPECT_EQ(again.output.fields_at, input.output.fields_at);
+  }
+}
+
+TEST(CaseFile, WritesNumbersThatReadBackExactly) {
+  std::mt19937_64 random(20050806);
+  std::uniform_real_distribution<double> exponent(-20.0, 20.0);
+  CaseFile input = parse_case(small_case, "");
+  for (int i = 0; i < 1000; ++i) {
+    const double number = std::pow(10.0, exponent(random));
+    input.materials[0].youngs_modulus = number;
+    EXPECT_EQ(parse_case(write_case(input), "").materials[0].youngs_modulus, number);
+  }
+}
+
+TEST(CaseFile, WritesEveryNameSoThatItReadsBack) {
+  CaseFile input = parse_case(small_case, "");
+  for (const char* name :
+       {"a \"b\"", "back\\slash", "tab", "#", "[x]", "ü", "'''", "\"\"\"", "a = 1"}) {
+    input.title = name;
+    input.regions[0].name = input.materials[0].regions[0] = input.loads[0].region = name;
+    const CaseFile again = parse_case(write_case(input), "");
+    EXPECT_EQ(again.title, name);
+    EXPECT_EQ(again.regions[0].name, name);
+  }
+}
+
+TEST(CaseFile, SurvivesEveryTruncationOfAFile) {
+  const std::string text = full_case;
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    try {
+      parse_case(text.substr(0, length), "cut.toml");
+    } catch (const InputError&) {
+    }
+  }
+}
+
+TEST(CaseFile, RefusesHugeText) {
+  EXPECT_THAT(message_of(std::string((std::size_t{16} << 20) + 1, '#')), HasSubstr("16 MiB"));
+  EXPECT_THAT(message_of("title = \"" + std::string(std::size_t{1} << 20, 'x') + "\""),
+              HasSubstr("1048576 characters"));
+  EXPECT_THAT(message_of(std::string(std::size_t{1} << 20, '[')), HasSubstr("nest deeper"));
+  EXPECT_THAT(message_of("[a" + std::string(std::size_t{1} << 20, '.')), HasSubstr("nest deeper"));
+}
+
+TEST(CaseFile, TellsFilesThatCannotBeRead) {
+  const std::filesystem::path folder = testing::TempDir();
+  EXPECT_THROW(read_case_file((folder / "no such case.toml").string()), FileError);
+  EXPECT_THROW(read_case_file(folder.string()), FileError);
+  EXPECT_THROW(read_case_file("/dev/zero"), InputError) << "a device never ends";
+}
+
+TEST(CaseFile, ReadsTheCasesOfThePaper) {
+  const std::filesystem::path meshes = std::filesystem::path(PERILINK_SOURCE_DIR) / "meshes";
+  const CaseFile tension = read_case_file((meshes / "block_tension.toml").string());
+  const CaseFile compression = read_case_file((meshes / "block_compression.toml").string());
+  const CaseFile cantilever = read_case_file((meshes / "rc_cantilever.toml").string());
+  EXPECT_EQ(tension.loads.at(0).force, (Vector3{0.0, -100.0, 0.0}));
+  EXPECT_EQ(compression.loads.at(0).force, (Vector3{0.0, 100.0, 0.0}));
+  EXPECT_EQ(tension.stop.broken_bonds, 150);
+  EXPECT_EQ(cantilever.stop.broken_bonds, 400);
+  EXPECT_EQ(cantilever.rebar.at(0).area, 3.0);
+  for (const CaseFile* input : {&tension, &compression, &cantilever}) {
+    EXPECT_EQ(input->body.surface, Surface::ghost);
+    EXPECT_EQ(input->body.horizon, 31.45);
+    EXPECT_EQ(input->regions.size(), 4u);
+    EXPECT_EQ(input->materials.at(2).fracture_energy, 0.00095);
+  }
+}
+
+}  // namespace
+}  // namespace perilink
