@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -16,25 +16,29 @@ constexpr int deepest_level = 16;
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// Walks over the document once, outside of strings and comments.
+bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
+
+/// Copies the document once, outside of strings, within strings and within comments.
 class Guard {
  public:
   Guard(std::string_view text, const std::string& path) : text_(text), path_(path) {
-    if (text_.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+    if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
+    result_.reserve(text_.size());
   }
 
-  void run() {
+  std::string run() {
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '"' || c == '\'') {
-        skip_string(c);
+        copy_string(c);
       } else if (c == '#') {
-        at_ = std::min(text_.find('\n', at_), text_.size());
+        copy_comment();
       } else {
         look_at(c);
-        ++at_;
+        copy();
       }
     }
+    return std::move(result_);
   }
 
  private:
@@ -42,30 +46,65 @@ class Guard {
     throw InputError({path_, line_, ""}, fault, suggestion);
   }
 
-  void skip_string(char quote) {
+  void copy() { result_ += text_[at_++]; }
+
+  void copy_comment() {
+    for (; at_ < text_.size() && text_[at_] != '\n'; ++at_) {
+      result_ += is_ascii(text_[at_]) ? text_[at_] : '?';
+    }
+  }
+
+  void copy_string(char quote) {
     if (text_.substr(at_, 3) == std::string(3, quote)) {
       refuse("a string begins with three quotes",
              "write text on one line between single or double quotes");
     }
-    // Both this walk and the parser must agree on where strings begin.
     if (at_ > 0 &&
         std::string_view(" \t\r\n=,[{.").find(text_[at_ - 1]) == std::string_view::npos) {
       refuse("a quote stands in the midst of a word", "put whole words between quotes");
     }
-    for (++at_; at_ < text_.size(); ++at_) {
-      if (text_[at_] == '\n') refuse("a string is not closed", "end it with a quote on its line");
-      if (quote == '"' && text_[at_] == '\\' && !text_.substr(at_ + 1).starts_with('\n')) {
-        ++at_;
-      } else if (text_[at_] == quote) {
-        ++at_;
-        return;
+    copy();
+    while (at_ < text_.size() && text_[at_] != '\n') {
+      const char c = text_[at_];
+      if (!is_ascii(c)) {
+        copy_as_escape(quote);
+      } else if (c == '\\' && quote == '"') {
+        copy_escape();
+      } else {
+        copy();
+        if (c == quote) return;
       }
     }
     refuse("a string is not closed", "end it with a quote on its line");
   }
 
+  void copy_escape() {
+    copy();
+    if (at_ == text_.size() || text_[at_] == '\n') return;
+    if (!is_ascii(text_[at_])) {
+      refuse("a backslash stands before a character that it cannot escape", "write \\\\ for one");
+    }
+    copy();
+  }
+
+  void copy_as_escape(char quote) {
+    if (quote == '\'') {
+      refuse("text between single quotes holds a character beyond ASCII",
+             "put it between double quotes (\")");
+    }
+    const auto lead = static_cast<unsigned char>(text_[at_]);
+    const int more = lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3;
+    unsigned code = lead & (0x3FU >> more);
+    for (int k = 1; k <= more; ++k) {
+      code = code << 6 |
+             (static_cast<unsigned char>(text_[at_ + static_cast<std::size_t>(k)]) & 0x3FU);
+    }
+    result_ += fmt::format("\\U{:08X}", code);
+    at_ += static_cast<std::size_t>(more) + 1;
+  }
+
   void look_at(char c) {
-    if (static_cast<unsigned char>(c) >= 0x80) {
+    if (!is_ascii(c)) {
       refuse("a character beyond ASCII stands outside of quotes",
              "put text between straight quotes (\"), and only plain spaces between words");
     }
@@ -82,6 +121,7 @@ class Guard {
 
   std::string_view text_;
   const std::string& path_;
+  std::string result_;
   std::size_t at_ = 0;
   int line_ = 1;
   int brackets_ = 0;
@@ -90,8 +130,8 @@ class Guard {
 
 }  // namespace
 
-void refuse_dangerous_text(const std::string& text, const std::string& path) {
-  Guard(text, path).run();
+std::string guard_toml(const std::string& text, const std::string& path) {
+  return Guard(text, path).run();
 }
 
 }  // namespace perilink

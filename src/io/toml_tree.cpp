@@ -127,9 +127,9 @@ TomlValue parse_toml(const std::string& text, const std::string& path) {
     throw InputError({path, line, ""}, "the line holds bytes that are not UTF-8 text",
                      "name the .toml file of a case, saved as UTF-8");
   }
-  refuse_dangerous_text(text, path);
+  const std::string safe = guard_toml(text, path);
   try {
-    const toml::table document = toml::parse(std::string_view(text), std::string_view(path));
+    const toml::table document = toml::parse(std::string_view(safe), std::string_view(path));
     return convert(document, 1);
   } catch (const toml::parse_error& error) {
     throw InputError({path, line_of(error.source()), ""},
