@@ -136,7 +136,7 @@ bool Run::pass(const Event& event) {
                     outcome.pivot));
     return false;
   }
-  const bool near_separation = outcome.pivot < 1e-2;
+  const bool near_separation = outcome.pivot < 1e-3;
   if (++events_ % options_.check_interval == 0 || near_separation) check();
   return true;
 }

@@ -23,7 +23,7 @@ struct DamageOptions {
   EngineOptions engine;
   std::vector<double> load_factors;  ///< control by steps when not empty, else by events
   StopRules stop;
-  int check_interval = 10;           ///< events between looks at the residual
+  int check_interval = 50;           ///< events between looks at the residual
 };
 
 struct DamageResult {

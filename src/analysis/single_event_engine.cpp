@@ -45,12 +45,56 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
   teeth_.assign(network.yield_strain.size(), 0);
   factor_->factorize(assemble_stiffness(network_, secants_, unknowns_),
                      particle_of_unknown(unknowns_));
-  const std::vector<double> load =
-      assemble_right_hand_side(network_, secants_, unknowns_, loads_);
+  const std::vector<double> load = present_load();
   for (const double value : load) load_norm_ += value * value;
   load_norm_ = std::sqrt(load_norm_);
-  factor_->follow_load(load, solution_);
+  choose_current_unknowns();
+  refresh();
+}
+
+/// Under forces alone an event needs the displacements of elements that can fail, and no others: the
+/// backward pass then leaves out the parts of the body where nothing can. f'u follows the events by
+/// its growth. Driven bodies need the reactions at every event and keep all.
+void SingleEventEngine::choose_current_unknowns() {
+  if (!driven_elements_.empty()) return;
+  std::vector<std::uint8_t> wanted(solution_.size(), 0);
+  auto want = [&](Index particle) {
+    for (int a = 0; a < network_.dim(); ++a) {
+      const Index unknown = unknowns_.at(particle, a);
+      if (unknown != no_index) wanted[unknown] = 1;
+    }
+  };
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    const bool yields =
+        network_.is_segment(e) && std::isfinite(network_.yield_strain[e - network_.first_segment]);
+    if (!yields && !std::isfinite(network_.critical_stretch[e])) continue;
+    want(network_.bonds.first[e]);
+    want(network_.bonds.second[e]);
+  }
+  partial_ = std::any_of(wanted.begin(), wanted.end(), [](std::uint8_t flag) { return flag == 0; });
+  if (partial_) factor_->keep_current(wanted);
+}
+
+std::vector<double> SingleEventEngine::present_load() const {
+  std::vector<double> load = assemble_right_hand_side(network_, secants_, unknowns_, loads_);
+  for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
+  return load;
+}
+
+/// Solves for all displacements with the factor as it stands.
+void SingleEventEngine::refresh() {
+  factor_->follow_load(present_load(), solution_);
   scatter_solution();
+  stale_ = false;
+  force_work_ = 0.0;
+  for (const std::size_t slot : loaded_slots_) {
+    force_work_ += loads_.forces[slot] * displacement_[slot];
+  }
+}
+
+std::span<const double> SingleEventEngine::displacement() {
+  if (stale_) refresh();
+  return displacement_;
 }
 
 void SingleEventEngine::scatter_solution() {
@@ -99,6 +143,7 @@ void SingleEventEngine::commit(const Change& change, Index element, double secan
   if (change.x.size == 0) return;  // both ends prescribed: nothing unknown is held by this element
   factor_->commit_downdate(change.load_change, solution_);
   scatter_solution();
+  stale_ = partial_;
 }
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
@@ -118,6 +163,7 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
     return outcome;
   }
   outcome.compliance_growth = change.extension * change.extension / outcome.pivot;
+  force_work_ += outcome.compliance_growth;
   if (network_.is_segment(element)) ++teeth_[element - network_.first_segment];
   commit(change, element, next);
   return outcome;
@@ -125,6 +171,10 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
 
 LoadWork SingleEventEngine::load_work() {
   LoadWork work;
+  if (partial_) {
+    work.forces = force_work_;
+    return work;
+  }
   for (const std::size_t slot : loaded_slots_) {
     work.forces += loads_.forces[slot] * displacement_[slot];
   }
@@ -159,6 +209,7 @@ double SingleEventEngine::measure_residual(std::vector<double>& residual) {
 }
 
 Equilibrium SingleEventEngine::check_equilibrium() {
+  if (stale_) refresh();
   std::vector<double> residual;
   double size = measure_residual(residual);
   const double tolerance = std::max(options_.residual_tolerance, residual_floor_);
@@ -180,16 +231,12 @@ Equilibrium SingleEventEngine::check_equilibrium() {
 
 void SingleEventEngine::factorize() {
   auto stiffness = assemble_stiffness(network_, secants_, unknowns_);
-  std::vector<double> load = assemble_right_hand_side(network_, secants_, unknowns_, loads_);
-  if (!ground_stiffness_.empty()) {
-    for (Index k = 0; k < unknowns_.count; ++k) {
-      stiffness.coeffRef(k, k) += ground_stiffness_[k];
-      load[k] += ground_load_[k];
-    }
+  for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
+    const Index unknown = static_cast<Index>(k);
+    stiffness.coeffRef(unknown, unknown) += ground_stiffness_[k];
   }
   factor_->refactorize(stiffness);
-  factor_->follow_load(load, solution_);
-  scatter_solution();
+  refresh();
 }
 
 Index SingleEventEngine::most_mobile_unknown(const SparseVector& x) {
@@ -219,6 +266,10 @@ void SingleEventEngine::add_ground_spring(Index unknown) {
 }
 
 int SingleEventEngine::cut(std::span<const Index> elements) {
+  // Springs act on displacements anywhere: from now on all of them are kept current.
+  if (partial_) factor_->keep_current(std::vector<std::uint8_t>(solution_.size(), 1));
+  if (stale_) refresh();
+  partial_ = false;
   int springs = 0;
   const int most = network_.dim() == 2 ? 3 : 6;
   for (const Index element : elements) {

@@ -18,7 +18,7 @@ class SingleEventEngine final : public EventEngine {
 
   Event next_event() override;
   EventOutcome apply(const Event& event) override;
-  std::span<const double> displacement() override { return displacement_; }
+  std::span<const double> displacement() override;
   LoadWork load_work() override;
   std::span<const double> secants() const override { return secants_; }
   Equilibrium check_equilibrium() override;
@@ -41,6 +41,9 @@ class SingleEventEngine final : public EventEngine {
   void factorize();
   void commit(const Change& change, Index element, double secant);
   void scatter_solution();
+  void choose_current_unknowns();
+  void refresh();
+  std::vector<double> present_load() const;
   double measure_residual(std::vector<double>& residual);
   void add_ground_spring(Index unknown);
   Index most_mobile_unknown(const SparseVector& x);
@@ -58,6 +61,9 @@ class SingleEventEngine final : public EventEngine {
   std::vector<Index> yielding_;         ///< segments that can yield
   std::vector<Index> driven_elements_;  ///< elements that end at a driven particle
   std::vector<std::size_t> loaded_slots_;
+  bool partial_ = false;  ///< events keep only the displacements current that the search looks at
+  bool stale_ = false;    ///< the other displacements are those of an earlier event
+  double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
   std::vector<std::size_t> slot_of_;    ///< particle * dim + axis of every unknown
   std::vector<double> solution_;        ///< per unknown
   std::vector<double> displacement_;

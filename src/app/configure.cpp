@@ -50,6 +50,21 @@ double horizon_of(const BodySection& body, double spacing) {
   return horizon_of_level(body.pattern, *body.horizon_level) * spacing;
 }
 
+/// A lattice that ends on the boundary is stretched a little along its rows or across them. A horizon
+/// given in spacings means the neighbours of the unstretched lattice, so it grows with the longest
+/// stretch; otherwise a whole shell of neighbours would drop out.
+double horizon_on_lattice(const BodySection& body, const Lattice& lattice) {
+  if (body.horizon) return *body.horizon;
+  Vector3 ideal{lattice.spacing, lattice.spacing, lattice.spacing};
+  if (lattice.pattern == Pattern::hexagonal) ideal[1] *= std::sqrt(0.75);
+  if (lattice.pattern == Pattern::face_centred) {
+    for (double& step : ideal) step *= std::sqrt(0.5);
+  }
+  double stretch = 1.0;
+  for (int a = 0; a < lattice.dim; ++a) stretch = std::max(stretch, lattice.step[a] / ideal[a]);
+  return horizon_of(body, lattice.spacing) * stretch;
+}
+
 std::string horizon_key(const BodySection& body) {
   if (body.horizon) return "body.horizon";
   return body.horizon_ratio ? "body.horizon_ratio" : "body.horizon_level";
@@ -90,8 +105,7 @@ Body build_body(const CaseFile& input, int dim, double& horizon) {
   }
   try {
     Body body = make_body(lattice);
-    // A horizon in spacings means spacings of the lattice that fits the body.
-    horizon = horizon_of(input.body, body.lattice.spacing);
+    horizon = horizon_on_lattice(input.body, body.lattice);
     return body;
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where(spacing_key), error.what(), "");
