@@ -6,16 +6,11 @@ add_library(perilink::options ALIAS perilink_options)
 target_link_libraries(perilink_options INTERFACE OpenMP::OpenMP_CXX)
 target_compile_options(perilink_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-  # GCC 12 sees overlaps in std::string operator+ (PR 105651) and unset registers in its own AVX-512
-  # headers (PR 105593) that are not there.
-  -Wno-restrict -Wno-maybe-uninitialized
+  -Wno-restrict  # GCC 12 sees overlaps in std::string operator+ that are not there (PR 105651)
   $<$<BOOL:${PERILINK_WERROR}>:-Werror>
   # The same source gives the same rounding whatever the optimisation decides to fuse: a*b+c is
   # always fused where the processor can.
   -ffp-contract=fast)
-if(PERILINK_NATIVE)
-  target_compile_options(perilink_options INTERFACE -march=native)
-endif()
 if(PERILINK_SANITIZE)
   target_compile_options(perilink_options INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
@@ -37,4 +32,20 @@ function(perilink_module name)
     target_link_libraries(perilink_${name} PUBLIC perilink::${dependency})
   endforeach()
   target_link_libraries(perilink_${name} PUBLIC perilink::options)
+endfunction()
+
+# perilink_hot_sources(FILES...): the few files whose loops decide the run time get every instruction
+# of this machine. Not the whole program: GCC 12.2 with AVX-512 miscompiles copies of constant tables
+# ({1, 1, 1, 0, 0, 1} arrives as 1 1 1 1 0 1), and -mstore-max=128 is what keeps it from that here.
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag("-march=native -mstore-max=128" PERILINK_HAS_STORE_MAX)
+function(perilink_hot_sources)
+  if(NOT PERILINK_NATIVE)
+    return()
+  endif()
+  set(options -march=native)
+  if(PERILINK_HAS_STORE_MAX)
+    list(APPEND options -mstore-max=128)
+  endif()
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}")
 endfunction()
