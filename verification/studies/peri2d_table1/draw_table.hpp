@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "app/svg.hpp"
+#include "table1.hpp"
+
+namespace perilink::verification {
+
+/// Errors over the number of columns: printed ones as circles, found ones as lines.
+Svg draw_table(const std::vector<TableRow>& rows);
+
+}  // namespace perilink::verification
