@@ -64,7 +64,8 @@ double CaseTable::checked_number(const std::string& key, const TomlValue& value)
            fmt::format("use units in which sizes lie between {} and {}", smallest_number,
                        largest_number));
   }
-  return value.number;
+  // Minus zero would be written as an integer, which has no sign of zero.
+  return value.number == 0.0 ? 0.0 : value.number;
 }
 
 int CaseTable::checked_integer(const std::string& key, const TomlValue& value, int lowest,

@@ -286,6 +286,11 @@ TEST(CaseFile, WritesNumbersThatReadBackExactly) {
   }
 }
 
+TEST(CaseFile, WritesMinusZeroAsZero) {
+  const CaseFile input = parse_case(replaced(small_case, "x = [0,", "x = [-0.0,"), "");
+  EXPECT_EQ(write_case(input), write_case(parse_case(small_case, "")));
+}
+
 TEST(CaseFile, WritesEveryNameSoThatItReadsBack) {
   CaseFile input = parse_case(small_case, "");
   for (const char* name :
