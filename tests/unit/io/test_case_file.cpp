@@ -3,137 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
-#include <random>
 #include <string>
 
-#include "material/elasticity.hpp"
+#include "case_texts.hpp"
 
 namespace perilink {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-const char* const small_case = R"([body]
-columns = 11
-horizon_ratio = 3
-
-[[regions]]
-name = "body"
-x = [0, 1]
-y = [0, 2]
-
-[[materials]]
-region = "body"
-youngs_modulus = 30
-fracture_energy = 0.1
-
-[[loads]]
-region = "body"
-force = [0, -1]
-)";
-
-const char* const full_case = R"(title = "Say \"beam\" \\ Träger"
-units = "kN, m"
-
-[body]
-problem = "three_dimensional"
-pattern = "face_centred"
-spacing = 0.1
-horizon = 0.25
-micromodulus = "continuum"
-critical_stretch = "continuum"
-
-[[regions]]
-name = "beam"
-x = [0, 1]
-y = [-2.5, 2.5e0]
-z = [0, 0.333333333333333314829616256247390992939472198486328125]
-
-[[regions]]
-name = "cap"
-x = [0, 1]
-y = [2.5, 3]
-z = [0, 1]
-
-[[materials]]
-name = "concrete"
-region = "beam"
-youngs_modulus = 30e6
-poissons_ratio = 0.25
-fracture_energy = 0.1
-
-[[materials]]
-regions = ["cap"]
-youngs_modulus = 1e-7
-fracture_energy = "infinite"
-
-[[supports]]
-region = "beam"
-fix = ["z", "x"]
-
-[[displacements]]
-region = "cap"
-x = 0.1
-z = -1
-
-[[loads]]
-region = "cap"
-body_force = [0, 0, -25]
-
-[[loads]]
-region = "beam"
-force = [1, 2, 3]
-
-[[rebar]]
-from = [0.5, -2.5, 0.05]
-to = [0.5, 3, 0.05]
-youngs_modulus = 2e8
-area = 1e-4
-yield_strength = 500e3
-yields = false
-ties_break = false
-
-[[rebar]]
-from = [0.5, -2.5, 0.1]
-to = [0.5, 3, 0.1]
-youngs_modulus = 2e8
-area = 1e-4
-
-[analysis]
-control = "steps"
-load_factors = [0.1, 0.2, 1]
-rigid_body_modes = "pin"
-factor = "cholmod_updown"
-
-[stop]
-broken_bonds = 10
-load_fraction = 0.1
-displacement = 0.3
-
-[output]
-fields_at = [1, 20]
-fields_every = 50
-)";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-std::string message_of(const std::string& text) {
-  try {
-    parse_case(text, "case.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(CaseFile, FillsInDefaults) {
   const CaseFile input = parse_case(small_case, "case.toml");
@@ -224,24 +104,6 @@ TEST(CaseFile, KnowsLinesOfKeys) {
   EXPECT_EQ(parse_case(full_case, "").where("materials[2].regions").line, 32);
 }
 
-TEST(CaseFile, AcceptsThePoissonsRatioOfItsBonds) {
-  for (const auto& [problem, word] : {std::pair(Problem::plane_stress, "plane_stress"),
-                                      std::pair(Problem::plane_strain, "plane_strain")}) {
-    const double ratio = bond_poissons_ratio(problem);
-    const auto text = [&, name = word](double given) {
-      return replaced(
-          replaced(small_case, "columns", std::string("problem = \"") + name + "\"\ncolumns"),
-          "fracture_energy", "poissons_ratio = " + std::to_string(given) + "\nfracture_energy");
-    };
-    EXPECT_EQ(message_of(text(ratio)), "accepted");
-    EXPECT_EQ(message_of(text(ratio - 0.9e-3)), "accepted");
-    EXPECT_THAT(message_of(text(ratio + 1.1e-3)), HasSubstr("bond-based"));
-    EXPECT_THAT(message_of(text(ratio - 1.1e-3)), HasSubstr("micropolar"));
-  }
-  const double ratio = bond_poissons_ratio(Problem::three_dimensional);
-  EXPECT_EQ(parse_case(full_case, "").materials[0].poissons_ratio, ratio);
-}
-
 TEST(CaseFile, AcceptsTomlOfOtherShapes) {
   const std::string inline_tables = R"(body = { columns = 11, horizon_ratio = 3 }
 regions = [ { name = 'body', x = [0, 1], y = [0, 2] } ]
@@ -251,56 +113,6 @@ loads = [ { region = "body", force = [0, -1] } ]
   EXPECT_EQ(write_case(parse_case(inline_tables, "")), write_case(parse_case(small_case, "")));
   const std::string marked = "\xEF\xBB\xBF# Maße in m\r\n" + std::string(small_case);
   EXPECT_EQ(write_case(parse_case(marked, "")), write_case(parse_case(small_case, "")));
-}
-
-TEST(CaseFile, WritesWhatItReads) {
-  for (const char* text : {small_case, full_case}) {
-    const CaseFile input = parse_case(text, "case.toml");
-    const std::string written = write_case(input);
-    const CaseFile again = parse_case(written, "written.toml");
-    EXPECT_EQ(write_case(again), written);
-    EXPECT_EQ(again.title, input.title);
-    ASSERT_EQ(again.regions.size(), input.regions.size());
-    for (std::size_t i = 0; i < input.regions.size(); ++i) {
-      EXPECT_EQ(again.regions[i].box.upper, input.regions[i].box.upper) << "to the last bit";
-    }
-    EXPECT_EQ(again.materials.back().fracture_energy, input.materials.back().fracture_energy);
-    EXPECT_EQ(again.supports.size(), input.supports.size());
-    EXPECT_EQ(again.displacements.size(), input.displacements.size());
-    EXPECT_EQ(again.loads.back().force, input.loads.back().force);
-    EXPECT_EQ(again.rebar.size(), input.rebar.size());
-    EXPECT_EQ(again.analysis.load_factors, input.analysis.load_factors);
-    EXPECT_EQ(again.stop.displacement, input.stop.displacement);
-    EXPECT_EQ(again.output.fields_at, input.output.fields_at);
-  }
-}
-
-TEST(CaseFile, WritesNumbersThatReadBackExactly) {
-  std::mt19937_64 random(20050806);
-  std::uniform_real_distribution<double> exponent(-20.0, 20.0);
-  CaseFile input = parse_case(small_case, "");
-  for (int i = 0; i < 1000; ++i) {
-    const double number = std::pow(10.0, exponent(random));
-    input.materials[0].youngs_modulus = number;
-    EXPECT_EQ(parse_case(write_case(input), "").materials[0].youngs_modulus, number);
-  }
-}
-
-TEST(CaseFile, WritesMinusZeroAsZero) {
-  const CaseFile input = parse_case(replaced(small_case, "x = [0,", "x = [-0.0,"), "");
-  EXPECT_EQ(write_case(input), write_case(parse_case(small_case, "")));
-}
-
-TEST(CaseFile, WritesEveryNameSoThatItReadsBack) {
-  CaseFile input = parse_case(small_case, "");
-  for (const char* name :
-       {"a \"b\"", "back\\slash", "tab", "#", "[x]", "ü", "'''", "\"\"\"", "a = 1"}) {
-    input.title = name;
-    input.regions[0].name = input.materials[0].regions[0] = input.loads[0].region = name;
-    const CaseFile again = parse_case(write_case(input), "");
-    EXPECT_EQ(again.title, name);
-    EXPECT_EQ(again.regions[0].name, name);
-  }
 }
 
 TEST(CaseFile, SurvivesEveryTruncationOfAFile) {

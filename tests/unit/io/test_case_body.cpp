@@ -1,0 +1,50 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "case_texts.hpp"
+#include "io/case_sections.hpp"
+#include "material/elasticity.hpp"
+
+// The refusals themselves are data: tests/cli/malformed. Here stand the edges of what is allowed.
+
+namespace perilink {
+namespace {
+
+using testing::HasSubstr;
+
+std::string with_size(const std::string& lines) {
+  return message_of(replaced(small_case, "columns = 11\nhorizon_ratio = 3", lines));
+}
+
+TEST(CaseBody, AllowsTheEdgesOfSizes) {
+  EXPECT_EQ(with_size("columns = 2\nhorizon_ratio = 1"), "accepted");
+  EXPECT_EQ(with_size("columns = 100000\nhorizon_ratio = 1"), "accepted");
+  EXPECT_THAT(with_size("columns = 100001\nhorizon_ratio = 1"), HasSubstr("from 2 to 100000"));
+  EXPECT_EQ(with_size("spacing = 0.5\nhorizon = 0.5"), "accepted");
+  EXPECT_THAT(with_size("spacing = 0.5\nhorizon = 0.49999"), HasSubstr("less than the spacing"));
+  EXPECT_EQ(with_size("columns = 2\nhorizon_level = 0"), "accepted") << "the body refuses it later";
+  EXPECT_EQ(with_size("columns = 2\nhorizon_level = 8"), "accepted");
+}
+
+TEST(CaseBody, AcceptsThePoissonsRatioOfItsBonds) {
+  for (const auto& [problem, word] : {std::pair(Problem::plane_stress, "plane_stress"),
+                                      std::pair(Problem::plane_strain, "plane_strain")}) {
+    const double ratio = bond_poissons_ratio(problem);
+    const auto text = [&, name = word](double given) {
+      return replaced(
+          replaced(small_case, "columns", std::string("problem = \"") + name + "\"\ncolumns"),
+          "fracture_energy", "poissons_ratio = " + std::to_string(given) + "\nfracture_energy");
+    };
+    EXPECT_EQ(message_of(text(ratio)), "accepted");
+    EXPECT_EQ(message_of(text(ratio - 0.9e-3)), "accepted");
+    EXPECT_THAT(message_of(text(ratio + 1.1e-3)), HasSubstr("bond-based"));
+    EXPECT_THAT(message_of(text(ratio - 1.1e-3)), HasSubstr("micropolar"));
+  }
+  const double ratio = bond_poissons_ratio(Problem::three_dimensional);
+  EXPECT_EQ(parse_case(full_case, "").materials[0].poissons_ratio, ratio);
+}
+
+}  // namespace
+}  // namespace perilink
