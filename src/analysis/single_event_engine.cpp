@@ -1,5 +1,7 @@
 #include "analysis/single_event_engine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,17 @@
 #include "base/error.hpp"
 
 namespace perilink {
+namespace {
+
+/// Pivots below this are computed again with refinement: a body that is about to separate has a
+/// condition number that takes most digits of what the factor says.
+constexpr double doubtful_pivot = 1e-2;
+
+/// Where even a fresh factor leaves more than this of the load out of balance, no figure that follows
+/// would mean anything.
+constexpr double hopeless_residual = 1e-3;
+
+}  // namespace
 
 std::unique_ptr<EventEngine> make_event_engine(const Network& network, const Unknowns& unknowns,
                                                const Loads& loads, const EngineOptions& options) {
@@ -50,6 +63,9 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
   load_norm_ = std::sqrt(load_norm_);
   choose_current_unknowns();
   refresh();
+  std::vector<double> residual;
+  measure_residual(residual);
+  refine(residual);
 }
 
 /// Under forces alone an event needs the displacements of elements that can fail, and no others: the
@@ -90,6 +106,13 @@ void SingleEventEngine::refresh() {
   for (const std::size_t slot : loaded_slots_) {
     force_work_ += loads_.forces[slot] * displacement_[slot];
   }
+}
+
+/// One step of iterative refinement; `residual` is used up.
+void SingleEventEngine::refine(std::vector<double>& residual) {
+  factor_->solve(residual, residual);
+  for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
+  scatter_solution();
 }
 
 std::span<const double> SingleEventEngine::displacement() {
@@ -137,6 +160,43 @@ SingleEventEngine::Change SingleEventEngine::make_change(Index element,
   return change;
 }
 
+/// 1 - x' K^-1 x with K^-1 x refined against the elements themselves.
+double SingleEventEngine::refined_pivot(const SparseVector& x) {
+  std::vector<double> rhs(solution_.size(), 0.0), direction(solution_.size(), 0.0);
+  for (int k = 0; k < x.size; ++k) rhs[x.rows[k]] = x.values[k];
+  std::vector<double> residual = rhs;
+  std::vector<double> spread(displacement_.size(), 0.0);
+  for (int pass = 0; pass < 3; ++pass) {
+    factor_->solve(residual, residual);
+    for (std::size_t k = 0; k < direction.size(); ++k) {
+      direction[k] += residual[k];
+      spread[slot_of_[k]] = direction[k];
+    }
+    internal_force(network_, secants_, spread, internal_);
+    for (std::size_t k = 0; k < direction.size(); ++k) {
+      residual[k] = rhs[k] - internal_.forces[slot_of_[k]];
+      if (!ground_stiffness_.empty()) residual[k] -= ground_stiffness_[k] * direction[k];
+    }
+  }
+  double removed = 0.0;
+  for (int k = 0; k < x.size; ++k) removed += x.values[k] * direction[x.rows[k]];
+  return 1.0 - removed;
+}
+
+/// Pivot of a removal, prepared in the factor; where it is small, from a factor and a solution that can
+/// be trusted.
+double SingleEventEngine::pivot_of(const Change& change) {
+  if (change.x.size == 0) return 1.0;
+  double pivot = factor_->prepare_downdate(change.x);
+  if (pivot > doubtful_pivot) return pivot;
+  double refined = refined_pivot(change.x);
+  if (refined < mechanism_pivot || std::abs(pivot - refined) < 1e-6 * refined) return refined;
+  factorize();
+  pivot = factor_->prepare_downdate(change.x);
+  refined = refined_pivot(change.x);
+  return refined < mechanism_pivot ? refined : pivot;
+}
+
 void SingleEventEngine::commit(const Change& change, Index element, double secant) {
   secants_[element] = secant;
   if (secant == 0.0) search_.remove(element);
@@ -154,9 +214,10 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
     next = plateaus_[k].tooth(teeth_[k] + 1).secant;
   }
   const double lost = network_.stiffness[element] * (secants_[element] - next);
-  const Change change = make_change(element, lost);
+  Change change = make_change(element, lost);
   EventOutcome outcome;
-  outcome.pivot = change.x.size == 0 ? 1.0 : factor_->prepare_downdate(change.x);
+  outcome.pivot = pivot_of(change);
+  change = make_change(element, lost);  // looking closer may have sharpened the displacements
   outcome.released = 0.5 * change.extension * change.extension;
   if (outcome.pivot < mechanism_pivot) {
     outcome.mechanism = true;
@@ -214,9 +275,7 @@ Equilibrium SingleEventEngine::check_equilibrium() {
   double size = measure_residual(residual);
   const double tolerance = std::max(options_.residual_tolerance, residual_floor_);
   if (size > tolerance) {
-    factor_->solve(residual, residual);
-    for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
-    scatter_solution();
+    refine(residual);
     size = measure_residual(residual);
   }
   if (size > tolerance) {
@@ -225,6 +284,12 @@ Equilibrium SingleEventEngine::check_equilibrium() {
     // A body on the verge of separation moves so far that even a fresh factor leaves more than the
     // tolerance; factorising again for less than twice that would be work for nothing.
     residual_floor_ = 2.0 * size;
+    if (size > hopeless_residual) {
+      throw SolverError(fmt::format(
+          "a fresh factor leaves {:.1e} of the load out of balance: the body is on the verge of "
+          "separation and its stiffness matrix is singular to working precision",
+          size));
+    }
   }
   return {size, internal_.energy};
 }
@@ -276,7 +341,7 @@ int SingleEventEngine::cut(std::span<const Index> elements) {
     if (secants_[element] == 0.0) continue;
     const Change change =
         make_change(element, network_.stiffness[element] * secants_[element]);
-    double pivot = change.x.size == 0 ? 1.0 : factor_->prepare_downdate(change.x);
+    double pivot = pivot_of(change);
     for (int tries = 0; pivot < mechanism_pivot; ++tries) {
       if (tries == most) throw SolverError("a part that comes loose cannot be held by ground springs");
       const double force = std::abs(change.extension) * std::abs(change.x.values[0]);

@@ -39,10 +39,13 @@ class SingleEventEngine final : public EventEngine {
   };
   Change make_change(Index element, double stiffness_lost) const;
   void factorize();
+  double pivot_of(const Change& change);
+  double refined_pivot(const SparseVector& x);
   void commit(const Change& change, Index element, double secant);
   void scatter_solution();
   void choose_current_unknowns();
   void refresh();
+  void refine(std::vector<double>& residual);
   std::vector<double> present_load() const;
   double measure_residual(std::vector<double>& residual);
   void add_ground_spring(Index unknown);

@@ -74,9 +74,10 @@ void mark_peak(Svg& svg, const Frame& frame, const StepRecord& peak, const PlotL
            "paint-order=\"stroke\"");
 }
 
-void draw_legend(Svg& svg, const Frame& frame, bool downward) {
+/// In the corner of the right side that the peak leaves free.
+void draw_legend(Svg& svg, const Frame& frame, bool at_bottom) {
   const double x = frame.x.pixel_high - 212.0;
-  const double y = downward ? frame.y.pixel_low - 44.0 : frame.y.pixel_high + 16.0;
+  const double y = at_bottom ? frame.y.pixel_low - 44.0 : frame.y.pixel_high + 16.0;
   svg.rect({x - 10, y - 14}, 222.0, 48.0, "fill=\"#fff\"");
   SvgPath smooth, events;
   smooth.move_to({x, y});
@@ -152,7 +153,8 @@ Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels
     svg.path(make_path(frame, events), many_events_style);
     const std::size_t window = envelope_window(records.size());
     svg.path(make_path(frame, smooth_envelope(records, window)), envelope_style);
-    draw_legend(svg, frame, peak.load < 0.0);
+    const bool peak_on_right = peak.displacement > 0.5 * (frame.x.low + frame.x.high);
+    draw_legend(svg, frame, (peak.load < 0.0) != peak_on_right);
   } else {
     svg.path(make_path(frame, events), few_events_style);
   }

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "analysis/event_engine.hpp"
+#include "app/summary.hpp"
+#include "assembly/stiffness.hpp"
+#include "base/timer.hpp"
+#include "problems/block.hpp"
+
+using namespace perilink;
+using namespace perilink::verification;
+
+/// Time per broken bond of every route, in one run, on the refined tension block.
+///   break_time [--threads N] [columns ...]
+namespace {
+
+/// Read bandwidth of one thread over an array much larger than the caches [bytes/s]: the best of a
+/// few passes, as a bound should be.
+double read_bandwidth() {
+  const std::size_t count = std::size_t{1} << 26;
+  std::vector<double> data(count, 1.0);
+  double best = 0.0;
+  volatile double sink = 0.0;
+  for (int pass = 0; pass < 5; ++pass) {
+    const Timer timer;
+    double sums[8] = {};
+    for (std::size_t k = 0; k < count; k += 8) {
+      for (std::size_t lane = 0; lane < 8; ++lane) sums[lane] += data[k + lane];
+    }
+    for (const double sum : sums) sink = sink + sum;
+    best = std::max(best, 8.0 * static_cast<double>(count) / timer.seconds());
+  }
+  return best;
+}
+
+struct RouteTime {
+  double search = 0.0;        ///< seconds per event in next_event
+  double apply = 0.0;         ///< seconds per event in apply
+  double total() const { return search + apply; }
+  double factorization = 0.0; ///< seconds of one numerical factorisation
+  double solve = 0.0;         ///< seconds of one full solve
+  double bytes = 0.0;         ///< of L
+  int events = 0;
+};
+
+/// Median over the events of one route of a whole event: search, pivot, downdate, displacement.
+RouteTime time_events(const Model& model, FactorRoute route, int events, int threads) {
+  EngineOptions options;
+  options.route = route;
+  options.threads = threads;
+  const auto engine =
+      make_event_engine(model.network, model.unknowns, model.loads, options);
+  std::vector<double> search, apply;
+  for (int k = 0; k < events; ++k) {
+    Timer timer;
+    const Event event = engine->next_event();
+    search.push_back(timer.seconds());
+    timer.restart();
+    if (engine->apply(event).mechanism) break;
+    apply.push_back(timer.seconds());
+  }
+  auto median = [](std::vector<double>& values) {
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    return values[values.size() / 2];
+  };
+  RouteTime result;
+  result.events = static_cast<int>(apply.size());
+  result.search = median(search);
+  result.apply = median(apply);
+  result.bytes = engine->factor_statistics().bytes;
+  return result;
+}
+
+/// One numerical factorisation with CHOLMOD's supernodal code and one solve: what an event costs that
+/// starts from the changed matrix.
+void time_factorization(const Model& model, FactorRoute route, int repeats, RouteTime& result) {
+  const std::vector<double> intact(static_cast<std::size_t>(model.network.num_elements()), 1.0);
+  const SparseMatrix matrix = assemble_stiffness(model.network, intact, model.unknowns);
+  const auto load =
+      assemble_right_hand_side(model.network, intact, model.unknowns, model.loads);
+  std::vector<double> solution(load.size());
+  const auto factor = make_factor(route, 1);
+  factor->factorize(matrix, particle_of_unknown(model.unknowns));
+  std::vector<double> factorization, solve;
+  for (int k = 0; k < repeats; ++k) {
+    Timer timer;
+    factor->refactorize(matrix);
+    factorization.push_back(timer.seconds());
+    timer.restart();
+    factor->solve(load, solution);
+    solve.push_back(timer.seconds());
+  }
+  std::sort(factorization.begin(), factorization.end());
+  std::sort(solve.begin(), solve.end());
+  result.factorization = factorization[factorization.size() / 2];
+  result.solve = solve[solve.size() / 2];
+}
+
+void benchmark(int columns, int threads, double bandwidth) {
+  const Model model = make_block(columns);
+  const Index n = model.unknowns.count;
+  const int events = n < 20000 ? 400 : n < 100000 ? 100 : 30;
+  const int repeats = n < 20000 ? 25 : n < 100000 ? 7 : 3;
+  const RouteTime ours = time_events(model, FactorRoute::in_place, events, threads);
+  RouteTime refactor;
+  time_factorization(model, FactorRoute::refactorize, repeats, refactor);
+  RouteTime updown = time_events(model, FactorRoute::cholmod_updown, std::min(events, 50), threads);
+  RouteTime simplicial;
+  if (n < 500000) time_factorization(model, FactorRoute::cholmod_updown, 1, simplicial);
+
+  const double anew = refactor.factorization + refactor.solve + ours.search;
+  // updown_solve changes the forward solution with the factor and leaves half a solve; the other half
+  // is what a full solve would add.
+  const double updown_full = updown.total() + 0.5 * simplicial.solve;
+  const double bound = ours.bytes / bandwidth;
+  fmt::print("\n{} columns, {} unknowns, {} elements; medians of {} events, {} factorisations\n", columns,
+             n, model.network.num_elements(), ours.events, repeats);
+  fmt::print("  {:<44} {:>10} {:>8}\n", "route", "ms/break", "ratio");
+  auto row = [&](const char* name, double seconds) {
+    fmt::print("  {:<44} {:>10.3f} {:>8.1f}\n", name, 1e3 * seconds, seconds / ours.total());
+  };
+  row("refactorise (supernodal) and solve", anew);
+  row("CHOLMOD updown and full solve", updown_full);
+  row("CHOLMOD updown_solve", updown.total());
+  row("in place", ours.total());
+  row("  of it search", ours.search);
+  row("  of it downdate and displacement", ours.apply);
+  row("whole L read once at the measured bandwidth", bound);
+  fmt::print("  L in place {:.1f} MB, simplicial {:.1f} MB; factorisation {:.1f} ms, solve {:.2f} ms "
+             "(simplicial {:.2f} ms); peak memory so far {:.2f} GB\n",
+             ours.bytes / 1e6, updown.bytes / 1e6, 1e3 * refactor.factorization,
+             1e3 * refactor.solve, 1e3 * simplicial.solve, peak_memory_bytes() / 1e9);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int threads = 1;
+  std::vector<int> sizes;
+  for (int k = 1; k < argc; ++k) {
+    if (std::strcmp(argv[k], "--threads") == 0 && k + 1 < argc) {
+      threads = std::atoi(argv[++k]);
+    } else {
+      sizes.push_back(std::atoi(argv[k]));
+    }
+  }
+  if (sizes.empty()) sizes = {columns_5k, columns_50k, columns_300k};
+  const double bandwidth = read_bandwidth();
+  fmt::print("{} thread(s); one thread reads {:.1f} GB/s\n", threads, bandwidth / 1e9);
+  for (const int columns : sizes) benchmark(columns, threads, bandwidth);
+  return 0;
+}

@@ -1,0 +1,40 @@
+#include "compare.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "problems/block.hpp"
+
+namespace perilink::verification {
+
+Agreement compare_routes(int columns, FactorRoute other, Index events, Index other_events) {
+  const Model model = make_block(columns);
+  const BlockRun ours = run_block(model, FactorRoute::in_place, events);
+  const BlockRun reference = run_block(model, other, other_events);
+  Agreement agreement;
+  agreement.columns = columns;
+  agreement.unknowns = model.unknowns.count;
+  agreement.events = ours.result.broken_bonds;
+  agreement.ending = to_string(ours.result.ending);
+  agreement.energy_error = ours.result.energy_error;
+  agreement.largest_residual = ours.result.largest_residual;
+  agreement.factorizations = ours.result.factor.factorizations;
+  agreement.seconds = ours.seconds;
+  agreement.other_seconds = reference.seconds;
+  agreement.compared =
+      static_cast<Index>(std::min(ours.rows.size(), reference.rows.size()));
+  for (Index k = 0; k < agreement.compared; ++k) {
+    if (ours.rows[k].element != reference.rows[k].element) ++agreement.mismatches;
+    const double expected = reference.rows[k].load_factor;
+    agreement.load_factor_difference =
+        std::max(agreement.load_factor_difference,
+                 std::abs(ours.rows[k].load_factor - expected) / std::abs(expected));
+  }
+  // A reference that ended earlier by itself (collapse) must end at the same event.
+  if (reference.result.ending != Ending::completed && ours.rows.size() != reference.rows.size()) {
+    ++agreement.mismatches;
+  }
+  return agreement;
+}
+
+}  // namespace perilink::verification
