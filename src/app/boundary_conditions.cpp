@@ -14,8 +14,10 @@ namespace {
 
 /// Forces on a free body that differ by more than this fraction of their sum are not in balance.
 constexpr double force_balance_tolerance = 1e-6;
-/// A net couple above this fraction of force times size is told to the user.
+/// A net couple above this fraction of force times size is told to the user ...
 constexpr double couple_note = 1e-9;
+/// ... and above this one is no matter of unsymmetric rows: it would turn the body.
+constexpr double couple_limit = 0.1;
 
 /// Displacements that are prescribed, and by which key of the case.
 struct Prescription {
@@ -101,10 +103,22 @@ double size_of_body(const Particles& particles) {
   return size;
 }
 
-/// The loads of a body that is pinned must balance by themselves; a small net couple is unavoidable
+Loads loads_on(const Model& model, const Fragment& fragment) {
+  Loads own;
+  own.forces.assign(model.loads.forces.size(), 0.0);
+  for (const Index i : fragment.particles) {
+    for (int a = 0; a < model.network.dim(); ++a) {
+      const std::size_t slot = static_cast<std::size_t>(i) * model.network.dim() + a;
+      own.forces[slot] = model.loads.forces[slot];
+    }
+  }
+  return own;
+}
+
+/// The loads of a part that is pinned must balance by themselves; a small net couple is unavoidable
 /// where the rows of a lattice are not symmetric, and the pins take it.
-void require_balance(const CaseFile& input, Model& model) {
-  const LoadResultant& sum = model.resultant;
+void require_balance(const CaseFile& input, Model& model, const Fragment& fragment) {
+  const LoadResultant sum = load_resultant(model.network, loads_on(model, fragment));
   double force = 0.0, moment = 0.0;
   for (const double f : sum.force) force = std::max(force, std::abs(f));
   for (const double m : sum.moment) moment = std::max(moment, std::abs(m));
@@ -115,11 +129,19 @@ void require_balance(const CaseFile& input, Model& model) {
                                  fmt::join(sum.force, ", ")),
                      "balance the loads or hold the body with [[supports]]");
   }
-  if (moment > couple_note * sum.scale * size_of_body(model.network.particles)) {
+  const double couple = moment / (sum.scale * size_of_body(model.network.particles));
+  if (couple > couple_limit) {
+    throw InputError(input.where("analysis.rigid_body_modes"),
+                     fmt::format("is \"pin\", but the loads of the free body turn it: their couple "
+                                 "is {:.3g}",
+                                 moment),
+                     "balance the loads or hold the body with [[supports]]");
+  }
+  if (couple > couple_note) {
     model.notes.push_back(fmt::format(
-        "the loads leave a net couple of {:.3g}, which the three pinned displacements take: {:.2g} "
-        "of the sum of forces times the body's size",
-        moment, moment / (sum.scale * size_of_body(model.network.particles))));
+        "the loads leave a net couple of {:.3g}, which the pinned displacements take: {:.2g} of "
+        "the sum of forces times the body's size",
+        moment, couple));
   }
 }
 
@@ -151,7 +173,7 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
                                    where, fragment.free_modes, all),
                        "support all of them, or none");
     }
-    require_balance(input, model);
+    require_balance(input, model, fragment);
     pin_rigid_modes(model.network, fragment, prescription.held);
     model.notes.push_back(fmt::format("{} rigid-body modes of the free body are pinned", all));
   }

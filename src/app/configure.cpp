@@ -38,10 +38,13 @@ Box bounding_box(const std::vector<Box>& boxes) {
 }
 
 /// Spacing that the case asks for: given, or from the number of particles across the body, which
-/// stand in cells (ghost surface) or on both ends (conforming lattice).
+/// stand in cells (ghost surface) or on both ends (conforming lattice). The particles of a row of
+/// the face-centred pattern are one edge of its cubes apart.
 double wanted_spacing(const BodySection& body, double width) {
   if (body.spacing) return *body.spacing;
-  return body.surface == Surface::ghost ? width / *body.columns : width / (*body.columns - 1);
+  if (body.surface == Surface::ghost) return width / *body.columns;
+  const double apart = width / (*body.columns - 1);
+  return body.pattern == Pattern::face_centred ? apart * std::sqrt(0.5) : apart;
 }
 
 double horizon_of(const BodySection& body, double spacing) {
@@ -127,11 +130,11 @@ void refuse_materials_without_particles(const CaseFile& input, const Body& body)
   }
 }
 
-void refuse_bars_outside(const CaseFile& input, const Body& body, double horizon) {
+void refuse_bars_outside(const CaseFile& input, const Body& body) {
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {
     for (const char* end : {"from", "to"}) {
       const Vector3& point = end[0] == 'f' ? input.rebar[k].from : input.rebar[k].to;
-      double nearest = horizon * horizon;
+      double nearest = INFINITY;
       for (Index i = 0; i < body.particles.size(); ++i) {
         if (body.particles.kind[i] != ParticleKind::solid) continue;
         double square = 0.0;
@@ -194,7 +197,7 @@ Model build_model(const CaseFile& input) {
   const Body body = build_body(input, dim, model.horizon);
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
-  refuse_bars_outside(input, body, model.horizon);
+  refuse_bars_outside(input, body);
   try {
     model.network = build_network(body, network_input(input, model.problem, model.horizon));
   } catch (const std::invalid_argument& error) {

@@ -20,8 +20,9 @@ bool is_result_file(const std::string& name) {
   for (const std::string_view known : names) {
     if (name == known) return true;
   }
-  const bool is_field = name.starts_with("fields_");
-  return is_field && (name.ends_with(".vtu") || name.ends_with(".svg"));
+  if (!name.starts_with("fields_")) return false;
+  // The last one is what a run that was killed left half written.
+  return name.ends_with(".vtu") || name.ends_with(".svg") || name.ends_with(".vtu.part");
 }
 
 }  // namespace

@@ -46,12 +46,17 @@ void RunObserver::note_broken(const StepRecord& record, StateSource& source) {
   }
 }
 
+/// A load step may pass a number that the case asks for; the first row beyond it counts then.
 bool RunObserver::wants_fields(Index broken_bonds) const {
-  if (written_.contains(broken_bonds)) return false;
   if (written_.empty()) return true;
+  const Index last = *written_.rbegin();
+  if (broken_bonds == last) return false;
   const std::vector<int>& at = input_.output.fields_at;
-  if (std::find(at.begin(), at.end(), broken_bonds) != at.end()) return true;
-  return input_.output.fields_every && broken_bonds % *input_.output.fields_every == 0;
+  if (std::any_of(at.begin(), at.end(), [&](int n) { return n > last && n <= broken_bonds; })) {
+    return true;
+  }
+  const std::optional<int>& every = input_.output.fields_every;
+  return every && broken_bonds / *every != last / *every;
 }
 
 void RunObserver::write_fields(const StepRecord& record, StateSource& source) {

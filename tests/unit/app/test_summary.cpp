@@ -1,0 +1,115 @@
+#include "app/summary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/build_info.hpp"
+#include "base/error.hpp"
+#include "support/strip_case.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink {
+namespace {
+
+DamageResult some_result() {
+  DamageResult result;
+  result.ending = Ending::collapsed;
+  result.reason = "the body \"separated\"";
+  result.last.step = 9;
+  result.last.yield_events = 2;
+  result.last.external_work = 7.5;
+  result.last.strain_energy = 3.0;
+  result.last.dissipated_energy = 4.5;
+  result.broken_bonds = 8;
+  result.peak_load = 1.0 / 3.0;
+  result.peak_displacement = 0.125;
+  result.initial_stiffness = 64.0;
+  result.largest_residual = 1e-14;
+  result.energy_error = 2e-13;
+  result.factor.factorizations = 2;
+  result.factor.bytes = 1024.0;
+  return result;
+}
+
+TEST(Summary, HoldsEveryFigureUnderItsKey) {
+  const test::TemporaryDirectory work;
+  const CaseFile input = test::strip_case();
+  const Model model = build_model(input);
+  write_summary(work.path(), input, model, some_result(), {0.25, 0.5, 0.75}, 3);
+  const auto json = nlohmann::ordered_json::parse(test::read_text(work / "summary.json"));
+
+  const nlohmann::ordered_json expected = {
+      {"title", "A strip in tension"},
+      {"units", "kip, in"},
+      {"status", "collapsed"},
+      {"reason", "the body \"separated\""},
+      {"peak_load", 1.0 / 3.0},
+      {"peak_displacement", 0.125},
+      {"initial_stiffness", 64.0},
+      {"steps", 9},
+      {"broken_bonds", 8},
+      {"yield_events", 2},
+      {"external_work", 7.5},
+      {"strain_energy", 3.0},
+      {"dissipated_energy", 4.5},
+      {"energy_error", 2e-13},
+      {"largest_residual", 1e-14},
+      {"particles", 45},
+      {"bonds", model.network.num_elements()},
+      {"unknowns", 60},
+      {"spacing", 10.0},
+      {"horizon", 31.0},
+      {"factorizations", 2},
+      {"factor_bytes", 1024.0},
+      {"seconds", {{"set_up", 0.25}, {"analysis", 0.5}, {"output", 0.75}}},
+      {"threads", 3},
+      {"version", program_version()},
+      {"commit", program_commit()}};
+  for (const auto& [key, value] : expected.items()) {
+    ASSERT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(json[key], value) << key;
+  }
+  EXPECT_GT(json["peak_memory_bytes"].get<double>(), 1e6);
+  EXPECT_EQ(json.size(), expected.size() + 1) << "a key that no test knows";
+}
+
+TEST(Summary, NamesEveryEnding) {
+  const CaseFile input = test::strip_case();
+  const Model model = build_model(input);
+  for (const auto& [ending, word] :
+       std::vector<std::pair<Ending, std::string>>{{Ending::completed, "completed"},
+                                                   {Ending::collapsed, "collapsed"},
+                                                   {Ending::nothing_breaks, "nothing_breaks"},
+                                                   {Ending::interrupted, "interrupted"},
+                                                   {Ending::failed, "failed"}}) {
+    const test::TemporaryDirectory work;
+    DamageResult result = some_result();
+    result.ending = ending;
+    write_summary(work.path(), input, model, result, {}, 1);
+    EXPECT_EQ(nlohmann::json::parse(test::read_text(work / "summary.json"))["status"], word);
+  }
+}
+
+TEST(Summary, AFailureToWriteIsReported) {
+  const CaseFile input = test::strip_case();
+  EXPECT_THROW(write_summary("/no/such/folder", input, build_model(input), {}, {}, 1), FileError);
+}
+
+TEST(Summary, ForPeopleSaysHowItEndedAndWhereTheResultsAre) {
+  const CaseFile input = test::strip_case();
+  Model model = build_model(input);
+  model.notes.push_back("mind the gap");
+  testing::internal::CaptureStdout();
+  print_summary(input, model, some_result(), {0.25, 0.5, 0.75}, "results/strip");
+  const std::string text = testing::internal::GetCapturedStdout();
+  for (const char* part : {"A strip in tension", "collapsed", "0.333333 at displacement 0.125",
+                           "[kip, in]", "8 broken bonds, 2 yield events, 9 rows", "45 particles",
+                           "mind the gap", "results/strip"}) {
+    EXPECT_THAT(text, testing::HasSubstr(part));
+  }
+}
+
+}  // namespace
+}  // namespace perilink
