@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const std::vector<std::string> unknown = app.remaining();
     if (app.get_subcommands().empty() && !unknown.empty()) {
-      fmt::print(stderr, "perilink: unknown command: {}\n", unknown.front());
+      fmt::print(stderr, "perilink: there is no command or option {}\n", unknown.front());
     }
     app.exit(error);
     return exit_bad_input;

@@ -1,0 +1,227 @@
+// The program from outside: command line, exit statuses, files.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "support/process.hpp"
+#include "support/program_cases.hpp"
+
+namespace perilink::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A directory to run the program in.
+class Program : public testing::Test {
+ protected:
+  Program() { fs::create_directories(work()); }
+  fs::path work() const { return temporary_ / "work"; }
+  ProcessEnd run(const std::vector<std::string>& arguments) const {
+    return run_program(work(), arguments);
+  }
+  void write_case(const std::string& name, const std::string& text) const {
+    write_text(work() / name, text);
+  }
+  /// Content of every file below the working directory, by its path there.
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(work())) {
+      if (!entry.is_regular_file()) continue;
+      found[entry.path().lexically_relative(work()).generic_string()] = read_text(entry.path());
+    }
+    return found;
+  }
+  std::set<std::string> names() const {
+    std::set<std::string> found;
+    for (const auto& [name, content] : files()) found.insert(name);
+    return found;
+  }
+
+  TemporaryDirectory temporary_;
+};
+
+TEST_F(Program, HelpNamesEveryCommandAndOption) {
+  const std::map<std::string, std::vector<std::string>> expected = {
+      {"", {"--help", "--version", "run", "check", "plot", "Exit status", "docs/case_file.md"}},
+      {"run", {"case", "--out", "--threads", "--quiet", "--force", "Exit status"}},
+      {"check", {"case", "Exit status"}},
+      {"plot", {"directory", "--out", "--scale", "Exit status"}}};
+  for (const auto& [command, words] : expected) {
+    std::vector<std::string> arguments = {"--help"};
+    if (!command.empty()) arguments.insert(arguments.begin(), command);
+    const ProcessEnd end = run(arguments);
+    EXPECT_EQ(end.exit_status, 0) << command;
+    EXPECT_EQ(end.err, "") << command;
+    for (const std::string& word : words) EXPECT_THAT(end.out, HasSubstr(word)) << command;
+  }
+}
+
+TEST_F(Program, VersionNamesTheProgram) {
+  const ProcessEnd end = run({"--version"});
+  EXPECT_EQ(end.exit_status, 0);
+  EXPECT_TRUE(end.out.starts_with("perilink ")) << end.out;
+}
+
+TEST_F(Program, BadCommandLinesAreRefused) {
+  write_case("a.toml", small_ghost_case);
+  const std::vector<std::vector<std::string>> bad = {{},
+                                                     {"simulate"},
+                                                     {"--colour"},
+                                                     {"run"},
+                                                     {"run", "a.toml", "b.toml"},
+                                                     {"run", "a.toml", "--threads", "0"},
+                                                     {"run", "a.toml", "--threads", "many"},
+                                                     {"run", "a.toml", "--fast"},
+                                                     {"check"},
+                                                     {"check", "a.toml", "--out", "x"},
+                                                     {"plot"},
+                                                     {"plot", ".", "--scale", "-1"}};
+  for (const auto& arguments : bad) {
+    const ProcessEnd end = run(arguments);
+    EXPECT_EQ(end.exit_status, 2) << testing::PrintToString(arguments);
+    EXPECT_NE(end.err, "") << testing::PrintToString(arguments);
+    EXPECT_EQ(end.out, "") << testing::PrintToString(arguments);
+  }
+  EXPECT_THAT(run({"simulate"}).err, HasSubstr("simulate"));
+  EXPECT_EQ(names(), std::set<std::string>{"a.toml"}) << "a refused command left files behind";
+}
+
+TEST_F(Program, MissingFilesAreNamed) {
+  for (const char* command : {"run", "check"}) {
+    const ProcessEnd end = run({command, "nowhere/case.toml"});
+    EXPECT_EQ(end.exit_status, 2) << command;
+    EXPECT_THAT(end.err, HasSubstr("nowhere/case.toml")) << command;
+  }
+  EXPECT_EQ(run({"run", "."}).exit_status, 2) << "a directory is no case";
+  EXPECT_TRUE(fs::is_empty(work()));
+}
+
+TEST_F(Program, RunWritesTheFilesOfTheContractAndNoOthers) {
+  write_case("small.toml", small_ghost_case);
+  const ProcessEnd end = run({"run", "small.toml"});
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_EQ(end.err, "");
+  for (const char* part : {"Small block", "completed", "30 broken bonds", "results/small"}) {
+    EXPECT_THAT(end.out, HasSubstr(part));
+  }
+  const std::string place = "results/small/";
+  EXPECT_EQ(names(),
+            (std::set<std::string>{"small.toml", place + "case.toml", place + "history.csv",
+                                   place + "timing.csv", place + "summary.json",
+                                   place + "fields.pvd", place + "fields_000000.vtu",
+                                   place + "fields_000010.vtu", place + "fields_000020.vtu",
+                                   place + "fields_000030.vtu", place + "log.txt"}));
+  const auto summary = nlohmann::json::parse(read_text(work() / place / "summary.json"));
+  EXPECT_EQ(summary["status"], "completed");
+  EXPECT_EQ(summary["broken_bonds"], 30);
+  EXPECT_THAT(read_text(work() / place / "log.txt"), HasSubstr("30 broken bonds"));
+}
+
+TEST_F(Program, HistoryHasTheDocumentedColumnsAndARowForEveryEvent) {
+  write_case("small.toml", small_ghost_case);
+  ASSERT_EQ(run({"run", "small.toml", "--out", "r"}).exit_status, 0);
+  std::istringstream history(read_text(work() / "r/history.csv"));
+  std::string line;
+  std::getline(history, line);
+  EXPECT_EQ(line,
+            "step,broken_bonds,load_factor,load,displacement,strain_energy,dissipated_energy,"
+            "external_work,released_energy,yield_events,residual,factorizations,element");
+  for (int row = 1; row <= 31; ++row) {
+    ASSERT_TRUE(std::getline(history, line)) << row;
+    const std::string start = std::to_string(row) + "," + std::to_string(row - 1) + ",";
+    EXPECT_TRUE(line.starts_with(start)) << line;
+  }
+  EXPECT_FALSE(std::getline(history, line)) << line;
+  const std::string timing = read_text(work() / "r/timing.csv");
+  EXPECT_TRUE(timing.starts_with("step,seconds\n1,")) << timing.substr(0, 40);
+}
+
+TEST_F(Program, AnEarlierResultIsRefusedByteForByteAndForcedOnRequest) {
+  write_case("small.toml", small_ghost_case);
+  ASSERT_EQ(run({"run", "small.toml", "--out", "r"}).exit_status, 0);
+  write_text(work() / "r/notes.txt", "mine");
+  write_text(work() / "r/fields_000999.vtu", "old");
+  const auto before = files();
+  const ProcessEnd refused = run({"run", "small.toml", "--out", "r"});
+  EXPECT_EQ(refused.exit_status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--force"));
+  EXPECT_EQ(files(), before);
+
+  EXPECT_EQ(run({"run", "small.toml", "--out", "r", "--force"}).exit_status, 0);
+  const auto after = files();
+  EXPECT_EQ(after.at("r/notes.txt"), "mine");
+  EXPECT_FALSE(after.contains("r/fields_000999.vtu"));
+  EXPECT_EQ(after.at("r/history.csv"), before.at("r/history.csv"));
+}
+
+TEST_F(Program, AForcedRunOfABadCaseKeepsTheEarlierResult) {
+  write_case("small.toml", small_ghost_case);
+  ASSERT_EQ(run({"run", "small.toml", "--out", "r"}).exit_status, 0);
+  write_case("bad.toml", "title = \"bad\"\n");
+  const auto before = files();
+  EXPECT_EQ(run({"run", "bad.toml", "--out", "r", "--force"}).exit_status, 2);
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(Program, QuietRunsPrintNothing) {
+  write_case("small.toml", small_ghost_case);
+  const ProcessEnd end = run({"run", "small.toml", "--quiet"});
+  EXPECT_EQ(end.exit_status, 0);
+  EXPECT_EQ(end.out, "");
+  EXPECT_EQ(end.err, "");
+}
+
+TEST_F(Program, TheResolvedCaseRunsAgainToTheSameHistory) {
+  write_case("small.toml", small_ghost_case);
+  ASSERT_EQ(run({"run", "small.toml", "--out", "first"}).exit_status, 0);
+  ASSERT_EQ(run({"run", "first/case.toml", "--out", "second"}).exit_status, 0);
+  for (const char* file : {"history.csv", "case.toml", "fields_000030.vtu"}) {
+    EXPECT_EQ(read_text(work() / "first" / file), read_text(work() / "second" / file)) << file;
+  }
+}
+
+TEST_F(Program, CheckTellsSizesAndMakesNothing) {
+  write_case("small.toml", small_ghost_case);
+  const ProcessEnd end = run({"check", "small.toml"});
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  for (const char* part : {"[body]", "particles          336", "bonds              2345",
+                           "unknowns           669", "memory", "each broken bond"}) {
+    EXPECT_THAT(end.out, HasSubstr(part));
+  }
+  EXPECT_EQ(names(), std::set<std::string>{"small.toml"});
+  write_case("again.toml", end.out);  // what it prints is a case with comments
+  EXPECT_EQ(run({"check", "again.toml"}).exit_status, 0);
+}
+
+TEST_F(Program, PlotDrawsWhatAResultHolds) {
+  write_case("small.toml", small_ghost_case);
+  ASSERT_EQ(run({"run", "small.toml", "--out", "r"}).exit_status, 0);
+  const ProcessEnd end = run({"plot", "r", "--out", "pictures"});
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  for (const char* name : {"load_displacement.svg", "fields_0.svg", "fields_10.svg",
+                           "fields_20.svg", "fields_30.svg"}) {
+    EXPECT_THAT(read_text(work() / "pictures" / name), HasSubstr("</svg>")) << name;
+    EXPECT_THAT(end.out, HasSubstr(name));
+  }
+  EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
+  EXPECT_TRUE(fs::exists(work() / "r/fields_30.svg"));
+}
+
+TEST_F(Program, PlotOfADirectoryWithoutResultsIsRefused) {
+  fs::create_directories(work() / "empty");
+  for (const char* directory : {"empty", "nowhere"}) {
+    const ProcessEnd end = run({"plot", directory});
+    EXPECT_EQ(end.exit_status, 2);
+    EXPECT_THAT(end.err, HasSubstr(std::string(directory) + "/history.csv"));
+  }
+  EXPECT_TRUE(fs::is_empty(work() / "empty"));
+}
+
+}  // namespace
+}  // namespace perilink::test

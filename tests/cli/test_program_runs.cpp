@@ -1,0 +1,159 @@
+// Longer runs of the program from outside: signals, threads, three dimensions.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "support/process.hpp"
+#include "support/program_cases.hpp"
+
+namespace perilink::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ProgramRuns : public testing::Test {
+ protected:
+  ProgramRuns() { fs::create_directories(work()); }
+  fs::path work() const { return temporary_ / "work"; }
+  ProcessEnd run(const std::vector<std::string>& arguments) const {
+    return run_program(work(), arguments);
+  }
+  /// Starts a run that lasts for many seconds.
+  ProgramProcess start_long_run() const {
+    write_text(work() / "long.toml", hexagonal_case(86, 1000000));
+    return {work(), {"run", "long.toml", "--out", "r", "--threads", "1"}};
+  }
+  std::string history(const std::string& directory) const {
+    return read_text(work() / directory / "history.csv");
+  }
+  nlohmann::json summary(const std::string& directory) const {
+    return nlohmann::json::parse(read_text(work() / directory / "summary.json"));
+  }
+
+  TemporaryDirectory temporary_;
+};
+
+/// Expects a header and rows of as many fields, numbered from one, each with its line end.
+/// \return number of rows
+int expect_whole_rows(const std::string& text) {
+  EXPECT_FALSE(text.empty());
+  EXPECT_TRUE(text.empty() || text.back() == '\n') << "the last row is cut";
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  const auto commas = std::count(line.begin(), line.end(), ',');
+  EXPECT_EQ(commas, 12);
+  int rows = 0;
+  while (std::getline(lines, line)) {
+    ++rows;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), commas) << line;
+    EXPECT_TRUE(line.starts_with(std::to_string(rows) + ",")) << line;
+  }
+  return rows;
+}
+
+class StopSignals : public ProgramRuns, public testing::WithParamInterface<int> {};
+
+TEST_P(StopSignals, KeepTheResultsSoFar) {
+  ProgramProcess process = start_long_run();
+  ASSERT_TRUE(process.wait_until([&] { return fs::exists(work() / "r/fields.pvd"); }));
+  process.send(GetParam());
+  const ProcessEnd end = process.wait();
+  EXPECT_EQ(end.exit_status, 4) << end.err;
+  const auto json = summary("r");
+  EXPECT_EQ(json["status"], "interrupted");
+  EXPECT_EQ(expect_whole_rows(history("r")), json["steps"].get<int>());
+  const std::string last = "fields_" + std::string(6, '0');
+  EXPECT_TRUE(fs::exists(work() / "r" / (last + ".vtu"))) << "the first field file";
+  EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, StopSignals, testing::Values(SIGINT, SIGTERM),
+                         [](const auto& signal) {
+                           return signal.param == SIGINT ? "Int" : "Term";
+                         });
+
+TEST_F(ProgramRuns, KilledOnesLeaveAReadableHistory) {
+  ProgramProcess process = start_long_run();
+  // Rows reach the file twice a second.
+  ASSERT_TRUE(process.wait_until([&] { return history("r").size() > 2000; }));
+  process.send(SIGKILL);
+  EXPECT_EQ(process.wait().signal, SIGKILL);
+  EXPECT_GT(expect_whole_rows(history("r")), 10);
+  EXPECT_FALSE(fs::exists(work() / "r/summary.json"));
+  EXPECT_EQ(run({"plot", "r"}).exit_status, 0) << "results of a killed run are worth a look";
+  EXPECT_EQ(run({"run", "long.toml", "--out", "r"}).exit_status, 2) << "and are not overwritten";
+}
+
+/// Not a bit of the history may depend on the threads or on the run.
+TEST_F(ProgramRuns, HistoriesDoNotDependOnThreads) {
+  write_text(work() / "small.toml", small_ghost_case);
+  // Above 2e6 numbers of L, from which on one factor is worked on by all threads.
+  write_text(work() / "large.toml", hexagonal_case(42, 300));
+  for (const std::string name : {"small", "large"}) {
+    int number = 0;
+    for (const char* threads : {"1", "1", "2", "2", "3"}) {
+      const std::string directory = name + std::to_string(number++);
+      const ProcessEnd end =
+          run({"run", name + ".toml", "--out", directory, "--threads", threads, "--quiet"});
+      ASSERT_EQ(end.exit_status, 0) << end.err;
+      EXPECT_EQ(summary(directory)["threads"], std::stoi(threads));
+      EXPECT_TRUE(history(directory) == history(name + "0")) << name << ", threads " << threads;
+    }
+    expect_whole_rows(history(name + "0"));
+  }
+  const auto large = summary("large0");
+  EXPECT_GT(large["factor_bytes"].get<double>(), 8.0 * 2e6) << "too small to use threads";
+  EXPECT_GT(large["unknowns"].get<int>(), 10000);
+  EXPECT_EQ(large["broken_bonds"], 300);
+}
+
+struct BarCase {
+  const char* pattern;
+  double coarse;   ///< spacing
+  double fine;     ///< spacing
+  double modulus;  ///< Young's modulus along the cubes' edges over the mean of all directions
+};
+
+void PrintTo(const BarCase& bar, std::ostream* stream) { *stream << bar.pattern; }
+
+class ElasticBars : public ProgramRuns, public testing::WithParamInterface<BarCase> {};
+
+/// A bond lattice is a cubic crystal: along the cubes' edges its Young's modulus is
+/// (C11 - C12) (C11 + 2 C12) / (C11 + C12) with C11 ~ sum x^4 / xi^3 and C12 ~ sum x^2 y^2 / xi^3
+/// over the family, scaled so that C11 + 2 C12 = 2 E. Particles at the surface lack bonds, which
+/// softens the bar in proportion to horizon / width; two spacings extrapolate to none of that. What
+/// is left is quadratic in the spacing.
+TEST_P(ElasticBars, StretchByForceTimesLengthOverStiffness) {
+  const BarCase& bar = GetParam();
+  std::vector<double> displacement;
+  std::vector<double> spacing;
+  for (const double wanted : {bar.coarse, bar.fine}) {
+    write_text(work() / "bar.toml", tension_bar_case(bar.pattern, wanted));
+    const ProcessEnd end = run({"run", "bar.toml", "--force"});
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+    EXPECT_THAT(end.out, testing::HasSubstr("elastic equilibrium"));
+    const auto json = summary("results/bar");
+    EXPECT_LT(json["largest_residual"].get<double>(), 1e-10);
+    displacement.push_back(json["peak_displacement"]);
+    spacing.push_back(json["spacing"]);
+  }
+  const double expected = 2.0 * 4.0 / (100.0 * bar.modulus * 1.0);
+  EXPECT_GT(displacement[0], displacement[1]);
+  EXPECT_GT(displacement[1], expected);
+  const double slope = (displacement[0] - displacement[1]) / (spacing[0] - spacing[1]);
+  EXPECT_NEAR(displacement[1] - slope * spacing[1], expected, 0.1 * expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Patterns, ElasticBars,
+                         testing::Values(BarCase{"cubic", 1.0 / 8, 1.0 / 12, 1.1131},
+                                         BarCase{"face_centred", M_SQRT1_2 / 6, M_SQRT1_2 / 8,
+                                                 0.8364}),
+                         [](const auto& bar) { return std::string(bar.param.pattern); });
+
+}  // namespace
+}  // namespace perilink::test

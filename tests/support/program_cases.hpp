@@ -1,0 +1,187 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+/// \file
+/// Case files that tests give to the program.
+
+namespace perilink::test {
+
+/// A few hundred particles with ghosts, pulled apart until 30 bonds are broken: a fraction of a
+/// second.
+inline constexpr const char* small_ghost_case = R"(title = "Small block"
+units = "kip, in"
+
+[body]
+thickness = 1.0
+surface = "ghost"
+spacing = 12.5
+horizon = 31.45
+
+[[regions]]
+name = "specimen"
+x = [0, 100]
+y = [0, 200]
+
+[[regions]]
+name = "lower cap"
+x = [0, 100]
+y = [-50, 0]
+
+[[regions]]
+name = "upper cap"
+x = [0, 100]
+y = [200, 250]
+
+[[materials]]
+region = "specimen"
+youngs_modulus = 3604.0
+fracture_energy = 0.001
+
+[[materials]]
+regions = ["lower cap", "upper cap"]
+youngs_modulus = 3604.0
+fracture_energy = "infinite"
+
+[[loads]]
+region = "lower cap"
+force = [0, -100]
+
+[[loads]]
+region = "upper cap"
+force = [0, 100]
+
+[analysis]
+rigid_body_modes = "pin"
+
+[stop]
+broken_bonds = 30
+
+[output]
+fields_at = [10, 20]
+)";
+
+/// A hexagonal block of 100 by 300 with a weak patch, held below and driven above. 3.5 columns^2
+/// particles.
+inline std::string hexagonal_case(int columns, int broken_bonds) {
+  return fmt::format(R"(title = "Hexagonal block"
+
+[body]
+pattern = "hexagonal"
+columns = {}
+horizon_ratio = 3
+
+[[regions]]
+name = "block"
+x = [0, 100]
+y = [0, 300]
+
+[[regions]]
+name = "weak patch"
+x = [40, 60]
+y = [140, 160]
+
+[[regions]]
+name = "lower end"
+x = [0, 100]
+y = [0, 10]
+
+[[regions]]
+name = "upper end"
+x = [0, 100]
+y = [290, 300]
+
+[[materials]]
+region = "block"
+youngs_modulus = 3604.0
+fracture_energy = 0.001
+
+[[materials]]
+region = "weak patch"
+youngs_modulus = 3604.0
+fracture_energy = 0.0009
+
+[[supports]]
+region = "lower end"
+fix = ["x", "y"]
+
+[[displacements]]
+region = "upper end"
+x = 0
+y = 0.1
+
+[stop]
+broken_bonds = {}
+)",
+                     columns, broken_bonds);
+}
+
+/// A bar of 1 by 1 by 4 in tension by 2 along y; its modulus is 100. Rollers and one corner line
+/// hold it so that it may contract.
+inline std::string tension_bar_case(const std::string& pattern, double spacing) {
+  return fmt::format(R"([body]
+problem = "three_dimensional"
+pattern = "{}"
+spacing = {}
+horizon_ratio = 2
+
+[[regions]]
+name = "bar"
+x = [0, 1]
+y = [0, 4]
+z = [0, 1]
+
+[[regions]]
+name = "lower face"
+x = [0, 1]
+y = [-0.01, 0.01]
+z = [0, 1]
+
+[[regions]]
+name = "edge along z"
+x = [-0.01, 0.01]
+y = [-0.01, 0.01]
+z = [0, 1]
+
+[[regions]]
+name = "edge along x"
+x = [0, 1]
+y = [-0.01, 0.01]
+z = [-0.01, 0.01]
+
+[[regions]]
+name = "upper face"
+x = [0, 1]
+y = [3.99, 4.01]
+z = [0, 1]
+
+[[materials]]
+region = "bar"
+youngs_modulus = 100
+fracture_energy = 0.001
+
+[[supports]]
+region = "lower face"
+fix = ["y"]
+
+[[supports]]
+region = "edge along z"
+fix = ["x"]
+
+[[supports]]
+region = "edge along x"
+fix = ["z"]
+
+[[loads]]
+region = "upper face"
+force = [0, 2, 0]
+
+[analysis]
+type = "elastic"
+)",
+                     pattern, spacing);
+}
+
+}  // namespace perilink::test
