@@ -55,6 +55,7 @@ class Run {
   }
   void record(double load_factor, const LoadWork& work, Index element);
   void check();
+  void record_separated(double load_factor, const LoadWork& work);
   bool pass(const Event& event);
   bool stop_rule_met();
   void end(Ending ending, std::string reason) {
@@ -98,7 +99,9 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
   row_.strain_energy = energy_.stored();
   row_.load = reference_.driven ? load_factor * work.supports / reference_.value
                                 : load_factor * reference_.value;
-  row_.displacement = row_.load != 0.0 ? 2.0 * row_.strain_energy / row_.load : 0.0;
+  row_.displacement = row_.load != 0.0 ? 2.0 * row_.strain_energy / row_.load
+                      : reference_.driven ? load_factor * reference_.value
+                                          : 0.0;
   row_.dissipated_energy = energy_.dissipated();
   row_.external_work = energy_.external_work();
   row_.released_energy = energy_.released();
@@ -128,14 +131,15 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
 bool Run::pass(const Event& event) {
   const EventOutcome outcome = engine_->apply(event);
   const bool is_bar = network_.is_segment(event.element);
-  ++(is_bar ? yield_events_ : broken_bonds_);
-  energy_.add_event(outcome);
   if (outcome.mechanism) {
+    if (!is_bar) result_.broken_bonds = 1;  // beyond those of the last row
     end(Ending::collapsed,
         fmt::format("the body separated when element {} failed (pivot {:.1e})", event.element,
                     outcome.pivot));
     return false;
   }
+  ++(is_bar ? yield_events_ : broken_bonds_);
+  energy_.add_event(outcome);
   const bool near_separation = outcome.pivot < 1e-3;
   if (++events_ % options_.check_interval == 0 || near_separation) check();
   return true;
@@ -159,13 +163,19 @@ bool Run::stop_rule_met() {
   return true;
 }
 
+/// The driven body lies in two: the last row shows that it no longer resists.
+void Run::record_separated(double load_factor, const LoadWork& work) {
+  end(Ending::collapsed, "the body no longer resists the displacements");
+  record(load_factor, work, no_index);
+}
+
 /// From event to event: the load factor follows the body, up or down.
 DamageResult Run::by_events() {
   check();
   while (true) {
     const LoadWork work = engine_->load_work();
     if (separated(work)) {
-      end(Ending::collapsed, "the body no longer resists the displacements");
+      record_separated(row_.load_factor, work);
       break;
     }
     const Event event = engine_->next_event();
@@ -180,6 +190,7 @@ DamageResult Run::by_events() {
 }
 
 /// At prescribed load factors: the worst element fails, and the next, until none exceeds its limit.
+/// A run that ends within a step reports the last equilibrium at the load that it can bear.
 DamageResult Run::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
@@ -189,12 +200,17 @@ DamageResult Run::by_steps() {
       energy_.advance(load_factor, engine_->load_work());
       if (observer_.stop_requested()) {
         end(Ending::interrupted, "a signal asked the run to stop");
+        record(event.load_factor, engine_->load_work(), event.element);
         return finish();
       }
-      if (!pass(event)) return finish();
+      if (!pass(event)) {
+        record(event.load_factor, engine_->load_work(), event.element);
+        return finish();
+      }
       last = event.element;
-      if (separated(engine_->load_work())) {
-        end(Ending::collapsed, "the body no longer resists the displacements");
+      const LoadWork work = engine_->load_work();
+      if (separated(work)) {
+        record_separated(load_factor, work);
         return finish();
       }
       event = engine_->next_event();
@@ -209,7 +225,7 @@ DamageResult Run::by_steps() {
 DamageResult Run::finish() {
   observer_.on_end(row_, state_);
   result_.last = row_;
-  result_.broken_bonds = broken_bonds_;
+  result_.broken_bonds += broken_bonds_;
   result_.factor = engine_->factor_statistics();
   return result_;
 }

@@ -102,10 +102,13 @@ void SingleEventEngine::refresh() {
   factor_->follow_load(present_load(), solution_);
   scatter_solution();
   stale_ = false;
-  force_work_ = 0.0;
-  for (const std::size_t slot : loaded_slots_) {
-    force_work_ += loads_.forces[slot] * displacement_[slot];
-  }
+  force_work_ = work_of_forces();
+}
+
+double SingleEventEngine::work_of_forces() const {
+  double work = 0.0;
+  for (const std::size_t slot : loaded_slots_) work += loads_.forces[slot] * displacement_[slot];
+  return work;
 }
 
 /// One step of iterative refinement; `residual` is used up.
@@ -113,6 +116,7 @@ void SingleEventEngine::refine(std::vector<double>& residual) {
   factor_->solve(residual, residual);
   for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
   scatter_solution();
+  force_work_ = work_of_forces();
 }
 
 std::span<const double> SingleEventEngine::displacement() {
@@ -128,6 +132,7 @@ Event SingleEventEngine::next_event() {
   LimitSearch::Hit hit = search_.find(displacement_, tie_tolerance, options_.threads);
   for (const Index k : yielding_) {
     const Index element = network_.first_segment + k;
+    if (secants_[element] == 0.0) continue;  // cut
     const Change change = make_change(element, 1.0);
     const double strain = std::abs(change.extension) / network_.bonds.lengths[element];
     const double ratio = strain / plateaus_[k].tooth(teeth_[k]).limit;
@@ -236,9 +241,7 @@ LoadWork SingleEventEngine::load_work() {
     work.forces = force_work_;
     return work;
   }
-  for (const std::size_t slot : loaded_slots_) {
-    work.forces += loads_.forces[slot] * displacement_[slot];
-  }
+  work.forces = work_of_forces();
   const int dim = network_.dim();
   for (const Index e : driven_elements_) {
     if (secants_[e] == 0.0) continue;
@@ -344,7 +347,8 @@ int SingleEventEngine::cut(std::span<const Index> elements) {
     double pivot = pivot_of(change);
     for (int tries = 0; pivot < mechanism_pivot; ++tries) {
       if (tries == most) throw SolverError("a part that comes loose cannot be held by ground springs");
-      const double force = std::abs(change.extension) * std::abs(change.x.values[0]);
+      const double force =
+          std::abs(change.extension) * std::sqrt(network_.stiffness[element] * secants_[element]);
       if (force > 1e-6 * load_norm_) {
         throw SolverError("the part that comes loose carries load: the body has separated");
       }

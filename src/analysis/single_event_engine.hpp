@@ -46,6 +46,7 @@ class SingleEventEngine final : public EventEngine {
   void choose_current_unknowns();
   void refresh();
   void refine(std::vector<double>& residual);
+  double work_of_forces() const;
   std::vector<double> present_load() const;
   double measure_residual(std::vector<double>& residual);
   void add_ground_spring(Index unknown);
