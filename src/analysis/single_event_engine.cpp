@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/element_vector.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
 
@@ -145,22 +146,17 @@ Event SingleEventEngine::next_event() {
 SingleEventEngine::Change SingleEventEngine::make_change(Index element,
                                                          double stiffness_lost) const {
   Change change;
-  const double root = std::sqrt(stiffness_lost);
+  change.x = element_vector(network_, unknowns_, element, stiffness_lost);
+  const int dim = network_.dim();
   const std::span<const double> n = network_.bonds.direction(element);
-  const Index ends[2] = {network_.bonds.first[element], network_.bonds.second[element]};
-  for (int end = 0; end < 2; ++end) {
-    for (int a = 0; a < network_.dim(); ++a) {
-      const double value = (end == 0 ? -root : root) * n[a];
-      const std::size_t slot = static_cast<std::size_t>(ends[end]) * network_.dim() + a;
-      change.extension += value * displacement_[slot];
-      const Index unknown = unknowns_.number[slot];
-      if (unknown == no_index) {
-        change.load_change += value * unknowns_.prescribed[slot];
-      } else if (value != 0.0) {
-        change.x.rows[change.x.size] = unknown;
-        change.x.values[change.x.size++] = value;
-      }
-    }
+  const std::size_t i = static_cast<std::size_t>(network_.bonds.first[element]) * dim;
+  const std::size_t j = static_cast<std::size_t>(network_.bonds.second[element]) * dim;
+  const double root = std::sqrt(stiffness_lost);
+  // Prescribed displacements are zero where there is an unknown.
+  for (int a = 0; a < dim; ++a) {
+    change.extension += root * n[a] * (displacement_[j + a] - displacement_[i + a]);
+    change.load_change +=
+        root * n[a] * (unknowns_.prescribed[j + a] - unknowns_.prescribed[i + a]);
   }
   return change;
 }

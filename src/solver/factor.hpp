@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -8,20 +7,13 @@
 
 #include <Eigen/SparseCore>
 
+#include "base/sparse_vector.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
 
 /// Symmetric matrix; only the lower triangle is stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
-
-/// The few entries of the vector x of a change K -+ x x', rows ascending.
-struct SparseVector {
-  static constexpr int capacity = 12;
-  int size = 0;
-  std::array<Index, capacity> rows;
-  std::array<double, capacity> values;
-};
 
 /// How a factor follows the removal of a bond.
 enum class FactorRoute {

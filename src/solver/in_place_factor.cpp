@@ -13,7 +13,7 @@ namespace {
 const Index* ints(const void* array) { return static_cast<const Index*>(array); }
 
 /// Below this many numbers of L a parallel region costs more than it saves.
-constexpr double smallest_parallel_factor = 2e6;
+constexpr double smallest_parallel_factor = 2e5;
 
 }  // namespace
 
@@ -93,7 +93,7 @@ void InPlaceFactor::plan_backward() {
     first[parent_[s]] = std::min(first[parent_[s]], first[s]);
   }
   const bool parallel = threads_ > 1 && total > smallest_parallel_factor;
-  const double largest = parallel ? total / (8.0 * threads_) : 0.0;
+  const double largest = parallel ? total / (4.0 * threads_) : 0.0;
   top_.clear();
   subtrees_.clear();
   for (Index s = count - 1; s >= 0;) {

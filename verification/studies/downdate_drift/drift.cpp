@@ -7,6 +7,7 @@
 #include <random>
 
 #include "analysis/single_event_engine.hpp"
+#include "assembly/element_vector.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
 
@@ -21,23 +22,6 @@ double relative_error(const std::vector<double>& a, const std::vector<double>& b
   std::vector<double> difference(a.size());
   for (std::size_t k = 0; k < a.size(); ++k) difference[k] = a[k] - b[k];
   return norm(difference) / norm(b);
-}
-
-SparseVector change_of(const Model& model, Index element) {
-  SparseVector x;
-  const double root = std::sqrt(model.network.stiffness[element]);
-  const auto n = model.network.bonds.direction(element);
-  for (int end = 0; end < 2; ++end) {
-    const Index particle = end == 0 ? model.network.bonds.first[element]
-                                    : model.network.bonds.second[element];
-    for (int a = 0; a < model.network.dim(); ++a) {
-      const Index unknown = model.unknowns.at(particle, a);
-      if (unknown == no_index || n[a] == 0.0) continue;
-      x.rows[x.size] = unknown;
-      x.values[x.size++] = (end == 0 ? -root : root) * n[a];
-    }
-  }
-  return x;
 }
 
 double residual_of(const Model& model, const std::vector<double>& secants,
@@ -98,7 +82,9 @@ std::vector<Drift> measure_drift(const Model& model, int downdates, int interval
   while (done < downdates) {
     const Index element = static_cast<Index>(random() % model.network.num_elements());
     if (secants[element] == 0.0) continue;
-    if (factor->prepare_downdate(change_of(model, element)) < 1e-2) continue;
+    const SparseVector x =
+        element_vector(model.network, model.unknowns, element, model.network.stiffness[element]);
+    if (factor->prepare_downdate(x) < 1e-2) continue;
     factor->commit_downdate(0.0, solution);
     secants[element] = 0.0;
     if (++done % interval == 0) measure();

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+
+#include "base/types.hpp"
+
+namespace perilink {
+
+/// The few entries of the vector x of a rank-one change K -+ x x', rows ascending.
+struct SparseVector {
+  static constexpr int capacity = 12;
+  int size = 0;
+  std::array<Index, capacity> rows;
+  std::array<double, capacity> values;
+};
+
+}  // namespace perilink
