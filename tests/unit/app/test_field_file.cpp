@@ -1,6 +1,7 @@
 #include "app/field_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace perilink {
 namespace {
@@ -87,7 +88,7 @@ TEST_F(FieldFile, SaysWhatTheParticlesAre) {
 }
 
 TEST_F(FieldFile, IsAGoodFile) {
-  const std::string path = testing::TempDir() + "perilink_field.vtu";
+  const std::string path = testing::TempDir() + "perilink_field_" + std::to_string(::getpid()) + ".vtu";
   write_vtu(path, grid_);
   EXPECT_EQ(read_vtu(path).connectivity, grid_.connectivity);
   std::remove(path.c_str());

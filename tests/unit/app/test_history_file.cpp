@@ -1,6 +1,7 @@
 #include "app/history_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,7 +13,7 @@ namespace {
 
 class HistoryFileTest : public ::testing::Test {
  protected:
-  HistoryFileTest() : directory_(testing::TempDir() + "perilink_history") {
+  HistoryFileTest() : directory_(testing::TempDir() + "perilink_history_" + std::to_string(::getpid())) {
     std::filesystem::create_directories(directory_);
   }
   ~HistoryFileTest() override { std::filesystem::remove_all(directory_); }

@@ -1,6 +1,7 @@
 #include "app/plot.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 class Plot : public ::testing::Test {
  protected:
-  Plot() : directory_(fs::path(testing::TempDir()) / "perilink_plot") {
+  Plot() : directory_(fs::path(testing::TempDir()) / ("perilink_plot_" + std::to_string(::getpid()))) {
     fs::create_directories(directory_);
     HistoryFile history(directory_.string());
     for (int k = 0; k < 5; ++k) {

@@ -1,6 +1,7 @@
 #include "app/svg.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -50,7 +51,7 @@ TEST(Svg, IsXmlWithTextEscaped) {
 }
 
 TEST(Svg, SavesWholeFilesOrSaysWhyNot) {
-  const std::string path = testing::TempDir() + "perilink_test.svg";
+  const std::string path = testing::TempDir() + "perilink_" + std::to_string(::getpid()) + ".svg";
   Svg(10.0, 10.0).save(path);
   EXPECT_TRUE(std::filesystem::exists(path));
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -14,7 +15,7 @@ namespace {
 
 class Csv : public ::testing::Test {
  protected:
-  Csv() : path_(testing::TempDir() + "perilink_test.csv") { std::filesystem::remove(path_); }
+  Csv() : path_(testing::TempDir() + "perilink_" + std::to_string(::getpid()) + ".csv") { std::filesystem::remove(path_); }
   ~Csv() override { std::filesystem::remove(path_); }
 
   std::string text() const {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -37,7 +38,7 @@ VtuGrid make_grid(int copies) {
 
 class Vtu : public ::testing::Test {
  protected:
-  Vtu() : path_(testing::TempDir() + "perilink_test.vtu") {}
+  Vtu() : path_(testing::TempDir() + "perilink_" + std::to_string(::getpid()) + ".vtu") {}
   ~Vtu() override { std::filesystem::remove(path_); }
 
   std::string text() const {
