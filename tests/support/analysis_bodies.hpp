@@ -152,7 +152,8 @@ inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
   return out << to_string(block);
 }
 
-/// Block held at the left face and pulled at (or moved by 1 with) the right one.
+/// Block held at the left face and pulled at (or moved by 1 with) the right one. Nothing breaks at
+/// the particles of these faces, so that the block fails between them.
 inline AnalysisBody make_block(const BlockCase& block) {
   const LatticeInput input = body_input(block.lattice, block.columns);
   NetworkInput constants = network_input(input);
@@ -176,6 +177,14 @@ inline AnalysisBody make_block(const BlockCase& block) {
   const auto right = [&](Index i) {
     return in_solid(i) && particles.position(i)[0] > end[0] - margin;
   };
+  const Bonds& bonds = body.network.bonds;
+  for (Index e = 0; e < bonds.size(); ++e) {
+    for (const Index i : {bonds.first[e], bonds.second[e]}) {
+      if (left(i) || right(i)) {
+        body.network.critical_stretch[e] = std::numeric_limits<double>::infinity();
+      }
+    }
+  }
   double total = 0.0;
   for (Index i = 0; i < particles.size(); ++i) {
     if (!right(i)) continue;

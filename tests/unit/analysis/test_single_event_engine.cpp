@@ -43,8 +43,8 @@ AnalysisBody make_partly_unbreakable(const LatticeCase& lattice) {
   return body;
 }
 
-/// The loaded face lies in a part that is not followed: f'u comes from the growth at each event, and
-/// displacement() brings the rest of the body up to date whenever it is asked.
+/// The loaded face lies in a part that is not followed: f'u comes from the growth at each event,
+/// and displacement() brings the rest of the body up to date whenever it is asked.
 TEST(SingleEventEngine, UnbreakablePartsAreBroughtUpToDateWhenAsked) {
   for (const FactorRoute route : routes) {
     const AnalysisBody body = make_partly_unbreakable(rectangular);
@@ -84,15 +84,15 @@ TEST(SingleEventEngine, PartialDisplacementsFindTheSameEvents) {
   }
 }
 
-/// A spring of stiffness 1 and a bar of stiffness 2, both of unit length, in parallel between a held
-/// particle and a free one, which a spring of stiffness 1 ties to a particle moved by 1.
+/// A spring of stiffness 1 and a bar of stiffness 2, both of unit length, in parallel between a
+/// held particle and a free one, which a spring of stiffness 1 ties to a particle moved by 1.
 AnalysisBody make_yielding_bar(double yield_strain) {
   const BarMaterial bar{2.0, 1.0, 2.0 * yield_strain, false};
   return make_chains(2, 2, true, 1.0, infinity, {{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}}, bar);
 }
 
-/// With secant a the free particle moves by 1 / (2 + 2 a). Tooth k ends at s_k = s_y sqrt(r) r^k, where
-/// the bar carries sqrt(r) times its yield force; there the secant falls to r^-(k+1).
+/// With secant a the free particle moves by 1 / (2 + 2 a). Tooth k ends at s_k = s_y sqrt(r) r^k,
+/// where the bar carries sqrt(r) times its yield force; there the secant falls to r^-(k+1).
 TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
   constexpr double strain = 0.01, r = 1.05;
   const AnalysisBody body = make_yielding_bar(strain);
@@ -133,8 +133,8 @@ TEST(SingleEventEngine, BarThatWasCutDoesNotYield) {
   EXPECT_EQ(engine.next_event().element, no_index);
 }
 
-/// A tolerance that no arithmetic meets: each look factorises at most once, and not again as long as
-/// the residual stays near what the fresh factor left.
+/// A tolerance that no arithmetic meets: each look factorises at most once, and not again as long
+/// as the residual stays near what the fresh factor left.
 TEST(SingleEventEngine, FactorizesAtMostOncePerLook) {
   const AnalysisBody body = make_block({rectangular, false, false, 8});
   EngineOptions options;
@@ -154,7 +154,8 @@ TEST(SingleEventEngine, FactorizesAtMostOncePerLook) {
 }
 
 /// Removing an element 1e5 times as stiff as the others costs five of sixteen digits. One step of
-/// refinement brings them back to where the tolerance wants them; without need nothing is factorised.
+/// refinement brings them back to where the tolerance wants them; without need nothing is
+/// factorised.
 TEST(SingleEventEngine, RefinementRestoresLostDigits) {
   AnalysisBody body = make_block({rectangular, false, false, 8});
   Network& network = body.network;
@@ -177,8 +178,8 @@ TEST(SingleEventEngine, RefusesABodyThatNothingHolds) {
   EXPECT_THROW(make_engine(body), SolverError);
 }
 
-/// Elements that join particles within `radius` of the particle nearest to the middle of the block with
-/// the rest, and the components of these particles.
+/// Elements that join particles within `radius` of the particle nearest to the middle of the block
+/// with the rest, and the components of these particles.
 struct Cluster {
   std::vector<Index> members;
   std::vector<Index> bonds;
@@ -219,8 +220,8 @@ struct CutCase {
   int springs;
 };
 
-/// A particle has two rigid-body modes, a cluster three: as many ground springs, and the rest of the
-/// body does not feel them.
+/// A particle has two rigid-body modes, a cluster three: as many ground springs, and the rest of
+/// the body does not feel them.
 TEST(SingleEventEngine, CutHoldsWhatComesLooseWithoutDisturbingTheRest) {
   const AnalysisBody body = make_block({hexagonal, false, false, 12});
   for (const FactorRoute route : routes) {
@@ -237,8 +238,8 @@ TEST(SingleEventEngine, CutHoldsWhatComesLooseWithoutDisturbingTheRest) {
       EXPECT_LT(engine.check_equilibrium().residual, 1e-12);
       // Events go on in the rest.
       for (int k = 0; k < 5; ++k) ASSERT_FALSE(engine.apply(engine.next_event()).mechanism);
-      EXPECT_LT(difference(engine.displacement(),
-                           dense_displacement(body, engine.secants(), loose), loose),
+      EXPECT_LT(difference(engine.displacement(), dense_displacement(body, engine.secants(), loose),
+                           loose),
                 1e-11);
     }
   }
@@ -265,8 +266,8 @@ TEST(SingleEventEngine, CutRefusesALoadedPart) {
   EXPECT_THROW(engine.cut(cluster.bonds), SolverError);
 }
 
-/// The last bond that holds a loaded particle may be all but at right angles to an axis: the force in
-/// it counts, not its component along that axis.
+/// The last bond that holds a loaded particle may be all but at right angles to an axis: the force
+/// in it counts, not its component along that axis.
 TEST(SingleEventEngine, CutRefusesALoadedPartWhateverTheDirectionOfItsLastBond) {
   AnalysisBody body = make_block({rectangular, false, false, 8});
   Network& network = body.network;
