@@ -141,7 +141,8 @@ bool Run::pass(const Event& event) {
   ++(is_bar ? yield_events_ : broken_bonds_);
   energy_.add_event(outcome);
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // of the body before the event
-  const bool near_separation = outcome.pivot < 1e-3;
+  const bool near_separation =
+      outcome.pivot < 1e-3 || row_.residual > options_.engine.residual_tolerance;
   if (++events_ % options_.check_interval == 0 || near_separation) check();
   return true;
 }

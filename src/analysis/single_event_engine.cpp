@@ -279,6 +279,8 @@ Equilibrium SingleEventEngine::check_equilibrium() {
   }
   if (size > tolerance) {
     factorize();
+    measure_residual(residual);
+    refine(residual);
     size = measure_residual(residual);
     // A body on the verge of separation moves so far that even a fresh factor leaves more than the
     // tolerance; factorising again for less than twice that would be work for nothing.

@@ -40,7 +40,7 @@ int main() {
     fmt::print("{}", line);
     std::fflush(stdout);
     if (file != nullptr) fmt::print(file, "{}", line);
-    good = good && run.result.energy_error < 1e-9;
+    good = good && run.result.energy_error < 1e-8;
   }
   if (file != nullptr) std::fclose(file);
   return good ? 0 : 1;
