@@ -72,6 +72,15 @@ DamageResult run_elastic(const Model& model, int threads, RunObserver& observer)
   return result;
 }
 
+/// The resolved case is written to DIR/case.toml; it must not take the place of the user's own file.
+void refuse_own_case(const fs::path& directory, const std::string& case_path) {
+  std::error_code error;
+  if (!fs::equivalent(directory / "case.toml", case_path, error) || error) return;
+  throw FileError(fmt::format("{}: the results would overwrite this case with its resolved form\n"
+                              "  choose another directory with --out DIR",
+                              case_path));
+}
+
 int exit_status_of(Ending ending) {
   if (ending == Ending::interrupted) return exit_interrupted;
   return ending == Ending::failed ? exit_solver : exit_done;
@@ -88,6 +97,7 @@ int run_case(const RunOptions& options) {
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
+  refuse_own_case(directory, options.case_path);
   prepare_result_directory(directory, options.force);
   catch_stop_signals();
   write_resolved_case(directory, input);
@@ -107,7 +117,7 @@ int run_case(const RunOptions& options) {
                  ? run_elastic(model, threads, observer)
                  : run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
                                        damage_options(input, threads), observer);
-  } catch (const SolverError& error) {
+  } catch (const Error& error) {  // the solver's, or a full disk: what is written stays readable
     result.ending = Ending::failed;
     result.reason = error.what();
     fmt::print(stderr, "perilink: {}\n", error.what());
