@@ -159,10 +159,10 @@ inline AnalysisBody make_block(const BlockCase& block) {
   NetworkInput constants = network_input(input);
   const Vector3 end = input.solid[0].upper;
   if (block.bar) {
-    // Soft and weak enough to yield before the block is in two.
+    // Yields at about the stretch at which bonds break.
     constants.bars = {
         {{0.01, 0.4 * end[1], 0.45 * end[2]}, {end[0] - 0.01, 0.4 * end[1], 0.45 * end[2]}}};
-    constants.bar_materials = {{200.0, 0.005, 0.6, false}};
+    constants.bar_materials = {{200.0, 0.005, 7.0, false}};
   }
   AnalysisBody body = free_body(build_network(make_body(input), constants));
   std::mt19937 random(11);  // fixed: the same body in every run
