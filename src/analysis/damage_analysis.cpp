@@ -105,7 +105,7 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
   row_.dissipated_energy = energy_.dissipated();
   row_.external_work = energy_.external_work();
   row_.released_energy = energy_.released();
-  row_.factorizations = engine_->factor_statistics().factorizations;
+  row_.factorizations = engine_->factorizations();
   row_.element = element;
   row_.seconds = timer_.seconds();
   timer_.restart();

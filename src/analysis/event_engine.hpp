@@ -64,6 +64,9 @@ class EventEngine {
   /// Measures the residual; above the tolerance refines the displacement once, then factorises anew.
   virtual Equilibrium check_equilibrium() = 0;
 
+  /// Numerical factorisations so far.
+  virtual int factorizations() const = 0;
+
   virtual FactorStatistics factor_statistics() const = 0;
 };
 

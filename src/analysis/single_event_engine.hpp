@@ -22,6 +22,7 @@ class SingleEventEngine final : public EventEngine {
   LoadWork load_work() override;
   std::span<const double> secants() const override { return secants_; }
   Equilibrium check_equilibrium() override;
+  int factorizations() const override { return factor_->factorizations(); }
   FactorStatistics factor_statistics() const override { return factor_->statistics(); }
 
   /// Removes elements whatever their stretch, also the last ones that hold a fragment: a fragment

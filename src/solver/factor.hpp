@@ -28,6 +28,7 @@ struct FactorStatistics {
   double entries = 0.0;        ///< stored numbers of L
   double bytes = 0.0;          ///< memory of L
   double flops = 0.0;          ///< of one factorisation
+  double event_bytes = 0.0;    ///< of L that the last downdate read (in place only)
   int factorizations = 0;      ///< so far
 };
 
@@ -69,6 +70,9 @@ class Factor {
   /// K <- K + x x' (a ground spring); the pattern of x must lie in that of the matrix. The load that is
   /// followed grows by x (x'u), the force of the spring, so that its solution u stays where it is.
   virtual void update(const SparseVector& x, std::span<const double> solution) = 0;
+
+  /// Numerical factorisations so far.
+  virtual int factorizations() const = 0;
 
   virtual FactorStatistics statistics() const = 0;
 };

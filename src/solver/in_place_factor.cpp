@@ -282,12 +282,29 @@ void InPlaceFactor::update(const SparseVector& x, std::span<const double> /*solu
   }
 }
 
+/// Trapezoids of the supernodes that the backward pass of the last event computed, those of the path
+/// once more for the forward elimination.
+double InPlaceFactor::bytes_read_by_event() const {
+  double numbers = 0.0;
+  for (Index s = 0; s < static_cast<Index>(parent_.size()); ++s) {
+    const Block b = block(s);
+    const double trapezoid = b.columns * (b.rows - 0.5 * (b.columns - 1.0));
+    if (on_path_[s]) {
+      numbers += 2.0 * trapezoid;
+    } else if (wanted_.empty() || wanted_[s]) {
+      numbers += trapezoid;
+    }
+  }
+  return 8.0 * numbers;
+}
+
 FactorStatistics InPlaceFactor::statistics() const {
   FactorStatistics result;
   result.size = size_;
   if (factor_) {
     result.entries = static_cast<double>(factor_->xsize);
     result.bytes = 8.0 * result.entries + 4.0 * static_cast<double>(factor_->ssize);
+    result.event_bytes = bytes_read_by_event();
   }
   result.flops = const_cast<CholmodSession&>(session_).get()->fl;
   result.factorizations = factorizations_;

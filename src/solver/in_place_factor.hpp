@@ -28,6 +28,7 @@ class InPlaceFactor final : public Factor {
   double prepare_downdate(const SparseVector& x) override;
   void commit_downdate(double load_change, std::span<double> solution) override;
   void update(const SparseVector& x, std::span<const double> solution) override;
+  int factorizations() const override { return factorizations_; }
   FactorStatistics statistics() const override;
 
  private:
@@ -43,6 +44,7 @@ class InPlaceFactor final : public Factor {
   Block block(Index supernode) const;
 
   double* diagonal(Index supernode, Index column) const;
+  double bytes_read_by_event() const;
   void adopt_pattern();
   void plan_backward();
   void turn_into_ldl();

@@ -19,6 +19,7 @@ class RefactorizingFactor final : public Factor {
   double prepare_downdate(const SparseVector& x) override;
   void commit_downdate(double load_change, std::span<double> solution) override;
   void update(const SparseVector& x, std::span<const double> solution) override;
+  int factorizations() const override { return factorizations_; }
   FactorStatistics statistics() const override;
 
  private:
