@@ -9,7 +9,8 @@
 namespace perilink {
 
 /// One row of the history: equilibrium of the network as it stands, at the load factor at which its
-/// next element fails (or at the end of a load step). Energies follow the path drawn through the rows.
+/// next element fails (or at the end of a load step). The last row of a driven body that came apart shows
+/// it without resistance, `element` = no_index. Energies follow the path drawn through the rows.
 struct StepRecord {
   Index step = 0;
   Index broken_bonds = 0;         ///< in this equilibrium

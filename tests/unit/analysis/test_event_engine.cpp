@@ -130,6 +130,13 @@ class FollowedBlock : public testing::TestWithParam<BlockCase> {
 };
 
 TEST_P(FollowedBlock, FollowsADenseSolutionThroughTheEvents) {
+  // Bonds to driven particles break among the first, so that the load changes with them.
+  const Bonds& bonds = body_.network.bonds;
+  for (Index e = 0; e < body_.network.first_tie; e += 7) {
+    const bool driven = body_.unknowns.prescribed[slot(body_, bonds.first[e], 0)] != 0.0 ||
+                        body_.unknowns.prescribed[slot(body_, bonds.second[e], 0)] != 0.0;
+    if (driven) body_.network.critical_stretch[e] = 0.005;
+  }
   for (const FactorRoute route : routes) {
     SCOPED_TRACE(to_string(route));
     const auto engine = make_engine(body_, route);

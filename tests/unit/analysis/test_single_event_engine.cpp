@@ -153,7 +153,7 @@ TEST(SingleEventEngine, FactorizesAtMostOncePerLook) {
   }
 }
 
-/// Removing an element 1e5 times as stiff as the others costs five of sixteen digits. One step of
+/// Removing an element 1e4 times as stiff as the others costs four of sixteen digits. One step of
 /// refinement brings them back to where the tolerance wants them; without need nothing is
 /// factorised.
 TEST(SingleEventEngine, RefinementRestoresLostDigits) {
