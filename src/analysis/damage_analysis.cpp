@@ -13,6 +13,10 @@
 namespace perilink {
 namespace {
 
+/// A bar whose secant fell below this has stretched to a hundred times its yield strain: it no longer
+/// limits anything, the bars and the body form a plastic mechanism.
+constexpr double exhausted_secant = 1e-2;
+
 /// A driven body whose stiffness fell below this fraction has separated.
 constexpr double separated_stiffness = 1e-9;
 
@@ -41,15 +45,28 @@ class Run {
     const LoadWork work = engine_->load_work();
     initial_work_ = work.forces + work.supports;
     if (!(initial_work_ > 0.0)) throw SolverError("the loads do no work on the body");
+    if (!std::isfinite(initial_work_)) throw SolverError("the elastic solution is not finite");
     result_.initial_stiffness = reference_.driven
-                                    ? initial_work_ / (reference_.value * reference_.value)
+                                    ? work.supports / (reference_.value * reference_.value)
                                     : reference_.value * reference_.value / initial_work_;
   }
 
-  DamageResult by_events();
-  DamageResult by_steps();
+  /// A solver that cannot go on ends the run like any other ending: with all that was found so far.
+  DamageResult go() {
+    try {
+      return options_.load_factors.empty() ? by_events() : by_steps();
+    } catch (const SolverError& error) {
+      end(Ending::failed, error.what());
+    }
+    result_.last = row_;
+    result_.broken_bonds = broken_bonds_;
+    result_.factor = engine_->factor_statistics();
+    return result_;
+  }
 
  private:
+  DamageResult by_events();
+  DamageResult by_steps();
   bool separated(const LoadWork& work) const {
     return work.forces + work.supports < separated_stiffness * initial_work_;
   }
@@ -73,7 +90,6 @@ class Run {
   PathEnergy energy_;
   Timer timer_;
   double initial_work_ = 0.0;
-  double peak_load_factor_ = 0.0;
   double stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
   int events_ = 0;
   Index broken_bonds_ = 0;
@@ -99,9 +115,9 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
   row_.strain_energy = energy_.stored();
   row_.load = reference_.driven ? load_factor * work.supports / reference_.value
                                 : load_factor * reference_.value;
-  row_.displacement = row_.load != 0.0 ? 2.0 * row_.strain_energy / row_.load
-                      : reference_.driven ? load_factor * reference_.value
-                                          : 0.0;
+  row_.displacement = reference_.driven  ? load_factor * reference_.value
+                      : row_.load != 0.0 ? 2.0 * row_.strain_energy / row_.load
+                                         : 0.0;
   row_.dissipated_energy = energy_.dissipated();
   row_.external_work = energy_.external_work();
   row_.released_energy = energy_.released();
@@ -123,7 +139,6 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
     result_.peak_load = row_.load;
     result_.peak_displacement = row_.displacement;
   }
-  peak_load_factor_ = std::max(peak_load_factor_, std::abs(load_factor));
   observer_.on_step(row_, state_);
 }
 
@@ -144,6 +159,12 @@ bool Run::pass(const Event& event) {
   const bool near_separation =
       outcome.pivot < 1e-3 || row_.residual > options_.engine.residual_tolerance;
   if (++events_ % options_.check_interval == 0 || near_separation) check();
+  if (is_bar && engine_->secants()[event.element] < exhausted_secant) {
+    end(Ending::collapsed,
+        fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
+                    1.0 / exhausted_secant));
+    return false;
+  }
   return true;
 }
 
@@ -154,9 +175,8 @@ bool Run::stop_rule_met() {
   } else if (stop.broken_bonds && broken_bonds_ >= *stop.broken_bonds) {
     end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));
   } else if (stop.load_fraction &&
-             std::abs(row_.load_factor) < *stop.load_fraction * peak_load_factor_) {
-    end(Ending::completed,
-        fmt::format("the load factor fell below {} of its peak", *stop.load_fraction));
+             std::abs(row_.load) < *stop.load_fraction * std::abs(result_.peak_load)) {
+    end(Ending::completed, fmt::format("the load fell below {} of its peak", *stop.load_fraction));
   } else if (stop.displacement && std::abs(row_.displacement) >= *stop.displacement) {
     end(Ending::completed, fmt::format("the displacement reached {}", *stop.displacement));
   } else {
@@ -192,7 +212,8 @@ DamageResult Run::by_events() {
 }
 
 /// At prescribed load factors: the worst element fails, and the next, until none exceeds its limit.
-/// A run that ends within a step reports the last equilibrium at the load that it can bear.
+/// Of the stop rules only the number of broken bonds and the signal are looked at within a step; the
+/// others ask for equilibrium at its end. A run that ends within a step reports the last equilibrium at the load that it can bear.
 DamageResult Run::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
@@ -200,8 +221,13 @@ DamageResult Run::by_steps() {
     Index last = no_index;
     while (event.element != no_index && event.load_factor <= load_factor) {
       energy_.advance(load_factor, engine_->load_work());
-      if (observer_.stop_requested()) {
-        end(Ending::interrupted, "a signal asked the run to stop");
+      const bool enough = options_.stop.broken_bonds && broken_bonds_ >= *options_.stop.broken_bonds;
+      if (observer_.stop_requested() || enough) {
+        if (enough) {
+          end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));
+        } else {
+          end(Ending::interrupted, "a signal asked the run to stop");
+        }
         record(event.load_factor, engine_->load_work(), event.element);
         return finish();
       }
@@ -238,7 +264,7 @@ DamageResult run_damage_analysis(const Network& network, const Unknowns& unknown
                                  const Loads& loads, const ReferenceLoad& reference,
                                  const DamageOptions& options, StepObserver& observer) {
   Run run(network, unknowns, loads, reference, options, observer);
-  return options.load_factors.empty() ? run.by_events() : run.by_steps();
+  return run.go();
 }
 
 }  // namespace perilink

@@ -15,7 +15,7 @@ namespace perilink {
 /// When a run ends before collapse.
 struct StopRules {
   std::optional<Index> broken_bonds;
-  std::optional<double> load_fraction;  ///< load factor below this fraction of its peak
+  std::optional<double> load_fraction;  ///< |load| below this fraction of its peak
   std::optional<double> displacement;   ///< |displacement| at or above this [length]
 };
 
@@ -42,7 +42,8 @@ struct DamageResult {
 
 /// Reference load and displacement that turn load factors into the two axes of the load curve.
 struct ReferenceLoad {
-  bool driven = false;  ///< displacements drive the body, no forces
+  bool driven = false;  ///< displacements drive the body (forces may help them): the load is then
+                        ///< the reaction that is work-conjugate to the largest of them
   double value = 0.0;   ///< largest resultant of a loaded region, or largest driven displacement
 };
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr Index block_size = 512;
 /// Fewer blocks than this are searched faster by one thread.
-constexpr Index smallest_parallel_search = 40;
+constexpr Index smallest_parallel_search = 400;
 
 }  // namespace
 

@@ -39,7 +39,9 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
       solution_(static_cast<std::size_t>(unknowns.count), 0.0),
       displacement_(unknowns.prescribed) {
   for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
-    if (unknowns.number[slot] != no_index) slot_of_.push_back(slot);
+    // A force on a prescribed displacement is a part of the reaction there, whose work counts.
+    if (unknowns.number[slot] == no_index) continue;
+    slot_of_.push_back(slot);
     if (loads.forces[slot] != 0.0) loaded_slots_.push_back(slot);
   }
   const int dim = network.dim();
@@ -120,9 +122,13 @@ void SingleEventEngine::refine(std::vector<double>& residual) {
   force_work_ = work_of_forces();
 }
 
+/// Observers must not change the run: stale displacements are solved for aside.
 std::span<const double> SingleEventEngine::displacement() {
-  if (stale_) refresh();
-  return displacement_;
+  if (!stale_) return displacement_;
+  std::vector<double> all = present_load();
+  factor_->solve(all, all);
+  observed_ = expand(unknowns_, all);
+  return observed_;
 }
 
 void SingleEventEngine::scatter_solution() {
@@ -191,7 +197,7 @@ double SingleEventEngine::pivot_of(const Change& change) {
   double pivot = factor_->prepare_downdate(change.x);
   if (pivot > doubtful_pivot) return pivot;
   double refined = refined_pivot(change.x);
-  if (refined < mechanism_pivot || std::abs(pivot - refined) < 1e-6 * refined) return refined;
+  if (refined < mechanism_pivot || std::abs(pivot - refined) < 1e-8 * refined) return refined;
   factorize();
   pivot = factor_->prepare_downdate(change.x);
   refined = refined_pivot(change.x);
@@ -273,11 +279,12 @@ Equilibrium SingleEventEngine::check_equilibrium() {
   std::vector<double> residual;
   double size = measure_residual(residual);
   const double tolerance = std::max(options_.residual_tolerance, residual_floor_);
-  if (size > tolerance) {
+  // Written so that a residual that is not a number is not within any tolerance.
+  if (!(size <= tolerance)) {
     refine(residual);
     size = measure_residual(residual);
   }
-  if (size > tolerance) {
+  if (!(size <= tolerance)) {
     factorize();
     measure_residual(residual);
     refine(residual);
@@ -285,13 +292,14 @@ Equilibrium SingleEventEngine::check_equilibrium() {
     // A body on the verge of separation moves so far that even a fresh factor leaves more than the
     // tolerance; factorising again for less than twice that would be work for nothing.
     residual_floor_ = 2.0 * size;
-    if (size > hopeless_residual) {
+    if (!(size <= hopeless_residual)) {
       throw SolverError(fmt::format(
           "a fresh factor leaves {:.1e} of the load out of balance: the body is on the verge of "
           "separation and its stiffness matrix is singular to working precision",
           size));
     }
   }
+  if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
   return {size, internal_.energy};
 }
 

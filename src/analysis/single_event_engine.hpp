@@ -72,6 +72,7 @@ class SingleEventEngine final : public EventEngine {
   std::vector<std::size_t> slot_of_;    ///< particle * dim + axis of every unknown
   std::vector<double> solution_;        ///< per unknown
   std::vector<double> displacement_;
+  std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_
   std::vector<double> ground_stiffness_;  ///< per unknown, empty until a fragment came loose
   std::vector<double> ground_load_;
   InternalForce internal_;

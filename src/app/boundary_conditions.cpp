@@ -208,7 +208,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   for (const double value : prescription.value) {
     largest_displacement = std::max(largest_displacement, std::abs(value));
   }
-  model.reference.driven = largest_load == 0.0;
+  model.reference.driven = largest_displacement > 0.0;
   model.reference.value = model.reference.driven ? largest_displacement : largest_load;
   model.resultant = load_resultant(model.network, model.loads);
   refuse_loose_particles(input, model, prescription);

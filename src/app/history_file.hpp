@@ -9,7 +9,7 @@
 
 namespace perilink {
 
-/// Writes DIR/history.csv (what happened, the same on every machine and run) and DIR/timing.csv
+/// Writes DIR/history.csv (what happened, the same in every run on a machine) and DIR/timing.csv
 /// (how long each step took). Rows reach the disk at most twice a second, since runs make thousands
 /// of events per second, and when the writer is destroyed.
 class HistoryFile {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <omp.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
@@ -90,11 +91,12 @@ int exit_status_of(Ending ending) {
 
 int run_case(const RunOptions& options) {
   Timer timer;
-  const CaseFile input = read_case_file(options.case_path);
-  const Model model = build_model(input);
   const int threads = options.threads > 0
                           ? options.threads
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  omp_set_num_threads(threads);
+  const CaseFile input = read_case_file(options.case_path);
+  const Model model = build_model(input);
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
   refuse_own_case(directory, options.case_path);
@@ -117,15 +119,20 @@ int run_case(const RunOptions& options) {
                  ? run_elastic(model, threads, observer)
                  : run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
                                        damage_options(input, threads), observer);
-  } catch (const Error& error) {  // the solver's, or a full disk: what is written stays readable
+    observer.finish();
+  } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
     result.ending = Ending::failed;
     result.reason = error.what();
-    fmt::print(stderr, "perilink: {}\n", error.what());
   }
-  observer.finish();
+  if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
   seconds.output = observer.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
-  write_summary(directory, input, model, result, seconds, threads);
+  try {
+    write_summary(directory, input, model, result, seconds, threads);
+  } catch (const FileError& error) {
+    fmt::print(stderr, "perilink: {}\n", error.what());
+    result.ending = Ending::failed;
+  }
   log->info("{}: {}; {} broken bonds, {} factorisations, largest residual {:.2e}",
             to_string(result.ending), result.reason, result.broken_bonds,
             result.factor.factorizations, result.largest_residual);

@@ -6,7 +6,7 @@
 
 namespace perilink {
 
-/// The few entries of the vector x of a rank-one change K -+ x x', rows ascending.
+/// The few entries of the vector x of a rank-one change K -+ x x', each row once, in any order.
 struct SparseVector {
   static constexpr int capacity = 12;
   int size = 0;

@@ -142,6 +142,11 @@ AnalysisSection read_analysis(const CaseTable& table) {
     table.refuse_missing("load_factors", "the load factors of the steps: [0.1, 0.2, 0.3]");
   }
   if (factors.empty()) table.refuse("load_factors", "is empty", "give one number for each step");
+  if (std::any_of(factors.begin(), factors.end(), [](double factor) { return factor < 0.0; })) {
+    table.refuse("load_factors", "holds a negative load factor",
+                 "turn the signs of the loads and displacements instead: bonds are searched for breaks "
+                 "under a growing load");
+  }
   if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 0.0; })) {
     table.refuse("load_factors", "holds only zeros, so no step loads the body",
                  "give one number for each step: [0.1, 0.2, 0.3]");

@@ -13,7 +13,7 @@ namespace {
 const Index* ints(const void* array) { return static_cast<const Index*>(array); }
 
 /// Below this many numbers of L a parallel region costs more than it saves.
-constexpr double smallest_parallel_factor = 2e5;
+constexpr double smallest_parallel_factor = 2e6;
 
 }  // namespace
 

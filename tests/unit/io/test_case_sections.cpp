@@ -24,9 +24,10 @@ TEST(CaseSections, AllowTheEdgesOfStopRules) {
   EXPECT_THAT(with("[stop]\nload_fraction = 1"), HasSubstr("less than 1"));
 }
 
-TEST(CaseSections, AllowLoadFactorsOfEitherSign) {
+TEST(CaseSections, RefuseNegativeLoadFactors) {
   const std::string steps = "[analysis]\ncontrol = \"steps\"\nload_factors = ";
-  EXPECT_EQ(with(steps + "[0, -1, 0.5]"), "accepted");
+  EXPECT_EQ(with(steps + "[0, 1, 0.5]"), "accepted");
+  EXPECT_THAT(with(steps + "[0, -1, 0.5]"), HasSubstr("negative load factor"));
   EXPECT_THAT(with(steps + "[-0.0]"), HasSubstr("only zeros"));
 }
 

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/damage_analysis.hpp"
+#include "analysis/elastic_analysis.hpp"
+#include "app/configure.hpp"
+#include "io/case_file.hpp"
+
+/// \file
+/// What holds for every way to load a body: forces, driven displacements, both together, yielding bars.
+
+namespace perilink {
+namespace {
+
+/// A small block held below; `loading` is what pulls it, `more` anything else of the case.
+Model block(const std::string& loading, const std::string& more = "") {
+  return build_model(parse_case(R"(
+[body]
+pattern = "hexagonal"
+columns = 9
+horizon_ratio = 3.0
+[[regions]]
+name = "body"
+x = [0, 100]
+y = [0, 100]
+[[regions]]
+name = "base"
+x = [0, 100]
+y = [0, 10]
+[[regions]]
+name = "cap"
+x = [0, 100]
+y = [90, 100]
+[[materials]]
+region = "body"
+youngs_modulus = 3604.0
+fracture_energy = 0.001
+[[materials]]
+regions = ["base", "cap"]
+youngs_modulus = 3604.0
+fracture_energy = "infinite"
+[[supports]]
+region = "base"
+fix = ["x", "y"]
+)" + loading + more,
+                                "test"));
+}
+
+const std::string driven = "[[displacements]]\nregion = \"cap\"\ny = 1.0\n";
+const std::string pulled = "[[loads]]\nregion = \"cap\"\nforce = [0, 100]\n";
+const std::string weight = "[[loads]]\nregion = \"body\"\nbody_force = [0, 0.5]\n";
+
+/// Keeps rows and, when asked, looks at the state at every row as field output does.
+struct Recorder final : StepObserver {
+  explicit Recorder(bool look_at_state = false) : look(look_at_state) {}
+  void on_step(const StepRecord& record, StateSource& source) override {
+    rows.push_back(record);
+    if (look) {
+      EXPECT_FALSE(source.state().displacement.empty());
+    }
+  }
+  bool look;
+  std::vector<StepRecord> rows;
+};
+
+DamageResult run(const Model& model, const DamageOptions& options, Recorder& recorder) {
+  return run_damage_analysis(model.network, model.unknowns, model.loads, model.reference, options,
+                             recorder);
+}
+
+class LoadKind : public testing::TestWithParam<std::string> {};
+
+TEST_P(LoadKind, FirstRowIsTheElasticAnswerAndEnergyBalances) {
+  const Model model = block(GetParam());
+  const ElasticResult elastic =
+      run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
+  Recorder recorder;
+  DamageOptions options;
+  options.stop.broken_bonds = 60;
+
+  const DamageResult result = run(model, options, recorder);
+
+  const StepRecord& first = recorder.rows.front();
+  const double expected = first.load_factor * first.load_factor * elastic.strain_energy;
+  EXPECT_NEAR(first.strain_energy, expected, 1e-10 * expected);  // two solutions of one system
+  EXPECT_NEAR(first.external_work, expected, 1e-10 * expected);
+  EXPECT_LT(result.energy_error, 1e-9);  // the bar of every history
+  EXPECT_GE(result.broken_bonds, 60);
+}
+
+TEST_P(LoadKind, LookingAtTheStateChangesNoRow) {
+  const Model model = block(GetParam());
+  DamageOptions options;
+  options.stop.broken_bonds = 40;
+  Recorder blind, watching(true);
+
+  run(model, options, blind);
+  run(model, options, watching);
+
+  ASSERT_EQ(blind.rows.size(), watching.rows.size());
+  for (std::size_t k = 0; k < blind.rows.size(); ++k) {
+    EXPECT_EQ(blind.rows[k].element, watching.rows[k].element);
+    EXPECT_EQ(blind.rows[k].load_factor, watching.rows[k].load_factor);
+    EXPECT_EQ(blind.rows[k].displacement, watching.rows[k].displacement);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, LoadKind,
+                         testing::Values(driven, pulled, driven + weight, pulled + weight));
+
+TEST(DrivenBody, ItsDisplacementIsTheDrivenOne) {
+  for (const std::string& loading : {driven, driven + weight}) {
+    const Model model = block(loading);
+    Recorder recorder;
+    DamageOptions options;
+    options.stop.broken_bonds = 20;
+    run(model, options, recorder);
+    for (const StepRecord& row : recorder.rows) {
+      EXPECT_DOUBLE_EQ(row.displacement, row.load_factor);  // driven by 1 at load factor 1
+    }
+  }
+}
+
+TEST(DrivenBody, LoadFractionLooksAtTheLoad) {
+  const Model model = block(driven);
+  Recorder recorder;
+  DamageOptions options;
+  options.stop.load_fraction = 0.5;
+
+  const DamageResult result = run(model, options, recorder);
+
+  ASSERT_EQ(result.ending, Ending::completed);
+  for (std::size_t k = 0; k + 1 < recorder.rows.size(); ++k) {
+    EXPECT_GE(recorder.rows[k].load, 0.5 * recorder.rows.front().load);
+  }
+  EXPECT_LT(recorder.rows.back().load, 0.5 * result.peak_load);
+}
+
+TEST(LoadSteps, StopWithinAStepAtTheNumberOfBrokenBonds) {
+  const Model model = block(driven);
+  Recorder recorder;
+  DamageOptions options;
+  options.load_factors = {1.0};  // far beyond what the body bears
+  options.stop.broken_bonds = 25;
+
+  const DamageResult result = run(model, options, recorder);
+
+  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.broken_bonds, 25);
+}
+
+TEST(YieldingBar, EndsAsAPlasticMechanism) {
+  const Model model = block(pulled,
+                            "[[rebar]]\nfrom = [50, 0]\nto = [50, 100]\nyoungs_modulus = 29000.0\n"
+                            "area = 0.05\nyield_strength = 60.0\n");
+  Recorder recorder;
+
+  const DamageResult result = run(model, DamageOptions{}, recorder);
+
+  EXPECT_EQ(result.ending, Ending::collapsed) << result.reason;
+  EXPECT_LT(result.largest_residual, 1e-6);
+}
+
+}  // namespace
+}  // namespace perilink
