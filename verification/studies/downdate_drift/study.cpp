@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <string>
 
 #include "assembly/rigid_modes.hpp"
 #include "drift.hpp"
 #include "problems/block.hpp"
+#include "problems/result.hpp"
 
 using namespace perilink;
 using namespace perilink::verification;
@@ -35,30 +36,29 @@ bool collapse_is_separation() {
 /// part was cut?
 int main() {
   const Model model = make_block(columns_50k);
-  std::FILE* file = std::fopen(PERILINK_STUDY_DIR "/result.csv", "w");
+  std::string table;
   bool good = true;
   fmt::print("{} unknowns, {} bonds\n", model.unknowns.count, model.network.num_elements());
-  const char* header = "downdates,residual,error,factor_error\n";
-  fmt::print("{}", header);
-  if (file != nullptr) fmt::print(file, "{}", header);
+  table += "downdates,residual,error,factor_error\n";
+  fmt::print("{}", table);
   for (const Drift& d : measure_drift(model, 20000, 2500)) {
     const std::string row =
         fmt::format("{},{:.2e},{:.2e},{:.2e}\n", d.downdates, d.residual, d.error, d.factor_error);
     fmt::print("{}", row);
-    if (file != nullptr) fmt::print(file, "{}", row);
+    table += row;
     good = good && d.residual < 1e-10 && d.error < 1e-10;
   }
   fmt::print("particles,bonds,springs,error_of_the_rest\n");
-  if (file != nullptr) fmt::print(file, "particles,bonds,springs,error_of_the_rest\n");
+  table += "particles,bonds,springs,error_of_the_rest\n";
   for (const double radius : {0.1, 1.1, 2.1}) {
     const Detachment d = measure_detachment(model, 40.0, 140.0, radius);
     const std::string row =
         fmt::format("{},{},{},{:.2e}\n", d.particles, d.bonds, d.springs, d.error);
     fmt::print("{}", row);
-    if (file != nullptr) fmt::print(file, "{}", row);
+    table += row;
     good = good && d.error < 1e-12;
   }
-  if (file != nullptr) std::fclose(file);
+  write_result(PERILINK_STUDY_DIR, table);
   good = collapse_is_separation() && good;
   return good ? 0 : 1;
 }

@@ -2,9 +2,11 @@
 
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 #include "compare.hpp"
 #include "problems/block.hpp"
+#include "problems/result.hpp"
 
 /// Is every event of the downdated factor the event that a run breaks which factorises anew each time?
 /// exact_events [--quick]: the smallest size only.
@@ -17,13 +19,10 @@ int main(int argc, char** argv) {
     Index events, reference_events;
   };
   const Size sizes[] = {{columns_5k, 1000, 1000}, {columns_50k, 1000, 200}, {columns_300k, 1000, 20}};
-  const std::string path = PERILINK_STUDY_DIR "/result.csv";
-  std::FILE* file = std::fopen(path.c_str(), "w");
-  const char* header =
+  std::string table =
       "columns,unknowns,events,ending,compared,mismatches,load_factor_difference,energy_error,"
       "largest_residual,factorizations,seconds,reference_seconds\n";
-  fmt::print("{}", header);
-  if (file != nullptr) fmt::print(file, "{}", header);
+  fmt::print("{}", table);
   bool good = true;
   for (const Size& size : sizes) {
     const Agreement a = compare_routes(size.columns, FactorRoute::refactorize, size.events,
@@ -34,10 +33,10 @@ int main(int argc, char** argv) {
         a.largest_residual, a.factorizations, a.seconds, a.other_seconds);
     fmt::print("{}", row);
     std::fflush(stdout);
-    if (file != nullptr) fmt::print(file, "{}", row);
+    table += row;
     good = good && a.mismatches == 0 && a.load_factor_difference < 1e-9 && a.energy_error < 1e-9;
     if (quick) break;
   }
-  if (file != nullptr) std::fclose(file);
+  if (!quick) write_result(PERILINK_STUDY_DIR, table);
   return good ? 0 : 1;
 }
