@@ -50,6 +50,8 @@ class StateSource {
  public:
   virtual ~StateSource() = default;
   virtual StepState state() = 0;
+  /// The secants alone, which cost nothing.
+  virtual std::span<const double> secants() { return state().secants; }
 };
 
 /// Watches an analysis. The analysis knows nothing of files.

@@ -48,7 +48,11 @@ void prepare_result_directory(const fs::path& directory, bool force) {
         "  choose another directory with --out DIR, or overwrite them with --force",
         directory.string(), old.front().filename().string()));
   }
-  for (const fs::path& file : old) fs::remove(file, error);
+  for (const fs::path& file : old) {
+    if (!fs::remove(file, error)) {
+      throw FileError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
+    }
+  }
   fs::create_directories(directory, error);
   if (error) {
     throw FileError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));

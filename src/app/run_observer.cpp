@@ -38,9 +38,9 @@ void RunObserver::note_broken(const StepRecord& record, StateSource& source) {
     is_broken_[last_element_] = 1;
     return;
   }
-  const StepState state = source.state();
+  const std::span<const double> secants = source.secants();
   for (Index e = 0; e < model_.network.num_elements(); ++e) {
-    if (state.secants[e] != 0.0 || is_broken_[e]) continue;
+    if (secants[e] != 0.0 || is_broken_[e]) continue;
     broken_.push_back(e);
     is_broken_[e] = 1;
   }

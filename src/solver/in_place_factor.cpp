@@ -38,6 +38,7 @@ double* InPlaceFactor::diagonal(Index supernode, Index column) const {
 void InPlaceFactor::factorize(const SparseMatrix& matrix, std::span<const Index> groups) {
   size_ = static_cast<Index>(matrix.cols());
   factor_ = analyze_supernodal(session_, matrix, groups);
+  flops_ = session_.get()->fl;
   adopt_pattern();
   plan_backward();
   refactorize(matrix);
@@ -306,7 +307,7 @@ FactorStatistics InPlaceFactor::statistics() const {
     result.bytes = 8.0 * result.entries + 4.0 * static_cast<double>(factor_->ssize);
     result.event_bytes = bytes_read_by_event();
   }
-  result.flops = const_cast<CholmodSession&>(session_).get()->fl;
+  result.flops = flops_;
   result.factorizations = factorizations_;
   return result;
 }

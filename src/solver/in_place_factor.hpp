@@ -63,6 +63,7 @@ class InPlaceFactor final : public Factor {
   CholmodFactorPtr factor_;
   Index size_ = 0;
   int factorizations_ = 0;
+  double flops_ = 0.0;  ///< of one factorisation
 
   std::vector<Index> position_;         ///< of each unknown in the factor's order
   std::vector<Index> supernode_of_;     ///< of each column
