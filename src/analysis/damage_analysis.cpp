@@ -93,6 +93,7 @@ class Run {
   double initial_work_ = 0.0;
   double stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
   int events_ = 0;
+  int rows_below_ = 0;  ///< successive rows below the load fraction of the stop rule
   Index broken_bonds_ = 0;
   Index yield_events_ = 0;
   StepRecord row_;
@@ -140,6 +141,10 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
     result_.peak_load = row_.load;
     result_.peak_displacement = row_.displacement;
   }
+  const bool below = options_.stop.load_fraction &&
+                     std::abs(row_.load) <
+                         *options_.stop.load_fraction * std::abs(result_.peak_load);
+  rows_below_ = below ? rows_below_ + 1 : 0;
   observer_.on_step(row_, state_);
 }
 
@@ -176,7 +181,7 @@ bool Run::stop_rule_met() {
   } else if (stop.broken_bonds && broken_bonds_ >= *stop.broken_bonds) {
     end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));
   } else if (stop.load_fraction &&
-             std::abs(row_.load) < *stop.load_fraction * std::abs(result_.peak_load)) {
+             rows_below_ >= (options_.load_factors.empty() ? stop.load_fraction_rows : 1)) {
     end(Ending::completed, fmt::format("the load fell below {} of its peak", *stop.load_fraction));
   } else if (stop.displacement && std::abs(row_.displacement) >= *stop.displacement) {
     end(Ending::completed, fmt::format("the displacement reached {}", *stop.displacement));

@@ -16,6 +16,8 @@ namespace perilink {
 struct StopRules {
   std::optional<Index> broken_bonds;
   std::optional<double> load_fraction;  ///< |load| below this fraction of its peak
+  int load_fraction_rows = 10;  ///< successive rows that have to lie below: between two events of a
+                                ///< growing crack the load may dip deep and come back
   std::optional<double> displacement;   ///< |displacement| at or above this [length]
 };
 

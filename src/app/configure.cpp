@@ -162,6 +162,9 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
   network.critical_stretch =
       input.body.critical_stretch == "lattice" ? Constants::lattice : Constants::continuum;
   for (const MaterialSection& material : input.materials) {
+    for (const std::string& name : material.regions) {
+      network.solid.push_back(region_named(input, name).box);
+    }
     network.materials.push_back({material.youngs_modulus, material.fracture_energy});
   }
   for (const RebarSection& bar : input.rebar) {

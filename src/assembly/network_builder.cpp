@@ -10,6 +10,7 @@
 
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
+#include "discretization/gaps.hpp"
 
 namespace perilink {
 namespace {
@@ -156,6 +157,8 @@ Network build_network(const Body& body, const NetworkInput& input) {
   Network network;
   network.particles = body.particles;
   network.bonds = make_bonds(network.particles, input.horizon);
+  remove_bonds_across_gaps(network.particles, network.bonds, input.solid,
+                           1e-6 * body.lattice.spacing);
   remove_loose_ghosts(network.particles, network.bonds);
   network.stiffness.reserve(static_cast<std::size_t>(network.bonds.size()));
   network.critical_stretch.reserve(static_cast<std::size_t>(network.bonds.size()));

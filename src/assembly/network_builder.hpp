@@ -40,6 +40,8 @@ struct NetworkInput {
   Constants micromodulus = Constants::lattice;
   Constants critical_stretch = Constants::lattice;
   std::vector<SolidMaterial> materials;  ///< by Particles::material
+  std::vector<Box> solid;  ///< the body is the union of these; bonds that leave it are not made.
+                           ///< Empty: every pair within the horizon is bonded
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< of each bar
 };

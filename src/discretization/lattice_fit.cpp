@@ -66,15 +66,19 @@ void check_fit(const LatticeInput& input, const Lattice& lattice, const Outline&
   if (!misfit) return;
 
   std::ostringstream message;
-  message.precision(10);
+  message.precision(12);
   message << "the outline of the body misses the lattice: its face at "
           << "xyz"[misfit->axis] << " = " << misfit->coordinate << " lies between planes that are "
           << lattice.step[misfit->axis] << " apart";
+  const double start = outline.bounds.lower[misfit->axis];
+  const double below = std::floor((misfit->coordinate - start) / lattice.step[misfit->axis]);
+  message << ": move it to " << start + below * lattice.step[misfit->axis] << " or "
+          << start + (below + 1.0) * lattice.step[misfit->axis];
   const auto spacings = fitting_spacings(input, lattice, outline.bounds, all, tolerance);
   if (spacings.empty()) {
-    message << "; no spacing nearby fits: move the faces to multiples of one length";
+    message << " (no spacing nearby fits all faces as they are)";
   } else {
-    message << "; a spacing that fits is " << spacings.front();
+    message << ", or choose the spacing " << spacings.front();
     if (spacings.size() > 1) message << " or " << spacings.back();
   }
   throw std::invalid_argument(message.str());

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/case_sections.hpp"
 #include "io/case_schema.hpp"
 #include "io/case_words.hpp"
 #include "io/toml_tree.hpp"
@@ -51,6 +52,20 @@ void check_references(const CaseFile& input, const std::set<std::string>& names,
   }
 }
 
+/// A material fills space; a region that is a line or a point holds none.
+void check_extent(const CaseFile& input, const std::string& key, const std::string& name) {
+  for (const Region& region : input.regions) {
+    if (region.name != name) continue;
+    for (int axis = 0; axis < dimension_of(input.body); ++axis) {
+      if (region.box.lower[axis] < region.box.upper[axis]) continue;
+      throw InputError(input.where(key),
+                       fmt::format("is {}, which has no extent along {}", quoted(name), "xyz"[axis]),
+                       "regions of materials need a lower end less than the upper one; lines and "
+                       "points are for supports, displacements and loads");
+    }
+  }
+}
+
 /// Materials overlap on purpose (a weak patch within a body), but two for the very same region are
 /// a slip: the first would have no effect.
 void check_materials(const CaseFile& input, const std::set<std::string>& names) {
@@ -60,6 +75,7 @@ void check_materials(const CaseFile& input, const std::set<std::string>& names) 
     const std::string key = input.lines.count(list) > 0 ? list : item_key("materials", i, "region");
     for (const std::string& region : input.materials[i].regions) {
       check_reference(input, names, key, region);
+      check_extent(input, key, region);
       const auto [at, is_new] = owner.emplace(region, i);
       if (is_new) continue;
       throw InputError(input.where(key),

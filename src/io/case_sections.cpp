@@ -39,11 +39,12 @@ Region read_region(const CaseTable& table, int dim) {
       table.refuse(key, fmt::format("has {} values, but an interval has 2", interval.size()),
                    "write [lower, upper]");
     }
-    if (!(interval[0] < interval[1])) {
+    // Equal ends make a line or a point, as supports need them; materials ask for more.
+    if (interval[0] > interval[1]) {
       table.refuse(key,
                    fmt::format("is [{}, {}], but the lower end must be less than the upper",
                                interval[0], interval[1]),
-                   interval[0] > interval[1] ? "exchange the two ends" : "");
+                   "exchange the two ends");
     }
     region.box.lower[axis] = interval[0];
     region.box.upper[axis] = interval[1];

@@ -108,6 +108,7 @@ TEST(DamageAnalysis, StopsAtAFractionOfThePeak) {
        {std::pair{0.66, Ending::collapsed}, std::pair{0.67, Ending::completed}}) {
     DamageOptions options;
     options.stop.load_fraction = fraction;
+    options.stop.load_fraction_rows = 1;
     Recorder recorder;
     const DamageResult result = run(make_square(), options, recorder);
     EXPECT_EQ(result.ending, ending) << fraction;
