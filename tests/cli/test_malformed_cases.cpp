@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Text, BodyCase, testing::ValuesIn(files_of("malformed_b
 class MalformedProcess : public testing::TestWithParam<fs::path> {};
 
 TEST_P(MalformedProcess, IsRefusedByProgram) {
-  if (!fs::exists(PERILINK_PROGRAM)) GTEST_SKIP() << "the program is not built";
+  ASSERT_TRUE(fs::exists(PERILINK_PROGRAM)) << "the program is not built";
   const fs::path& path = GetParam();
   const fs::path work =
       fs::path(testing::TempDir()) / ("perilink_malformed_" + path.stem().string());
