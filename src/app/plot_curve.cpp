@@ -150,9 +150,14 @@ Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels
   for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
   const StepRecord& peak = records[peak_row(records)];
   if (records.size() > events_for_envelope) {
+    // Where events snap back far the mean of a window can lie beyond all of them.
+    svg.clip_rect("frame", {frame.x.pixel_low, frame.y.pixel_high},
+                  frame.x.pixel_high - frame.x.pixel_low, frame.y.pixel_low - frame.y.pixel_high);
+    svg.open_group("clip-path=\"url(#frame)\"");
     svg.path(make_path(frame, events), many_events_style);
     const std::size_t window = envelope_window(records.size());
     svg.path(make_path(frame, smooth_envelope(records, window)), envelope_style);
+    svg.close_group();
     const bool peak_on_right = peak.displacement > 0.5 * (frame.x.low + frame.x.high);
     draw_legend(svg, frame, (peak.load < 0.0) != peak_on_right);
   } else {
