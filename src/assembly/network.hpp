@@ -14,6 +14,9 @@ struct Network {
   Particles particles;
   Bonds bonds;
   std::vector<double> stiffness;         ///< intact axial stiffness k [force/length], per element
+  /// Intact bending stiffness 12 d V_i V_j / xi^3 of micropolar bonds [force/length], per element;
+  /// empty where no bond carries a moment.
+  std::vector<double> bending;
   std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
   Index first_tie = 0;                   ///< number of the first tie
   Index first_segment = 0;               ///< number of the first bar segment

@@ -2,21 +2,32 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/types.hpp"
+#include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 #include "discretization/region.hpp"
+#include "discretization/simplices.hpp"
 
 namespace perilink {
 
 /// Arrangement of the particles.
-enum class Pattern { rectangular, hexagonal, cubic, face_centred };
+enum class Pattern {
+  rectangular,
+  hexagonal,
+  cubic,
+  face_centred,
+  irregular,  ///< vertices of a mesh
+};
 
 /// What is done about the missing bonds at a surface.
 enum class Surface {
   none,   ///< conforming lattice: particles on the boundary, nothing corrected
   ghost,  ///< Peri2D: cell-centred particles and a ghost layer bonded at half stiffness
+  energy,      ///< bonds scaled so that each particle stores the energy of the continuum
+  calibrated,  ///< bonds that pass the linear patch test, boundary included
 };
 
 /// Spacing of a lattice along the axes. The hexagonal pattern's rows lie sqrt(3)/2 of the column
@@ -49,10 +60,20 @@ struct LatticeInput {
   double boundary_tolerance = 1e-6;  ///< of "inside a box", in spacings
 };
 
-/// Particles and the lattice that they belong to.
+/// A named part of a mesh (physical group).
+struct Group {
+  std::string name;
+  std::vector<Index> particles;  ///< ascending
+  std::vector<Index> facets;     ///< those on the surface that belong to the group, ascending
+};
+
+/// Particles and the lattice or the mesh that they belong to.
 struct Body {
-  Lattice lattice;
+  Lattice lattice;  ///< of a mesh: pattern irregular, step zero, spacing and cell volume means
   Particles particles;
+  Facets facets;              ///< surface and faces between materials; empty with ghosts
+  Simplices cells;            ///< of a mesh; a lattice has none
+  std::vector<Group> groups;  ///< of a mesh
 };
 
 /// Fills a body with particles: `conforming` puts particles on the boundary and gives each the

@@ -16,10 +16,11 @@ struct Box {
   bool contains(std::span<const double> point, double tolerance) const;
 };
 
-/// A named box of the case file.
+/// A named box of the case file, or a physical group of its mesh.
 struct Region {
   std::string name;
   Box box;
+  std::string group;  ///< of the mesh; empty: the box counts
 };
 
 }  // namespace perilink

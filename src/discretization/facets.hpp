@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/csr.hpp"
+#include "base/types.hpp"
+
+namespace perilink {
+
+/// Pieces of the surface of a body and of the faces between its materials: edges in two dimensions,
+/// triangles or rectangles in three. Every corner takes an equal share of the area vector, which is
+/// the integral of its shape function times the normal; so the facets carry tractions to particles and
+/// say which forces a uniform strain needs at the boundary (bond calibration).
+struct Facets {
+  int dim = 2;
+  Csr corners;                       ///< particles at the corners of each facet
+  std::vector<double> area_vectors;  ///< area times unit normal, shape (size, dim) [length^2]; in two
+                                     ///< dimensions the area is length times thickness
+  std::vector<Index> inside;         ///< material of the cell that the normal points out of
+  std::vector<Index> outside;        ///< of the cell beyond; no_index: the surface of the body
+
+  Index size() const { return static_cast<Index>(inside.size()); }
+  bool on_surface(Index facet) const { return outside[facet] == no_index; }
+  std::span<const double> area_vector(Index facet) const {
+    return {area_vectors.data() + static_cast<std::size_t>(facet) * dim,
+            static_cast<std::size_t>(dim)};
+  }
+  /// Mean of the corners' positions [length]; `positions` has shape (particles, dim).
+  Vector3 centre(Index facet, std::span<const double> positions) const;
+  void append(std::span<const Index> corner_particles, const Vector3& area_vector,
+              Index material_inside, Index material_outside);
+};
+
+}  // namespace perilink
