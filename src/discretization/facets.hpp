@@ -5,6 +5,7 @@
 
 #include "base/csr.hpp"
 #include "base/types.hpp"
+#include "discretization/simplices.hpp"
 
 namespace perilink {
 
@@ -31,5 +32,12 @@ struct Facets {
   void append(std::span<const Index> corner_particles, const Vector3& area_vector,
               Index material_inside, Index material_outside);
 };
+
+/// Surface and material interfaces of a mesh, in the order of their corners. At an interface the
+/// inside is the material of the lower number.
+/// \param positions  shape (particles, dim) [length]
+/// \param thickness  of two-dimensional bodies [length]
+/// \throws std::invalid_argument where more than two cells share a facet
+Facets facets_of(const Simplices& cells, std::span<const double> positions, double thickness);
 
 }  // namespace perilink

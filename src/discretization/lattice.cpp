@@ -96,9 +96,14 @@ Body make_body(const LatticeInput& input) {
   Body body;
   body.lattice = conforming_lattice(input, outline.bounds, input.spacing);
   check_fit(input, body.lattice, outline);
-  body.particles = input.pattern == Pattern::hexagonal
-                       ? fill_conforming_hexagonal(input, body.lattice, outline)
-                       : fill_conforming_grid(input, body.lattice, outline);
+  if (input.pattern == Pattern::hexagonal) {
+    Simplices triangles;
+    body.particles = fill_conforming_hexagonal(input, body.lattice, outline, triangles);
+    body.facets = facets_of(triangles, body.particles.positions, input.thickness);
+  } else {
+    body.particles = fill_conforming_grid(input, body.lattice, outline);
+    body.facets = grid_facets(input, body.lattice, outline);
+  }
   const double exact = volume(outline) * (dim == 2 ? input.thickness : 1.0);
   const double sum =
       std::accumulate(body.particles.volumes.begin(), body.particles.volumes.end(), 0.0);

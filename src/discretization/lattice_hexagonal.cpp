@@ -1,4 +1,4 @@
-#include <initializer_list>
+#include <array>
 #include <vector>
 
 #include "discretization/lattice_parts.hpp"
@@ -29,6 +29,26 @@ class HexagonalCells {
   Index rows() const { return rows_; }
   Index stride() const { return 2 * columns_ + 1; }
   double volume(HalfColumn point) const { return volumes_[slot(point)]; }
+  /// The triangles with the numbers that particles have when those without volume are left out.
+  Simplices triangles() const {
+    std::vector<Index> number(volumes_.size(), no_index);
+    Index count = 0;
+    for (std::size_t k = 0; k < volumes_.size(); ++k) {
+      if (volumes_[k] != 0.0) number[k] = count++;
+    }
+    Simplices cells;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const auto& [a, b, c] = triangles_[t];
+      const Vector3 x = position(a), y = position(b), z = position(c);
+      const bool turned = (y[0] - x[0]) * (z[1] - x[1]) < (z[0] - x[0]) * (y[1] - x[1]);
+      for (const HalfColumn& point : {a, turned ? c : b, turned ? b : c}) {
+        cells.vertices.push_back(number[slot(point)]);
+      }
+      cells.material.push_back(materials_[t]);
+    }
+    return cells;
+  }
+
   Vector3 position(HalfColumn point) const {
     const double x = point.number == 2 * columns_
                          ? bounds_.upper[0]
@@ -43,20 +63,26 @@ class HexagonalCells {
 
   bool in_grid(HalfColumn point) const { return point.number >= 0 && point.number <= 2 * columns_; }
 
-  bool is_solid(std::initializer_list<HalfColumn> triangle) const {
+  Index material_of(const std::array<HalfColumn, 3>& triangle) const {
     Vector3 centroid{};
     for (const HalfColumn point : triangle) {
-      if (!in_grid(point)) return false;
+      if (!in_grid(point)) return no_index;
       const Vector3 vertex = position(point);
       for (int axis = 0; axis < 2; ++axis) centroid[axis] += vertex[axis] / 3.0;
     }
-    return material_at(input_, {centroid.data(), 2}) != no_index;
+    return material_at(input_, {centroid.data(), 2});
   }
 
-  void share(std::initializer_list<HalfColumn> triangle, double area) {
+  bool is_solid(const std::array<HalfColumn, 3>& triangle) const {
+    return material_of(triangle) != no_index;
+  }
+
+  void share(const std::array<HalfColumn, 3>& triangle, double area) {
     for (const HalfColumn point : triangle) {
       volumes_[slot(point)] += area * input_.thickness / 3.0;
     }
+    triangles_.push_back(triangle);
+    materials_.push_back(material_of(triangle));
   }
 
   /// Triangles between two rows. Those that stand on the even row lie between columns. Those that
@@ -92,13 +118,16 @@ class HexagonalCells {
   Index columns_;
   Index rows_;
   std::vector<double> volumes_;
+  std::vector<std::array<HalfColumn, 3>> triangles_;
+  std::vector<Index> materials_;  // of the triangles
 };
 
 }  // namespace
 
 Particles fill_conforming_hexagonal(const LatticeInput& input, const Lattice& lattice,
-                                    const Outline& outline) {
+                                    const Outline& outline, Simplices& triangles) {
   const HexagonalCells cells(input, lattice, outline.bounds);
+  triangles = cells.triangles();
   Particles particles;
   particles.dim = 2;
   for (Index row = 0; row <= cells.rows(); ++row) {
