@@ -58,6 +58,10 @@ int check_case(const std::string& case_path) {
              network.first_segment - network.first_tie);
   print_breakable(network);
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
+  for (const Group& group : model.groups) {
+    fmt::print("#   group              {}: {} particles, {} facets of the surface\n", group.name,
+               group.particles.size(), group.facets.size());
+  }
   for (const std::string& note : model.notes) fmt::print("#   note               {}\n", note);
   const double bond_bytes = 100.0 * network.num_elements();
   fmt::print("# expected cost\n");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/boundary_conditions.hpp"
+#include "app/mesh_input.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
 
@@ -83,7 +84,16 @@ void refuse_too_many_particles(const CaseFile& input, const Box& box, double spa
                                most_particles));
 }
 
-Body build_body(const CaseFile& input, int dim, double& horizon) {
+void refuse_short_horizon(const CaseFile& input, double horizon, double spacing) {
+  if (horizon >= spacing * (1.0 - 1e-9)) return;
+  throw InputError(input.where(horizon_key(input.body)),
+                   fmt::format("the horizon {:.6g} is smaller than the spacing {:.6g}: no particle "
+                               "would have a neighbour",
+                               horizon, spacing),
+                   "use two to four spacings");
+}
+
+Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   LatticeInput lattice;
   lattice.pattern = input.body.pattern;
   lattice.surface = input.body.surface;
@@ -99,13 +109,7 @@ Body build_body(const CaseFile& input, int dim, double& horizon) {
   refuse_too_many_particles(input, box, lattice.spacing, dim);
   lattice.horizon = horizon_of(input.body, lattice.spacing);
   const std::string spacing_key = input.body.spacing ? "body.spacing" : "body.columns";
-  if (lattice.horizon < lattice.spacing * (1.0 - 1e-9)) {
-    throw InputError(input.where(horizon_key(input.body)),
-                     fmt::format("the horizon {:.6g} is smaller than the spacing {:.6g}: no particle "
-                                 "would have a neighbour",
-                                 lattice.horizon, lattice.spacing),
-                     "use two to four spacings");
-  }
+  refuse_short_horizon(input, lattice.horizon, lattice.spacing);
   try {
     Body body = make_body(lattice);
     horizon = horizon_on_lattice(input.body, body.lattice);
@@ -113,6 +117,14 @@ Body build_body(const CaseFile& input, int dim, double& horizon) {
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where(spacing_key), error.what(), "");
   }
+}
+
+Body build_body(const CaseFile& input, int dim, double& horizon, std::vector<std::string>& notes) {
+  if (!input.body.mesh) return build_lattice_body(input, dim, horizon);
+  Body body = read_mesh_body(input, dim, notes);
+  horizon = horizon_of(input.body, body.lattice.spacing);
+  refuse_short_horizon(input, horizon, body.lattice.spacing);
+  return body;
 }
 
 void refuse_materials_without_particles(const CaseFile& input, const Body& body) {
@@ -163,7 +175,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
       input.body.critical_stretch == "lattice" ? Constants::lattice : Constants::continuum;
   for (const MaterialSection& material : input.materials) {
     for (const std::string& name : material.regions) {
-      network.solid.push_back(region_named(input, name).box);
+      if (!input.body.mesh) network.solid.push_back(region_named(input, name).box);
     }
     network.materials.push_back({material.youngs_modulus, material.fracture_energy});
   }
@@ -197,7 +209,7 @@ Model build_model(const CaseFile& input) {
   Model model;
   model.problem = problem_of(input);
   const int dim = dimension_of(model.problem);
-  const Body body = build_body(input, dim, model.horizon);
+  Body body = build_body(input, dim, model.horizon, model.notes);
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
   refuse_bars_outside(input, body);
@@ -207,6 +219,9 @@ Model build_model(const CaseFile& input) {
     throw InputError(input.where(horizon_key(input.body)), error.what(), "");
   }
   refuse_unbreakable_bodies(input, model.network);
+  model.facets = std::move(body.facets);
+  model.cells = std::move(body.cells);
+  model.groups = std::move(body.groups);
   apply_boundary_conditions(input, model);
   return model;
 }

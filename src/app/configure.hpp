@@ -17,6 +17,9 @@ namespace perilink {
 struct Model {
   Problem problem = Problem::plane_stress;
   Lattice lattice;
+  Facets facets;              ///< of the body; corners are particles of the network
+  Simplices cells;            ///< of a mesh
+  std::vector<Group> groups;  ///< of a mesh
   double horizon = 0.0;  ///< [length]
   Network network;
   Unknowns unknowns;

@@ -7,7 +7,10 @@
 
 namespace perilink {
 
-/// Solid particles and bar nodes inside a region, ascending.
+/// The physical group of the mesh with a name; build_model() has seen that it exists.
+const Group& group_named(const Model& model, const std::string& name);
+
+/// Solid particles and bar nodes inside a region, ascending; of a physical group its particles.
 /// \param key  of the case that asks, for the message
 /// \throws InputError when there is none
 std::vector<Index> particles_of_region(const CaseFile& input, const Model& model,

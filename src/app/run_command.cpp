@@ -11,6 +11,7 @@
 #include "analysis/elastic_analysis.hpp"
 #include "app/commands.hpp"
 #include "app/configure.hpp"
+#include "app/mesh_input.hpp"
 #include "app/result_directory.hpp"
 #include "app/run_observer.hpp"
 #include "app/signals.hpp"
@@ -102,7 +103,7 @@ int run_case(const RunOptions& options) {
   refuse_own_case(directory, options.case_path);
   prepare_result_directory(directory, options.force);
   catch_stop_signals();
-  write_resolved_case(directory, input);
+  write_resolved_case(directory, seen_from(input, directory));
   const auto log = open_log(directory);
   log->info("{} : {} particles, {} bonds, {} unknowns, {} threads", input.path,
             model.network.particles.size(), model.network.first_segment, model.unknowns.count,

@@ -45,13 +45,15 @@ class PairConstants {
     for (const auto& material : input.materials) {
       moduli.push_back(micromodulus_of(body, input, material));
     }
-    const BulkFamily family = bulk_family(body.lattice, input.horizon);
+    const bool on_lattice = input.critical_stretch == Constants::lattice;
+    const BulkFamily family =
+        on_lattice ? bulk_family(body.lattice, input.horizon) : BulkFamily{};
     for (std::size_t a = 0; a < count_; ++a) {
       for (std::size_t b = 0; b < count_; ++b) {
         const double c = 0.5 * (moduli[a] + moduli[b]);
         const double energy =
             0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy);
-        const double stretch = input.critical_stretch == Constants::continuum
+        const double stretch = !on_lattice
                                    ? continuum_critical_stretch(input.problem, energy, c,
                                                                 input.horizon, input.thickness)
                                    : lattice_critical_stretch(

@@ -34,9 +34,33 @@ void read_lattice(const CaseTable& table, BodySection& body) {
     table.refuse("surface", "is \"ghost\", but the ghost layer is for two-dimensional bodies",
                  "Allowed in three dimensions: none");
   }
-  table.need_one_of({"columns", "spacing"});
   body.columns = table.integer("columns", fewest_columns, most_columns);
   body.spacing = table.positive("spacing");
+}
+
+/// The mesh says where the particles are, and has no lattice for other keys to speak of.
+void read_mesh(const CaseTable& table, BodySection& body) {
+  body.mesh = table.path("mesh");
+  if (body.mesh->empty()) table.refuse("mesh", "is empty", "name the file of a gmsh mesh");
+  body.pattern = Pattern::irregular;
+  body.micromodulus = body.critical_stretch = "continuum";
+  if (table.has("pattern")) {
+    table.refuse("pattern", "is given beside `mesh`", "delete it: the mesh places the particles");
+  }
+  if (const auto word = table.choice("surface", surface_words())) body.surface = surface_of(*word);
+  if (body.surface == Surface::ghost) {
+    table.refuse("surface", "is \"ghost\", but the ghost layer belongs to a lattice",
+                 "delete it, or fill the body with a lattice");
+  }
+  if (table.has("horizon_level")) {
+    table.refuse("horizon_level", "is given, but a mesh has no levels",
+                 "give `horizon` or `horizon_ratio`");
+  }
+  for (const char* key : {"micromodulus", "critical_stretch"}) {
+    if (table.choice(key, {"lattice", "continuum"}) != "lattice") continue;
+    table.refuse(key, "is \"lattice\", but a mesh has no lattice to count on",
+                 "delete it, or write \"continuum\"");
+  }
 }
 
 void read_horizon(const CaseTable& table, BodySection& body) {
@@ -127,7 +151,12 @@ BodySection read_body(const CaseTable& table) {
                  "delete it; the regions' z intervals say how thick the body is");
   }
   assign(body.thickness, table.positive("thickness"));
-  read_lattice(table, body);
+  table.need_one_of({"columns", "spacing", "mesh"});
+  if (table.has("mesh")) {
+    read_mesh(table, body);
+  } else {
+    read_lattice(table, body);
+  }
   read_horizon(table, body);
   assign(body.micromodulus, table.choice("micromodulus", {"lattice", "continuum"}));
   assign(body.critical_stretch, table.choice("critical_stretch", {"lattice", "continuum"}));

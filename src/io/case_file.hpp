@@ -21,17 +21,18 @@ namespace perilink {
 
 /// [body]
 struct BodySection {
+  std::optional<std::string> mesh;       ///< file, from the folder of the case; irregular pattern
   std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
   double thickness = 1.0;                ///< of two-dimensional bodies
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
   Surface surface = Surface::none;
-  std::optional<int> columns;            ///< particles across the body in x: this or spacing
+  std::optional<int> columns;            ///< particles across the body in x: this, spacing or mesh
   std::optional<double> spacing;
   std::optional<double> horizon;         ///< exactly one of horizon, horizon_level, horizon_ratio
   std::optional<int> horizon_level;      ///< 0–8 of Gerstle, Sau & Silling 2005, Fig. 5
   std::optional<double> horizon_ratio;   ///< horizon / spacing
-  std::string micromodulus = "lattice";      ///< lattice | continuum
-  std::string critical_stretch = "lattice";  ///< lattice | continuum
+  std::string micromodulus = "lattice";      ///< lattice | continuum, of a mesh always continuum
+  std::string critical_stretch = "lattice";  ///< lattice | continuum, of a mesh always continuum
 };
 
 /// [[materials]]: elastic constants and fracture energy of one or more regions. A later entry counts

@@ -44,6 +44,18 @@ void check_reference(const CaseFile& input, const std::set<std::string>& names,
                    suggest(region, allowed));
 }
 
+void check_groups(const CaseFile& input) {
+  if (input.body.mesh) return;
+  for (std::size_t i = 0; i < input.regions.size(); ++i) {
+    if (input.regions[i].group.empty()) continue;
+    throw InputError(input.where(item_key("regions", i, "group")),
+                     fmt::format("is {}, a physical group of a mesh, but the body has no mesh",
+                                 quoted(input.regions[i].group)),
+                     "give `mesh` in [body] instead of `spacing` or `columns`, or the intervals of a "
+                     "box here");
+  }
+}
+
 template <class Section>
 void check_references(const CaseFile& input, const std::set<std::string>& names,
                       const std::string& table, const std::vector<Section>& sections) {
@@ -55,7 +67,7 @@ void check_references(const CaseFile& input, const std::set<std::string>& names,
 /// A material fills space; a region that is a line or a point holds none.
 void check_extent(const CaseFile& input, const std::string& key, const std::string& name) {
   for (const Region& region : input.regions) {
-    if (region.name != name) continue;
+    if (region.name != name || !region.group.empty()) continue;
     for (int axis = 0; axis < dimension_of(input.body); ++axis) {
       if (region.box.lower[axis] < region.box.upper[axis]) continue;
       throw InputError(input.where(key),
@@ -133,6 +145,7 @@ void check_driven(const CaseFile& input) {
 
 void check_rules(const CaseFile& input) {
   const std::set<std::string> names = check_region_names(input);
+  check_groups(input);
   check_materials(input, names);
   check_references(input, names, "supports", input.supports);
   check_references(input, names, "displacements", input.displacements);

@@ -31,6 +31,16 @@ Region read_region(const CaseTable& table, int dim) {
   region.name = table.need("name", table.text("name"), "a name for other tables to refer to");
   if (region.name.empty()) table.refuse("name", "is empty", "give the region a name");
   if (table.has("z")) refuse_third_axis(table, "z", dim);
+  if (const auto group = table.text("group")) {
+    region.group = *group;
+    if (group->empty()) table.refuse("group", "is empty", "name a physical group of the mesh");
+    for (int axis = 0; axis < dim; ++axis) {
+      if (!table.has(axis_names[axis])) continue;
+      table.refuse(axis_names[axis], "is given beside `group`",
+                   "a region is a physical group or a box; delete one of the two");
+    }
+    return region;
+  }
   for (int axis = 0; axis < dim; ++axis) {
     const std::string key = axis_names[axis];
     const std::vector<double> interval =

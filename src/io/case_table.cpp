@@ -18,6 +18,9 @@ constexpr double smallest_number = 1e-50;
 /// Characters, enough for a sentence on a plot.
 constexpr std::size_t longest_text = 200;
 
+/// Linux's PATH_MAX.
+constexpr std::size_t longest_path = 4096;
+
 }  // namespace
 
 void CaseTable::refuse(const std::string& key, const std::string& fault,
@@ -79,7 +82,8 @@ int CaseTable::checked_integer(const std::string& key, const TomlValue& value, i
   return static_cast<int>(value.integer);
 }
 
-std::string CaseTable::checked_text(const std::string& key, const TomlValue& value) const {
+std::string CaseTable::checked_text(const std::string& key, const TomlValue& value,
+                                    std::size_t longest) const {
   if (value.kind != TomlValue::Kind::text) {
     refuse(key, fmt::format("is {}, but must be text", describe(value)),
            "write text between quotes");
@@ -90,9 +94,9 @@ std::string CaseTable::checked_text(const std::string& key, const TomlValue& val
     refuse(key, fmt::format("is {}, with characters that cannot be printed", describe(value)),
            "write one line of plain text");
   }
-  if (value.text.size() > longest_text) {
+  if (value.text.size() > longest) {
     refuse(key, fmt::format("is {} characters long", value.text.size()),
-           fmt::format("{} are allowed", longest_text));
+           fmt::format("{} are allowed", longest));
   }
   return value.text;
 }
@@ -100,7 +104,13 @@ std::string CaseTable::checked_text(const std::string& key, const TomlValue& val
 std::optional<std::string> CaseTable::text(const std::string& key) const {
   const TomlValue* value = table_.find(key);
   if (value == nullptr) return std::nullopt;
-  return checked_text(key, *value);
+  return checked_text(key, *value, longest_text);
+}
+
+std::optional<std::string> CaseTable::path(const std::string& key) const {
+  const TomlValue* value = table_.find(key);
+  if (value == nullptr) return std::nullopt;
+  return checked_text(key, *value, longest_path);
 }
 
 std::optional<std::string> CaseTable::choice(const std::string& key,
@@ -188,7 +198,7 @@ std::optional<std::vector<std::string>> CaseTable::texts(const std::string& key)
   const TomlValue* list = array(key, "names");
   if (list == nullptr) return std::nullopt;
   std::vector<std::string> result;
-  for (const TomlValue& item : list->items) result.push_back(checked_text(key, item));
+  for (const TomlValue& item : list->items) result.push_back(checked_text(key, item, longest_text));
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,8 @@ class CaseTable {
 
   /// One printable line.
   std::optional<std::string> text(const std::string& key) const;
+  /// The same, long enough for the name of a file with its folders.
+  std::optional<std::string> path(const std::string& key) const;
   /// The same, one of a few words.
   std::optional<std::string> choice(const std::string& key,
                                     const std::vector<std::string_view>& allowed) const;
@@ -59,7 +62,8 @@ class CaseTable {
   double checked_number(const std::string& key, const TomlValue& value) const;
   int checked_integer(const std::string& key, const TomlValue& value, int lowest,
                       int highest) const;
-  std::string checked_text(const std::string& key, const TomlValue& value) const;
+  std::string checked_text(const std::string& key, const TomlValue& value,
+                           std::size_t longest) const;
   const TomlValue* array(const std::string& key, const char* of) const;
 
   const TomlValue& table_;

@@ -73,7 +73,8 @@ void write_body(Writer& out, const BodySection& body) {
   out.header("[body]");
   out.write("problem", body.problem);
   if (dimension_of(body) == 2) out.write("thickness", body.thickness);
-  out.write("pattern", word_of(body.pattern));
+  out.write("mesh", body.mesh);
+  if (!body.mesh) out.write("pattern", word_of(body.pattern));
   out.write("surface", word_of(body.surface));
   out.write("columns", body.columns);
   out.write("spacing", body.spacing);
@@ -88,6 +89,10 @@ void write_solid(Writer& out, const CaseFile& input, int dim) {
   for (const Region& region : input.regions) {
     out.header("[[regions]]");
     out.write("name", region.name);
+    if (!region.group.empty()) {
+      out.write("group", region.group);
+      continue;
+    }
     for (int axis = 0; axis < dim; ++axis) {
       out.write(axis_names[axis],
                 std::vector<double>{region.box.lower[axis], region.box.upper[axis]});

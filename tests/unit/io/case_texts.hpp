@@ -114,6 +114,29 @@ fields_at = [1, 20]
 fields_every = 50
 )";
 
+inline const char* const mesh_case = R"([body]
+mesh = "meshes/plate \"a\".msh"
+horizon_ratio = 3
+
+[[regions]]
+name = "body"
+group = "plate"
+
+[[regions]]
+name = "right"
+x = [3, 3]
+y = [0, 3]
+
+[[materials]]
+region = "body"
+youngs_modulus = 30
+fracture_energy = 0.1
+
+[[loads]]
+region = "right"
+force = [0, -1]
+)";
+
 /// The text with the first occurrence of `from` replaced.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);

@@ -28,6 +28,18 @@ TEST(CaseBody, AllowsTheEdgesOfSizes) {
   EXPECT_EQ(with_size("columns = 2\nhorizon_level = 8"), "accepted");
 }
 
+TEST(CaseBody, TakesAMeshInPlaceOfALattice) {
+  const CaseFile input = parse_case(mesh_case, "case.toml");
+  EXPECT_EQ(input.body.mesh, "meshes/plate \"a\".msh");
+  EXPECT_EQ(input.body.pattern, Pattern::irregular);
+  EXPECT_EQ(input.body.micromodulus, "continuum");
+  EXPECT_EQ(input.body.critical_stretch, "continuum");
+  EXPECT_EQ(input.regions[0].group, "plate");
+  EXPECT_EQ(input.regions[1].group, "");
+  const std::string long_path = "mesh = \"" + std::string(3000, 'p') + "\"\nhorizon_ratio = 3";
+  EXPECT_EQ(with_size(long_path), "accepted");
+}
+
 TEST(CaseBody, AcceptsThePoissonsRatioOfItsBonds) {
   for (const auto& [problem, word] : {std::pair(Problem::plane_stress, "plane_stress"),
                                       std::pair(Problem::plane_strain, "plane_strain")}) {

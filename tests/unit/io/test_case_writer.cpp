@@ -11,14 +11,16 @@ namespace perilink {
 namespace {
 
 TEST(CaseWriter, WritesWhatItReads) {
-  for (const char* text : {small_case, full_case}) {
+  for (const char* text : {small_case, full_case, mesh_case}) {
     const CaseFile input = parse_case(text, "case.toml");
     const std::string written = write_case(input);
     const CaseFile again = parse_case(written, "written.toml");
     EXPECT_EQ(write_case(again), written);
     EXPECT_EQ(again.title, input.title);
+    EXPECT_EQ(again.body.mesh, input.body.mesh);
     ASSERT_EQ(again.regions.size(), input.regions.size());
     for (std::size_t i = 0; i < input.regions.size(); ++i) {
+      EXPECT_EQ(again.regions[i].group, input.regions[i].group);
       EXPECT_EQ(again.regions[i].box.upper, input.regions[i].box.upper) << "to the last bit";
     }
     EXPECT_EQ(again.materials.back().fracture_energy, input.materials.back().fracture_energy);

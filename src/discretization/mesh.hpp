@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace perilink {
+
+/// A physical group: elements of one dimension under one name.
+struct MeshGroup {
+  std::string name;
+  int dim = 2;                  ///< of its elements: 0 points, 1 lines, 2 triangles, 3 tetrahedra
+  std::vector<Index> elements;  ///< numbers of its cells or facets; of lower dimensions none
+  std::vector<Index> points;    ///< corners of its elements, ascending, each once
+};
+
+/// Linear triangles (2D) or tetrahedra (3D) as a mesh generator leaves them: nothing is known of
+/// their orientation, and points may be left over that no cell uses.
+struct Mesh {
+  int dim = 2;
+  std::vector<double> positions;  ///< [length], shape (points, dim)
+  std::vector<Index> cells;       ///< corners, shape (cells, dim + 1)
+  std::vector<Index> facets;      ///< edges (2D) or triangles (3D) of the groups, shape (facets, dim)
+  std::vector<MeshGroup> groups;
+
+  Index num_points() const { return static_cast<Index>(positions.size()) / dim; }
+  Index num_cells() const { return static_cast<Index>(cells.size()) / (dim + 1); }
+  Index num_facets() const { return static_cast<Index>(facets.size()) / dim; }
+};
+
+}  // namespace perilink

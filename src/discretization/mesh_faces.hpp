@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+#include "discretization/simplices.hpp"
+
+namespace perilink {
+
+/// Position of a particle; the third component is zero in two dimensions.
+Vector3 point_of(std::span<const double> positions, int dim, Index i);
+
+/// Edges (2D) or triangles (3D) between the cells of a mesh and on its surface, each once.
+struct CellFaces {
+  int dim = 2;
+  std::vector<Index> corners;                ///< shape (size, dim); seen from outside the first cell
+                                             ///< they run counter-clockwise (3D); in 2D the first
+                                             ///< cell lies on their left
+  std::vector<std::array<Index, 2>> cells;   ///< on both sides; second is no_index on the surface
+
+  Index size() const { return static_cast<Index>(cells.size()); }
+  std::span<const Index> face(Index f) const {
+    return {corners.data() + static_cast<std::size_t>(f) * dim, static_cast<std::size_t>(dim)};
+  }
+};
+
+/// Pairs the faces of positively oriented cells, in ascending order of their sorted corners. The
+/// first cell of a face is the one of the lower material, then of the lower number.
+/// \param positions  shape (particles, dim), for messages
+/// \throws std::invalid_argument where a face belongs to more than two cells, or two cells lie on
+///         the same side of it
+CellFaces find_faces(const Simplices& cells, std::span<const double> positions);
+
+/// Number of the face with these corners in any order, or no_index.
+Index find_face(const CellFaces& faces, std::span<const Index> corners);
+
+}  // namespace perilink

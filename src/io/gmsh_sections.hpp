@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace perilink {
+
+/// Dimension and tag of an entity or of a physical group.
+using GmshKey = std::pair<int, int>;
+
+/// Elements of one entity and one type.
+struct GmshBlock {
+  GmshKey entity;
+  int type = 0;                     ///< gmsh's number: 1 line, 2 triangle, 4 tetrahedron, 15 point
+  std::vector<std::int64_t> nodes;  ///< tags, element after element
+};
+
+/// What a .msh 4.1 file says of a mesh, as it says it.
+struct GmshSections {
+  std::map<GmshKey, std::string> names;               ///< of physical groups
+  std::map<GmshKey, std::vector<int>> physical_tags;  ///< of entities
+  std::vector<std::int64_t> node_tags;
+  std::vector<double> coordinates;  ///< [length], shape (nodes, 3)
+  std::vector<GmshBlock> blocks;
+};
+
+/// Reads the sections of a file. Element types other than points, lines, triangles and tetrahedra of
+/// first order are refused, and so are partitioned meshes; sections of results are passed over.
+/// \param path  for messages
+/// \throws InputError
+GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path);
+
+}  // namespace perilink

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "discretization/mesh.hpp"
+
+/// \file
+/// Meshes of boxes, without groups.
+
+namespace perilink::test {
+
+/// Box [0, 1]^dim of `count` steps along each axis: two triangles in each square, six tetrahedra
+/// around the diagonal of each cube. Points inside are shifted at random by a tenth of a step, and
+/// every third cell runs the wrong way round.
+inline Mesh box_mesh(int dim, int count) {
+  Mesh mesh;
+  mesh.dim = dim;
+  const int layers = dim == 3 ? count : 0;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> shift(-0.1, 0.1);
+  const auto number = [count](int i, int j, int k) { return i + (count + 1) * (j + (count + 1) * k); };
+  for (int k = 0; k <= layers; ++k) {
+    for (int j = 0; j <= count; ++j) {
+      for (int i = 0; i <= count; ++i) {
+        const std::array<int, 3> step = {i, j, k};
+        const bool inside = std::all_of(step.begin(), step.begin() + dim,
+                                        [count](int s) { return s > 0 && s < count; });
+        for (int axis = 0; axis < dim; ++axis) {
+          mesh.positions.push_back((step[axis] + (inside ? shift(random) : 0.0)) / count);
+        }
+      }
+    }
+  }
+  // A path from corner to opposite corner along the axes in each order is a simplex.
+  for (int k = 0; k < std::max(layers, 1); ++k) {
+    for (int j = 0; j < count; ++j) {
+      for (int i = 0; i < count; ++i) {
+        std::array<int, 3> order = {0, 1, 2};
+        do {
+          std::array<int, 3> at = {i, j, k};
+          std::vector<Index> cell = {number(at[0], at[1], at[2])};
+          for (int step = 0; step < dim; ++step) {
+            ++at[order[step]];
+            cell.push_back(number(at[0], at[1], at[2]));
+          }
+          if (mesh.num_cells() % 3 == 0) std::swap(cell[0], cell[1]);
+          mesh.cells.insert(mesh.cells.end(), cell.begin(), cell.end());
+        } while (std::next_permutation(order.begin(), order.begin() + dim));
+      }
+    }
+  }
+  return mesh;
+}
+
+}  // namespace perilink::test
