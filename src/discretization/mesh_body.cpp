@@ -111,27 +111,17 @@ std::vector<Index> add_cells(const Mesh& mesh, std::span<const Index> material, 
   return number;
 }
 
-/// Adds the facets of the surface and between materials. Returns the facet on the surface of every
-/// face, no_index for the others.
-std::vector<Index> add_facets(const CellFaces& faces, double thickness, Body& body) {
-  const int dim = body.particles.dim;
+/// Facet on the surface of every face, no_index for the others; facets stand in the order of faces.
+std::vector<Index> number_surface_facets(const CellFaces& faces, const Simplices& cells) {
   std::vector<Index> number(static_cast<std::size_t>(faces.size()), no_index);
-  body.facets.dim = dim;
+  Index count = 0;
   for (Index f = 0; f < faces.size(); ++f) {
     const auto [inner, outer] = faces.cells[f];
-    const Index inside = body.cells.material[inner];
-    const Index outside = outer == no_index ? no_index : body.cells.material[outer];
-    if (inside == outside) continue;
-    const std::span<const Index> ends = faces.face(f);
-    const Vector3 a = point_of(body.particles.positions, dim, ends[0]);
-    const Vector3 u = minus(point_of(body.particles.positions, dim, ends[1]), a);
-    Vector3 area = {u[1] * thickness, -u[0] * thickness, 0.0};
-    if (dim == 3) {
-      area = cross(u, minus(point_of(body.particles.positions, dim, ends[2]), a));
-      for (double& component : area) component *= 0.5;
+    if (outer == no_index) {
+      number[f] = count++;
+    } else if (cells.material[inner] != cells.material[outer]) {
+      ++count;
     }
-    if (outer == no_index) number[f] = body.facets.size();
-    body.facets.append(ends, area, inside, outside);
   }
   return number;
 }
@@ -266,7 +256,8 @@ Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double th
   add_particles(mesh, numbering.particle, body.particles);
   numbering.cell = add_cells(mesh, material, thickness, numbering.particle, body);
   const CellFaces faces = find_faces(body.cells, body.particles.positions);
-  numbering.surface_facet = add_facets(faces, thickness, body);
+  body.facets = facets_of(body.cells, body.particles.positions, thickness);
+  numbering.surface_facet = number_surface_facets(faces, body.cells);
   refuse_unjoined_parts(body.particles, body.facets);
   for (const MeshGroup& group : mesh.groups) {
     body.groups.push_back(body_group(mesh, group, faces, numbering, body.cells.size()));

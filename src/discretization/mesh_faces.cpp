@@ -21,7 +21,6 @@ struct Side {
   Corners key{no_index, no_index, no_index};  // corners, ascending
   bool odd = false;                           // sorting them was an odd permutation
   Index cell = no_index;
-  int face = 0;
 };
 
 /// Sorts the corners; true after an odd number of exchanges.
@@ -55,7 +54,6 @@ std::vector<Side> all_sides(const Simplices& cells) {
       side.key = face_corners(cells, cell, face);
       side.odd = sort_corners(side.key, cells.dim);
       side.cell = cell;
-      side.face = face;
       sides.push_back(side);
     }
   }
@@ -104,31 +102,30 @@ CellFaces find_faces(const Simplices& cells, std::span<const double> positions) 
                       "holds a cell twice",
                       name, place_of(first, cells.dim, positions)));
     }
-    const Corners corners = face_corners(cells, first.cell, first.face);
-    faces.corners.insert(faces.corners.end(), corners.begin(), corners.begin() + cells.dim);
+    faces.corners.insert(faces.corners.end(), first.key.begin(), first.key.begin() + cells.dim);
     faces.cells.push_back({first.cell, inner ? sides[begin + 1].cell : no_index});
   }
   return faces;
 }
 
 Index find_face(const CellFaces& faces, std::span<const Index> corners) {
-  const auto sorted = [&faces](std::span<const Index> given) {
+  const auto key_of = [&faces](std::span<const Index> given) {
     Corners key{no_index, no_index, no_index};
     std::copy(given.begin(), given.end(), key.begin());
     sort_corners(key, faces.dim);
     return key;
   };
-  const Corners wanted = sorted(corners);
+  const Corners wanted = key_of(corners);
   Index low = 0, high = faces.size();
   while (low < high) {
     const Index middle = low + (high - low) / 2;
-    if (sorted(faces.face(middle)) < wanted) {
+    if (key_of(faces.face(middle)) < wanted) {
       low = middle + 1;
     } else {
       high = middle;
     }
   }
-  return low < faces.size() && sorted(faces.face(low)) == wanted ? low : no_index;
+  return low < faces.size() && key_of(faces.face(low)) == wanted ? low : no_index;
 }
 
 }  // namespace perilink

@@ -15,9 +15,7 @@ Vector3 point_of(std::span<const double> positions, int dim, Index i);
 /// Edges (2D) or triangles (3D) between the cells of a mesh and on its surface, each once.
 struct CellFaces {
   int dim = 2;
-  std::vector<Index> corners;                ///< shape (size, dim); seen from outside the first cell
-                                             ///< they run counter-clockwise (3D); in 2D the first
-                                             ///< cell lies on their left
+  std::vector<Index> corners;                ///< ascending, shape (size, dim)
   std::vector<std::array<Index, 2>> cells;   ///< on both sides; second is no_index on the surface
 
   Index size() const { return static_cast<Index>(cells.size()); }
@@ -26,8 +24,8 @@ struct CellFaces {
   }
 };
 
-/// Pairs the faces of positively oriented cells, in ascending order of their sorted corners. The
-/// first cell of a face is the one of the lower material, then of the lower number.
+/// Pairs the faces of positively oriented cells, in the order of their corners. The first cell of a
+/// face is the one of the lower material, then of the lower number.
 /// \param positions  shape (particles, dim), for messages
 /// \throws std::invalid_argument where a face belongs to more than two cells, or two cells lie on
 ///         the same side of it

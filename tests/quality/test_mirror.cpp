@@ -17,6 +17,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/main.cpp", "only calls the commands; tests/cli runs the program"},
       {"app/run_command.cpp", "a command: tests/cli runs the program"},
       {"discretization/lattice_conforming.cpp", "a part of make_body: test_lattice.cpp"},
+      {"discretization/lattice_facets.cpp", "a part of make_body: test_facets.cpp"},
       {"discretization/lattice_fit.cpp", "a part of make_body: test_lattice.cpp"},
       {"discretization/lattice_hexagonal.cpp", "a part of make_body: test_lattice.cpp"},
       {"discretization/mesh_conformity.cpp", "a part of make_mesh_body: test_mesh_body.cpp"},
