@@ -4,20 +4,27 @@
 
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
+#include "base/timer.hpp"
 
 namespace perilink {
 
 ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unknowns,
                                    const Loads& loads, int threads) {
   const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
-  const std::unique_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
-  factor->factorize(assemble_stiffness(network, secants, unknowns),
-                    particle_of_unknown(unknowns));
+  ElasticResult result;
+  Timer timer;
+  const SparseMatrix stiffness = assemble_stiffness(network, secants, unknowns);
   const std::vector<double> load = assemble_right_hand_side(network, secants, unknowns, loads);
+  result.seconds.assembly = timer.seconds();
+
+  timer.restart();
+  const std::unique_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
+  factor->factorize(stiffness, particle_of_unknown(unknowns));
+  result.seconds.factorization = timer.seconds();
+
+  timer.restart();
   std::vector<double> solution(load.size());
   factor->solve(load, solution);
-
-  ElasticResult result;
   double load_norm = 0.0;
   for (const double value : load) load_norm += value * value;
   for (int pass = 0; pass < 2; ++pass) {
@@ -37,6 +44,7 @@ ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unkno
     for (std::size_t k = 0; k < solution.size(); ++k) solution[k] += residual[k];
   }
   result.factor = factor->statistics();
+  result.seconds.solve = timer.seconds();
   return result;
 }
 

@@ -8,12 +8,20 @@
 
 namespace perilink {
 
+/// Wall seconds of the phases of an elastic analysis.
+struct ElasticSeconds {
+  double assembly = 0.0;       ///< stiffness matrix and right-hand side
+  double factorization = 0.0;  ///< ordering and symbolic analysis too
+  double solve = 0.0;          ///< with the step of refinement
+};
+
 /// Static equilibrium at load factor 1.
 struct ElasticResult {
   std::vector<double> displacement;  ///< shape (particles, dim) [length]
   double strain_energy = 0.0;        ///< [force length]
   double residual = 0.0;             ///< |f - K u| / |f| after one step of refinement
   FactorStatistics factor;
+  ElasticSeconds seconds;
 };
 
 /// One assembly, one factorisation, one solve.

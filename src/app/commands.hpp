@@ -18,6 +18,9 @@ struct RunOptions {
 };
 int run_case(const RunOptions& options);
 
+/// perilink converge: runs a study of a case; the options name the study in place of the case.
+int converge(const RunOptions& options);
+
 /// perilink check: validates a case and prints what it will cost; computes nothing.
 int check_case(const std::string& case_path);
 

@@ -9,24 +9,42 @@
 #include "base/build_info.hpp"
 #include "base/error.hpp"
 
+namespace {
+
+constexpr const char* footer =
+    "Exit status: 0 done (also when the specimen collapsed), 2 bad input, 3 solver failure,\n"
+    "4 interrupted (results so far are kept). Case files are described in docs/case_file.md,\n"
+    "studies in docs/studies.md.";
+
+/// What all commands that compute have in common.
+void add_run_options(CLI::App& command, perilink::RunOptions& options) {
+  command.add_option("--out", options.directory, "Directory of the results [results/<file name>]");
+  command.add_option("--threads", options.threads, "Threads; results do not depend on it [all]")
+      ->check(CLI::Range(1, 1024));
+  command.add_flag("--quiet", options.quiet, "No progress, no summary");
+  command.add_flag("--force", options.force, "Overwrite the results of an earlier run");
+}
+
+}  // namespace
+
 /// The program: reads the command line, calls one command, turns failures into exit statuses.
 int main(int argc, char** argv) {
   using namespace perilink;
   CLI::App app{"Perilink: implicit quasistatic peridynamics, damage event by event"};
   app.set_version_flag("--version", build_summary());
   app.require_subcommand(1);
-  app.footer(
-      "Exit status: 0 done (also when the specimen collapsed), 2 bad input, 3 solver failure,\n"
-      "4 interrupted (results so far are kept). The case file is described in docs/case_file.md.");
+  app.footer(footer);
 
   RunOptions run;
   CLI::App* run_command = app.add_subcommand("run", "Run a case and write its results");
   run_command->add_option("case", run.case_path, "Case file (.toml)")->required();
-  run_command->add_option("--out", run.directory, "Directory of the results [results/<case name>]");
-  run_command->add_option("--threads", run.threads, "Threads; results do not depend on it [all]")
-      ->check(CLI::Range(1, 1024));
-  run_command->add_flag("--quiet", run.quiet, "No progress, no summary");
-  run_command->add_flag("--force", run.force, "Overwrite the results of an earlier run");
+  add_run_options(*run_command, run);
+
+  RunOptions study;
+  CLI::App* converge_command = app.add_subcommand(
+      "converge", "Run a study of a case: errors and orders over spacing, horizon and surface");
+  converge_command->add_option("study", study.case_path, "Study file (.toml)")->required();
+  add_run_options(*converge_command, study);
 
   std::string checked_case;
   CLI::App* check_command = app.add_subcommand(
@@ -55,6 +73,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (run_command->parsed()) return run_case(run);
+    if (converge_command->parsed()) return converge(study);
     if (check_command->parsed()) return check_case(checked_case);
     return plot_results(plot);
   } catch (const InputError& error) {

@@ -51,10 +51,34 @@ struct Axis {
 /// Axis over the data and zero, with room at the ends.
 Axis make_axis(double low, double high, double pixel_low, double pixel_high);
 
+/// Range of positive data on a range of pixels, each factor of ten as wide as any other.
+struct LogAxis {
+  double low = 1.0;
+  double high = 10.0;
+  double pixel_low = 0.0;
+  double pixel_high = 1.0;
+
+  double map(double value) const;
+};
+
+/// Axis over positive data with room at the ends, at least half a factor of ten long.
+LogAxis make_log_axis(double low, double high, double pixel_low, double pixel_high);
+
+/// Ticks at powers of ten inside [low, high], at most `most` of them; at 2 and 5 times these too where
+/// that still fits.
+std::vector<double> log_ticks(double low, double high, int most);
+
+/// "10⁻³", "2·10⁴", "0.5", "20": the number of a tick of log_ticks.
+std::string log_tick_label(double value);
+
 enum class Grid { lines, none };
 
 /// Draws frame, grid, ticks and labels.
 void draw_axes(Svg& svg, const Axis& x, const Axis& y, const std::string& x_label,
                const std::string& y_label, Grid grid);
+
+/// The same with logarithmic axes, with a grid.
+void draw_axes(Svg& svg, const LogAxis& x, const LogAxis& y, const std::string& x_label,
+               const std::string& y_label);
 
 }  // namespace perilink

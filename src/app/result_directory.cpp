@@ -14,12 +14,13 @@ namespace {
 
 /// Whether a run of this program writes a file of this name.
 bool is_result_file(const std::string& name) {
-  constexpr std::array<std::string_view, 7> names = {
-      "case.toml",   "history.csv", "timing.csv", "summary.json",
-      "fields.pvd", "log.txt",     "load_displacement.svg"};
+  constexpr std::array<std::string_view, 9> names = {
+      "case.toml",  "history.csv", "timing.csv",            "summary.json", "fields.pvd",
+      "log.txt",    "study.toml",  "load_displacement.svg", "table.csv"};
   for (const std::string_view known : names) {
     if (name == known) return true;
   }
+  if (name.starts_with("error_")) return name.ends_with(".svg");
   if (!name.starts_with("fields_")) return false;
   // The last one is what a run that was killed left half written.
   return name.ends_with(".vtu") || name.ends_with(".svg") || name.ends_with(".vtu.part");

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <thread>
 
-#include "analysis/elastic_analysis.hpp"
 #include "app/commands.hpp"
 #include "app/configure.hpp"
 #include "app/mesh_input.hpp"
 #include "app/result_directory.hpp"
+#include "app/run_model.hpp"
 #include "app/run_observer.hpp"
 #include "app/signals.hpp"
 #include "app/summary.hpp"
@@ -37,41 +37,6 @@ void write_resolved_case(const fs::path& directory, const CaseFile& input) {
   file << write_case(input);
   file.close();
   if (!file) throw FileError(fmt::format("{}: cannot be written", (directory / "case.toml").string()));
-}
-
-/// The elastic answer as a history of one row at load factor 1.
-DamageResult run_elastic(const Model& model, int threads, RunObserver& observer) {
-  const ElasticResult elastic =
-      run_elastic_analysis(model.network, model.unknowns, model.loads, threads);
-  const std::vector<double> secants(static_cast<std::size_t>(model.network.num_elements()), 1.0);
-  class Source final : public StateSource {
-   public:
-    Source(const Network& network, const std::vector<double>& intact, const ElasticResult& result)
-        : state_{network, intact, result.displacement} {}
-    StepState state() override { return state_; }
-
-   private:
-    StepState state_;
-  } source(model.network, secants, elastic);
-
-  DamageResult result;
-  result.ending = Ending::completed;
-  result.reason = "elastic equilibrium at load factor 1";
-  StepRecord& row = result.last;
-  row.step = 1;
-  row.load_factor = 1.0;
-  row.strain_energy = row.external_work = elastic.strain_energy;
-  row.load = model.reference.driven ? 2.0 * elastic.strain_energy / model.reference.value
-                                    : model.reference.value;
-  row.displacement = row.load != 0.0 ? 2.0 * elastic.strain_energy / row.load : 0.0;
-  row.residual = result.largest_residual = elastic.residual;
-  row.factorizations = 1;
-  result.peak_load = row.load;
-  result.peak_displacement = row.displacement;
-  result.initial_stiffness = row.displacement != 0.0 ? row.load / row.displacement : 0.0;
-  result.factor = elastic.factor;
-  observer.on_step(row, source);
-  return result;
 }
 
 /// The resolved case is written to DIR/case.toml; it must not take the place of the user's own file.
@@ -116,10 +81,9 @@ int run_case(const RunOptions& options) {
   RunObserver observer(input, model, directory, options.quiet);
   DamageResult result;
   try {
-    result = input.analysis.type == "elastic"
-                 ? run_elastic(model, threads, observer)
-                 : run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
-                                       damage_options(input, threads), observer);
+    const ModelRun run = run_model(input, model, threads, observer);
+    result = run.result;
+    if (run.elastic) seconds.elastic = run.elastic->seconds;
     observer.finish();
   } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
     result.ending = Ending::failed;

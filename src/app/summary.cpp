@@ -47,6 +47,11 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["seconds"] = {{"set_up", seconds.set_up},
                      {"analysis", seconds.analysis},
                      {"output", seconds.output}};
+  if (seconds.elastic) {
+    json["seconds"]["assembly"] = seconds.elastic->assembly;
+    json["seconds"]["factorization"] = seconds.elastic->factorization;
+    json["seconds"]["solve"] = seconds.elastic->solve;
+  }
   json["peak_memory_bytes"] = peak_memory_bytes();
   json["threads"] = threads;
   json["version"] = program_version();

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "analysis/damage_analysis.hpp"
+#include "analysis/elastic_analysis.hpp"
 #include "app/configure.hpp"
 
 namespace perilink {
@@ -13,6 +15,7 @@ struct PhaseSeconds {
   double set_up = 0.0;    ///< reading, particles, bonds, constants
   double analysis = 0.0;  ///< assembly, factorisation, events
   double output = 0.0;    ///< field files
+  std::optional<ElasticSeconds> elastic = {};  ///< parts of `analysis` where it is elastic
 };
 
 /// Peak memory of this process [bytes].

@@ -2,23 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <type_traits>
 
+#include "io/case_overrides.hpp"
 #include "io/case_rules.hpp"
 #include "io/case_schema.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_table.hpp"
+#include "io/input_text.hpp"
 #include "io/toml_tree.hpp"
 
 namespace perilink {
 namespace {
-
-/// No case written by hand comes near; a mesh or an image named by mistake does.
-constexpr std::size_t largest_file = std::size_t{16} << 20;
 
 /// Records the line of a key and of all below it, but not of single numbers of a list.
 void collect_lines(const TomlValue& value, const std::string& key,
@@ -81,8 +76,6 @@ class Document {
   const std::string& path_;
 };
 
-using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
 }  // namespace
 
 std::string item_key(const std::string& table, std::size_t index, const std::string& key) {
@@ -102,13 +95,14 @@ SourceLocation CaseFile::where(const std::string& key) const {
 }
 
 CaseFile parse_case(const std::string& text, const std::string& path) {
-  if (text.size() > largest_file) {
-    throw InputError(
-        {path, 0, ""},
-        fmt::format("is larger than {} MiB, so it is no case file", largest_file >> 20),
-        "name the .toml file of a case");
-  }
-  const TomlValue root = parse_toml(text, path);
+  return parse_case(text, path, {});
+}
+
+CaseFile parse_case(const std::string& text, const std::string& path,
+                    const std::vector<TomlValue>& body_keys) {
+  refuse_large_input(text, path);
+  TomlValue root = parse_toml(text, path);
+  override_body(root, body_keys);
   check_against_schema(root, path);
   const Document document(root, path);
 
@@ -138,23 +132,10 @@ CaseFile parse_case(const std::string& text, const std::string& path) {
   return input;
 }
 
-CaseFile read_case_file(const std::string& path) {
-  const FileHandle file(std::fopen(path.c_str(), "rb"), std::fclose);
-  if (file == nullptr) {
-    throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  }
-  std::string text;
-  std::string block(std::size_t{1} << 16, '\0');
-  // One block beyond the limit is enough for parse_case to refuse; a device never ends.
-  while (text.size() <= largest_file) {
-    const std::size_t count = std::fread(block.data(), 1, block.size(), file.get());
-    if (count == 0) break;
-    text.append(block, 0, count);
-  }
-  if (std::ferror(file.get()) != 0) {
-    throw FileError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  }
-  return parse_case(text, path);
+CaseFile read_case_file(const std::string& path) { return read_case_file(path, {}); }
+
+CaseFile read_case_file(const std::string& path, const std::vector<TomlValue>& body_keys) {
+  return parse_case(read_input_text(path), path, body_keys);
 }
 
 }  // namespace perilink

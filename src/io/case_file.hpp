@@ -19,6 +19,8 @@
 
 namespace perilink {
 
+struct TomlValue;
+
 /// [body]
 struct BodySection {
   std::optional<std::string> mesh;       ///< file, from the folder of the case; irregular pattern
@@ -132,6 +134,12 @@ CaseFile read_case_file(const std::string& path);
 
 /// The same from text, for tests and fuzzing.
 CaseFile parse_case(const std::string& text, const std::string& path);
+
+/// A member of a study: the case with other keys of [body] (override_body), checked as if the file
+/// held them.
+CaseFile read_case_file(const std::string& path, const std::vector<TomlValue>& body_keys);
+CaseFile parse_case(const std::string& text, const std::string& path,
+                    const std::vector<TomlValue>& body_keys);
 
 /// The case as resolved, as TOML text that reads back to the same case.
 std::string write_case(const CaseFile& input);

@@ -38,10 +38,17 @@ bool has_key(const TableSchema& schema, const std::string& key) {
   return std::find(schema.keys.begin(), schema.keys.end(), key) != schema.keys.end();
 }
 
+/// What is checked against what, for messages.
+struct Document {
+  const std::string& path;
+  const std::vector<TableSchema>& schema;
+  std::string_view name;
+};
+
 /// A key that another table has was probably written below the wrong header.
-std::string suggest_key(const TableSchema& here, const std::string& key) {
+std::string suggest_key(const Document& document, const TableSchema& here, const std::string& key) {
   std::string homes;
-  for (const TableSchema& other : case_schema()) {
+  for (const TableSchema& other : document.schema) {
     if (!has_key(other, key)) continue;
     homes += (homes.empty() ? "" : ", ") + header(other);
   }
@@ -49,38 +56,38 @@ std::string suggest_key(const TableSchema& here, const std::string& key) {
   return homes.empty() ? allowed : fmt::format("`{}` belongs to {}. {}", key, homes, allowed);
 }
 
-void check_keys(const TableSchema& schema, const TomlValue& table, const std::string& table_path,
-                const std::string& path) {
+void check_keys(const Document& document, const TableSchema& schema, const TomlValue& table,
+                const std::string& table_path) {
   if (table.kind != TomlValue::Kind::table) {
-    throw InputError({path, table.line, table_path},
+    throw InputError({document.path, table.line, table_path},
                      fmt::format("is {}, but must be a table", describe(table)),
                      fmt::format("write {} and its keys on the lines below", header(schema)));
   }
   for (const TomlValue& value : table.entries) {
     const std::string& key = value.key;
     if (has_key(schema, key)) continue;
-    throw InputError({path, value.line, join_path(table_path, key)},
-                     fmt::format("{} has no such key", header(schema)), suggest_key(schema, key));
+    throw InputError({document.path, value.line, join_path(table_path, key)},
+                     fmt::format("{} has no such key", header(schema)), suggest_key(document, schema, key));
   }
 }
 
-void check_table(const TableSchema& schema, const TomlValue& value, const std::string& path) {
+void check_table(const Document& document, const TableSchema& schema, const TomlValue& value) {
   const std::string name(schema.name);
   if (!schema.list) {
     if (value.kind == TomlValue::Kind::array) {
-      throw InputError({path, value.line, name}, fmt::format("is a list of tables [[{}]]", name),
-                       fmt::format("a case has one; write {}", header(schema)));
+      throw InputError({document.path, value.line, name}, fmt::format("is a list of tables [[{}]]", name),
+                       fmt::format("a {} has one; write {}", document.name, header(schema)));
     }
-    check_keys(schema, value, name, path);
+    check_keys(document, schema, value, name);
     return;
   }
   if (value.kind != TomlValue::Kind::array) {
-    throw InputError({path, value.line, name},
+    throw InputError({document.path, value.line, name},
                      fmt::format("is {}, but must be a list of tables", describe(value)),
                      fmt::format("write {} with two brackets, once for each", header(schema)));
   }
   for (std::size_t i = 0; i < value.items.size(); ++i) {
-    check_keys(schema, value.items[i], item_key(name, i), path);
+    check_keys(document, schema, value.items[i], item_key(name, i));
   }
 }
 
@@ -111,7 +118,12 @@ const std::vector<TableSchema>& case_schema() {
 }
 
 void check_against_schema(const TomlValue& document, const std::string& path) {
-  const std::vector<TableSchema>& schema = case_schema();
+  check_against_schema(document, path, case_schema(), "case");
+}
+
+void check_against_schema(const TomlValue& document, const std::string& path,
+                          const std::vector<TableSchema>& schema, std::string_view document_name) {
+  const Document checked{path, schema, document_name};
   std::vector<std::string_view> tables;
   for (const TableSchema& table : schema) {
     if (!table.name.empty()) tables.push_back(table.name);
@@ -124,15 +136,16 @@ void check_against_schema(const TomlValue& document, const std::string& path) {
                                       return !name.empty() && table.name == name;
                                     });
     if (found != schema.end()) {
-      check_table(*found, value, path);
+      check_table(checked, *found, value);
       continue;
     }
     const bool table = value.kind == TomlValue::Kind::table ||
                        (value.kind == TomlValue::Kind::array && !value.items.empty() &&
                         value.items.front().kind == TomlValue::Kind::table);
     throw InputError({path, value.line, join_path("", key)},
-                     table ? "a case has no such table" : "the top of the file has no such key",
-                     table ? suggest(key, tables) : suggest_key(schema.front(), key));
+                     table ? fmt::format("a {} has no such table", document_name)
+                           : "the top of the file has no such key",
+                     table ? suggest(key, tables) : suggest_key(checked, schema.front(), key));
   }
 }
 

@@ -18,8 +18,14 @@ struct TableSchema {
 /// Every table and key of a case.
 const std::vector<TableSchema>& case_schema();
 
-/// Refuses every table and key that the schema lacks, [name] in place of [[name]] and vice versa.
+/// Refuses every table and key that a schema lacks, [name] in place of [[name]] and vice versa.
+/// \param schema         the top of the file first
+/// \param document_name  "case", for messages
 /// \throws InputError
+void check_against_schema(const TomlValue& document, const std::string& path,
+                          const std::vector<TableSchema>& schema, std::string_view document_name);
+
+/// The same with the schema of a case.
 void check_against_schema(const TomlValue& document, const std::string& path);
 
 /// "did you mean `horizon`? Allowed: ..." with the allowed word nearest in spelling, if any is

@@ -25,6 +25,11 @@ const std::vector<std::string_view>& surface_words() {
   return words;
 }
 
+const std::vector<std::string_view>& method_words() {
+  static const std::vector<std::string_view> words = {"bonds", "linear_elements"};
+  return words;
+}
+
 std::string_view word_of(Pattern pattern) {
   return pattern_words()[static_cast<std::size_t>(pattern)];
 }

@@ -15,6 +15,7 @@ inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
 
 const std::vector<std::string_view>& pattern_words();
 const std::vector<std::string_view>& surface_words();
+const std::vector<std::string_view>& method_words();
 
 std::string_view word_of(Pattern pattern);
 std::string_view word_of(Surface surface);

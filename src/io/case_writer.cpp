@@ -1,75 +1,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <string_view>
 
 #include "io/case_file.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
+#include "io/toml_writer.hpp"
 
 namespace perilink {
 namespace {
 
-/// TOML in the making: one call per line of the file.
-class Writer {
- public:
-  void header(std::string_view name) { append("\n{}\n", name); }
-
-  /// `value` is TOML already.
-  void line(std::string_view key, std::string_view value) { append("{} = {}\n", key, value); }
-
-  void write(std::string_view key, double value) { line(key, fmt::format("{}", value)); }
-  void write(std::string_view key, int value) { line(key, fmt::format("{}", value)); }
-  void write(std::string_view key, bool value) { line(key, value ? "true" : "false"); }
-  void write(std::string_view key, std::string_view value) { line(key, text(value)); }
-  /// Without this a literal would turn into a bool.
-  void write(std::string_view key, const char* value) { line(key, text(value)); }
-  void write(std::string_view key, const Vector3& value, int dim) {
-    line(key, list(std::vector<double>(value.begin(), value.begin() + dim)));
-  }
-  template <class T>
-  void write(std::string_view key, const std::vector<T>& values) {
-    line(key, list(values));
-  }
-  template <class T>
-  void write(std::string_view key, const std::optional<T>& value) {
-    if (value) write(key, *value);
-  }
-
-  std::string take() { return std::move(text_); }
-
- private:
-  template <class... Arguments>
-  void append(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
-  }
-
-  static std::string text(std::string_view value) {
-    std::string result = "\"";
-    for (const char c : value) {
-      if (c == '"' || c == '\\') result += '\\';
-      result += c;
-    }
-    return result + "\"";
-  }
-
-  static std::string element(double value) { return fmt::format("{}", value); }
-  static std::string element(int value) { return fmt::format("{}", value); }
-  static std::string element(const std::string& value) { return text(value); }
-
-  template <class T>
-  static std::string list(const std::vector<T>& values) {
-    std::string result = "[";
-    for (const T& value : values) result += (result.size() > 1 ? ", " : "") + element(value);
-    return result + "]";
-  }
-
-  std::string text_;
-};
-
-void write_body(Writer& out, const BodySection& body) {
+void write_body(TomlWriter& out, const BodySection& body) {
   out.header("[body]");
   out.write("problem", body.problem);
   if (dimension_of(body) == 2) out.write("thickness", body.thickness);
@@ -85,7 +28,7 @@ void write_body(Writer& out, const BodySection& body) {
   out.write("critical_stretch", body.critical_stretch);
 }
 
-void write_solid(Writer& out, const CaseFile& input, int dim) {
+void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
   for (const Region& region : input.regions) {
     out.header("[[regions]]");
     out.write("name", region.name);
@@ -112,7 +55,7 @@ void write_solid(Writer& out, const CaseFile& input, int dim) {
   }
 }
 
-void write_loading(Writer& out, const CaseFile& input, int dim) {
+void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
   for (const SupportSection& support : input.supports) {
     out.header("[[supports]]");
     out.write("region", support.region);
@@ -135,7 +78,7 @@ void write_loading(Writer& out, const CaseFile& input, int dim) {
   }
 }
 
-void write_rebar(Writer& out, const RebarSection& bar, int dim) {
+void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
   out.header("[[rebar]]");
   out.write("from", bar.from, dim);
   out.write("to", bar.to, dim);
@@ -147,7 +90,7 @@ void write_rebar(Writer& out, const RebarSection& bar, int dim) {
   out.write("ties_break", bar.ties_break);
 }
 
-void write_run(Writer& out, const CaseFile& input) {
+void write_run(TomlWriter& out, const CaseFile& input) {
   out.header("[analysis]");
   out.write("type", input.analysis.type);
   out.write("control", input.analysis.control);
@@ -167,7 +110,7 @@ void write_run(Writer& out, const CaseFile& input) {
 
 std::string write_case(const CaseFile& input) {
   const int dim = dimension_of(input.body);
-  Writer out;
+  TomlWriter out;
   out.write("title", input.title);
   out.write("units", input.units);
   write_body(out, input.body);

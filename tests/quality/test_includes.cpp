@@ -42,6 +42,7 @@ const std::vector<Confinement>& confined_headers() {
       {std::regex("^nanoflann\\.hpp$"), "discretization/neighbor_search.cpp"},
       {std::regex("^toml\\+\\+/.*"), "io/"},
       {std::regex("^pugi(xml|config)\\.hpp$"), "io/"},
+      {std::regex("^muParser.*\\.h$"), "io/formula.cpp"},
       {std::regex("^zlib\\.h$"), "io/"},
       {std::regex("^gmsh\\.h(_cwrap)?$"), "io/"},
       {std::regex("^CLI/.*"), "app/"},

@@ -118,6 +118,55 @@ broken_bonds = {}
                      columns, broken_bonds);
 }
 
+/// A strip of 2 by 1 whose ends are driven apart by 0.04 while it contracts freely: the strain is
+/// 0.02. Its modulus is 100, so it should store 100 * 0.02^2 / 2 * 2 = 0.04. Its ends are lines, on which
+/// a ghost lattice has no particle.
+inline constexpr const char* tension_strip_case = R"([body]
+surface = "none"
+spacing = 0.25
+horizon = 0.6
+
+[[regions]]
+name = "strip"
+x = [0, 2]
+y = [0, 1]
+
+[[regions]]
+name = "left side"
+x = [0, 0]
+y = [0, 1]
+
+[[regions]]
+name = "corner"
+x = [0, 0]
+y = [0, 0]
+
+[[regions]]
+name = "right side"
+x = [2, 2]
+y = [0, 1]
+
+[[materials]]
+region = "strip"
+youngs_modulus = 100
+fracture_energy = "infinite"
+
+[[supports]]
+region = "left side"
+fix = ["x"]
+
+[[supports]]
+region = "corner"
+fix = ["y"]
+
+[[displacements]]
+region = "right side"
+x = 0.04
+
+[analysis]
+type = "elastic"
+)";
+
 /// A bar of 1 by 1 by 4 in tension by 2 along y; its modulus is 100. Rollers and one corner line
 /// hold it so that it may contract.
 inline std::string tension_bar_case(const std::string& pattern, double spacing) {

@@ -67,5 +67,46 @@ TEST(PlotAxes, AxisHoldsZeroAndTheData) {
   EXPECT_TRUE(std::isfinite(make_axis(0.0, 0.0, 0.0, 1.0).map(0.0)));
 }
 
+TEST(PlotAxes, LogAxisMapsEqualFactorsToEqualDistances) {
+  const LogAxis axis = make_log_axis(0.01, 10.0, 100.0, 500.0);
+  EXPECT_LT(axis.low, 0.01);
+  EXPECT_GT(axis.high, 10.0);
+  EXPECT_NEAR(axis.map(0.1) - axis.map(0.01), axis.map(10.0) - axis.map(1.0), 1e-9);
+  EXPECT_NEAR(axis.map(axis.low), 100.0, 1e-9);
+  EXPECT_NEAR(axis.map(axis.high), 500.0, 1e-9);
+  const LogAxis point = make_log_axis(3.0, 3.0, 0.0, 1.0);
+  EXPECT_NEAR(point.high / point.low, std::sqrt(10.0), 1e-12);
+  EXPECT_NEAR(point.map(3.0), 0.5, 1e-12);
+}
+
+TEST(PlotAxes, LogTicksAreFewInsideAndAtLeastOne) {
+  for (const double low : {3e-9, 0.7, 1.0, 4711.0}) {
+    for (const double factor : {3.2, 30.0, 1e4, 1e12}) {
+      for (const int most : {2, 5, 10}) {
+        const std::vector<double> ticks = log_ticks(low, low * factor, most);
+        EXPECT_LE(static_cast<int>(ticks.size()), most) << low << ' ' << factor;
+        for (const double tick : ticks) {
+          EXPECT_GE(tick, low * (1 - 1e-8));
+          EXPECT_LE(tick, low * factor * (1 + 1e-8));
+        }
+        if (most >= 5) {
+          EXPECT_FALSE(ticks.empty()) << low << ' ' << factor;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(log_ticks(1.0, 100.0, 10).size(), 7u);  // 1 2 5 10 20 50 100
+  EXPECT_EQ(log_ticks(1.0, 100.0, 6).size(), 3u);
+}
+
+TEST(PlotAxes, LogTickLabelsAreShort) {
+  EXPECT_EQ(log_tick_label(0.001), "10⁻³");
+  EXPECT_EQ(log_tick_label(5e-7), "5·10⁻⁷");
+  EXPECT_EQ(log_tick_label(0.05), "0.05");
+  EXPECT_EQ(log_tick_label(0.2), "0.2");
+  EXPECT_EQ(log_tick_label(500.0), "500");
+  EXPECT_EQ(log_tick_label(1e4), "10⁴");
+}
+
 }  // namespace
 }  // namespace perilink

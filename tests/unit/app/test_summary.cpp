@@ -75,6 +75,21 @@ TEST(Summary, HoldsEveryFigureUnderItsKey) {
   EXPECT_EQ(json.size(), expected.size() + 1) << "a key that no test knows";
 }
 
+TEST(Summary, SplitsTheTimeOfAnElasticAnalysis) {
+  const test::TemporaryDirectory work;
+  const CaseFile input = test::strip_case();
+  PhaseSeconds seconds{0.25, 0.5, 0.75};
+  seconds.elastic = ElasticSeconds{0.125, 0.0625, 0.03125};
+  write_summary(work.path(), input, build_model(input), some_result(), seconds, 3);
+  const auto json = nlohmann::json::parse(test::read_text(work / "summary.json"));
+  EXPECT_EQ(json["seconds"], (nlohmann::json{{"set_up", 0.25},
+                                             {"analysis", 0.5},
+                                             {"output", 0.75},
+                                             {"assembly", 0.125},
+                                             {"factorization", 0.0625},
+                                             {"solve", 0.03125}}));
+}
+
 TEST(Summary, NamesEveryEnding) {
   const CaseFile input = test::strip_case();
   const Model model = build_model(input);

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/damage_analysis.hpp"
+#include "analysis/elastic_analysis.hpp"
+#include "app/configure.hpp"
+
+namespace perilink {
+
+/// What a case's analysis left.
+struct ModelRun {
+  DamageResult result;                   ///< of an elastic case: one row at load factor 1
+  std::optional<ElasticResult> elastic;  ///< of an elastic case
+};
+
+/// Runs the analysis that a case asks for on its model.
+/// \throws SolverError when the stiffness matrix is not positive definite
+ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepObserver& observer);
+
+}  // namespace perilink

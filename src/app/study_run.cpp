@@ -1,0 +1,259 @@
+#include "app/study_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "analysis/convergence.hpp"
+#include "app/run_model.hpp"
+#include "app/signals.hpp"
+#include "base/timer.hpp"
+#include "io/case_overrides.hpp"
+#include "io/case_sections.hpp"
+#include "io/case_words.hpp"
+#include "io/formula.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Keeps nothing; lets Ctrl-C end a long run.
+class StudyObserver final : public StepObserver {
+ public:
+  void on_step(const StepRecord& /*record*/, StateSource& /*source*/) override {}
+  bool stop_requested() override { return stop_signal_received(); }
+};
+
+/// What run_model leaves of one repeat.
+struct Repeat {
+  CaseFile input;
+  Model model;
+  ModelRun run;
+  MemberSeconds seconds;
+};
+
+Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int threads) {
+  Repeat repeat;
+  Timer timer;
+  repeat.input = read_case_file(study.case_path, keys);
+  repeat.model = build_model(repeat.input);
+  repeat.seconds.set_up = timer.seconds();
+  timer.restart();
+  StudyObserver observer;
+  repeat.run = run_model(repeat.input, repeat.model, threads, observer);
+  repeat.seconds.analysis = timer.seconds();
+  if (repeat.run.elastic) {
+    repeat.seconds.assembly = repeat.run.elastic->seconds.assembly;
+    repeat.seconds.factorization = repeat.run.elastic->seconds.factorization;
+    repeat.seconds.solve = repeat.run.elastic->seconds.solve;
+  }
+  return repeat;
+}
+
+double quantity_of(const DamageResult& result, const std::string& word) {
+  if (word == "strain_energy") return result.last.strain_energy;
+  if (word == "peak_load") return result.peak_load;
+  if (word == "peak_displacement") return result.peak_displacement;
+  if (word == "initial_stiffness") return result.initial_stiffness;
+  return result.last.dissipated_energy;
+}
+
+SourceLocation where_of_field(const ErrorSection& error) {
+  SourceLocation where = error.where;
+  where.key += ".displacement";
+  return where;
+}
+
+double field_error(const ErrorSection& error, const Model& model, const ElasticResult& elastic) {
+  const Particles& particles = model.network.particles;
+  std::vector<double> exact(elastic.displacement.size());
+  for (int axis = 0; axis < particles.dim; ++axis) {
+    const Formula formula(Expression(error.displacement[axis]), particles.dim);
+    for (Index i = 0; i < particles.size(); ++i) {
+      if (particles.kind[i] != ParticleKind::solid) continue;
+      const std::span<const double> x = particles.position(i);
+      const double value = formula.at(x);
+      if (!std::isfinite(value)) {
+        throw InputError(where_of_field(error),
+                         fmt::format("gives {} at the particle at ({})", value, fmt::join(x, ", ")),
+                         "write a formula that is finite everywhere in the body");
+      }
+      exact[static_cast<std::size_t>(i) * particles.dim + axis] = value;
+    }
+  }
+  return relative_l2_error(particles, elastic.displacement, exact, error.remove_rigid_motion);
+}
+
+void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) {
+  const Model& model = repeat.model;
+  member.method = "bonds";
+  member.surface = word_of(repeat.input.body.surface);
+  member.spacing = model.lattice.spacing;
+  member.horizon = model.horizon;
+  member.particles = model.network.particles.size();
+  member.bonds = model.network.first_segment;
+  member.unknowns = model.unknowns.count;
+  for (const ErrorSection& error : study.errors) {
+    member.values.push_back(error.is_field() ? field_error(error, model, *repeat.run.elastic)
+                                             : quantity_of(repeat.run.result, error.quantity));
+  }
+}
+
+/// Reference of the series that ends with these members, coarse to fine.
+double reference_of(const ErrorSection& error, std::size_t number,
+                    const std::vector<const StudyMember*>& members) {
+  if (error.reference == Reference::number) return error.reference_value;
+  const auto value = [&](std::size_t from_end) {
+    return members[members.size() - from_end]->values[number];
+  };
+  if (error.reference == Reference::finest) return value(1);
+  if (members.size() < 3) return no_number;
+  const auto spacing = [&](std::size_t from_end) {
+    return members[members.size() - from_end]->spacing;
+  };
+  const auto limit = extrapolate({spacing(3), spacing(2), spacing(1)}, {value(3), value(2), value(1)});
+  return limit ? limit->limit : no_number;
+}
+
+/// \param members  of one series, coarse to fine, none of which failed
+void compare_series(const StudyFile& study, const std::vector<StudyMember*>& members) {
+  if (members.empty()) return;
+  const std::vector<const StudyMember*> all(members.begin(), members.end());
+  for (std::size_t e = 0; e < study.errors.size(); ++e) {
+    const ErrorSection& error = study.errors[e];
+    const double reference = error.is_field() ? no_number : reference_of(error, e, all);
+    const StudyMember* coarser = nullptr;
+    for (StudyMember* member : members) {
+      const double value = member->values[e];
+      member->errors.push_back(
+          error.is_field() ? value : std::abs(value - reference) / std::abs(reference));
+      member->orders.push_back(coarser == nullptr
+                                   ? no_number
+                                   : observed_order(coarser->spacing, coarser->errors[e],
+                                                    member->spacing, member->errors[e]));
+      coarser = member;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<StudySeries> study_series(const StudyFile& study) {
+  const VarySection& vary = study.vary;
+  const auto join = [](const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() ? a + b : a + ", " + b;
+  };
+  std::vector<StudySeries> bonds = {{}};
+  const auto multiply = [&](auto values, const char* key, auto name_of) {
+    if (values.empty()) return;
+    std::vector<StudySeries> product;
+    for (const StudySeries& series : bonds) {
+      for (const auto& value : values) {
+        product.push_back({join(series.name, name_of(value)), series.keys});
+        product.back().keys.push_back(body_key(key, value));
+      }
+    }
+    bonds = std::move(product);
+  };
+  multiply(vary.surface, "surface", [](const std::string& word) { return word; });
+  multiply(vary.horizon_ratio, "horizon_ratio",
+           [](double ratio) { return fmt::format("horizon ratio {}", ratio); });
+  std::vector<StudySeries> all;
+  for (const std::string& method : vary.method) {
+    if (method == "linear_elements") {
+      all.push_back({"linear elements", {body_key("method", method)}});
+      continue;
+    }
+    for (StudySeries series : bonds) {
+      series.keys.push_back(body_key("method", method));
+      all.push_back(std::move(series));
+    }
+  }
+  if (vary.method.empty()) all = std::move(bonds);
+  for (StudySeries& series : all) {
+    if (series.name.empty()) series.name = "bonds";
+  }
+  return all;
+}
+
+void check_study(const StudyFile& study, const CaseFile& input) {
+  const int dim = dimension_of(input.body);
+  for (const ErrorSection& error : study.errors) {
+    if (!error.is_field()) continue;
+    const SourceLocation where = where_of_field(error);
+    if (static_cast<int>(error.displacement.size()) != dim) {
+      throw InputError(where,
+                       fmt::format("has {} formulas, but the case has {} dimensions",
+                                   error.displacement.size(), dim),
+                       "give one for each axis");
+    }
+    if (input.analysis.type != "elastic") {
+      throw InputError(where, "is given, but the case is a damage analysis",
+                       "measure a `quantity`, or set analysis.type = \"elastic\" in the case");
+    }
+    for (const std::string& text : error.displacement) {
+      try {
+        Formula(Expression(text), dim);
+      } catch (const std::invalid_argument& fault) {
+        throw InputError(where, fmt::format("holds the formula {}: {}",
+                                            perilink::quoted(text), fault.what()),
+                         "write formulas of x, y and z, \"0.01*x\"");
+      }
+    }
+  }
+}
+
+StudyMember run_member(const StudyFile& study, const StudySeries& series,
+                       const TomlValue& refinement, int threads) {
+  StudyMember member;
+  member.refinement = refinement;
+  std::vector<TomlValue> keys = series.keys;
+  keys.push_back(refinement);
+  try {
+    for (int k = 0; k < study.repeats; ++k) {
+      const Repeat repeat = run_once(study, keys, threads);
+      const Ending ending = repeat.run.result.ending;
+      if (ending == Ending::failed || ending == Ending::interrupted) {
+        member.failure = repeat.run.result.reason;
+        return member;
+      }
+      if (k == 0) fill_in(member, study, repeat);
+      if (k == 0 || repeat.seconds.total() < member.seconds.total()) {
+        member.seconds = repeat.seconds;
+      }
+    }
+  } catch (const InputError& error) {
+    member.failure = error.what();
+    member.bad_input = true;
+  } catch (const std::exception& error) {  // the solver, no memory: the other members go on
+    member.failure = error.what();
+  }
+  return member;
+}
+
+void compare_members(const StudyFile& study, std::vector<StudyMember>& members) {
+  std::stable_sort(members.begin(), members.end(), [](const StudyMember& a, const StudyMember& b) {
+    if (a.series != b.series) return a.series < b.series;
+    if (a.failed() != b.failed()) return b.failed();
+    return a.spacing > b.spacing;
+  });
+  for (StudyMember& member : members) {
+    member.errors.clear();
+    member.orders.clear();
+  }
+  for (std::size_t begin = 0, end = 0; begin < members.size(); begin = end) {
+    std::vector<StudyMember*> good;
+    for (end = begin; end < members.size() && members[end].series == members[begin].series; ++end) {
+      if (!members[end].failed()) good.push_back(&members[end]);
+    }
+    compare_series(study, good);
+  }
+}
+
+}  // namespace perilink

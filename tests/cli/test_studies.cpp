@@ -1,0 +1,175 @@
+// perilink converge from outside: messages, exit statuses, files, errors of a small bar.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "support/process.hpp"
+#include "support/program_cases.hpp"
+
+namespace perilink::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const std::string vary = R"(case = "bar.toml"
+
+[vary]
+spacing = [0.25, 0.125, 0.0625]
+horizon_ratio = [2]
+surface = ["none", "ghost"]
+)";
+
+const std::string energy = "\n[error]\nquantity = \"strain_energy\"\nreference = 0.04\n";
+
+class Study : public testing::Test {
+ protected:
+  Study() {
+    fs::create_directories(work());
+    write_text(work() / "bar.toml", tension_strip_case);
+  }
+  fs::path work() const { return temporary_ / "work"; }
+  ProcessEnd converge(const std::string& text, std::vector<std::string> options = {}) const {
+    write_text(work() / "study.toml", text);
+    options.insert(options.begin(), {"converge", "study.toml"});
+    return run_program(work(), options);
+  }
+  std::string file(const std::string& name) const { return read_text(work() / name); }
+  std::set<std::string> names(const std::string& directory) const {
+    std::set<std::string> found;
+    for (const auto& entry : fs::directory_iterator(work() / directory)) {
+      found.insert(entry.path().filename().string());
+    }
+    return found;
+  }
+
+  TemporaryDirectory temporary_;
+};
+
+/// Fields of the rows of a table; a comma between quotes splits too.
+std::vector<std::vector<std::string>> rows(const std::string& table) {
+  std::vector<std::vector<std::string>> result;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    result.emplace_back();
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) result.back().push_back(field);
+  }
+  return result;
+}
+
+TEST_F(Study, WritesTheFilesOfTheContractAndNoOthers) {
+  const ProcessEnd end = converge(vary + energy);
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_EQ(names("results/study"),
+            (std::set<std::string>{"study.toml", "table.csv", "timing.csv", "error_unknowns.svg",
+                                   "error_seconds.svg"}));
+  for (const char* part : {"none", "ghost", "error of strain_energy", "order", "results/study"}) {
+    EXPECT_THAT(end.out, HasSubstr(part));
+  }
+  EXPECT_THAT(end.err, HasSubstr("[6/6] ghost, horizon ratio 2, spacing 0.0625"));
+  EXPECT_THAT(file("results/study/error_unknowns.svg"), HasSubstr("none, horizon ratio 2: order"));
+}
+
+TEST_F(Study, TheErrorOfAnUncorrectedBarFalls) {
+  ASSERT_EQ(converge(vary + "\n[error]\ndisplacement = [\"0.02*x\", \"-0.02/3*y\"]\n")
+                .exit_status,
+            0);
+  const auto table = rows(file("results/study/table.csv"));
+  ASSERT_EQ(table.size(), 7u);
+  // The name of the series holds a comma, which shifts the fields of the rows by one.
+  EXPECT_EQ(table[0][9], "displacement_error");
+  EXPECT_EQ(table[1][2], "0.25");
+  for (int row = 2; row <= 3; ++row) {
+    const double coarse = std::stod(table[row - 1][10]);
+    const double fine = std::stod(table[row][10]);
+    EXPECT_LT(fine, coarse);
+    EXPECT_NEAR(std::stod(table[row][11]), std::log2(coarse / fine), 1e-12);
+  }
+}
+
+TEST_F(Study, TheTableDependsNeitherOnThreadsNorOnTheClock) {
+  ASSERT_EQ(converge(vary + energy, {"--out", "one", "--threads", "1", "--quiet"}).exit_status, 0);
+  ASSERT_EQ(converge(vary + energy, {"--out", "two", "--threads", "2", "--quiet"}).exit_status, 0);
+  for (const char* name : {"table.csv", "study.toml", "error_unknowns.svg"}) {
+    EXPECT_EQ(file(std::string("one/") + name), file(std::string("two/") + name)) << name;
+  }
+}
+
+TEST_F(Study, TheWrittenStudyRunsAgainToTheSameTable) {
+  ASSERT_EQ(converge(vary + energy, {"--out", "first", "--quiet"}).exit_status, 0);
+  const ProcessEnd end =
+      run_program(work(), {"converge", "first/study.toml", "--out", "second", "--quiet"});
+  ASSERT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_EQ(end.out + end.err, "");
+  EXPECT_EQ(file("first/table.csv"), file("second/table.csv"));
+}
+
+TEST_F(Study, AMemberThatFailsDoesNotStopTheOthers) {
+  // The horizon stays 0.6: no spacing of 1 can have it.
+  const ProcessEnd end =
+      converge("case = \"bar.toml\"\n[vary]\nspacing = [1, 0.25, 0.125]\n" + energy);
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("failed"));
+  EXPECT_THAT(end.out, HasSubstr("body.horizon"));
+  const auto table = rows(file("results/study/table.csv"));
+  ASSERT_EQ(table.size(), 4u);
+  EXPECT_EQ(table[3][1], "1") << "failures come last";
+  EXPECT_THAT(file("results/study/table.csv"), HasSubstr("body.horizon: is 0.6"));
+}
+
+TEST_F(Study, WhereAllMembersFailTheStatusAndTheFirstReasonSaySo) {
+  const ProcessEnd end = converge("case = \"bar.toml\"\n[vary]\nmesh = [\"a.msh\", \"b.msh\"]\n" + energy);
+  EXPECT_EQ(end.exit_status, 2);
+  EXPECT_THAT(end.err, HasSubstr("every member of the study failed"));
+  EXPECT_THAT(end.err, HasSubstr("body."));
+}
+
+TEST_F(Study, EveryErrorHasItsPictures) {
+  ASSERT_EQ(converge(vary + "\n[[error]]\nquantity = \"strain_energy\"\nreference = \"finest\"\n" +
+                     "\n[[error]]\nname = \"field of x/y\"\ndisplacement = [\"x\", \"y\"]\n")
+                .exit_status,
+            0);
+  EXPECT_EQ(names("results/study"),
+            (std::set<std::string>{"study.toml", "table.csv", "timing.csv",
+                                   "error_strain_energy_unknowns.svg",
+                                   "error_strain_energy_seconds.svg",
+                                   "error_field_of_x_y_unknowns.svg",
+                                   "error_field_of_x_y_seconds.svg"}));
+}
+
+TEST_F(Study, BadStudiesAreRefusedBeforeAnythingIsWritten) {
+  struct Bad {
+    std::string text, says;
+  };
+  for (const Bad& bad : {Bad{"case = \"nowhere.toml\"\n[vary]\nspacing = [2, 1]\n" + energy,
+                             "nowhere.toml"},
+                         Bad{vary + "horizon_ration = [2]\n" + energy, "horizon_ratio"},
+                         Bad{vary + "[error]\ndisplacement = [\"x\", \"(y\"]\n", "(y"},
+                         Bad{vary + "[error]\ndisplacement = [\"x\", \"y\", \"z\"]\n",
+                             "the case has 2 dimensions"}}) {
+    const ProcessEnd end = converge(bad.text);
+    EXPECT_EQ(end.exit_status, 2) << bad.text;
+    EXPECT_THAT(end.err, HasSubstr(bad.says));
+    EXPECT_FALSE(fs::exists(work() / "results")) << bad.text;
+  }
+}
+
+TEST_F(Study, AnEarlierResultIsRefusedAndForcedOnRequest) {
+  ASSERT_EQ(converge(vary + energy, {"--quiet"}).exit_status, 0);
+  const ProcessEnd refused = converge(vary + energy, {"--quiet"});
+  EXPECT_EQ(refused.exit_status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--force"));
+  EXPECT_EQ(converge(vary + energy, {"--quiet", "--force"}).exit_status, 0);
+  const ProcessEnd own = run_program(
+      work(), {"converge", "results/study/study.toml", "--out", "results/study", "--force"});
+  EXPECT_EQ(own.exit_status, 2);
+  EXPECT_THAT(own.err, HasSubstr("would overwrite this study"));
+}
+
+}  // namespace
+}  // namespace perilink::test
