@@ -34,9 +34,10 @@ void write_text(const fs::path& path, const std::string& text) {
 void refuse_own_study(const fs::path& directory, const std::string& study_path) {
   std::error_code error;
   if (!fs::equivalent(directory / "study.toml", study_path, error) || error) return;
-  throw FileError(fmt::format("{}: the results would overwrite this study\n"
-                              "  choose another directory with --out DIR",
-                              study_path));
+  throw FileError(
+      fmt::format("{}: the results would overwrite this study\n"
+                  "  choose another directory with --out DIR",
+                  study_path));
 }
 
 /// A study, its combinations and what has been run of them.
@@ -61,23 +62,23 @@ std::string picture_name(const Results& results, std::size_t error, const char* 
   std::string name = results.study.errors[error].name;
   std::replace_if(
       name.begin(), name.end(),
-      [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_' && c != '.'; }, '_');
+      [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_' && c != '.'; },
+      '_');
   return fmt::format("error_{}_{}.svg", name, cost);
 }
 
 void write_pictures(const fs::path& directory, const Results& results) {
   for (std::size_t e = 0; e < results.study.errors.size(); ++e) {
-    for (const auto& [cost, name] : {std::pair(Cost::unknowns, "unknowns"),
-                                     std::pair(Cost::seconds, "seconds")}) {
-      draw_convergence(study_picture(results.study, results.series, results.members, e, cost,
-                                     results.dim))
+    for (const auto& [cost, name] :
+         {std::pair(Cost::unknowns, "unknowns"), std::pair(Cost::seconds, "seconds")}) {
+      draw_convergence(
+          study_picture(results.study, results.series, results.members, e, cost, results.dim))
           .save((directory / picture_name(results, e, name)).string());
     }
   }
 }
 
-void tell(const StudyMember& member, const StudySeries& series, std::size_t done,
-          std::size_t all) {
+void tell(const StudyMember& member, const StudySeries& series, std::size_t done, std::size_t all) {
   fmt::print(stderr, "[{}/{}] {}, {} {}: {}\n", done, all, series.name, member.refinement.key,
              refinement_text(member.refinement),
              member.failed() ? "failed" : format_duration(member.seconds.total()));

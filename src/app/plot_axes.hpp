@@ -64,8 +64,8 @@ struct LogAxis {
 /// Axis over positive data with room at the ends, at least half a factor of ten long.
 LogAxis make_log_axis(double low, double high, double pixel_low, double pixel_high);
 
-/// Ticks at powers of ten inside [low, high], at most `most` of them; at 2 and 5 times these too where
-/// that still fits.
+/// Ticks at powers of ten inside [low, high], at most `most` of them; at 2 and 5 times these too
+/// where that still fits.
 std::vector<double> log_ticks(double low, double high, int most);
 
 /// "10⁻³", "2·10⁴", "0.5", "20": the number of a tick of log_ticks.

@@ -42,8 +42,7 @@ DamageResult as_history(const Model& model, const ElasticResult& elastic) {
 
 }  // namespace
 
-ModelRun run_model(const CaseFile& input, const Model& model, int threads,
-                   StepObserver& observer) {
+ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepObserver& observer) {
   ModelRun run;
   if (input.analysis.type != "elastic") {
     run.result = run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,

@@ -70,9 +70,21 @@ SourceLocation where_of_field(const ErrorSection& error) {
   return where;
 }
 
+/// Displacements without rotations, which closed forms do not have; shape (particles, dim).
+std::vector<double> translations(const Particles& particles, std::span<const double> motion) {
+  const std::size_t dim = static_cast<std::size_t>(particles.dim);
+  const std::size_t width = motion.size() / particles.volumes.size();
+  std::vector<double> result;
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    if (k % width < dim) result.push_back(motion[k]);
+  }
+  return result;
+}
+
 double field_error(const ErrorSection& error, const Model& model, const ElasticResult& elastic) {
   const Particles& particles = model.network.particles;
-  std::vector<double> exact(elastic.displacement.size());
+  const std::vector<double> displacement = translations(particles, elastic.displacement);
+  std::vector<double> exact(displacement.size());
   for (int axis = 0; axis < particles.dim; ++axis) {
     const Formula formula(Expression(error.displacement[axis]), particles.dim);
     for (Index i = 0; i < particles.size(); ++i) {
@@ -87,7 +99,7 @@ double field_error(const ErrorSection& error, const Model& model, const ElasticR
       exact[static_cast<std::size_t>(i) * particles.dim + axis] = value;
     }
   }
-  return relative_l2_error(particles, elastic.displacement, exact, error.remove_rigid_motion);
+  return relative_l2_error(particles, displacement, exact, error.remove_rigid_motion);
 }
 
 void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) {
@@ -117,7 +129,8 @@ double reference_of(const ErrorSection& error, std::size_t number,
   const auto spacing = [&](std::size_t from_end) {
     return members[members.size() - from_end]->spacing;
   };
-  const auto limit = extrapolate({spacing(3), spacing(2), spacing(1)}, {value(3), value(2), value(1)});
+  const auto limit =
+      extrapolate({spacing(3), spacing(2), spacing(1)}, {value(3), value(2), value(1)});
   return limit ? limit->limit : no_number;
 }
 
@@ -185,6 +198,12 @@ std::vector<StudySeries> study_series(const StudyFile& study) {
 void check_study(const StudyFile& study, const CaseFile& input) {
   const int dim = dimension_of(input.body);
   for (const ErrorSection& error : study.errors) {
+    if (!error.gauge.empty()) {
+      throw InputError({error.where.file, error.where.line, error.where.key + ".gauge"},
+                       fmt::format("is {}, but the case has no gauge of that name",
+                                   perilink::quoted(error.gauge)),
+                       "measure a `quantity` or a `displacement`");
+    }
     if (!error.is_field()) continue;
     const SourceLocation where = where_of_field(error);
     if (static_cast<int>(error.displacement.size()) != dim) {
@@ -201,9 +220,9 @@ void check_study(const StudyFile& study, const CaseFile& input) {
       try {
         Formula(Expression(text), dim);
       } catch (const std::invalid_argument& fault) {
-        throw InputError(where, fmt::format("holds the formula {}: {}",
-                                            perilink::quoted(text), fault.what()),
-                         "write formulas of x, y and z, \"0.01*x\"");
+        throw InputError(
+            where, fmt::format("holds the formula {}: {}", perilink::quoted(text), fault.what()),
+            "write formulas of x, y and z, \"0.01*x\"");
       }
     }
   }

@@ -17,7 +17,7 @@ struct StudySeries {
 
 /// Wall seconds of one run of a member.
 struct MemberSeconds {
-  double set_up = 0.0;   ///< reading, particles, bonds, constants
+  double set_up = 0.0;  ///< reading, particles, bonds, constants
   double assembly = 0.0, factorization = 0.0, solve = 0.0;  ///< of an elastic analysis
   double analysis = 0.0;                                    ///< these three, or all events
 
@@ -27,8 +27,8 @@ struct MemberSeconds {
 /// One run of a study.
 struct StudyMember {
   std::size_t series = 0;
-  TomlValue refinement;  ///< key and value
-  std::string failure;   ///< why there is no result; empty where there is one
+  TomlValue refinement;    ///< key and value
+  std::string failure;     ///< why there is no result; empty where there is one
   bool bad_input = false;  ///< the failure is one of the input
   std::string method, surface;
   double spacing = 0.0;  ///< that the lattice or mesh has [length]

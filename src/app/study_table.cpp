@@ -63,14 +63,16 @@ class Report {
     for (const ErrorSection& error : study_.errors) {
       append(" {:>{}} {:>6}", "error of " + error.name, width_of(error), "order");
     }
-    append(" {:>9} {:>9} {:>9} {:>9} {:>9}\n", "set-up s", "assembly", "factor", "solve", "total s");
+    append(" {:>9} {:>9} {:>9} {:>9} {:>9}\n", "set-up s", "assembly", "factor", "solve",
+           "total s");
   }
 
   void row(const StudyMember& member) {
     append("  {:>14}", refinement_text(member.refinement));
     if (member.failed()) {
       append(" {:>10}\n", "failed");
-      failures_ += fmt::format("  {}: {}\n", refinement_text(member.refinement), first_line(member.failure));
+      failures_ +=
+          fmt::format("  {}: {}\n", refinement_text(member.refinement), first_line(member.failure));
       return;
     }
     append(" {:>10}", member.unknowns);
@@ -159,8 +161,12 @@ std::string study_timing(const StudyFile& study, std::span<const StudySeries> se
                          std::span<const StudyMember> members) {
   Row header;
   header.text("combination").text(study.vary.refinement).text("unknowns").text("set_up");
-  std::string table = header.text("assembly").text("factorization").text("solve").text("analysis")
-                          .text("total").end();
+  std::string table = header.text("assembly")
+                          .text("factorization")
+                          .text("solve")
+                          .text("analysis")
+                          .text("total")
+                          .end();
   for (const StudyMember& member : members) {
     if (member.failed()) continue;
     Row row;

@@ -35,10 +35,18 @@ std::vector<TableSchema> study_schema(bool several_errors) {
   };
 }
 
-/// A path of the study, which is relative to the study's folder, as the program opens it.
-std::string beside(const std::string& study, const std::string& path) {
-  return (fs::path(study).parent_path() / path).lexically_normal().string();
+/// A path that is relative to the folder of a file, as the program opens it.
+std::string beside(const std::string& file, const std::string& path) {
+  return (fs::path(file).parent_path() / path).lexically_normal().string();
 }
+
+/// A path from one folder to a file, whatever the working directory.
+std::string path_from(const std::string& directory, const std::string& file) {
+  const fs::path base = fs::absolute(directory.empty() ? "." : directory);
+  return fs::proximate(fs::absolute(file), base).lexically_normal().string();
+}
+
+std::string folder_of(const std::string& path) { return fs::path(path).parent_path().string(); }
 
 /// Refuses a list that is empty or holds a value twice.
 template <class T>
@@ -74,7 +82,7 @@ std::vector<std::string> word_list(const CaseTable& table, const std::string& ke
   return words;
 }
 
-void read_refinement(const CaseTable& table, VarySection& vary, const std::string& study) {
+void read_refinement(const CaseTable& table, VarySection& vary, const StudyFile& study) {
   const std::vector<std::string> keys = {"spacing", "columns", "mesh", "mesh_size"};
   table.need_one_of(keys);
   vary.refinement = *std::find_if(keys.begin(), keys.end(),
@@ -86,10 +94,13 @@ void read_refinement(const CaseTable& table, VarySection& vary, const std::strin
     }
   } else if (key == "mesh") {
     for (const std::string& mesh : distinct(table, key, *table.texts(key))) {
-      vary.values.push_back(body_key(key, beside(study, mesh)));
+      // From the folder of the case, as the case itself would name it.
+      vary.values.push_back(
+          body_key(key, path_from(folder_of(study.case_path), beside(study.path, mesh))));
     }
   } else {
-    for (const double value : positive_list(table, key)) vary.values.push_back(body_key(key, value));
+    for (const double value : positive_list(table, key))
+      vary.values.push_back(body_key(key, value));
   }
   if (vary.values.size() < 2) {
     table.refuse(key, "holds one value, which leaves no order of convergence to see",
@@ -97,7 +108,7 @@ void read_refinement(const CaseTable& table, VarySection& vary, const std::strin
   }
 }
 
-VarySection read_vary(const CaseTable& table, const std::string& study) {
+VarySection read_vary(const CaseTable& table, const StudyFile& study) {
   VarySection vary;
   read_refinement(table, vary, study);
   if (table.has("horizon_ratio")) {
@@ -148,6 +159,9 @@ ErrorSection read_error(const CaseTable& table, std::size_t members, SourceLocat
       table.refuse("displacement", fmt::format("has {} formulas", error.displacement.size()),
                    "give one for each axis: [\"formula x\", \"formula y\"]");
     }
+    for (const std::string& formula : error.displacement) {
+      if (formula.empty()) table.refuse("displacement", "holds an empty formula", "write \"0\"");
+    }
     if (table.has("reference")) {
       table.refuse("reference", "is given, but `displacement` is the reference itself",
                    "delete it");
@@ -184,8 +198,10 @@ std::vector<ErrorSection> read_errors(const TomlValue& root, const std::string& 
     const CaseTable table(value, key, path);
     errors.push_back(read_error(table, members, {path, value.line, key}));
     if (names.insert(errors.back().name).second) continue;
-    table.refuse("name", fmt::format("is {}, the name of another error", perilink::quoted(errors.back().name)),
-                 "give every error a `name` of its own");
+    table.refuse(
+        "name",
+        fmt::format("is {}, the name of another error", perilink::quoted(errors.back().name)),
+        "give every error a `name` of its own");
   }
   return errors;
 }
@@ -207,15 +223,13 @@ void write_error(TomlWriter& out, const ErrorSection& error, bool several) {
   }
 }
 
-/// A path from one folder to a file, whatever the working directory.
-std::string path_from(const std::string& directory, const std::string& file) {
-  return fs::proximate(fs::absolute(file), fs::absolute(directory)).lexically_normal().string();
-}
-
-void write_refinement(TomlWriter& out, const VarySection& vary, const std::string& directory) {
+void write_refinement(TomlWriter& out, const StudyFile& study, const std::string& directory) {
+  const VarySection& vary = study.vary;
   if (vary.refinement == "mesh") {
     std::vector<std::string> meshes;
-    for (const TomlValue& value : vary.values) meshes.push_back(path_from(directory, value.text));
+    for (const TomlValue& value : vary.values) {
+      meshes.push_back(path_from(directory, beside(study.case_path, value.text)));
+    }
     out.write(vary.refinement, meshes);
   } else {
     std::vector<double> numbers;
@@ -227,9 +241,8 @@ void write_refinement(TomlWriter& out, const VarySection& vary, const std::strin
 }  // namespace
 
 const std::vector<std::string_view>& quantity_words() {
-  static const std::vector<std::string_view> words = {"strain_energy", "peak_load",
-                                                      "peak_displacement", "initial_stiffness",
-                                                      "dissipated_energy"};
+  static const std::vector<std::string_view> words = {
+      "strain_energy", "peak_load", "peak_displacement", "initial_stiffness", "dissipated_energy"};
   return words;
 }
 
@@ -244,15 +257,16 @@ StudyFile parse_study(const std::string& text, const std::string& path) {
   study.path = path;
   const CaseTable top(root, "", path);
   assign(study.title, top.text("title"));
-  study.case_path = beside(
-      path, top.need("case", top.text("case"), "the case file, relative to the study: case = \"a.toml\""));
+  study.case_path =
+      beside(path, top.need("case", top.text("case"),
+                            "the case file, relative to the study: case = \"a.toml\""));
   assign(study.repeats, top.integer("repeats", 1, most_repeats));
   const TomlValue* vary = root.find("vary");
   if (vary == nullptr) {
     throw InputError({path, 0, ""}, "the study has no [vary]",
                      "say what is refined: [vary] and spacing = [0.2, 0.1, 0.05]");
   }
-  study.vary = read_vary(CaseTable(*vary, "vary", path), path);
+  study.vary = read_vary(CaseTable(*vary, "vary", path), study);
   study.errors = read_errors(root, path, study.vary.values.size());
   return study;
 }
@@ -267,7 +281,7 @@ std::string write_study(const StudyFile& study, const std::string& directory) {
   out.write("case", path_from(directory, study.case_path));
   out.write("repeats", study.repeats);
   out.header("[vary]");
-  write_refinement(out, study.vary, directory);
+  write_refinement(out, study, directory);
   if (!study.vary.horizon_ratio.empty()) out.write("horizon_ratio", study.vary.horizon_ratio);
   if (!study.vary.surface.empty()) out.write("surface", study.vary.surface);
   if (!study.vary.method.empty()) out.write("method", study.vary.method);

@@ -17,8 +17,8 @@ namespace perilink {
 
 /// [vary]: the case is run for every combination. An empty list leaves the case's own value.
 struct VarySection {
-  std::string refinement;           ///< key of [body] that refines: spacing, columns, mesh, mesh_size
-  std::vector<TomlValue> values;    ///< of that key, numbers, integers or texts
+  std::string refinement;         ///< key of [body] that refines: spacing, columns, mesh, mesh_size
+  std::vector<TomlValue> values;  ///< of that key, numbers, integers or texts
   std::vector<double> horizon_ratio;
   std::vector<std::string> surface;
   std::vector<std::string> method;  ///< bonds | linear_elements
@@ -34,11 +34,11 @@ enum class Reference {
 /// [error]: exactly one of displacement, gauge and quantity.
 struct ErrorSection {
   SourceLocation where;
-  std::string name;                      ///< of columns and pictures
-  std::vector<std::string> displacement; ///< closed form, one formula of x, y, z for each axis
-  bool remove_rigid_motion = false;      ///< from the difference to the closed form
-  std::string gauge;                     ///< column of the history
-  std::string quantity;                  ///< one of quantity_words()
+  std::string name;                       ///< of columns and pictures
+  std::vector<std::string> displacement;  ///< closed form, one formula of x, y, z for each axis
+  bool remove_rigid_motion = false;       ///< from the difference to the closed form
+  std::string gauge;                      ///< column of the history
+  std::string quantity;                   ///< one of quantity_words()
   Reference reference = Reference::number;
   double reference_value = 0.0;
 
@@ -66,8 +66,8 @@ StudyFile read_study_file(const std::string& path);
 /// The same from text.
 StudyFile parse_study(const std::string& text, const std::string& path);
 
-/// The study as TOML text that reads back to the same study from a file in `directory`: paths of files
-/// are relative to it.
+/// The study as TOML text that reads back to the same study from a file in `directory`: paths of
+/// files are relative to it.
 std::string write_study(const StudyFile& study, const std::string& directory);
 
 }  // namespace perilink

@@ -76,8 +76,7 @@ TEST_F(Study, WritesTheFilesOfTheContractAndNoOthers) {
 }
 
 TEST_F(Study, TheErrorOfAnUncorrectedBarFalls) {
-  ASSERT_EQ(converge(vary + "\n[error]\ndisplacement = [\"0.02*x\", \"-0.02/3*y\"]\n")
-                .exit_status,
+  ASSERT_EQ(converge(vary + "\n[error]\ndisplacement = [\"0.02*x\", \"-0.02/3*y\"]\n").exit_status,
             0);
   const auto table = rows(file("results/study/table.csv"));
   ASSERT_EQ(table.size(), 7u);
@@ -123,7 +122,8 @@ TEST_F(Study, AMemberThatFailsDoesNotStopTheOthers) {
 }
 
 TEST_F(Study, WhereAllMembersFailTheStatusAndTheFirstReasonSaySo) {
-  const ProcessEnd end = converge("case = \"bar.toml\"\n[vary]\nmesh = [\"a.msh\", \"b.msh\"]\n" + energy);
+  const ProcessEnd end =
+      converge("case = \"bar.toml\"\n[vary]\nmesh = [\"a.msh\", \"b.msh\"]\n" + energy);
   EXPECT_EQ(end.exit_status, 2);
   EXPECT_THAT(end.err, HasSubstr("every member of the study failed"));
   EXPECT_THAT(end.err, HasSubstr("body."));
@@ -134,24 +134,23 @@ TEST_F(Study, EveryErrorHasItsPictures) {
                      "\n[[error]]\nname = \"field of x/y\"\ndisplacement = [\"x\", \"y\"]\n")
                 .exit_status,
             0);
-  EXPECT_EQ(names("results/study"),
-            (std::set<std::string>{"study.toml", "table.csv", "timing.csv",
-                                   "error_strain_energy_unknowns.svg",
-                                   "error_strain_energy_seconds.svg",
-                                   "error_field_of_x_y_unknowns.svg",
-                                   "error_field_of_x_y_seconds.svg"}));
+  EXPECT_EQ(
+      names("results/study"),
+      (std::set<std::string>{"study.toml", "table.csv", "timing.csv",
+                             "error_strain_energy_unknowns.svg", "error_strain_energy_seconds.svg",
+                             "error_field_of_x_y_unknowns.svg", "error_field_of_x_y_seconds.svg"}));
 }
 
 TEST_F(Study, BadStudiesAreRefusedBeforeAnythingIsWritten) {
   struct Bad {
     std::string text, says;
   };
-  for (const Bad& bad : {Bad{"case = \"nowhere.toml\"\n[vary]\nspacing = [2, 1]\n" + energy,
-                             "nowhere.toml"},
-                         Bad{vary + "horizon_ration = [2]\n" + energy, "horizon_ratio"},
-                         Bad{vary + "[error]\ndisplacement = [\"x\", \"(y\"]\n", "(y"},
-                         Bad{vary + "[error]\ndisplacement = [\"x\", \"y\", \"z\"]\n",
-                             "the case has 2 dimensions"}}) {
+  for (const Bad& bad :
+       {Bad{"case = \"nowhere.toml\"\n[vary]\nspacing = [2, 1]\n" + energy, "nowhere.toml"},
+        Bad{vary + "horizon_ration = [2]\n" + energy, "horizon_ratio"},
+        Bad{vary + "[error]\ndisplacement = [\"x\", \"(y\"]\n", "(y"},
+        Bad{vary + "[error]\ndisplacement = [\"x\", \"y\", \"z\"]\n",
+            "the case has 2 dimensions"}}) {
     const ProcessEnd end = converge(bad.text);
     EXPECT_EQ(end.exit_status, 2) << bad.text;
     EXPECT_THAT(end.err, HasSubstr(bad.says));

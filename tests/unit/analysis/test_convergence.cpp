@@ -46,7 +46,8 @@ TEST_P(RigidMotion, IsTakenOutWhole) {
     return particles.dim == 3 ? turned(x) : Vector3{1.0 - 0.3 * x[1], -2.0 + 0.3 * x[0], 0.0};
   });
   remove_rigid_motion(particles, values);
-  for (const double value : values) EXPECT_NEAR(value, 0.0, 1e-14);  // round-off of numbers of size 3
+  for (const double value : values)
+    EXPECT_NEAR(value, 0.0, 1e-14);  // round-off of numbers of size 3
 }
 
 TEST_P(RigidMotion, LeavesTheRestAlone) {
@@ -73,7 +74,9 @@ TEST_P(RigidMotion, DoesNotCountAsErrorWhereItIsRemoved) {
 
 INSTANTIATE_TEST_SUITE_P(Patterns, RigidMotion,
                          testing::Values(Pattern::rectangular, Pattern::hexagonal, Pattern::cubic),
-                         [](const auto& test) { return std::to_string(static_cast<int>(test.param)); });
+                         [](const auto& test) {
+                           return std::to_string(static_cast<int>(test.param));
+                         });
 
 TEST(RelativeError, WeighsWithTheVolumesOfSolidParticles) {
   Particles particles;

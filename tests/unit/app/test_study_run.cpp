@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "app/configure.hpp"
 #include "analysis/elastic_analysis.hpp"
+#include "app/configure.hpp"
 #include "base/error.hpp"
 #include "io/case_overrides.hpp"
 #include "support/strip_case.hpp"
@@ -33,9 +33,9 @@ TEST(StudySeries, AreTheProductOfTheOptions) {
 }
 
 TEST(StudySeries, LinearElementsHaveNoHorizonAndNoSurface) {
-  const auto series = study_series(
-      study_of("spacing = [2, 1]\nhorizon_ratio = [2, 3]\nmethod = [\"bonds\", \"linear_elements\"]\n",
-               energy + "1\n"));
+  const auto series = study_series(study_of(
+      "spacing = [2, 1]\nhorizon_ratio = [2, 3]\nmethod = [\"bonds\", \"linear_elements\"]\n",
+      energy + "1\n"));
   ASSERT_EQ(series.size(), 3u);
   EXPECT_EQ(series[2].name, "linear elements");
 }
@@ -71,11 +71,10 @@ TEST_F(StudyRun, AMemberIsTheCaseWithItsKeys) {
   EXPECT_EQ(member.particles, 9 * 17);
   EXPECT_EQ(member.surface, "none");
 
-  const CaseFile input = read_case_file(
-      file.case_path, {body_key("horizon_ratio", 2.0), body_key("spacing", 5.0)});
+  const CaseFile input =
+      read_case_file(file.case_path, {body_key("horizon_ratio", 2.0), body_key("spacing", 5.0)});
   const Model model = build_model(input);
-  const ElasticResult elastic =
-      run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
+  const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
   EXPECT_EQ(member.values, std::vector<double>{elastic.strain_energy});
 }
 
@@ -141,11 +140,13 @@ TEST_F(StudyRun, ErrorsThatTheCaseCannotHaveAreRefused) {
                        "error.displacement", "2 dimensions");
   expect_check_refused(study("[error]\ndisplacement = [\"x\", \"sinus(y)\"]\n"),
                        "error.displacement", "\"sinus(y)\"");
+  expect_check_refused(study("[error]\ngauge = \"mouth\"\nreference = 1\n"), "error.gauge",
+                       "no gauge of that name");
   test::write_text(directory_ / "strip.toml", test::strip_text);
   expect_check_refused(study("[error]\ndisplacement = [\"x\", \"y\"]\n"), "error.displacement",
                        "damage analysis");
-  EXPECT_NO_THROW(check_study(study(energy + "1\n"),
-                              read_case_file((directory_ / "strip.toml").string())));
+  EXPECT_NO_THROW(
+      check_study(study(energy + "1\n"), read_case_file((directory_ / "strip.toml").string())));
 }
 
 /// Members of one series with values 1 + 3 h^2, in the wrong order and with a failed one.
@@ -154,8 +155,10 @@ std::vector<StudyMember> parabola(const std::vector<double>& spacings) {
   for (const double spacing : spacings) {
     StudyMember member;
     member.spacing = spacing;
-    if (spacing == 0.0) member.failure = "too fine";
-    else member.values = {1.0 + 3.0 * spacing * spacing};
+    if (spacing == 0.0)
+      member.failure = "too fine";
+    else
+      member.values = {1.0 + 3.0 * spacing * spacing};
     members.push_back(member);
   }
   return members;

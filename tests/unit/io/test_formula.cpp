@@ -20,7 +20,7 @@ TEST(Formula, OfANumberIsThatNumberEverywhere) {
 }
 
 TEST(Formula, RefusesWhatIsNoFormulaOfThisDimension) {
-  for (const char* text : {"", "x +", "(x", "x y", "z", "sinus(x)", "x = 3", "x, y"}) {
+  for (const char* text : {"x +", "(x", "x y", "z", "sinus(x)", "x = 3", "x, y"}) {
     EXPECT_THROW(Formula(Expression(std::string(text)), 2), std::invalid_argument) << text;
   }
   EXPECT_NO_THROW(Formula(Expression("z"), 3));

@@ -78,6 +78,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "error.reference", "needs three"},
         Refusal{"oneFormula", head + vary + "[error]\ndisplacement = [\"x\"]\n",
                 "error.displacement", "has 1 formulas"},
+        Refusal{"emptyFormula", head + vary + "[error]\ndisplacement = [\"x\", \"\"]\n",
+                "error.displacement", "empty formula"},
         Refusal{"fieldWithReference",
                 head + vary + "[error]\ndisplacement = [\"x\", \"y\"]\nreference = 1\n",
                 "error.reference", "is the reference itself"},
@@ -136,13 +138,15 @@ TEST(StudyFile, DefaultsAreOneRepeatAndAnErrorNamedAfterWhatItMeasures) {
 }
 
 TEST(StudyFile, WhatIsWrittenReadsBackFromAnotherFolder) {
-  const StudyFile study = parse(head + "repeats = 2\n[vary]\nmesh = [\"m/a.msh\", \"m/b.msh\"]\n" +
-                                "surface = [\"none\"]\n[error]\ndisplacement = [\"x\", \"y\"]\n");
+  const StudyFile study = parse(
+      std::string(
+          "case = \"../cases/b.toml\"\nrepeats = 2\n[vary]\nmesh = [\"m/a.msh\", \"m/b.msh\"]\n") +
+      "surface = [\"none\"]\n[error]\ndisplacement = [\"x\", \"y\"]\n");
   const std::string text = write_study(study, "results/a");
   const StudyFile again = parse_study(text, "results/a/study.toml");
   EXPECT_EQ(again.case_path, study.case_path);
   ASSERT_EQ(again.vary.values.size(), 2u);
-  EXPECT_EQ(again.vary.values[1].text, "studies/m/b.msh");
+  EXPECT_EQ(again.vary.values[1].text, "../studies/m/b.msh") << "from the folder of the case";
   EXPECT_EQ(write_study(again, "results/a"), text);
 }
 
