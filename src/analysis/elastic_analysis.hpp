@@ -17,7 +17,7 @@ struct ElasticSeconds {
 
 /// Static equilibrium at load factor 1.
 struct ElasticResult {
-  std::vector<double> displacement;  ///< shape (particles, dim) [length]
+  std::vector<double> displacement;  ///< shape (particles, width) [length], rotations [-]
   double strain_energy = 0.0;        ///< [force length]
   double residual = 0.0;             ///< |f - K u| / |f| after one step of refinement
   FactorStatistics factor;

@@ -52,8 +52,8 @@ class EventEngine {
   /// Lets the element pass its limit: broken, or on the next secant of its law.
   virtual EventOutcome apply(const Event& event) = 0;
 
-  /// Displacement of all particles at load factor 1, shape (particles, dim), prescribed ones and
-  /// all: equilibrium of the network as it stands.
+  /// Displacement of all particles at load factor 1, rotations included; shape (particles,
+  /// width), prescribed ones and all: equilibrium of the network as it stands.
   virtual std::span<const double> displacement() = 0;
 
   virtual LoadWork load_work() = 0;

@@ -32,7 +32,7 @@ struct StepRecord {
 struct StepState {
   const Network& network;
   std::span<const double> secants;
-  std::span<const double> displacement;  ///< at load factor 1, shape (particles, dim)
+  std::span<const double> displacement;  ///< at load factor 1, shape (particles, width)
 };
 
 /// How a run ended.

@@ -21,22 +21,31 @@ constexpr double couple_limit = 0.1;
 
 /// Displacements that are prescribed, and by which key of the case.
 struct Prescription {
-  std::vector<std::uint8_t> held;  ///< shape (particles, dim)
-  std::vector<double> value;       ///< at load factor 1 [length]
+  std::vector<std::uint8_t> held;  ///< shape (particles, width)
+  std::vector<double> value;       ///< at load factor 1 [length], of rotations [-]
 };
 
+std::string name_of_component(const Network& network, int component) {
+  const int dim = network.dim();
+  if (component < dim) return fmt::format("displacement along {}", "xyz"[component]);
+  return dim == 2 ? "rotation" : fmt::format("rotation about {}", "xyz"[component - dim]);
+}
+
+/// Component of the motion of a particle that an entry of SupportSection::fix means.
+int component_of(const Network& network, int entry) {
+  return entry < 3 || network.dim() == 3 ? entry : network.dim();
+}
+
 void prescribe(const CaseFile& input, const Model& model, Prescription& prescription,
-               const std::string& region, const std::string& key, int axis, double value) {
-  const int dim = model.network.dim();
+               const std::string& region, const std::string& key, int component, double value) {
   for (const Index i : particles_of_region(input, model, region, key + ".region")) {
-    const std::size_t slot = static_cast<std::size_t>(i) * dim + axis;
+    const std::size_t slot = static_cast<std::size_t>(i) * model.network.width() + component;
     if (prescription.held[slot] && prescription.value[slot] != value) {
       const std::span<const double> x = model.network.particles.position(i);
       throw InputError(
           input.where(key),
-          fmt::format("sets the displacement along {} of the particle at ({}) to {}, where another "
-                      "entry sets it to {}",
-                      "xyz"[axis], fmt::join(x, ", "), value, prescription.value[slot]),
+          fmt::format("sets the {} of the particle at ({}) to {}, where another entry sets it to {}",
+                      name_of_component(model.network, component), fmt::join(x, ", "), value, prescription.value[slot]),
           "let the regions of [[supports]] and [[displacements]] not overlap");
     }
     prescription.held[slot] = 1;
@@ -46,14 +55,15 @@ void prescribe(const CaseFile& input, const Model& model, Prescription& prescrip
 
 Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
   const int dim = model.network.dim();
+  const int width = model.network.width();
   Prescription prescription;
-  prescription.held.assign(static_cast<std::size_t>(model.network.particles.size()) * dim, 0);
+  prescription.held.assign(static_cast<std::size_t>(model.network.particles.size()) * width, 0);
   prescription.value.assign(prescription.held.size(), 0.0);
   for (std::size_t k = 0; k < input.supports.size(); ++k) {
-    for (int a = 0; a < dim; ++a) {
-      if (!input.supports[k].fix[a]) continue;
-      prescribe(input, model, prescription, input.supports[k].region, item_key("supports", k), a,
-                0.0);
+    for (int entry = 0; entry < 6; ++entry) {
+      if (!input.supports[k].fix[entry]) continue;
+      prescribe(input, model, prescription, input.supports[k].region, item_key("supports", k),
+                component_of(model.network, entry), 0.0);
     }
   }
   for (std::size_t k = 0; k < input.displacements.size(); ++k) {
@@ -83,7 +93,7 @@ double add_load(const CaseFile& input, const Model& model, std::size_t k, Loads&
     square += total * total;
     for (const Index i : region) {
       if (particles.kind[i] != ParticleKind::solid) continue;
-      loads.forces[static_cast<std::size_t>(i) * particles.dim + a] +=
+      loads.forces[static_cast<std::size_t>(i) * model.network.width() + a] +=
           total * particles.volumes[i] / volume;
     }
   }
@@ -107,8 +117,8 @@ Loads loads_on(const Model& model, const Fragment& fragment) {
   Loads own;
   own.forces.assign(model.loads.forces.size(), 0.0);
   for (const Index i : fragment.particles) {
-    for (int a = 0; a < model.network.dim(); ++a) {
-      const std::size_t slot = static_cast<std::size_t>(i) * model.network.dim() + a;
+    for (int a = 0; a < model.network.width(); ++a) {
+      const std::size_t slot = static_cast<std::size_t>(i) * model.network.width() + a;
       own.forces[slot] = model.loads.forces[slot];
     }
   }
@@ -184,7 +194,8 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
   const int dim = model.network.dim();
   for (const Index i : find_loose_particles(model.network)) {
     bool held = true;
-    for (int a = 0; a < dim; ++a) held &= prescription.held[static_cast<std::size_t>(i) * dim + a] != 0;
+    const std::size_t slot = static_cast<std::size_t>(i) * model.network.width();
+    for (int a = 0; a < dim; ++a) held &= prescription.held[slot + a] != 0;
     if (held) continue;
     throw InputError(
         input.where(input.body.horizon ? "body.horizon" : "body"),
@@ -197,7 +208,6 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
 }  // namespace
 
 void apply_boundary_conditions(const CaseFile& input, Model& model) {
-  const int dim = model.network.dim();
   Prescription prescription = collect_prescriptions(input, model);
   model.loads.forces.assign(prescription.held.size(), 0.0);
   double largest_load = 0.0;
@@ -213,7 +223,8 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.resultant = load_resultant(model.network, model.loads);
   refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);
-  model.unknowns = number_unknowns(dim, prescription.held, std::move(prescription.value));
+  hold_idle_rotations(model.network, prescription.held);
+  model.unknowns = number_unknowns(model.network.width(), prescription.held, std::move(prescription.value));
 }
 
 }  // namespace perilink

@@ -164,9 +164,26 @@ void refuse_bars_outside(const CaseFile& input, const Body& body) {
   }
 }
 
+/// A lattice of few neighbours reaches smaller Poisson's ratios than the infinite body.
+void refuse_poissons_ratios(const CaseFile& input, const Body& body, const NetworkInput& network) {
+  if (network.model != BondModel::micropolar) return;
+  for (std::size_t m = 0; m < input.materials.size(); ++m) {
+    try {
+      moduli_of(body, network, network.materials[m]);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(input.where(item_key("materials", m, "poissons_ratio")),
+                       fmt::format("is {}: {}", network.materials[m].poissons_ratio, error.what()),
+                       "the bonds of this lattice alone have that ratio: enlarge the horizon, use "
+                       "another pattern, or set body.micromodulus = \"continuum\"");
+    }
+  }
+}
+
 NetworkInput network_input(const CaseFile& input, Problem problem, double horizon) {
   NetworkInput network;
   network.problem = problem;
+  if (input.body.model == "micropolar") network.model = BondModel::micropolar;
+  network.torsion = input.body.torsion;
   network.horizon = horizon;
   network.thickness = input.body.thickness;
   network.micromodulus =
@@ -177,7 +194,8 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
     for (const std::string& name : material.regions) {
       if (!input.body.mesh) network.solid.push_back(region_named(input, name).box);
     }
-    network.materials.push_back({material.youngs_modulus, material.fracture_energy});
+    network.materials.push_back({material.youngs_modulus, material.fracture_energy,
+                                 material.poissons_ratio.value_or(0.0)});
   }
   for (const RebarSection& bar : input.rebar) {
     network.bars.push_back({bar.from, bar.to});
@@ -193,6 +211,11 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
 
 void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
   if (input.analysis.type != "damage") return;
+  if (network.carries_moments()) {
+    throw InputError(input.where("body.model"),
+                     "is \"micropolar\", whose bonds cannot break in this version",
+                     "set analysis.type = \"elastic\"");
+  }
   auto finite = [](double value) { return std::isfinite(value); };
   if (std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite) ||
       std::any_of(network.yield_strain.begin(), network.yield_strain.end(), finite)) {
@@ -213,8 +236,10 @@ Model build_model(const CaseFile& input) {
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
   refuse_bars_outside(input, body);
+  const NetworkInput network = network_input(input, model.problem, model.horizon);
+  refuse_poissons_ratios(input, body, network);
   try {
-    model.network = build_network(body, network_input(input, model.problem, model.horizon));
+    model.network = build_network(body, network);
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where(horizon_key(input.body)), error.what(), "");
   }

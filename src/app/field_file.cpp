@@ -60,8 +60,9 @@ VtuGrid make_field_grid(const Network& network, const StepState& state, const St
                         std::span<const Index> broken_elements_in_order, const Csr& families,
                         double spacing) {
   const int dim = network.dim();
-  std::vector<double> displacement(state.displacement.begin(), state.displacement.end());
-  for (double& u : displacement) u *= record.load_factor;
+  std::vector<double> motion(state.displacement.begin(), state.displacement.end());
+  for (double& u : motion) u *= record.load_factor;
+  const std::vector<double> displacement = translations(network, motion);
 
   VtuGrid grid;
   grid.points = padded_to_three(network.particles.positions, dim);
@@ -72,10 +73,13 @@ VtuGrid make_field_grid(const Network& network, const StepState& state, const St
       {"region", 1, as_doubles(network.particles.material)},
       {"kind", 1, as_doubles(network.particles.kind)},
       {"strain_energy_density", 1,
-       strain_energy_density(network, families, state.secants, displacement)},
+       strain_energy_density(network, families, state.secants, motion)},
       {"principal_strain", 3,
        padded_to_three(principal_strains(network, families, state.secants, displacement), dim)},
   };
+  if (network.carries_moments()) {
+    grid.point_data.push_back({"rotation", dim == 2 ? 1 : 3, rotations(network, motion)});
+  }
   grid.field_data = {
       {"step", static_cast<double>(record.step)},
       {"broken_bonds", static_cast<double>(record.broken_bonds)},

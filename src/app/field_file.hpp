@@ -17,7 +17,8 @@ enum class FieldElement { particle = 0, broken_bond = 1, rebar_segment = 2 };
 /// segment. Fields:
 ///   points  displacement, damage, region (number of the material, -1 none), kind (0 solid, 1
 ///   ghost,
-///           2 rebar), strain_energy_density, principal_strain (largest first)
+///           2 rebar), strain_energy_density, principal_strain (largest first); with
+///           micropolar bonds rotation (one number in two dimensions, three in three)
 ///   cells   element (FieldElement), broken_at (which break of the run it was, from 1; 0: none)
 ///   file    step, broken_bonds, load_factor, load, dimension, spacing
 /// \param broken_elements_in_order  bonds and ties that broke, first one first

@@ -2,7 +2,57 @@
 
 #include <cmath>
 
+#include "assembly/frame.hpp"
+
 namespace perilink {
+namespace {
+
+template <int Dim>
+ElementVectors frame_vectors(const Network& network, const Unknowns& unknowns, Index element,
+                             double fraction) {
+  using Modes = FrameModes<Dim>;
+  const Modes modes = frame_modes<Dim>(network, element);
+  const Index ends[2] = {network.bonds.first[element], network.bonds.second[element]};
+  ElementVectors result;
+  for (int m = 0; m < Modes::count; ++m) {
+    if (!(modes.stiffness[m] > 0.0)) continue;
+    const double root = std::sqrt(modes.stiffness[m] * fraction);
+    SparseVector& x = result.x[result.count];
+    x.size = 0;
+    for (int end = 0; end < 2; ++end) {
+      const auto& b = end == 0 ? modes.first[m] : modes.second[m];
+      const std::size_t slot = static_cast<std::size_t>(ends[end]) * Modes::width;
+      for (int a = 0; a < Modes::width; ++a) {
+        if (b[a] == 0.0) continue;
+        result.prescribed[result.count] += root * b[a] * unknowns.prescribed[slot + a];
+        if (unknowns.number[slot + a] == no_index) continue;
+        x.rows[x.size] = unknowns.number[slot + a];
+        x.values[x.size++] = root * b[a];
+      }
+    }
+    ++result.count;
+  }
+  return result;
+}
+
+ElementVectors truss_vector(const Network& network, const Unknowns& unknowns, Index element,
+                            double fraction) {
+  const double stiffness = network.stiffness[element] * fraction;
+  const double root = std::sqrt(stiffness);
+  const std::span<const double> n = network.bonds.direction(element);
+  const std::size_t i = static_cast<std::size_t>(network.bonds.first[element]) * unknowns.width;
+  const std::size_t j = static_cast<std::size_t>(network.bonds.second[element]) * unknowns.width;
+  ElementVectors result;
+  result.count = 1;
+  result.x[0] = element_vector(network, unknowns, element, stiffness);
+  for (int a = 0; a < network.dim(); ++a) {
+    result.prescribed[0] +=
+        root * n[a] * (unknowns.prescribed[j + a] - unknowns.prescribed[i + a]);
+  }
+  return result;
+}
+
+}  // namespace
 
 SparseVector element_vector(const Network& network, const Unknowns& unknowns, Index element,
                             double stiffness) {
@@ -19,6 +69,15 @@ SparseVector element_vector(const Network& network, const Unknowns& unknowns, In
     }
   }
   return x;
+}
+
+ElementVectors element_vectors(const Network& network, const Unknowns& unknowns, Index element,
+                               double fraction) {
+  if (!network.carries_moments() || !(network.bending[element] > 0.0)) {
+    return truss_vector(network, unknowns, element, fraction);
+  }
+  return network.dim() == 2 ? frame_vectors<2>(network, unknowns, element, fraction)
+                            : frame_vectors<3>(network, unknowns, element, fraction);
 }
 
 }  // namespace perilink

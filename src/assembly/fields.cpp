@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "assembly/frame.hpp"
+
 namespace perilink {
 namespace {
 
@@ -50,6 +52,41 @@ void fill_principal_strains(const Network& network, const Csr& families,
   }
 }
 
+std::vector<double> truss_energies(const Network& network, std::span<const double> secants,
+                                   std::span<const double> displacement) {
+  const Bonds& bonds = network.bonds;
+  const int dim = network.dim();
+  std::vector<double> energies(static_cast<std::size_t>(bonds.size()));
+  for (Index e = 0; e < bonds.size(); ++e) {
+    const auto n = bonds.direction(e);
+    double extension = 0.0;
+    for (int axis = 0; axis < dim; ++axis) {
+      extension += n[axis] * (displacement[static_cast<std::size_t>(bonds.second[e]) * dim + axis] -
+                              displacement[static_cast<std::size_t>(bonds.first[e]) * dim + axis]);
+    }
+    energies[e] = 0.5 * network.stiffness[e] * secants[e] * extension * extension;
+  }
+  return energies;
+}
+
+template <int Dim>
+std::vector<double> frame_energies(const Network& network, std::span<const double> secants,
+                                   std::span<const double> motion) {
+  using Modes = FrameModes<Dim>;
+  std::vector<double> energies(static_cast<std::size_t>(network.num_elements()), 0.0);
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const Modes modes = frame_modes<Dim>(network, e);
+    const double* first = motion.data() + static_cast<std::size_t>(network.bonds.first[e]) * Modes::width;
+    const double* second =
+        motion.data() + static_cast<std::size_t>(network.bonds.second[e]) * Modes::width;
+    for (int m = 0; m < Modes::count; ++m) {
+      const double deformation = modes.deformation(m, first, second);
+      energies[e] += 0.5 * modes.stiffness[m] * secants[e] * deformation * deformation;
+    }
+  }
+  return energies;
+}
+
 }  // namespace
 
 std::vector<double> damage_index(const Network& network, const Csr& families,
@@ -68,21 +105,33 @@ std::vector<double> damage_index(const Network& network, const Csr& families,
   return damage;
 }
 
+std::vector<double> translations(const Network& network, std::span<const double> motion) {
+  const std::size_t dim = network.dim(), width = network.width();
+  if (width == dim) return {motion.begin(), motion.end()};
+  std::vector<double> result;
+  result.reserve(motion.size() / width * dim);
+  for (std::size_t slot = 0; slot < motion.size(); slot += width) {
+    result.insert(result.end(), motion.begin() + slot, motion.begin() + slot + dim);
+  }
+  return result;
+}
+
+std::vector<double> rotations(const Network& network, std::span<const double> motion) {
+  const std::size_t dim = network.dim(), width = network.width();
+  std::vector<double> result;
+  for (std::size_t slot = 0; slot < motion.size() && width > dim; slot += width) {
+    result.insert(result.end(), motion.begin() + slot + dim, motion.begin() + slot + width);
+  }
+  return result;
+}
+
 std::vector<double> strain_energy_density(const Network& network, const Csr& families,
                                           std::span<const double> secants,
-                                          std::span<const double> displacement) {
-  const Bonds& bonds = network.bonds;
-  const int dim = network.dim();
-  std::vector<double> energies(static_cast<std::size_t>(bonds.size()));
-  for (Index e = 0; e < bonds.size(); ++e) {
-    const auto n = bonds.direction(e);
-    double extension = 0.0;
-    for (int axis = 0; axis < dim; ++axis) {
-      extension += n[axis] * (displacement[static_cast<std::size_t>(bonds.second[e]) * dim + axis] -
-                              displacement[static_cast<std::size_t>(bonds.first[e]) * dim + axis]);
-    }
-    energies[e] = 0.5 * network.stiffness[e] * secants[e] * extension * extension;
-  }
+                                          std::span<const double> motion) {
+  const std::vector<double> energies =
+      !network.carries_moments() ? truss_energies(network, secants, motion)
+      : network.dim() == 2       ? frame_energies<2>(network, secants, motion)
+                                 : frame_energies<3>(network, secants, motion);
   std::vector<double> density(static_cast<std::size_t>(families.rows()), 0.0);
   for (Index i = 0; i < families.rows(); ++i) {
     double sum = 0.0;

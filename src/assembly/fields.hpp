@@ -15,13 +15,23 @@ namespace perilink {
 std::vector<double> damage_index(const Network& network, const Csr& families,
                                  std::span<const double> secants);
 
+/// The displacements without the rotations, shape (particles, dim).
+/// \param motion  shape (particles, width)
+std::vector<double> translations(const Network& network, std::span<const double> motion);
+
+/// Rotations of the particles [-]: one column in two dimensions, three in three; empty where no bond
+/// carries a moment.
+std::vector<double> rotations(const Network& network, std::span<const double> motion);
+
 /// Half of the energy of the bonds of each particle per volume [force/length^2].
+/// \param motion  shape (particles, width)
 std::vector<double> strain_energy_density(const Network& network, const Csr& families,
                                           std::span<const double> secants,
-                                          std::span<const double> displacement);
+                                          std::span<const double> motion);
 
 /// Principal strains, largest first, of the least-squares displacement gradient over the intact
 /// bonds of each particle; shape (particles, dim). Zero where the bonds do not span the space.
+/// \param displacement  shape (particles, dim)
 std::vector<double> principal_strains(const Network& network, const Csr& families,
                                       std::span<const double> secants,
                                       std::span<const double> displacement);

@@ -1,5 +1,7 @@
 #include "assembly/internal_force.hpp"
 
+#include "assembly/frame.hpp"
+
 namespace perilink {
 namespace {
 
@@ -25,13 +27,38 @@ void add_elements(const Network& network, std::span<const double> secants,
   }
 }
 
+template <int Dim>
+void add_frames(const Network& network, std::span<const double> secants,
+                std::span<const double> displacement, InternalForce& result) {
+  using Modes = FrameModes<Dim>;
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (secants[e] == 0.0) continue;
+    const Modes modes = frame_modes<Dim>(network, e);
+    const std::size_t first = static_cast<std::size_t>(network.bonds.first[e]) * Modes::width;
+    const std::size_t second = static_cast<std::size_t>(network.bonds.second[e]) * Modes::width;
+    for (int m = 0; m < Modes::count; ++m) {
+      const double deformation =
+          modes.deformation(m, displacement.data() + first, displacement.data() + second);
+      const double tension = modes.stiffness[m] * secants[e] * deformation;
+      result.energy += 0.5 * tension * deformation;
+      for (int a = 0; a < Modes::width; ++a) {
+        result.forces[first + a] += tension * modes.first[m][a];
+        result.forces[second + a] += tension * modes.second[m][a];
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void internal_force(const Network& network, std::span<const double> secants,
                     std::span<const double> displacement, InternalForce& result) {
   result.energy = 0.0;
   result.forces.assign(displacement.size(), 0.0);
-  if (network.dim() == 2) {
+  if (network.carries_moments()) {
+    network.dim() == 2 ? add_frames<2>(network, secants, displacement, result)
+                       : add_frames<3>(network, secants, displacement, result);
+  } else if (network.dim() == 2) {
     add_elements<2>(network, secants, displacement, result);
   } else {
     add_elements<3>(network, secants, displacement, result);

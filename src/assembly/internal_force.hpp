@@ -9,11 +9,12 @@ namespace perilink {
 
 /// Forces of all elements on all particles, and their energy.
 struct InternalForce {
-  std::vector<double> forces;  ///< K u: force needed to hold each particle, shape (particles, dim)
+  std::vector<double> forces;  ///< K u: force needed to hold each particle, shape
+                               ///< (particles, width), moments behind the forces
   double energy = 0.0;         ///< sum of k e^2 / 2 [force length]
 };
 
-/// \param displacement  shape (particles, dim)
+/// \param displacement  of all particles, rotations included; shape (particles, width)
 InternalForce internal_force(const Network& network, std::span<const double> secants,
                              std::span<const double> displacement);
 

@@ -8,7 +8,7 @@
 
 namespace perilink {
 
-/// A body as mechanics sees it: particles and truss elements. Elements are numbered: bonds of the
+/// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds of the
 /// solid first, then ties between bars and solid, then the segments of the bars.
 struct Network {
   Particles particles;
@@ -17,12 +17,18 @@ struct Network {
   /// Intact bending stiffness 12 d V_i V_j / xi^3 of micropolar bonds [force/length], per element;
   /// empty where no bond carries a moment.
   std::vector<double> bending;
+  double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
   Index first_tie = 0;                   ///< number of the first tie
   Index first_segment = 0;               ///< number of the first bar segment
   std::vector<double> yield_strain;      ///< per segment [-]; infinity: stays elastic
 
   int dim() const { return particles.dim; }
+  /// Components of the motion of a particle: displacements along the axes and, where bonds carry
+  /// moments, rotations: (u, v) or (u, v, theta) in two dimensions, (u, v, w) or
+  /// (u, v, w, theta_x, theta_y, theta_z) in three.
+  int width() const { return bending.empty() ? dim() : dim() == 2 ? 3 : 6; }
+  bool carries_moments() const { return !bending.empty(); }
   Index num_elements() const { return bonds.size(); }
   bool is_segment(Index element) const { return element >= first_segment; }
 };

@@ -8,9 +8,10 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "assembly/unknowns.hpp"
+#include "discretization/gaps.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
-#include "discretization/gaps.hpp"
 
 namespace perilink {
 namespace {
@@ -37,20 +38,20 @@ void check_input(const Body& body, const NetworkInput& input) {
   }
 }
 
-/// Micromodulus and critical stretch of every pair of materials.
+/// Moduli and critical stretch of every pair of materials.
 class PairConstants {
  public:
   PairConstants(const Body& body, const NetworkInput& input) : count_(input.materials.size()) {
-    std::vector<double> moduli;
+    std::vector<MicropolarModuli> moduli;
     for (const auto& material : input.materials) {
-      moduli.push_back(micromodulus_of(body, input, material));
+      moduli.push_back(moduli_of(body, input, material));
     }
     const bool on_lattice = input.critical_stretch == Constants::lattice;
     const BulkFamily family =
         on_lattice ? bulk_family(body.lattice, input.horizon) : BulkFamily{};
     for (std::size_t a = 0; a < count_; ++a) {
       for (std::size_t b = 0; b < count_; ++b) {
-        const double c = 0.5 * (moduli[a] + moduli[b]);
+        const double c = 0.5 * (moduli[a].micromodulus + moduli[b].micromodulus);
         const double energy =
             0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy);
         const double stretch = !on_lattice
@@ -60,17 +61,20 @@ class PairConstants {
                                          energy, lattice_fracture_sum(input.problem, family.offsets,
                                                                       body.lattice.cell_volume, c));
         micromodulus_.push_back(c);
+        bending_modulus_.push_back(0.5 * (moduli[a].bending_modulus + moduli[b].bending_modulus));
         critical_stretch_.push_back(stretch);
       }
     }
   }
 
   double micromodulus(Index a, Index b) const { return micromodulus_[a * count_ + b]; }
+  double bending_modulus(Index a, Index b) const { return bending_modulus_[a * count_ + b]; }
   double critical_stretch(Index a, Index b) const { return critical_stretch_[a * count_ + b]; }
 
  private:
   std::size_t count_;
   std::vector<double> micromodulus_;
+  std::vector<double> bending_modulus_;
   std::vector<double> critical_stretch_;
 };
 
@@ -86,6 +90,23 @@ void add_bonds(const PairConstants& constants, Network& network) {
     network.stiffness.push_back(c * particles.volumes[i] * particles.volumes[j] /
                                 network.bonds.lengths[b]);
     network.critical_stretch.push_back(constants.critical_stretch(own, other));
+  }
+}
+
+/// Bending stiffness of the bonds between particles; ties and segments have none.
+void add_bending(const PairConstants& constants, Network& network) {
+  const Particles& particles = network.particles;
+  network.bending.assign(static_cast<std::size_t>(network.num_elements()), 0.0);
+  for (Index b = 0; b < network.first_tie; ++b) {
+    const Index i = network.bonds.first[b];
+    const Index j = network.bonds.second[b];
+    const Index own = particles.material[i];
+    const bool ghost = particles.kind[j] == ParticleKind::ghost;
+    const double d = constants.bending_modulus(own, ghost ? own : particles.material[j]) *
+                     (ghost ? 0.5 : 1.0);
+    const double length = network.bonds.lengths[b];
+    network.bending[b] =
+        12.0 * d * particles.volumes[i] * particles.volumes[j] / (length * length * length);
   }
 }
 
@@ -142,15 +163,25 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
 
 }  // namespace
 
-double micromodulus_of(const Body& body, const NetworkInput& input, const SolidMaterial& material) {
+MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
+                           const SolidMaterial& material) {
+  const ElasticConstants elastic{material.youngs_modulus, material.poissons_ratio};
+  if (input.model == BondModel::micropolar) {
+    if (input.micromodulus == Constants::continuum) {
+      return continuum_micropolar(input.problem, elastic, input.horizon, input.thickness);
+    }
+    return lattice_micropolar(input.problem, bulk_family(body.lattice, input.horizon).offsets,
+                              body.lattice.cell_volume, elastic);
+  }
   if (input.micromodulus == Constants::continuum) {
-    return continuum_micromodulus(input.problem, material.youngs_modulus, input.horizon,
-                                  input.thickness);
+    return {continuum_micromodulus(input.problem, material.youngs_modulus, input.horizon,
+                                   input.thickness),
+            0.0};
   }
   const BulkFamily family = bulk_family(body.lattice, input.horizon);
   const LatticeModuli moduli =
       lattice_moduli(input.problem, family.offsets, body.lattice.cell_volume);
-  return moduli.micromodulus_per_modulus * material.youngs_modulus;
+  return {moduli.micromodulus_per_modulus * material.youngs_modulus, 0.0};
 }
 
 Network build_network(const Body& body, const NetworkInput& input) {
@@ -166,6 +197,10 @@ Network build_network(const Body& body, const NetworkInput& input) {
   network.critical_stretch.reserve(static_cast<std::size_t>(network.bonds.size()));
   add_bonds(constants, network);
   add_bars(body, input, constants, network);
+  if (input.model == BondModel::micropolar) {
+    network.torsion = input.torsion;
+    add_bending(constants, network);
+  }
   return network;
 }
 
@@ -181,8 +216,10 @@ std::vector<Index> find_loose_particles(const Network& network) {
     grams[bonds.first[e]] += n * n.transpose();
     grams[bonds.second[e]] += n * n.transpose();
   }
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
   std::vector<Index> loose;
   for (Index i = 0; i < network.particles.size(); ++i) {
+    if (!rotating.empty() && rotating[i]) continue;  // one frame holds every direction
     Eigen::Matrix3d& gram = grams[i];
     const double trace = gram.trace();
     if (dim == 2) gram(2, 2) = trace;  // the third direction is not asked for

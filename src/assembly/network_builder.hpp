@@ -7,6 +7,7 @@
 #include "discretization/lattice.hpp"
 #include "discretization/rebar.hpp"
 #include "material/elasticity.hpp"
+#include "material/micropolar.hpp"
 
 namespace perilink {
 
@@ -16,11 +17,18 @@ enum class Constants {
   continuum,  ///< integrals over the infinite body
 };
 
+/// What a bond resists.
+enum class BondModel {
+  bond_based,  ///< its extension: a truss
+  micropolar,  ///< extension, shear and bending: a frame; particles rotate
+};
+
 /// A brittle elastic solid.
 struct SolidMaterial {
   double youngs_modulus = 0.0;                                       ///< E [force/length^2]
   double fracture_energy = std::numeric_limits<double>::infinity();  ///< G_F [force/length];
                                                                      ///< infinity: unbreakable
+  double poissons_ratio = 0.0;  ///< nu of micropolar bonds; others have no choice
 };
 
 /// A reinforcing bar.
@@ -35,6 +43,8 @@ struct BarMaterial {
 /// What makes a network out of the particles of a body.
 struct NetworkInput {
   Problem problem = Problem::plane_stress;
+  BondModel model = BondModel::bond_based;
+  double torsion = 1.0;    ///< Network::torsion
   double horizon = 0.0;    ///< delta [length]
   double thickness = 1.0;  ///< t of two-dimensional bodies [length]
   Constants micromodulus = Constants::lattice;
@@ -46,8 +56,11 @@ struct NetworkInput {
   std::vector<BarMaterial> bar_materials;  ///< of each bar
 };
 
-/// Micromodulus c of a material of the body [force/length^6].
-double micromodulus_of(const Body& body, const NetworkInput& input, const SolidMaterial& material);
+/// Constants c [force/length^6] and d [force/length^4] of the bonds of a material of the body; d is
+/// zero in bond-based solids.
+/// \throws std::invalid_argument for a Poisson's ratio that the bonds cannot have
+MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
+                           const SolidMaterial& material);
 
 /// Bonds, bars and ties of a body with their constants.
 /// - Bond: k = c V_i V_j / xi with the mean c of its ends; a ghost's c is zero, hence half
@@ -55,6 +68,8 @@ double micromodulus_of(const Body& body, const NetworkInput& input, const SolidM
 ///   (Gerstle, Sau & Silling 2005, section 4). It breaks at the critical stretch of the mean
 ///   fracture energy and mean micromodulus of its ends; a bond to a ghost at that of its solid end.
 ///   It cannot break where either end is unbreakable.
+/// - Micropolar bond: the same, and the bending stiffness 12 d V_i V_j / xi^3 with the mean d of its
+///   ends. Ties and segments carry no moments.
 /// - Tie: stiffness and critical stretch of a bond of its solid end, k = c V_i V / max(xi, spacing
 /// /
 ///   10), V the volume of a particle inside the lattice. Where bars share a node its ties are

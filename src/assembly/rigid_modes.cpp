@@ -16,6 +16,9 @@ using Gram = Eigen::Matrix<double, 6, 6>;
 /// the fragment's radius. Round-off leaves 1e-15.
 constexpr double rank_tolerance = 1e-12;
 
+/// The lever itself.
+constexpr double rank_lever = 1e-6;
+
 /// Parts of a set of particles, joined pair by pair.
 class UnionFind {
  public:
@@ -37,13 +40,15 @@ class UnionFind {
   std::vector<Index> parent_;
 };
 
-/// Displacements of one particle along one axis in the rigid-body modes of a fragment:
-/// translations, then rotations about its centroid, scaled to about one at its rim. Unused entries
-/// are zero.
+/// Components of the motion of one particle in the rigid-body modes of a fragment: translations, then
+/// rotations about its centroid, scaled to about one at its rim. A particle's own rotation counts as
+/// the displacement that it means at the rim. Unused entries are zero.
 class RigidModes {
  public:
-  RigidModes(const Particles& particles, const std::vector<Index>& members)
-      : particles_(particles) {
+  RigidModes(const Network& network, const std::vector<std::uint8_t>& rotating,
+             const std::vector<Index>& members)
+      : particles_(network.particles), rotating_(rotating), width_(network.width()) {
+    const Particles& particles = network.particles;
     for (const Index i : members) {
       for (int axis = 0; axis < particles.dim; ++axis) {
         centroid_[axis] += particles.position(i)[axis] / static_cast<double>(members.size());
@@ -55,10 +60,26 @@ class RigidModes {
     }
   }
 
-  Row row(Index particle, int axis) const {
+  int dim() const { return particles_.dim; }
+
+  /// Components that the modes move: displacements, and rotations where bonds turn the particle.
+  int components(Index particle) const {
+    return !rotating_.empty() && rotating_[particle] ? width_ : particles_.dim;
+  }
+
+  std::size_t slot(Index particle, int component) const {
+    return static_cast<std::size_t>(particle) * width_ + component;
+  }
+
+  Row row(Index particle, int component) const {
     Row modes = Row::Zero();
+    if (component >= particles_.dim) {
+      modes[particles_.dim == 2 ? 5 : component] = 1.0;
+      return modes;
+    }
+    const int axis = component;
     modes[axis] = 1.0;
-    if (radius_ == 0.0) return modes;  // one particle does not rotate
+    if (radius_ == 0.0) return modes;  // one particle does not move as it turns
     const Vector3 arm = arm_of(particle);
     // Rotation about axis k moves the next axis forward and the one after it backward.
     for (int k = particles_.dim == 2 ? 2 : 0; k < 3; ++k) {
@@ -78,6 +99,8 @@ class RigidModes {
   }
 
   const Particles& particles_;
+  const std::vector<std::uint8_t>& rotating_;
+  int width_;
   Vector3 centroid_{};
   double radius_ = 0.0;
 };
@@ -95,17 +118,15 @@ struct ModeRanks {
   int held;
 };
 
-ModeRanks mode_ranks(const Particles& particles, const std::vector<Index>& members,
-                     const RigidModes& modes, const std::vector<std::uint8_t>& held) {
+ModeRanks mode_ranks(const std::vector<Index>& members, const RigidModes& modes,
+                     const std::vector<std::uint8_t>& held) {
   Gram all = Gram::Zero();
   Gram constrained = Gram::Zero();
   for (const Index i : members) {
-    for (int axis = 0; axis < particles.dim; ++axis) {
-      const Row row = modes.row(i, axis);
+    for (int a = 0; a < modes.components(i); ++a) {
+      const Row row = modes.row(i, a);
       all += row * row.transpose();
-      if (held[static_cast<std::size_t>(i) * particles.dim + axis]) {
-        constrained += row * row.transpose();
-      }
+      if (held[modes.slot(i, a)]) constrained += row * row.transpose();
     }
   }
   return {rank(all), rank(constrained)};
@@ -159,9 +180,10 @@ std::vector<Fragment> find_fragments(const Network& network,
     }
     fragments[number].particles.push_back(i);
   }
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
   for (Fragment& fragment : fragments) {
-    const RigidModes modes(network.particles, fragment.particles);
-    const ModeRanks ranks = mode_ranks(network.particles, fragment.particles, modes, held);
+    const RigidModes modes(network, rotating, fragment.particles);
+    const ModeRanks ranks = mode_ranks(fragment.particles, modes, held);
     fragment.free_modes = ranks.all - ranks.held;
   }
   return fragments;
@@ -185,14 +207,17 @@ LoadResultant load_resultant(const Network& network, const Loads& loads) {
   Vector3 force{};
   Vector3 moment{};
   LoadResultant resultant;
+  const int width = network.width();
   for (Index i = 0; i < particles.size(); ++i) {
     Vector3 arm{};
     Vector3 load{};
+    const double* own = loads.forces.data() + static_cast<std::size_t>(i) * width;
     for (int axis = 0; axis < dim; ++axis) {
       arm[axis] = particles.position(i)[axis] - centroid[axis];
-      load[axis] = loads.forces[static_cast<std::size_t>(i) * dim + axis];
+      load[axis] = own[axis];
       force[axis] += load[axis];
     }
+    for (int a = dim; a < width; ++a) moment[dim == 2 ? 2 : a - dim] += own[a];
     for (int k = 0; k < 3; ++k) {
       const int next = (k + 1) % 3;
       const int last = (k + 2) % 3;
@@ -208,14 +233,14 @@ LoadResultant load_resultant(const Network& network, const Loads& loads) {
 
 void pin_rigid_modes(const Network& network, const Fragment& fragment,
                      std::vector<std::uint8_t>& held) {
-  const int dim = network.dim();
-  const RigidModes modes(network.particles, fragment.particles);
-  const ModeRanks ranks = mode_ranks(network.particles, fragment.particles, modes, held);
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  const RigidModes modes(network, rotating, fragment.particles);
+  const ModeRanks ranks = mode_ranks(fragment.particles, modes, held);
   const auto unbreakable = unbreakable_particles(network);
   HeldSpan span;
   for (const Index i : fragment.particles) {
-    for (int axis = 0; axis < dim; ++axis) {
-      if (held[static_cast<std::size_t>(i) * dim + axis]) span.add(modes.row(i, axis));
+    for (int a = 0; a < modes.components(i); ++a) {
+      if (held[modes.slot(i, a)]) span.add(modes.row(i, a));
     }
   }
   // The unknown that the modes left free move most comes next; one of a particle that cannot be
@@ -225,22 +250,28 @@ void pin_rigid_modes(const Network& network, const Fragment& fragment,
     struct Best {
       double residual = 0.0;
       Index particle = no_index;
-      int axis = 0;
+      int component = 0;
     };
     Best preferred;
     Best any;
+    Best rotation;  // taken where no displacement is left, as along a line of particles
     for (const Index i : fragment.particles) {
-      for (int axis = 0; axis < dim; ++axis) {
-        if (held[static_cast<std::size_t>(i) * dim + axis]) continue;
-        const double residual = span.residual(modes.row(i, axis)).norm();
-        if (residual > any.residual) any = {residual, i, axis};
-        if (unbreakable[i] && residual > preferred.residual) preferred = {residual, i, axis};
+      for (int a = 0; a < modes.components(i); ++a) {
+        if (held[modes.slot(i, a)]) continue;
+        const double residual = span.residual(modes.row(i, a)).norm();
+        Best& best = a < modes.dim() ? any : rotation;
+        if (residual > best.residual) best = {residual, i, a};
+        if (a < modes.dim() && unbreakable[i] && residual > preferred.residual) {
+          preferred = {residual, i, a};
+        }
       }
     }
-    const Best& best = preferred.residual > least_preferred ? preferred : any;
+    const Best& best = preferred.residual > least_preferred ? preferred
+                       : any.residual > rank_lever          ? any
+                                                            : rotation;
     if (best.particle == no_index) return;
-    held[static_cast<std::size_t>(best.particle) * dim + best.axis] = 1;
-    span.add(modes.row(best.particle, best.axis));
+    held[modes.slot(best.particle, best.component)] = 1;
+    span.add(modes.row(best.particle, best.component));
   }
 }
 

@@ -16,7 +16,8 @@ struct Fragment {
 };
 
 /// Connected parts of the network (elements of zero stiffness do not connect) with the number of
-/// rigid-body modes that `held` (shape (particles, dim)) leaves free in each.
+/// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of particles
+/// that no bond turns hold nothing.
 std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held);
 
 /// Sums of the applied loads.
@@ -28,7 +29,8 @@ struct LoadResultant {
 LoadResultant load_resultant(const Network& network, const Loads& loads);
 
 /// Holds exactly the rigid-body modes of a free fragment (three unknowns in 2D, six in 3D) by
-/// marking them in `held`; prefers particles whose bonds cannot break.
+/// marking them in `held`; prefers displacements to rotations and particles
+/// whose bonds cannot break.
 void pin_rigid_modes(const Network& network, const Fragment& fragment,
                      std::vector<std::uint8_t>& held);
 

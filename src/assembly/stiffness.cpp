@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "assembly/frame.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/csr.hpp"
 
@@ -37,9 +38,57 @@ Csr elements_by_low_end(const Bonds& bonds, Index num_particles) {
   return rows;
 }
 
+/// Two blocks of an element's stiffness, entry by entry: that of an end with itself and that which
+/// couples the rows of the higher end to the columns of the lower one.
 template <int Dim>
+struct TrussBlocks {
+  static constexpr int width = Dim;
+
+  TrussBlocks(const Network& network, Index element, double secant)
+      : n(network.bonds.direction(element).data()), k(network.stiffness[element] * secant) {}
+
+  double of_first(int row, int col) const { return k * n[row] * n[col]; }
+  double of_second(int row, int col) const { return k * n[row] * n[col]; }
+  double coupling(int row, int col) const { return -k * n[row] * n[col]; }
+
+  const double* n;
+  double k;
+};
+
+template <int Dim>
+struct FrameBlocks {
+  using Modes = FrameModes<Dim>;
+  static constexpr int width = Modes::width;
+
+  FrameBlocks(const Network& network, Index element, double secant)
+      : modes(frame_modes<Dim>(network, element)),
+        low_is_first(network.bonds.first[element] < network.bonds.second[element]) {
+    for (double& k : modes.stiffness) k *= secant;
+  }
+
+  double sum(int row, int col, const auto& rows, const auto& cols) const {
+    double value = 0.0;
+    for (int m = 0; m < Modes::count; ++m) {
+      value += modes.stiffness[m] * rows[m][row] * cols[m][col];
+    }
+    return value;
+  }
+  double of_first(int row, int col) const { return sum(row, col, modes.first, modes.first); }
+  double of_second(int row, int col) const { return sum(row, col, modes.second, modes.second); }
+  double coupling(int row, int col) const {
+    return low_is_first ? sum(row, col, modes.second, modes.first)
+                        : sum(row, col, modes.first, modes.second);
+  }
+
+  Modes modes;
+  bool low_is_first;
+};
+
+template <class ElementBlocks>
 class StiffnessBuilder {
  public:
+  static constexpr int width = ElementBlocks::width;
+
   StiffnessBuilder(const Network& network, std::span<const double> secants,
                    const Unknowns& unknowns)
       : network_(network),
@@ -58,15 +107,13 @@ class StiffnessBuilder {
   }
 
  private:
-  using Block = std::array<double, Dim * Dim>;
+  using Block = std::array<double, width * width>;
 
   int num_free(Index particle) const {
     int count = 0;
-    for (int axis = 0; axis < Dim; ++axis) count += unknowns_.at(particle, axis) != no_index;
+    for (int axis = 0; axis < width; ++axis) count += unknowns_.at(particle, axis) != no_index;
     return count;
   }
-
-  double weight(Index element) const { return network_.stiffness[element] * secants_[element]; }
 
   /// Column starts: the free axes of the particle itself from the column's own on, then those of
   /// every higher neighbour once, however many elements lead there.
@@ -83,7 +130,7 @@ class StiffnessBuilder {
         last = j;
       }
       int own = num_free(i);
-      for (int axis = 0; axis < Dim; ++axis) {
+      for (int axis = 0; axis < width; ++axis) {
         const Index column = unknowns_.at(i, axis);
         if (column == no_index) continue;
         total += own-- + below;
@@ -99,15 +146,13 @@ class StiffnessBuilder {
   void sum_diagonal_blocks() {
     diagonal_.assign(static_cast<std::size_t>(network_.particles.size()), Block{});
     for (Index e = 0; e < network_.num_elements(); ++e) {
-      const double* n = network_.bonds.direction(e).data();
-      const double k = weight(e);
+      const ElementBlocks element(network_, e, secants_[e]);
       Block& first = diagonal_[network_.bonds.first[e]];
       Block& second = diagonal_[network_.bonds.second[e]];
-      for (int row = 0; row < Dim; ++row) {
+      for (int row = 0; row < width; ++row) {
         for (int col = 0; col <= row; ++col) {
-          const double value = k * n[row] * n[col];
-          first[row * Dim + col] += value;
-          second[row * Dim + col] += value;
+          first[row * width + col] += element.of_first(row, col);
+          second[row * width + col] += element.of_second(row, col);
         }
       }
     }
@@ -118,29 +163,29 @@ class StiffnessBuilder {
   void fill_columns(Index i, SparseMatrix& matrix) const {
     Index* inner = matrix.innerIndexPtr();
     double* values = matrix.valuePtr();
-    std::array<Index, Dim> position{};  // next entry of each column, no_index for a held one
-    for (int col = 0; col < Dim; ++col) {
+    std::array<Index, width> position{};  // next entry of each column, no_index for a held one
+    for (int col = 0; col < width; ++col) {
       const Index column = unknowns_.at(i, col);
       position[col] = column == no_index ? no_index : matrix.outerIndexPtr()[column];
       if (column == no_index) continue;
-      for (int row = col; row < Dim; ++row) {
+      for (int row = col; row < width; ++row) {
         if (unknowns_.at(i, row) == no_index) continue;
         inner[position[col]] = unknowns_.at(i, row);
-        values[position[col]++] = diagonal_[i][row * Dim + col];
+        values[position[col]++] = diagonal_[i][row * width + col];
       }
     }
     Index last = no_index;
     for (const Index e : elements_.row(i)) {
       const Index j = high_end(network_.bonds, e);
       const int rows = num_free(j);
-      const double* n = network_.bonds.direction(e).data();
-      for (int col = 0; col < Dim; ++col) {
+      const ElementBlocks element(network_, e, secants_[e]);
+      for (int col = 0; col < width; ++col) {
         if (position[col] == no_index) continue;
         // A second element to the same particle adds to the entries of the first.
         Index entry = j == last ? position[col] - rows : position[col];
-        for (int row = 0; row < Dim; ++row) {
+        for (int row = 0; row < width; ++row) {
           if (unknowns_.at(j, row) == no_index) continue;
-          const double value = -weight(e) * n[row] * n[col];
+          const double value = element.coupling(row, col);
           inner[entry] = unknowns_.at(j, row);
           values[entry] = j == last ? values[entry] + value : value;
           ++entry;
@@ -162,8 +207,13 @@ class StiffnessBuilder {
 
 SparseMatrix assemble_stiffness(const Network& network, std::span<const double> secants,
                                 const Unknowns& unknowns) {
-  if (network.dim() == 2) return StiffnessBuilder<2>(network, secants, unknowns).build();
-  return StiffnessBuilder<3>(network, secants, unknowns).build();
+  const bool plane = network.dim() == 2;
+  if (network.carries_moments()) {
+    return plane ? StiffnessBuilder<FrameBlocks<2>>(network, secants, unknowns).build()
+                 : StiffnessBuilder<FrameBlocks<3>>(network, secants, unknowns).build();
+  }
+  return plane ? StiffnessBuilder<TrussBlocks<2>>(network, secants, unknowns).build()
+               : StiffnessBuilder<TrussBlocks<3>>(network, secants, unknowns).build();
 }
 
 std::vector<double> assemble_right_hand_side(const Network& network,
@@ -187,7 +237,7 @@ std::vector<Index> particle_of_unknown(const Unknowns& unknowns) {
   for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
     const Index number = unknowns.number[slot];
     if (number != no_index) {
-      particles[number] = static_cast<Index>(slot / static_cast<std::size_t>(unknowns.dim));
+      particles[number] = static_cast<Index>(slot / static_cast<std::size_t>(unknowns.width));
     }
   }
   return particles;

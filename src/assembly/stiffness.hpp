@@ -11,7 +11,8 @@
 
 namespace perilink {
 
-/// Lower triangle of K = sum over elements of k n n' between its free ends (unknown by unknown).
+/// Lower triangle of K = sum over elements of k n n' (trusses) or of k_m b_m b_m' over the modes of a
+/// frame (assembly/frame.hpp) between its free ends (unknown by unknown).
 /// \param secants  present stiffness of each element as a fraction of the intact one; broken
 ///                 elements keep their place in the pattern (as zeros), so that the pattern does
 ///                 not change while bonds break
@@ -27,7 +28,7 @@ std::vector<double> assemble_right_hand_side(const Network& network,
 /// Particle of every unknown, size unknowns.count.
 std::vector<Index> particle_of_unknown(const Unknowns& unknowns);
 
-/// Displacement of all particles from the unknowns, shape (particles, dim).
+/// Displacement of all particles from the unknowns, rotations included; shape (particles, width).
 std::vector<double> expand(const Unknowns& unknowns, std::span<const double> solution);
 
 }  // namespace perilink

@@ -88,23 +88,49 @@ void read_horizon(const CaseTable& table, BodySection& body) {
   }
 }
 
-/// Bonds that act along their length leave a solid no other choice (Gerstle, Sau & Silling 2005,
-/// section 2). The material module has the same two numbers; this module may not include it, and a
-/// test holds the two together.
-void check_poissons_ratio(const CaseTable& table, const BodySection& body) {
-  const std::optional<double> given = table.number("poissons_ratio");
-  if (!given) return;
+/// Poisson's ratio of bonds that act along their length, the most that micropolar bonds can have
+/// (Gerstle, Sau & Silling 2005, section 2; Gerstle, Sau & Aguilera 2007, Eqs. 15, 17 and 20). The
+/// material module has the same two numbers; this module may not include it, and a test holds the
+/// two together.
+bool ratio_is_third(const BodySection& body) { return body.problem == "plane_stress"; }
+
+void check_bond_based_ratio(const CaseTable& table, const BodySection& body, double given) {
   constexpr double tolerance = 1e-3;  // users write 0.333
-  const bool third = body.problem == "plane_stress";
-  if (std::abs(*given - (third ? 1.0 / 3.0 : 0.25)) <= tolerance) return;
-  const char* only = third ? "1/3" : "1/4";
+  const bool third = ratio_is_third(body);
+  const double only = third ? 1.0 / 3.0 : 0.25;
+  if (std::abs(given - only) <= tolerance) return;
+  const char* word = third ? "1/3" : "1/4";
   table.refuse(
       "poissons_ratio",
-      fmt::format("is {}, but a bond-based solid in {} has the Poisson's ratio {}", *given,
-                  body.problem, only),
-      fmt::format("leave the key out. Another ratio would need micropolar bonds (up to {}) or the "
-                  "state-based lattice model (any ratio); this version has bond-based solids only",
-                  only));
+      fmt::format("is {}, but a bond-based solid in {} has the Poisson's ratio {}", given,
+                  body.problem, word),
+      given > -1.0 && given < only
+          ? std::string("leave the key out, or set model = \"micropolar\" in [body], whose bonds "
+                        "bend and have this ratio")
+          : fmt::format("leave the key out; model = \"micropolar\" in [body] has ratios above -1 "
+                        "and up to {} only, and no model of this version has others",
+                        word));
+}
+
+void check_micropolar_ratio(const CaseTable& table, const BodySection& body, double given) {
+  const bool third = ratio_is_third(body);
+  const double largest = third ? 1.0 / 3.0 : 0.25;
+  if (given > -1.0 && given <= largest) return;
+  table.refuse("poissons_ratio",
+               fmt::format("is {}, but micropolar bonds in {} have ratios above -1 and up to {}",
+                           given, body.problem, third ? "1/3" : "1/4"),
+               "no model of this version has other ratios");
+}
+
+std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySection& body) {
+  std::optional<double> given = table.number("poissons_ratio");
+  if (body.model == "micropolar") {
+    given = table.need("poissons_ratio", given, "Poisson's ratio, which micropolar bonds need");
+    check_micropolar_ratio(table, body, *given);
+  } else if (given) {
+    check_bond_based_ratio(table, body, *given);
+  }
+  return given;
 }
 
 double read_fracture_energy(const CaseTable& table) {
@@ -151,6 +177,15 @@ BodySection read_body(const CaseTable& table) {
                  "delete it; the regions' z intervals say how thick the body is");
   }
   assign(body.thickness, table.positive("thickness"));
+  assign(body.model, table.choice("model", {"bond_based", "micropolar"}));
+  if (table.has("torsion") && (dimension_of(body) == 2 || body.model != "micropolar")) {
+    table.refuse("torsion",
+                 fmt::format("is given, but {}", body.model == "micropolar"
+                                                     ? "bonds of a two-dimensional body do not twist"
+                                                     : "bonds of a bond-based solid do not twist"),
+                 "delete it; three-dimensional bodies with model = \"micropolar\" have it");
+  }
+  assign(body.torsion, table.positive("torsion"));
   table.need_one_of({"columns", "spacing", "mesh"});
   if (table.has("mesh")) {
     read_mesh(table, body);
@@ -171,8 +206,7 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
   material.regions = read_material_regions(table);
   material.youngs_modulus =
       table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");
-  check_poissons_ratio(table, body);
-  material.poissons_ratio = table.number("poissons_ratio");
+  material.poissons_ratio = read_poissons_ratio(table, body);
   material.fracture_energy = read_fracture_energy(table);
   return material;
 }

@@ -121,7 +121,9 @@ CaseFile parse_case(const std::string& text, const std::string& path,
       document.needed_list("materials", [&input](const CaseTable& table, std::size_t index) {
         return read_material(table, input.body, index);
       });
-  input.supports = document.list("supports", in_dimension(read_support));
+  input.supports = document.list("supports", [&input](const CaseTable& table, std::size_t) {
+    return read_support(table, input.body);
+  });
   input.displacements = document.list("displacements", in_dimension(read_displacement));
   input.loads = document.list("loads", in_dimension(read_load));
   input.rebar = document.list("rebar", in_dimension(read_rebar));

@@ -25,6 +25,8 @@ struct TomlValue;
 struct BodySection {
   std::optional<std::string> mesh;       ///< file, from the folder of the case; irregular pattern
   std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
+  std::string model = "bond_based";      ///< bond_based | micropolar
+  double torsion = 1.0;                  ///< torsional over bending modulus of micropolar bonds, 3D
   double thickness = 1.0;                ///< of two-dimensional bodies
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
   Surface surface = Surface::none;
@@ -43,14 +45,15 @@ struct MaterialSection {
   std::string name;  ///< "material 2" for the second one where the file gives none
   std::vector<std::string> regions;
   double youngs_modulus = 0.0;
-  std::optional<double> poissons_ratio;  ///< only to be refused with an explanation, or confirmed
+  std::optional<double> poissons_ratio;  ///< of micropolar bonds; of others only to be refused with
+                                         ///< an explanation, or confirmed
   double fracture_energy = 0.0;          ///< infinity: unbreakable ("infinite" in the file)
 };
 
-/// [[supports]]: displacements held at zero.
+/// [[supports]]: displacements and rotations held at zero.
 struct SupportSection {
   std::string region;
-  std::array<bool, 3> fix{};
+  std::array<bool, 6> fix{};  ///< displacements along x, y, z, rotations about x, y, z
 };
 
 /// [[displacements]]: displacements driven in proportion to the load factor.

@@ -20,6 +20,30 @@ void refuse_third_axis(const CaseTable& table, const std::string& key, int dim) 
                "delete it, or set problem = \"three_dimensional\" in [body]");
 }
 
+/// Index in SupportSection::fix of what a support names.
+std::size_t find_held_component(const CaseTable& table, const BodySection& body,
+                                const std::string& name) {
+  const int dim = dimension_of(body);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (name == axis_names[axis]) {
+      if (axis == 2) refuse_third_axis(table, "fix", dim);
+      return axis;
+    }
+    const bool turns = dim == 3 || axis == 2;
+    if (!turns || name != rotation_name(dim, axis)) continue;
+    if (body.model != "micropolar") {
+      table.refuse("fix", fmt::format("names {}, but the particles of a bond-based body do not rotate",
+                                      quoted(name)),
+                   "delete it, or set model = \"micropolar\" in [body]");
+    }
+    return 3 + axis;
+  }
+  const bool rotates = body.model == "micropolar";
+  table.refuse("fix", fmt::format("names {}, which is no axis", quoted(name)),
+               dim == 2 ? (rotates ? "Allowed: x, y, rotation" : "Allowed: x, y")
+                        : (rotates ? "Allowed: x, y, z, rx, ry, rz" : "Allowed: x, y, z"));
+}
+
 std::string need_region(const CaseTable& table, const std::string& use) {
   return table.need("region", table.text("region"), "the name of the region " + use);
 }
@@ -62,21 +86,15 @@ Region read_region(const CaseTable& table, int dim) {
   return region;
 }
 
-SupportSection read_support(const CaseTable& table, int dim) {
+SupportSection read_support(const CaseTable& table, const BodySection& body) {
   SupportSection support;
   support.region = need_region(table, "that is held");
-  const std::vector<std::string> axes =
+  const std::vector<std::string> names =
       table.need("fix", table.texts("fix"), "the axes that are held, fix = [\"x\", \"y\"]");
-  if (axes.empty()) table.refuse("fix", "names no axis", "write fix = [\"x\", \"y\"]");
-  for (const std::string& axis : axes) {
-    const auto found = std::find(axis_names.begin(), axis_names.end(), axis);
-    if (found == axis_names.end()) {
-      table.refuse("fix", fmt::format("names {}, which is no axis", quoted(axis)),
-                   dim == 2 ? "Allowed: x, y" : "Allowed: x, y, z");
-    }
-    if (axis == "z") refuse_third_axis(table, "fix", dim);
-    bool& fixed = support.fix[static_cast<std::size_t>(found - axis_names.begin())];
-    if (fixed) table.refuse("fix", fmt::format("names \"{}\" twice", axis), "name it once");
+  if (names.empty()) table.refuse("fix", "names no axis", "write fix = [\"x\", \"y\"]");
+  for (const std::string& name : names) {
+    bool& fixed = support.fix[find_held_component(table, body, name)];
+    if (fixed) table.refuse("fix", fmt::format("names \"{}\" twice", name), "name it once");
     fixed = true;
   }
   return support;

@@ -18,7 +18,7 @@ BodySection read_body(const CaseTable& table);
 Region read_region(const CaseTable& table, int dim);
 /// \param index  zero-based, for the name of a nameless material
 MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index);
-SupportSection read_support(const CaseTable& table, int dim);
+SupportSection read_support(const CaseTable& table, const BodySection& body);
 DisplacementSection read_displacement(const CaseTable& table, int dim);
 LoadSection read_load(const CaseTable& table, int dim);
 RebarSection read_rebar(const CaseTable& table, int dim);

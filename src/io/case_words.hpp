@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,13 @@
 namespace perilink {
 
 inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
+
+/// Rotations of the particles of micropolar bodies: "rotation" in two dimensions, where they turn
+/// about z; "rx", "ry", "rz" in three.
+inline constexpr std::array<const char*, 3> rotation_names = {"rx", "ry", "rz"};
+inline const char* rotation_name(int dim, std::size_t axis) {
+  return dim == 2 ? "rotation" : rotation_names[axis];
+}
 
 const std::vector<std::string_view>& pattern_words();
 const std::vector<std::string_view>& surface_words();

@@ -15,6 +15,8 @@ namespace {
 void write_body(TomlWriter& out, const BodySection& body) {
   out.header("[body]");
   out.write("problem", body.problem);
+  out.write("model", body.model);
+  if (dimension_of(body) == 3 && body.model == "micropolar") out.write("torsion", body.torsion);
   if (dimension_of(body) == 2) out.write("thickness", body.thickness);
   out.write("mesh", body.mesh);
   if (!body.mesh) out.write("pattern", word_of(body.pattern));
@@ -62,6 +64,9 @@ void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
     std::vector<std::string> axes;
     for (int axis = 0; axis < dim; ++axis) {
       if (support.fix[axis]) axes.emplace_back(axis_names[axis]);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (support.fix[3 + axis]) axes.emplace_back(rotation_name(dim, axis));
     }
     out.write("fix", axes);
   }

@@ -5,7 +5,7 @@
 
 #include "assembly/fields.hpp"
 #include "assembly/internal_force.hpp"
-#include "support/small_networks.hpp"
+#include "support/micropolar_networks.hpp"
 
 namespace perilink {
 namespace {
@@ -43,6 +43,16 @@ TEST(StrainEnergyDensity, SumsToTheEnergyOfTheNetwork) {
       std::inner_product(density.begin(), density.end(), network.particles.volumes.begin(), 0.0);
   const double energy = internal_force(network, secants, displacement).energy;
   EXPECT_NEAR(sum, energy, 1e-13 * energy);
+}
+
+TEST(Fields, PartTheMotionIntoDisplacementsAndRotations) {
+  Network network = single_frame(2, {1.0, 0.0}, 1.0, 1.0);
+  const std::vector<double> motion = {1, 2, 3, 4, 5, 6};
+  EXPECT_EQ(translations(network, motion), (std::vector<double>{1, 2, 4, 5}));
+  EXPECT_EQ(rotations(network, motion), (std::vector<double>{3, 6}));
+  network.bending.clear();
+  EXPECT_EQ(translations(network, {motion.data(), 4}), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_TRUE(rotations(network, {motion.data(), 4}).empty());
 }
 
 TEST(PrincipalStrains, OfALinearFieldAreExactWhateverBondsAreBroken) {

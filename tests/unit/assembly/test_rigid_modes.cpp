@@ -7,7 +7,7 @@
 
 #include "assembly/rigid_modes.hpp"
 #include "assembly/stiffness.hpp"
-#include "support/small_networks.hpp"
+#include "support/micropolar_networks.hpp"
 
 namespace perilink {
 namespace {
@@ -149,6 +149,36 @@ TEST(LoadResultant, SumsForcesAndMoments) {
   const LoadResultant pull = load_resultant(space, {{0, 0, 0, 0, 0, 5}});
   EXPECT_EQ(pull.force, (std::vector<double>{0, 0, 5}));
   EXPECT_EQ(pull.moment, (std::vector<double>{5, 0, 0}));  // arm 1 from the centroid
+}
+
+/// Micropolar bonds along a line in space: displacements do not see the rotation about it.
+TEST(Pinning, OfALineOfFramesTakesOneRotation) {
+  Network rod = particles_at(3, {0, 0, 0, 1, 1, 1, 2, 2, 2});
+  join(rod, 0, 1);
+  join(rod, 1, 2);
+  rod.bending = {1.0, 1.0};
+  std::vector<std::uint8_t> held(18, 0);
+  const auto fragments = find_fragments(rod, held);
+  EXPECT_EQ(fragments.front().free_modes, 6);
+  pin_rigid_modes(rod, fragments.front(), held);
+  int rotations = 0;
+  for (std::size_t slot = 0; slot < held.size(); ++slot) rotations += slot % 6 >= 3 && held[slot];
+  EXPECT_EQ(std::accumulate(held.begin(), held.end(), 0), 6);
+  EXPECT_EQ(rotations, 1);
+  EXPECT_EQ(find_fragments(rod, held).front().free_modes, 0);
+}
+
+TEST(Fragments, AHeldRotationOfAFrameHoldsTheBodyAndThatOfAnIdleParticleDoesNot) {
+  Network network = particles_at(2, {0, 0, 1, 0, 1, 1});
+  join(network, 0, 1);
+  join(network, 1, 2);
+  join(network, 0, 2);
+  network.bending = {1.0, 0.0, 0.0};  // a frame and two trusses: particle 2 does not rotate
+  std::vector<std::uint8_t> held(9, 0);
+  held[0] = held[1] = held[8] = 1;
+  EXPECT_EQ(find_fragments(network, held).front().free_modes, 1);
+  held[5] = 1;
+  EXPECT_EQ(find_fragments(network, held).front().free_modes, 0);
 }
 
 }  // namespace

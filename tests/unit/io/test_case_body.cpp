@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,6 +57,25 @@ TEST(CaseBody, AcceptsThePoissonsRatioOfItsBonds) {
   }
   const double ratio = bond_poissons_ratio(Problem::three_dimensional);
   EXPECT_EQ(parse_case(full_case, "").materials[0].poissons_ratio, ratio);
+}
+
+TEST(CaseBody, AcceptsThePoissonsRatiosOfMicropolarBonds) {
+  for (const auto& [problem, word] : {std::pair(Problem::plane_stress, "plane_stress"),
+                                      std::pair(Problem::plane_strain, "plane_strain")}) {
+    const auto text = [&, name = word](double given) {
+      return replaced(
+          replaced(small_case, "columns",
+                   std::string("model = \"micropolar\"\nproblem = \"") + name + "\"\ncolumns"),
+          "fracture_energy", fmt::format("poissons_ratio = {}\nfracture_energy", given));
+    };
+    const double largest = bond_poissons_ratio(problem);
+    for (const double ratio : {-0.999, 0.0, 0.2, largest}) {
+      EXPECT_EQ(message_of(text(ratio)), "accepted") << ratio;
+    }
+    for (const double ratio : {-1.0, largest + 1e-6, 0.4}) {
+      EXPECT_THAT(message_of(text(ratio)), HasSubstr("have ratios above -1 and up to")) << ratio;
+    }
+  }
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(CaseFile, ReadsEveryKey) {
   EXPECT_EQ(input.materials[1].name, "material 2");
   EXPECT_THAT(input.materials[1].regions, ElementsAre("cap"));
   EXPECT_EQ(input.materials[1].fracture_energy, std::numeric_limits<double>::infinity());
-  EXPECT_THAT(input.supports.at(0).fix, ElementsAre(true, false, true));
+  EXPECT_THAT(input.supports.at(0).fix, ElementsAre(true, false, true, false, false, false));
   EXPECT_THAT(input.displacements.at(0).value, ElementsAre(0.1, std::nullopt, -1.0));
   EXPECT_EQ(input.loads.at(0).body_force, (Vector3{0.0, 0.0, -25.0}));
   EXPECT_EQ(input.loads.at(0).force, std::nullopt);

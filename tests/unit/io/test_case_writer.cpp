@@ -45,6 +45,18 @@ TEST(CaseWriter, WritesNumbersThatReadBackExactly) {
   }
 }
 
+TEST(CaseWriter, WritesMicropolarBodies) {
+  CaseFile input = parse_case(full_case, "");
+  input.body.model = "micropolar";
+  input.body.torsion = 0.25;
+  for (MaterialSection& material : input.materials) material.poissons_ratio = 0.2;
+  input.supports.at(0).fix = {true, false, true, false, true, true};
+  const CaseFile again = parse_case(write_case(input), "");
+  EXPECT_EQ(again.body.model, "micropolar");
+  EXPECT_EQ(again.body.torsion, 0.25);
+  EXPECT_EQ(again.supports.at(0).fix, input.supports.at(0).fix);
+}
+
 TEST(CaseWriter, WritesMinusZeroAsZero) {
   const CaseFile input = parse_case(replaced(small_case, "x = [0,", "x = [-0.0,"), "");
   EXPECT_EQ(write_case(input), write_case(parse_case(small_case, "")));
