@@ -34,7 +34,7 @@ inline AnalysisBody free_body(Network network) {
   AnalysisBody body;
   const std::size_t slots = network.particles.positions.size();
   body.network = std::move(network);
-  body.unknowns.dim = body.network.dim();
+  body.unknowns.width = body.network.width();
   body.unknowns.number.assign(slots, 0);
   body.unknowns.prescribed.assign(slots, 0.0);
   body.loads.forces.assign(slots, 0.0);
