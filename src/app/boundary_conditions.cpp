@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model_regions.hpp"
+#include "app/loads.hpp"
+#include "app/supports.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
 
@@ -18,87 +19,6 @@ constexpr double force_balance_tolerance = 1e-6;
 constexpr double couple_note = 1e-9;
 /// ... and above this one is no matter of unsymmetric rows: it would turn the body.
 constexpr double couple_limit = 0.1;
-
-/// Displacements that are prescribed, and by which key of the case.
-struct Prescription {
-  std::vector<std::uint8_t> held;  ///< shape (particles, width)
-  std::vector<double> value;       ///< at load factor 1 [length], of rotations [-]
-};
-
-std::string name_of_component(const Network& network, int component) {
-  const int dim = network.dim();
-  if (component < dim) return fmt::format("displacement along {}", "xyz"[component]);
-  return dim == 2 ? "rotation" : fmt::format("rotation about {}", "xyz"[component - dim]);
-}
-
-/// Component of the motion of a particle that an entry of SupportSection::fix means.
-int component_of(const Network& network, int entry) {
-  return entry < 3 || network.dim() == 3 ? entry : network.dim();
-}
-
-void prescribe(const CaseFile& input, const Model& model, Prescription& prescription,
-               const std::string& region, const std::string& key, int component, double value) {
-  for (const Index i : particles_of_region(input, model, region, key + ".region")) {
-    const std::size_t slot = static_cast<std::size_t>(i) * model.network.width() + component;
-    if (prescription.held[slot] && prescription.value[slot] != value) {
-      const std::span<const double> x = model.network.particles.position(i);
-      throw InputError(
-          input.where(key),
-          fmt::format("sets the {} of the particle at ({}) to {}, where another entry sets it to {}",
-                      name_of_component(model.network, component), fmt::join(x, ", "), value, prescription.value[slot]),
-          "let the regions of [[supports]] and [[displacements]] not overlap");
-    }
-    prescription.held[slot] = 1;
-    prescription.value[slot] = value;
-  }
-}
-
-Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
-  const int dim = model.network.dim();
-  const int width = model.network.width();
-  Prescription prescription;
-  prescription.held.assign(static_cast<std::size_t>(model.network.particles.size()) * width, 0);
-  prescription.value.assign(prescription.held.size(), 0.0);
-  for (std::size_t k = 0; k < input.supports.size(); ++k) {
-    for (int entry = 0; entry < 6; ++entry) {
-      if (!input.supports[k].fix[entry]) continue;
-      prescribe(input, model, prescription, input.supports[k].region, item_key("supports", k),
-                component_of(model.network, entry), 0.0);
-    }
-  }
-  for (std::size_t k = 0; k < input.displacements.size(); ++k) {
-    for (int a = 0; a < dim; ++a) {
-      if (!input.displacements[k].value[a]) continue;
-      prescribe(input, model, prescription, input.displacements[k].region,
-                item_key("displacements", k), a, *input.displacements[k].value[a]);
-    }
-  }
-  return prescription;
-}
-
-/// Shares a total force over the solid particles of a region in proportion to their volumes, or
-/// integrates a body force. \return largest resultant component-wise norm of the entry [force]
-double add_load(const CaseFile& input, const Model& model, std::size_t k, Loads& loads) {
-  const LoadSection& section = input.loads[k];
-  const Particles& particles = model.network.particles;
-  double volume = 0.0;
-  const std::vector<Index> region =
-      particles_of_region(input, model, section.region, item_key("loads", k, "region"));
-  for (const Index i : region) {
-    if (particles.kind[i] == ParticleKind::solid) volume += particles.volumes[i];
-  }
-  double square = 0.0;
-  for (int a = 0; a < particles.dim; ++a) {
-    const double total = section.force ? (*section.force)[a] : (*section.body_force)[a] * volume;
-    square += total * total;
-    for (const Index i : region) {
-      if (particles.kind[i] != ParticleKind::solid) continue;
-      loads.forces[static_cast<std::size_t>(i) * model.network.width() + a] +=
-          total * particles.volumes[i] / volume;
-    }
-  }
-  return std::sqrt(square);
-}
 
 double size_of_body(const Particles& particles) {
   double size = 0.0;
@@ -209,17 +129,18 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
 
 void apply_boundary_conditions(const CaseFile& input, Model& model) {
   Prescription prescription = collect_prescriptions(input, model);
-  model.loads.forces.assign(prescription.held.size(), 0.0);
-  double largest_load = 0.0;
-  for (std::size_t k = 0; k < input.loads.size(); ++k) {
-    largest_load = std::max(largest_load, add_load(input, model, k, model.loads));
-  }
+  AppliedLoads applied = collect_loads(input, model, model.network.width());
+  model.loads = std::move(applied.loads);
   double largest_displacement = 0.0;
   for (const double value : prescription.value) {
     largest_displacement = std::max(largest_displacement, std::abs(value));
   }
   model.reference.driven = largest_displacement > 0.0;
-  model.reference.value = model.reference.driven ? largest_displacement : largest_load;
+  model.reference.value = model.reference.driven ? largest_displacement : applied.reference;
+  if (model.reference.value == 0.0) {
+    throw InputError(input.where(input.displacements.empty() ? "tractions" : "displacements"),
+                     "nothing loads the body: all formulas are zero on their particles", "");
+  }
   model.resultant = load_resultant(model.network, model.loads);
   refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);

@@ -3,14 +3,92 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
+#include "io/case_words.hpp"
 
 namespace perilink {
 namespace {
 
-/// Particles this close to a region's side, in spacings, are inside.
+/// Particles and centres of facets this close to a region's side, in spacings, are inside.
 constexpr double region_tolerance = 1e-6;
+
+/// The case's own region, or nothing: a name that every case has.
+const Region* find_region(const CaseFile& input, const std::string& name) {
+  const auto found = std::find_if(input.regions.begin(), input.regions.end(),
+                                  [&](const Region& region) { return region.name == name; });
+  return found == input.regions.end() ? nullptr : &*found;
+}
+
+std::vector<Index> corners_of_surface(const Facets& facets) {
+  std::vector<Index> corners;
+  for (Index facet = 0; facet < facets.size(); ++facet) {
+    if (!facets.on_surface(facet)) continue;
+    const std::span<const Index> row = facets.corners.row(facet);
+    corners.insert(corners.end(), row.begin(), row.end());
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+std::vector<Index> particles_inside(const Model& model, const Region* region,
+                                    const std::string& name) {
+  if (region == nullptr && name == surface_region) return corners_of_surface(model.facets);
+  if (region != nullptr && !region->group.empty()) {
+    return group_named(model, region->group).particles;
+  }
+  const Particles& particles = model.network.particles;
+  const double tolerance = region_tolerance * model.lattice.spacing;
+  std::vector<Index> inside;
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (particles.kind[i] == ParticleKind::ghost) continue;
+    if (region == nullptr || region->box.contains(particles.position(i), tolerance)) {
+      inside.push_back(i);
+    }
+  }
+  return inside;
+}
+
+double distance(const Box& box, std::span<const double> point) {
+  double square = 0.0;
+  for (std::size_t a = 0; a < point.size(); ++a) {
+    const double outside = std::max({box.lower[a] - point[a], point[a] - box.upper[a], 0.0});
+    square += outside * outside;
+  }
+  return std::sqrt(square);
+}
+
+[[noreturn]] void refuse_without_facets(const CaseFile& input, const Model& model,
+                                        const Region& region, const std::string& key) {
+  if (!region.group.empty()) {
+    throw InputError(input.where(key),
+                     fmt::format("is \"{}\", but tractions act on the surface, and no facet of it "
+                                 "belongs to the physical group \"{}\"",
+                                 region.name, region.group),
+                     "give the lines (2D) or faces (3D) that are loaded a physical group");
+  }
+  Vector3 nearest{};
+  double least = INFINITY;
+  for (Index facet = 0; facet < model.facets.size(); ++facet) {
+    if (!model.facets.on_surface(facet)) continue;
+    const Vector3 centre = model.facets.centre(facet, model.network.particles.positions);
+    const double away =
+        distance(region.box, {centre.data(), static_cast<std::size_t>(model.network.dim())});
+    if (away < least) {
+      least = away;
+      nearest = centre;
+    }
+  }
+  throw InputError(
+      input.where(key),
+      fmt::format("is \"{}\", but tractions act on the surface, and no facet of it has its centre "
+                  "in that region",
+                  region.name),
+      fmt::format("the nearest facet has its centre at ({})",
+                  fmt::join(nearest.begin(), nearest.begin() + model.network.dim(), ", ")));
+}
 
 }  // namespace
 
@@ -21,17 +99,8 @@ const Group& group_named(const Model& model, const std::string& name) {
 
 std::vector<Index> particles_of_region(const CaseFile& input, const Model& model,
                                        const std::string& region, const std::string& key) {
-  const auto found = std::find_if(input.regions.begin(), input.regions.end(),
-                                  [&](const Region& r) { return r.name == region; });
   const Particles& particles = model.network.particles;
-  std::vector<Index> inside;
-  if (!found->group.empty()) inside = group_named(model, found->group).particles;
-  for (Index i = 0; found->group.empty() && i < particles.size(); ++i) {
-    if (particles.kind[i] == ParticleKind::ghost) continue;
-    if (found->box.contains(particles.position(i), region_tolerance * model.lattice.spacing)) {
-      inside.push_back(i);
-    }
-  }
+  std::vector<Index> inside = particles_inside(model, find_region(input, region), region);
   const bool any_solid = std::any_of(inside.begin(), inside.end(), [&](Index i) {
     return particles.kind[i] == ParticleKind::solid;
   });
@@ -42,6 +111,26 @@ std::vector<Index> particles_of_region(const CaseFile& input, const Model& model
                                  "the body",
                                  model.lattice.spacing));
   }
+  return inside;
+}
+
+std::vector<Index> facets_of_region(const CaseFile& input, const Model& model,
+                                    const std::string& region, const std::string& key) {
+  const Region* own = find_region(input, region);
+  const Facets& facets = model.facets;
+  const double tolerance = region_tolerance * model.lattice.spacing;
+  std::vector<Index> inside;
+  if (own != nullptr && !own->group.empty()) {
+    inside = group_named(model, own->group).facets;
+  } else {
+    for (Index facet = 0; facet < facets.size(); ++facet) {
+      if (!facets.on_surface(facet)) continue;
+      const Vector3 centre = facets.centre(facet, model.network.particles.positions);
+      const std::span<const double> point(centre.data(), static_cast<std::size_t>(facets.dim));
+      if (own == nullptr || own->box.contains(point, tolerance)) inside.push_back(facet);
+    }
+  }
+  if (inside.empty()) refuse_without_facets(input, model, *own, key);
   return inside;
 }
 

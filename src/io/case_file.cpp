@@ -68,8 +68,8 @@ class Document {
  private:
   [[noreturn]] void refuse_missing(const std::string& header) const {
     throw InputError({path_, 0, ""}, fmt::format("the case has no {}", header),
-                     "a case needs [body], [[regions]], [[materials]] and [[loads]] or "
-                     "[[displacements]]; docs/case_file.md describes them");
+                     "a case needs [body], [[regions]], [[materials]] and [[loads]], "
+                     "[[tractions]] or [[displacements]]; docs/case_file.md describes them");
   }
 
   const TomlValue& root_;
@@ -126,6 +126,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   });
   input.displacements = document.list("displacements", in_dimension(read_displacement));
   input.loads = document.list("loads", in_dimension(read_load));
+  input.tractions = document.list("tractions", in_dimension(read_traction));
   input.rebar = document.list("rebar", in_dimension(read_rebar));
   input.analysis = read_analysis(document.table("analysis"));
   input.stop = read_stop(document.table("stop"));

@@ -11,6 +11,7 @@
 #include "base/types.hpp"
 #include "discretization/lattice.hpp"
 #include "discretization/region.hpp"
+#include "io/formula.hpp"
 
 /// \file
 /// The case file as it stands in the TOML text: every value that can be wrong by itself has been
@@ -59,14 +60,21 @@ struct SupportSection {
 /// [[displacements]]: displacements driven in proportion to the load factor.
 struct DisplacementSection {
   std::string region;
-  std::array<std::optional<double>, 3> value;  ///< at load factor 1 [length]
+  std::array<std::optional<Expression>, 3> value;  ///< at load factor 1 [length]
 };
 
 /// [[loads]]: exactly one of force (total, shared by volume) and body_force (per volume).
 struct LoadSection {
   std::string region;
   std::optional<Vector3> force;       ///< at load factor 1 [force]
-  std::optional<Vector3> body_force;  ///< at load factor 1 [force/length^3]
+  std::optional<ExpressionVector> body_force;  ///< at load factor 1 [force/length^3]
+};
+
+/// [[tractions]]: exactly one of traction and pressure, on facets of the surface.
+struct TractionSection {
+  std::string region;
+  std::optional<ExpressionVector> traction;  ///< at load factor 1 [force/length^2]
+  std::optional<Expression> pressure;  ///< at load factor 1, positive inwards [force/length^2]
 };
 
 /// [[rebar]]
@@ -113,6 +121,7 @@ struct CaseFile {
   std::vector<SupportSection> supports;
   std::vector<DisplacementSection> displacements;
   std::vector<LoadSection> loads;
+  std::vector<TractionSection> tractions;
   std::vector<RebarSection> rebar;
   AnalysisSection analysis;
   StopSection stop;

@@ -22,6 +22,12 @@ std::set<std::string> check_region_names(const CaseFile& input) {
   std::map<std::string, std::size_t> first;
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
     const std::string& name = input.regions[i].name;
+    if (name == surface_region || name == body_region) {
+      throw InputError(input.where(item_key("regions", i, "name")),
+                       fmt::format("is {}, a name that stands for {} in every case", quoted(name),
+                                   name == body_region ? "the whole body" : "its whole surface"),
+                       "choose another name");
+    }
     const auto [at, is_new] = first.emplace(name, i);
     if (is_new) continue;
     throw InputError(input.where(item_key("regions", i, "name")),
@@ -34,11 +40,24 @@ std::set<std::string> check_region_names(const CaseFile& input) {
   return names;
 }
 
+/// Regions that need not be declared are for what holds and loads the body, not for materials.
+enum class Reserved { allowed, refused };
+
 void check_reference(const CaseFile& input, const std::set<std::string>& names,
-                     const std::string& key, const std::string& region) {
+                     const std::string& key, const std::string& region, Reserved reserved) {
   if (names.count(region) > 0) return;
+  if (reserved == Reserved::allowed) {
+    if (region == body_region) return;
+    if (region == surface_region) {
+      if (input.body.surface != Surface::ghost) return;
+      throw InputError(input.where(key),
+                       "is \"surface\", but a body with surface = \"ghost\" has no particles on it",
+                       "name a region of the case, or set surface = \"none\" in [body]");
+    }
+  }
   std::vector<std::string_view> allowed;
   for (const Region& known : input.regions) allowed.push_back(known.name);
+  if (reserved == Reserved::allowed) allowed.insert(allowed.end(), {surface_region, body_region});
   throw InputError(input.where(key),
                    fmt::format("is {}, but no [[regions]] has that name", quoted(region)),
                    suggest(region, allowed));
@@ -60,7 +79,8 @@ template <class Section>
 void check_references(const CaseFile& input, const std::set<std::string>& names,
                       const std::string& table, const std::vector<Section>& sections) {
   for (std::size_t i = 0; i < sections.size(); ++i) {
-    check_reference(input, names, item_key(table, i, "region"), sections[i].region);
+    check_reference(input, names, item_key(table, i, "region"), sections[i].region,
+                    Reserved::allowed);
   }
 }
 
@@ -86,7 +106,7 @@ void check_materials(const CaseFile& input, const std::set<std::string>& names) 
     const std::string list = item_key("materials", i, "regions");
     const std::string key = input.lines.count(list) > 0 ? list : item_key("materials", i, "region");
     for (const std::string& region : input.materials[i].regions) {
-      check_reference(input, names, key, region);
+      check_reference(input, names, key, region, Reserved::refused);
       check_extent(input, key, region);
       const auto [at, is_new] = owner.emplace(region, i);
       if (is_new) continue;
@@ -99,6 +119,10 @@ void check_materials(const CaseFile& input, const std::set<std::string>& names) 
   }
 }
 
+std::string shown(const Expression& value) {
+  return value.is_constant() ? fmt::format("{}", value.number) : quoted(value.formula);
+}
+
 /// A displacement that is driven cannot be held or driven elsewhere too.
 void check_contradictions(const CaseFile& input) {
   std::set<std::pair<std::string, int>> held;
@@ -107,24 +131,24 @@ void check_contradictions(const CaseFile& input) {
       if (support.fix[axis]) held.emplace(support.region, axis);
     }
   }
-  std::map<std::pair<std::string, int>, double> driven;
+  std::map<std::pair<std::string, int>, Expression> driven;
   for (std::size_t i = 0; i < input.displacements.size(); ++i) {
     const DisplacementSection& section = input.displacements[i];
     for (int axis = 0; axis < 3; ++axis) {
       if (!section.value[axis]) continue;
-      const double value = *section.value[axis];
+      const Expression& value = *section.value[axis];
       const SourceLocation where = input.where(item_key("displacements", i, axis_names[axis]));
-      if (value != 0.0 && held.count({section.region, axis}) > 0) {
+      if (!value.is_zero() && held.count({section.region, axis}) > 0) {
         throw InputError(where,
                          fmt::format("drives region {} by {}, but [[supports]] holds it in {}",
-                                     quoted(section.region), value, axis_names[axis]),
+                                     quoted(section.region), shown(value), axis_names[axis]),
                          "delete one of the two");
       }
       const auto [at, is_new] = driven.emplace(std::pair(section.region, axis), value);
-      if (!is_new && at->second != value) {
+      if (!is_new && !(at->second == value)) {
         throw InputError(where,
                          fmt::format("drives region {} by {}, but another table drives it by {}",
-                                     quoted(section.region), value, at->second),
+                                     quoted(section.region), shown(value), shown(at->second)),
                          "delete one of the two");
       }
     }
@@ -132,13 +156,22 @@ void check_contradictions(const CaseFile& input) {
 }
 
 void check_driven(const CaseFile& input) {
-  bool driven = !input.loads.empty();
+  bool driven = !input.loads.empty() || !input.tractions.empty();
   for (const DisplacementSection& section : input.displacements) {
-    for (const auto& value : section.value) driven = driven || value.value_or(0.0) != 0.0;
+    for (const auto& value : section.value) driven = driven || (value && !value->is_zero());
   }
   if (driven) return;
   throw InputError(input.where("loads"), "nothing loads the body",
-                   "add [[loads]], or [[displacements]] that are not zero");
+                   "add [[loads]], [[tractions]], or [[displacements]] that are not zero");
+}
+
+void check_tractions(const CaseFile& input) {
+  if (input.tractions.empty() || input.body.surface != Surface::ghost) return;
+  throw InputError(input.where("tractions[1]"),
+                   "acts on the surface, but with surface = \"ghost\" the particles stand in the "
+                   "middle of their cells and none on it",
+                   "share a total force over a region with [[loads]], or set surface = \"none\" in "
+                   "[body]");
 }
 
 }  // namespace
@@ -150,6 +183,8 @@ void check_rules(const CaseFile& input) {
   check_references(input, names, "supports", input.supports);
   check_references(input, names, "displacements", input.displacements);
   check_references(input, names, "loads", input.loads);
+  check_tractions(input);
+  check_references(input, names, "tractions", input.tractions);
   check_contradictions(input);
   check_driven(input);
 }

@@ -108,6 +108,7 @@ const std::vector<TableSchema>& case_schema() {
       {"supports", true, {"region", "fix"}},
       {"displacements", true, {"region", "x", "y", "z"}},
       {"loads", true, {"region", "force", "body_force"}},
+      {"tractions", true, {"region", "traction", "pressure"}},
       {"rebar",
        true,
        {"from", "to", "youngs_modulus", "area", "yield_strength", "yields", "ties_break"}},

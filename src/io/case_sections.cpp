@@ -106,7 +106,7 @@ DisplacementSection read_displacement(const CaseTable& table, int dim) {
   if (table.has("z")) refuse_third_axis(table, "z", dim);
   bool any = false;
   for (int axis = 0; axis < dim; ++axis) {
-    driven.value[axis] = table.number(axis_names[axis]);
+    driven.value[axis] = table.expression(axis_names[axis], dim);
     any = any || driven.value[axis].has_value();
   }
   if (!any) {
@@ -121,9 +121,8 @@ LoadSection read_load(const CaseTable& table, int dim) {
   load.region = need_region(table, "that is loaded");
   table.need_one_of({"force", "body_force"});
   load.force = table.vector("force", dim);
-  load.body_force = table.vector("body_force", dim);
-  const Vector3 value = load.force ? *load.force : *load.body_force;
-  if (value == Vector3{}) {
+  load.body_force = table.expressions("body_force", dim);
+  if (load.force ? *load.force == Vector3{} : load.body_force->is_zero()) {
     table.refuse(load.force ? "force" : "body_force", "is zero in every direction",
                  "give the load at load factor 1, or delete the table");
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "io/case_schema.hpp"
 
@@ -20,6 +21,9 @@ constexpr std::size_t longest_text = 200;
 
 /// Linux's PATH_MAX.
 constexpr std::size_t longest_path = 4096;
+
+/// Body forces of manufactured solutions are long.
+constexpr std::size_t longest_formula = 2000;
 
 }  // namespace
 
@@ -180,6 +184,48 @@ std::optional<Vector3> CaseTable::vector(const std::string& key, int dim) const 
   }
   Vector3 result{};
   std::copy(values->begin(), values->end(), result.begin());
+  return result;
+}
+
+Expression CaseTable::checked_expression(const std::string& key, const TomlValue& value,
+                                         int dim) const {
+  if (value.kind != TomlValue::Kind::text) {
+    if (value.kind != TomlValue::Kind::number && value.kind != TomlValue::Kind::integer) {
+      refuse(key, fmt::format("is {}, but must be a number or a formula", describe(value)),
+             "write a number, or a formula between quotes: \"1 - y^2/4\"");
+    }
+    return checked_number(key, value);
+  }
+  Expression expression(checked_text(key, value, longest_formula));
+  try {
+    if (expression.formula.empty()) throw std::invalid_argument("nothing at character 1");
+    const Formula formula(expression, dim);
+  } catch (const std::invalid_argument& error) {
+    refuse(key, fmt::format("holds the formula {}: {}", quoted(expression.formula), error.what()),
+           fmt::format("write a number, or a formula of {} with + - * / ^, pi, e and functions such "
+                       "as sqrt, sin, cos, exp, ln, abs, min and max",
+                       dim == 2 ? "x and y" : "x, y and z"));
+  }
+  return expression;
+}
+
+std::optional<Expression> CaseTable::expression(const std::string& key, int dim) const {
+  const TomlValue* value = table_.find(key);
+  if (value == nullptr) return std::nullopt;
+  return checked_expression(key, *value, dim);
+}
+
+std::optional<ExpressionVector> CaseTable::expressions(const std::string& key, int dim) const {
+  const TomlValue* list = array(key, "numbers or formulas");
+  if (list == nullptr) return std::nullopt;
+  if (list->items.size() != static_cast<std::size_t>(dim)) {
+    refuse(key, fmt::format("has {} components, but the body has {} dimensions", list->items.size(), dim),
+           dim == 2 ? "write [x, y]" : "write [x, y, z]");
+  }
+  ExpressionVector result;
+  for (std::size_t k = 0; k < list->items.size(); ++k) {
+    result[k] = checked_expression(key, list->items[k], dim);
+  }
   return result;
 }
 

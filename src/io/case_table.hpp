@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/types.hpp"
+#include "io/formula.hpp"
 #include "io/toml_tree.hpp"
 
 namespace perilink {
@@ -38,6 +39,10 @@ class CaseTable {
   std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// As many numbers as the body has dimensions.
   std::optional<Vector3> vector(const std::string& key, int dim) const;
+  /// A number, or text that is a formula of the position.
+  std::optional<Expression> expression(const std::string& key, int dim) const;
+  /// As many of them as the body has dimensions.
+  std::optional<ExpressionVector> expressions(const std::string& key, int dim) const;
   std::optional<std::vector<int>> integers(const std::string& key, int lowest, int highest) const;
   std::optional<std::vector<std::string>> texts(const std::string& key) const;
 
@@ -64,6 +69,7 @@ class CaseTable {
                       int highest) const;
   std::string checked_text(const std::string& key, const TomlValue& value,
                            std::size_t longest) const;
+  Expression checked_expression(const std::string& key, const TomlValue& value, int dim) const;
   const TomlValue* array(const std::string& key, const char* of) const;
 
   const TomlValue& table_;

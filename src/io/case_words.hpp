@@ -21,6 +21,11 @@ inline const char* rotation_name(int dim, std::size_t axis) {
   return dim == 2 ? "rotation" : rotation_names[axis];
 }
 
+/// Regions that every case has besides its own: the particles and facets of the surface, and all of
+/// the body.
+inline constexpr const char* surface_region = "surface";
+inline constexpr const char* body_region = "body";
+
 const std::vector<std::string_view>& pattern_words();
 const std::vector<std::string_view>& surface_words();
 const std::vector<std::string_view>& method_words();

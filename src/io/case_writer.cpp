@@ -81,6 +81,12 @@ void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
     if (load.force) out.write("force", *load.force, dim);
     if (load.body_force) out.write("body_force", *load.body_force, dim);
   }
+  for (const TractionSection& section : input.tractions) {
+    out.header("[[tractions]]");
+    out.write("region", section.region);
+    if (section.traction) out.write("traction", *section.traction, dim);
+    out.write("pressure", section.pressure);
+  }
 }
 
 void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "io/formula.hpp"
 
 namespace perilink {
 
@@ -29,6 +30,10 @@ class TomlWriter {
   void write(std::string_view key, const char* value) { line(key, text(value)); }
   void write(std::string_view key, const Vector3& value, int dim) {
     line(key, list(std::vector<double>(value.begin(), value.begin() + dim)));
+  }
+  void write(std::string_view key, const Expression& value) { line(key, element(value)); }
+  void write(std::string_view key, const ExpressionVector& value, int dim) {
+    line(key, list(std::vector<Expression>(value.begin(), value.begin() + dim)));
   }
   template <class T>
   void write(std::string_view key, const std::vector<T>& values) {
@@ -59,6 +64,9 @@ class TomlWriter {
   static std::string element(double value) { return fmt::format("{}", value); }
   static std::string element(int value) { return fmt::format("{}", value); }
   static std::string element(const std::string& value) { return text(value); }
+  static std::string element(const Expression& value) {
+    return value.is_constant() ? element(value.number) : text(value.formula);
+  }
 
   template <class T>
   static std::string list(const std::vector<T>& values) {

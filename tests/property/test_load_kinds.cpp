@@ -21,7 +21,7 @@ pattern = "hexagonal"
 columns = 9
 horizon_ratio = 3.0
 [[regions]]
-name = "body"
+name = "block"
 x = [0, 100]
 y = [0, 100]
 [[regions]]
@@ -33,7 +33,7 @@ name = "cap"
 x = [0, 100]
 y = [90, 100]
 [[materials]]
-region = "body"
+region = "block"
 youngs_modulus = 3604.0
 fracture_energy = 0.001
 [[materials]]
@@ -49,7 +49,7 @@ fix = ["x", "y"]
 
 const std::string driven = "[[displacements]]\nregion = \"cap\"\ny = 1.0\n";
 const std::string pulled = "[[loads]]\nregion = \"cap\"\nforce = [0, 100]\n";
-const std::string weight = "[[loads]]\nregion = \"body\"\nbody_force = [0, 0.5]\n";
+const std::string weight = "[[loads]]\nregion = \"block\"\nbody_force = [0, 0.5]\n";
 
 /// Keeps rows and, when asked, looks at the state at every row as field output does.
 struct Recorder final : StepObserver {

@@ -71,5 +71,37 @@ TEST(ModelRegions, EmptyOnesAreRefusedAtTheKeyThatAsks) {
   test::expect_refused(input, "displacements[1].region", "\"middle\"");
 }
 
+TEST(ModelRegions, EveryCaseHasASurfaceAndABody) {
+  const CaseFile input = strip_case();
+  const Model model = build_model(input);
+  EXPECT_EQ(particles_of_region(input, model, "body", "loads[1]").size(), 45u);
+  const std::vector<Index> rim = particles_of_region(input, model, "surface", "loads[1]");
+  EXPECT_EQ(rim.size(), 45u - 3u * 7u);
+  EXPECT_TRUE(std::is_sorted(rim.begin(), rim.end()));
+  EXPECT_EQ(facets_of_region(input, model, "surface", "tractions[1]").size(), 2u * (4u + 8u));
+}
+
+TEST(ModelRegions, CatchTheFacetsWhoseCentresLieInside) {
+  CaseFile input = strip_case();
+  const Model model = build_model(input);
+  // The upper two cells: two facets on each side and four on top.
+  EXPECT_EQ(facets_of_region(input, model, "upper end", "tractions[1]").size(), 8u);
+  input.regions[3].box = {{40.0, 0.0, 0.0}, {40.0, 44.9, 0.0}};
+  EXPECT_EQ(facets_of_region(input, model, "middle", "tractions[1]").size(), 4u) << "a line";
+  input.regions[3].box.upper[1] = 45.0 - 1e-9;
+  EXPECT_EQ(facets_of_region(input, model, "middle", "tractions[1]").size(), 5u) << "round-off";
+}
+
+TEST(ModelRegions, OfAPhysicalGroupAreItsParticlesAndFacets) {
+  CaseFile input = strip_case();
+  Model model = build_model(input);
+  model.groups = {{"rim", {0, 1, 2}, {5}}, {"volume", {7}, {}}};
+  input.regions[3].group = "rim";
+  EXPECT_EQ(particles_of_region(input, model, "middle", "k"), (std::vector<Index>{0, 1, 2}));
+  EXPECT_EQ(facets_of_region(input, model, "middle", "k"), (std::vector<Index>{5}));
+  input.regions[3].group = "volume";
+  EXPECT_THROW(facets_of_region(input, model, "middle", "k"), InputError);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -17,17 +17,17 @@ columns = 11
 horizon_ratio = 3
 
 [[regions]]
-name = "body"
+name = "block"
 x = [0, 1]
 y = [0, 2]
 
 [[materials]]
-region = "body"
+region = "block"
 youngs_modulus = 30
 fracture_energy = 0.1
 
 [[loads]]
-region = "body"
+region = "block"
 force = [0, -1]
 )";
 

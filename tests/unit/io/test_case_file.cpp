@@ -64,7 +64,7 @@ TEST(CaseFile, ReadsEveryKey) {
   EXPECT_EQ(input.materials[1].fracture_energy, std::numeric_limits<double>::infinity());
   EXPECT_THAT(input.supports.at(0).fix, ElementsAre(true, false, true, false, false, false));
   EXPECT_THAT(input.displacements.at(0).value, ElementsAre(0.1, std::nullopt, -1.0));
-  EXPECT_EQ(input.loads.at(0).body_force, (Vector3{0.0, 0.0, -25.0}));
+  EXPECT_EQ(input.loads.at(0).body_force, ExpressionVector(Vector3{0.0, 0.0, -25.0}));
   EXPECT_EQ(input.loads.at(0).force, std::nullopt);
   EXPECT_EQ(input.loads.at(1).force, (Vector3{1.0, 2.0, 3.0}));
   ASSERT_EQ(input.rebar.size(), 2u);
@@ -106,9 +106,9 @@ TEST(CaseFile, KnowsLinesOfKeys) {
 
 TEST(CaseFile, AcceptsTomlOfOtherShapes) {
   const std::string inline_tables = R"(body = { columns = 11, horizon_ratio = 3 }
-regions = [ { name = 'body', x = [0, 1], y = [0, 2] } ]
-materials = [ { region = "body", youngs_modulus = 3_0, fracture_energy = 0.1 } ]
-loads = [ { region = "body", force = [0, -1] } ]
+regions = [ { name = 'block', x = [0, 1], y = [0, 2] } ]
+materials = [ { region = "block", youngs_modulus = 3_0, fracture_energy = 0.1 } ]
+loads = [ { region = "block", force = [0, -1] } ]
 )";
   EXPECT_EQ(write_case(parse_case(inline_tables, "")), write_case(parse_case(small_case, "")));
   const std::string marked = "\xEF\xBB\xBF# Maße in m\r\n" + std::string(small_case);

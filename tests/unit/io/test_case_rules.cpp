@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 const char* const two_materials = R"([[materials]]
-region = "body"
+region = "block"
 youngs_modulus = 1
 fracture_energy = 1
 
@@ -22,7 +22,7 @@ fracture_energy = 1
 TEST(CaseRules, LetOverlappingRegionsHaveMaterials) {
   const std::string patch = "[[regions]]\nname = \"patch\"\nx = [0.2, 0.5]\ny = [0, 1]\n";
   const std::string text = replaced(replaced(small_case, "[[loads]]", two_materials),
-                                    "region = \"body\"", "region = \"patch\"");
+                                    "region = \"block\"", "region = \"patch\"");
   EXPECT_EQ(message_of(text + patch), "accepted");
   EXPECT_THAT(message_of(text), HasSubstr("\"patch\", but no [[regions]]"));
   EXPECT_THAT(message_of(replaced(small_case, "[[loads]]", two_materials)),
@@ -31,8 +31,8 @@ TEST(CaseRules, LetOverlappingRegionsHaveMaterials) {
 
 TEST(CaseRules, LetDisplacementsRepeatWhatSupportsHold) {
   const std::string text =
-      std::string(small_case) + "[[supports]]\nregion = \"body\"\nfix = [\"x\"]\n";
-  const std::string driven = "[[displacements]]\nregion = \"body\"\n";
+      std::string(small_case) + "[[supports]]\nregion = \"block\"\nfix = [\"x\"]\n";
+  const std::string driven = "[[displacements]]\nregion = \"block\"\n";
   EXPECT_EQ(message_of(text + driven + "x = 0\n"), "accepted");
   EXPECT_EQ(message_of(text + driven + "y = 1\n"), "accepted");
   EXPECT_EQ(message_of(text + driven + "y = 1\n" + driven + "y = 1\n"), "accepted");

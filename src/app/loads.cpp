@@ -1,0 +1,132 @@
+#include "app/loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/model_regions.hpp"
+#include "app/position_field.hpp"
+#include "assembly/distributed_loads.hpp"
+
+namespace perilink {
+namespace {
+
+/// An entry whose resultant is less than this fraction of its forces' sizes is in balance.
+constexpr double balanced = 1e-9;
+
+std::span<const Expression> components_of(const ExpressionVector& vector, int dim) {
+  return {vector.data(), static_cast<std::size_t>(dim)};
+}
+
+std::vector<Index> solid_particles_of(const CaseFile& input, const Model& model,
+                                      const std::string& region, const std::string& key) {
+  std::vector<Index> members = particles_of_region(input, model, region, key);
+  std::erase_if(members, [&](Index i) {
+    return model.network.particles.kind[i] != ParticleKind::solid;
+  });
+  return members;
+}
+
+/// Shares a total force over the solid particles of a region in proportion to their volumes, or
+/// integrates a uniform body force. \return norm of the resultant
+double add_uniform_load(const LoadSection& section, const Particles& particles,
+                        std::span<const Index> region, Loads& loads) {
+  const std::size_t width = loads.forces.size() / static_cast<std::size_t>(particles.size());
+  double volume = 0.0;
+  for (const Index i : region) volume += particles.volumes[i];
+  double square = 0.0;
+  for (int a = 0; a < particles.dim; ++a) {
+    const double total =
+        section.force ? (*section.force)[a] : (*section.body_force)[a].number * volume;
+    square += total * total;
+    for (const Index i : region) {
+      loads.forces[i * width + a] += total * particles.volumes[i] / volume;
+    }
+  }
+  return std::sqrt(square);
+}
+
+double resultant_of(const Particles& particles, const Loads& entry) {
+  const std::size_t width = entry.forces.size() / static_cast<std::size_t>(particles.size());
+  Vector3 sum{};
+  double sizes = 0.0;
+  for (Index i = 0; i < particles.size(); ++i) {
+    Vector3 force{};
+    for (int a = 0; a < particles.dim; ++a) {
+      force[a] = entry.forces[i * width + a];
+      sum[a] += force[a];
+    }
+    sizes += std::hypot(force[0], force[1], force[2]);
+  }
+  const double resultant = std::hypot(sum[0], sum[1], sum[2]);
+  return resultant > balanced * sizes ? resultant : sizes;
+}
+
+void add_body_force(const CaseFile& input, const Model& model, std::size_t k,
+                    std::span<const Index> region, Loads& loads) {
+  const Particles& particles = model.network.particles;
+  const PositionField field(input, item_key("loads", k, "body_force"),
+                            components_of(*input.loads[k].body_force, particles.dim));
+  const auto load = [&](std::span<const double> x) { return field.at(x); };
+  if (model.cells.size() == 0) {
+    add_lumped_body_load(particles, region, load, loads);
+    return;
+  }
+  std::vector<std::uint8_t> is_member(static_cast<std::size_t>(particles.size()), 0);
+  for (const Index i : region) is_member[i] = 1;
+  const double thickness = particles.dim == 2 ? input.body.thickness : 1.0;
+  add_cell_body_load(particles, model.cells, thickness, is_member, load, loads);
+}
+
+void add_traction(const CaseFile& input, const Model& model, std::size_t k, Loads& loads) {
+  const TractionSection& section = input.tractions[k];
+  const Particles& particles = model.network.particles;
+  const std::vector<Index> facets =
+      facets_of_region(input, model, section.region, item_key("tractions", k, "region"));
+  if (section.traction) {
+    const PositionField field(input, item_key("tractions", k, "traction"),
+                              components_of(*section.traction, particles.dim));
+    add_surface_load(
+        particles, model.facets, facets,
+        [&](std::span<const double> x, const Vector3&) { return field.at(x); }, loads);
+    return;
+  }
+  const PositionField field(input, item_key("tractions", k, "pressure"), {&*section.pressure, 1});
+  add_surface_load(
+      particles, model.facets, facets,
+      [&](std::span<const double> x, const Vector3& normal) {
+        const double pressure = field.at(x)[0];
+        return Vector3{-pressure * normal[0], -pressure * normal[1], -pressure * normal[2]};
+      },
+      loads);
+}
+
+}  // namespace
+
+AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width) {
+  const Particles& particles = model.network.particles;
+  AppliedLoads all;
+  all.loads.forces.assign(static_cast<std::size_t>(particles.size()) * width, 0.0);
+  for (std::size_t k = 0; k < input.loads.size(); ++k) {
+    const LoadSection& section = input.loads[k];
+    const std::vector<Index> region =
+        solid_particles_of(input, model, section.region, item_key("loads", k, "region"));
+    if (section.force || section.body_force->is_constant()) {
+      all.reference =
+          std::max(all.reference, add_uniform_load(section, particles, region, all.loads));
+      continue;
+    }
+    Loads entry{std::vector<double>(all.loads.forces.size(), 0.0)};
+    add_body_force(input, model, k, region, entry);
+    all.reference = std::max(all.reference, resultant_of(particles, entry));
+    for (std::size_t s = 0; s < entry.forces.size(); ++s) all.loads.forces[s] += entry.forces[s];
+  }
+  for (std::size_t k = 0; k < input.tractions.size(); ++k) {
+    Loads entry{std::vector<double>(all.loads.forces.size(), 0.0)};
+    add_traction(input, model, k, entry);
+    all.reference = std::max(all.reference, resultant_of(particles, entry));
+    for (std::size_t s = 0; s < entry.forces.size(); ++s) all.loads.forces[s] += entry.forces[s];
+  }
+  return all;
+}
+
+}  // namespace perilink

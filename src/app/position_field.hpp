@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/case_file.hpp"
+
+namespace perilink {
+
+/// Values of a key of the case as functions of the reference position.
+class PositionField {
+ public:
+  /// \param input  must outlive this object; its reader has checked the formulas
+  /// \param key    for messages, "loads[1].body_force"
+  PositionField(const CaseFile& input, std::string key, std::span<const Expression> components);
+
+  /// One value per component, two-dimensional bodies leave the third zero.
+  /// \param position  size dim [length]
+  /// \throws InputError  where a formula is not finite
+  Vector3 at(std::span<const double> position) const;
+
+ private:
+  const CaseFile& input_;
+  std::string key_;
+  std::vector<Formula> formulas_;
+};
+
+}  // namespace perilink
