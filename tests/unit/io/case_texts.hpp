@@ -119,7 +119,7 @@ mesh = "meshes/plate \"a\".msh"
 horizon_ratio = 3
 
 [[regions]]
-name = "body"
+name = "block"
 group = "plate"
 
 [[regions]]
@@ -128,7 +128,7 @@ x = [3, 3]
 y = [0, 3]
 
 [[materials]]
-region = "body"
+region = "block"
 youngs_modulus = 30
 fracture_energy = 0.1
 
