@@ -56,6 +56,9 @@ int check_case(const std::string& case_path) {
              model.lattice.spacing, model.horizon, model.horizon / model.lattice.spacing);
   fmt::print("#   bonds              {} and {} ties of bars\n", network.first_tie,
              network.first_segment - network.first_tie);
+  for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
+    fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
+  }
   print_breakable(network);
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {

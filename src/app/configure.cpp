@@ -179,6 +179,28 @@ void refuse_poissons_ratios(const CaseFile& input, const Body& body, const Netwo
   }
 }
 
+std::string crack_key(std::size_t crack, int dim) {
+  return item_key("cracks", crack, dim == 2 ? "points" : "corners");
+}
+
+void refuse_impossible_cracks(const CaseFile& input, int dim) {
+  for (std::size_t k = 0; k < input.cracks.size(); ++k) {
+    try {
+      check_crack({input.cracks[k].points}, dim);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(input.where(crack_key(k, dim)), error.what(), "");
+    }
+  }
+}
+
+void refuse_cracks_without_bonds(const CaseFile& input, const Network& network) {
+  for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
+    if (network.cut_by_crack[k] > 0) continue;
+    throw InputError(input.where(crack_key(k, network.dim())), "crosses no bond of the body",
+                     "move the crack into the body, or delete it");
+  }
+}
+
 NetworkInput network_input(const CaseFile& input, Problem problem, double horizon) {
   NetworkInput network;
   network.problem = problem;
@@ -197,6 +219,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
     network.materials.push_back({material.youngs_modulus, material.fracture_energy,
                                  material.poissons_ratio.value_or(0.0)});
   }
+  for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
   for (const RebarSection& bar : input.rebar) {
     network.bars.push_back({bar.from, bar.to});
     BarMaterial material;
@@ -238,11 +261,13 @@ Model build_model(const CaseFile& input) {
   refuse_bars_outside(input, body);
   const NetworkInput network = network_input(input, model.problem, model.horizon);
   refuse_poissons_ratios(input, body, network);
+  refuse_impossible_cracks(input, dim);
   try {
     model.network = build_network(body, network);
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where(horizon_key(input.body)), error.what(), "");
   }
+  refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
   model.facets = std::move(body.facets);
   model.cells = std::move(body.cells);

@@ -76,10 +76,19 @@ Patches patches_of(const CaseFile& input, const Mesh& mesh) {
   return patches;
 }
 
+Mesh read_mesh(const CaseFile& input, int dim) {
+  try {
+    return read_gmsh_file(mesh_path(input).string(), dim);
+  } catch (const FileError& error) {
+    throw InputError(input.where("body.mesh"), error.what(),
+                     "give the file as seen from the folder of the case");
+  }
+}
+
 }  // namespace
 
 Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes) {
-  const Mesh mesh = read_gmsh_file(mesh_path(input).string(), dim);
+  const Mesh mesh = read_mesh(input, dim);
   refuse_unknown_groups(input, mesh);
   const Patches patches = patches_of(input, mesh);
   const std::vector<Index> material =

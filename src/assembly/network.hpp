@@ -23,6 +23,8 @@ struct Network {
   Index first_segment = 0;               ///< number of the first bar segment
   std::vector<double> yield_strain;      ///< per segment [-]; infinity: stays elastic
 
+  std::vector<Index> cut_by_crack;       ///< bonds that each pre-crack took out
+
   int dim() const { return particles.dim; }
   /// Components of the motion of a particle: displacements along the axes and, where bonds carry
   /// moments, rotations: (u, v) or (u, v, theta) in two dimensions, (u, v, w) or

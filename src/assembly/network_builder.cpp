@@ -10,6 +10,7 @@
 
 #include "assembly/unknowns.hpp"
 #include "discretization/gaps.hpp"
+#include "discretization/outside_bonds.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
 
@@ -135,8 +136,12 @@ void append_elements(const Bonds& elements, Bonds& all) {
 void add_bars(const Body& body, const NetworkInput& input, const PairConstants& constants,
               Network& network) {
   Particles& particles = network.particles;
-  const RebarMesh mesh = add_rebar(particles, input.bars, body.lattice.spacing, input.horizon,
+  RebarMesh mesh = add_rebar(particles, input.bars, body.lattice.spacing, input.horizon,
                                    body.lattice.cell_volume);
+  if (!input.cracks.empty()) {
+    const CutBonds cut = find_cut_bonds(particles, mesh.ties, input.cracks, body.lattice.spacing);
+    keep_bonds(particles, mesh.ties, cut.keep);
+  }
   const auto perfect = perfectly_tied(mesh, input, particles.size());
   const double least_length = shortest_tie * body.lattice.spacing;
   network.first_tie = network.bonds.size();
@@ -192,6 +197,15 @@ Network build_network(const Body& body, const NetworkInput& input) {
   network.bonds = make_bonds(network.particles, input.horizon);
   remove_bonds_across_gaps(network.particles, network.bonds, input.solid,
                            1e-6 * body.lattice.spacing);
+  if (body.lattice.pattern == Pattern::irregular) {
+    remove_bonds_outside(network.particles, network.bonds, body.facets, body.lattice.spacing);
+  }
+  if (!input.cracks.empty()) {
+    const CutBonds cut =
+        find_cut_bonds(network.particles, network.bonds, input.cracks, body.lattice.spacing);
+    keep_bonds(network.particles, network.bonds, cut.keep);
+    network.cut_by_crack = cut.count;
+  }
   remove_loose_ghosts(network.particles, network.bonds);
   network.stiffness.reserve(static_cast<std::size_t>(network.bonds.size()));
   network.critical_stretch.reserve(static_cast<std::size_t>(network.bonds.size()));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "assembly/network.hpp"
+#include "discretization/cracks.hpp"
 #include "discretization/lattice.hpp"
 #include "discretization/rebar.hpp"
 #include "material/elasticity.hpp"
@@ -52,6 +53,7 @@ struct NetworkInput {
   std::vector<SolidMaterial> materials;  ///< by Particles::material
   std::vector<Box> solid;  ///< the body is the union of these; bonds that leave it are not made.
                            ///< Empty: every pair within the horizon is bonded
+  std::vector<Crack> cracks;  ///< there before the analysis begins; bonds and ties do not cross them
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< of each bar
 };
@@ -75,6 +77,7 @@ MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
 ///   10), V the volume of a particle inside the lattice. Where bars share a node its ties are
 ///   unbreakable as soon as those of one of the bars are.
 /// - Segment: k = E A / L, yield strain f_y / E, cannot break.
+/// Bonds that leave the body or cross a pre-crack are not made.
 /// Ghosts that too few bonds hold are left out, and bars add particles: the network's particles,
 /// not the body's, are the ones that count from here on. \throws std::invalid_argument where a
 /// material is missing, the numbers of bars and of their

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_conformity.hpp"
 #include "discretization/mesh_faces.hpp"
 
@@ -17,16 +18,6 @@ namespace {
 /// Cells flatter than this, volume over the longest edge to the power dim, have no usable shape
 /// functions: the regular triangle has 0.4, round-off of the coordinates leaves 1e-16.
 constexpr double flattest_cell = 1e-10;
-
-Vector3 minus(const Vector3& a, const Vector3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Area or volume, negative where the corners run the wrong way.
 double signed_volume(std::span<const double> positions, int dim, std::span<const Index> cell) {

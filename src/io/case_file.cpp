@@ -127,6 +127,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.displacements = document.list("displacements", in_dimension(read_displacement));
   input.loads = document.list("loads", in_dimension(read_load));
   input.tractions = document.list("tractions", in_dimension(read_traction));
+  input.cracks = document.list("cracks", in_dimension(read_crack));
   input.rebar = document.list("rebar", in_dimension(read_rebar));
   input.analysis = read_analysis(document.table("analysis"));
   input.stop = read_stop(document.table("stop"));

@@ -77,6 +77,11 @@ struct TractionSection {
   std::optional<Expression> pressure;  ///< at load factor 1, positive inwards [force/length^2]
 };
 
+/// [[cracks]]: there before the analysis begins.
+struct CrackSection {
+  std::vector<Vector3> points;  ///< of a line (2D), corners of a plane convex polygon (3D) [length]
+};
+
 /// [[rebar]]
 struct RebarSection {
   Vector3 from{};
@@ -122,6 +127,7 @@ struct CaseFile {
   std::vector<DisplacementSection> displacements;
   std::vector<LoadSection> loads;
   std::vector<TractionSection> tractions;
+  std::vector<CrackSection> cracks;
   std::vector<RebarSection> rebar;
   AnalysisSection analysis;
   StopSection stop;

@@ -109,6 +109,7 @@ const std::vector<TableSchema>& case_schema() {
       {"displacements", true, {"region", "x", "y", "z"}},
       {"loads", true, {"region", "force", "body_force"}},
       {"tractions", true, {"region", "traction", "pressure"}},
+      {"cracks", true, {"points", "corners"}},
       {"rebar",
        true,
        {"from", "to", "youngs_modulus", "area", "yield_strength", "yields", "ties_break"}},

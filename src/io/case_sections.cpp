@@ -129,6 +129,24 @@ LoadSection read_load(const CaseTable& table, int dim) {
   return load;
 }
 
+CrackSection read_crack(const CaseTable& table, int dim) {
+  const std::string key = dim == 2 ? "points" : "corners";
+  if (const std::string other = dim == 2 ? "corners" : "points"; table.has(other)) {
+    table.refuse(other, fmt::format("is given, but the body has {} dimensions", dim),
+                 dim == 2 ? "give the `points` of a line: [[0, 1], [2, 1]]"
+                          : "give the `corners` of a plane polygon");
+  }
+  CrackSection crack;
+  crack.points = table.need(
+      key, table.vectors(key, dim),
+      dim == 2 ? "the points of a line: [[0, 1], [2, 1]]" : "the corners of a plane convex polygon");
+  if (crack.points.size() < static_cast<std::size_t>(dim)) {
+    table.refuse(key, fmt::format("has {}", crack.points.size()),
+                 dim == 2 ? "a crack needs two points or more" : "a crack needs three corners or more");
+  }
+  return crack;
+}
+
 RebarSection read_rebar(const CaseTable& table, int dim) {
   RebarSection bar;
   bar.from = table.need("from", table.vector("from", dim), "the point where the bar begins");

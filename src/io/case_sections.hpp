@@ -22,6 +22,7 @@ SupportSection read_support(const CaseTable& table, const BodySection& body);
 DisplacementSection read_displacement(const CaseTable& table, int dim);
 LoadSection read_load(const CaseTable& table, int dim);
 TractionSection read_traction(const CaseTable& table, int dim);
+CrackSection read_crack(const CaseTable& table, int dim);
 RebarSection read_rebar(const CaseTable& table, int dim);
 AnalysisSection read_analysis(const CaseTable& table);
 StopSection read_stop(const CaseTable& table);

@@ -174,16 +174,34 @@ std::optional<std::vector<double>> CaseTable::numbers(const std::string& key) co
   return result;
 }
 
-std::optional<Vector3> CaseTable::vector(const std::string& key, int dim) const {
-  const std::optional<std::vector<double>> values = numbers(key);
-  if (!values) return std::nullopt;
-  if (values->size() != static_cast<std::size_t>(dim)) {
+Vector3 CaseTable::checked_vector(const std::string& key, const TomlValue& list, int dim) const {
+  if (list.items.size() != static_cast<std::size_t>(dim)) {
     refuse(key,
-           fmt::format("has {} components, but the body has {} dimensions", values->size(), dim),
+           fmt::format("has {} components, but the body has {} dimensions", list.items.size(), dim),
            dim == 2 ? "write [x, y]" : "write [x, y, z]");
   }
   Vector3 result{};
-  std::copy(values->begin(), values->end(), result.begin());
+  for (int axis = 0; axis < dim; ++axis) result[axis] = checked_number(key, list.items[axis]);
+  return result;
+}
+
+std::optional<Vector3> CaseTable::vector(const std::string& key, int dim) const {
+  const TomlValue* list = array(key, "numbers");
+  if (list == nullptr) return std::nullopt;
+  return checked_vector(key, *list, dim);
+}
+
+std::optional<std::vector<Vector3>> CaseTable::vectors(const std::string& key, int dim) const {
+  const TomlValue* list = array(key, "points");
+  if (list == nullptr) return std::nullopt;
+  std::vector<Vector3> result;
+  for (const TomlValue& item : list->items) {
+    if (item.kind != TomlValue::Kind::array) {
+      refuse(key, fmt::format("holds {}, but must be a list of points", describe(item)),
+             dim == 2 ? "write [[x, y], [x, y]]" : "write [[x, y, z], [x, y, z], [x, y, z]]");
+    }
+    result.push_back(checked_vector(key, item, dim));
+  }
   return result;
 }
 

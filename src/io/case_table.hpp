@@ -43,6 +43,8 @@ class CaseTable {
   std::optional<Expression> expression(const std::string& key, int dim) const;
   /// As many of them as the body has dimensions.
   std::optional<ExpressionVector> expressions(const std::string& key, int dim) const;
+  /// A list of them.
+  std::optional<std::vector<Vector3>> vectors(const std::string& key, int dim) const;
   std::optional<std::vector<int>> integers(const std::string& key, int lowest, int highest) const;
   std::optional<std::vector<std::string>> texts(const std::string& key) const;
 
@@ -70,6 +72,7 @@ class CaseTable {
   std::string checked_text(const std::string& key, const TomlValue& value,
                            std::size_t longest) const;
   Expression checked_expression(const std::string& key, const TomlValue& value, int dim) const;
+  Vector3 checked_vector(const std::string& key, const TomlValue& list, int dim) const;
   const TomlValue* array(const std::string& key, const char* of) const;
 
   const TomlValue& table_;

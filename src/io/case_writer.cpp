@@ -89,6 +89,13 @@ void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
   }
 }
 
+void write_crack(TomlWriter& out, const CrackSection& crack, int dim) {
+  out.header("[[cracks]]");
+  std::vector<std::vector<double>> points;
+  for (const Vector3& point : crack.points) points.emplace_back(point.begin(), point.begin() + dim);
+  out.write(dim == 2 ? "points" : "corners", points);
+}
+
 void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
   out.header("[[rebar]]");
   out.write("from", bar.from, dim);
@@ -127,6 +134,7 @@ std::string write_case(const CaseFile& input) {
   write_body(out, input.body);
   write_solid(out, input, dim);
   write_loading(out, input, dim);
+  for (const CrackSection& crack : input.cracks) write_crack(out, crack, dim);
   for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);
   write_run(out, input);
   return out.take();

@@ -67,6 +67,7 @@ class TomlWriter {
   static std::string element(const Expression& value) {
     return value.is_constant() ? element(value.number) : text(value.formula);
   }
+  static std::string element(const std::vector<double>& value) { return list(value); }
 
   template <class T>
   static std::string list(const std::vector<T>& values) {

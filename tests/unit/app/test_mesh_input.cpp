@@ -113,7 +113,8 @@ TEST_F(MeshInput, RefusesWhatTheMeshLacks) {
               HasSubstr("body.horizon: the horizon 0.5 is smaller than the spacing"));
   EXPECT_THAT(refusal("mesh = \"body.msh\"", "mesh = \"body.msh\"\nproblem = \"three_dimensional\""),
               HasSubstr("regions[3].z"));
-  EXPECT_THROW(build_model(parse("body.msh", "nobody.msh")), FileError);
+  EXPECT_THAT(refusal("body.msh", "nobody.msh"),
+              AllOf(HasSubstr("body.mesh: "), HasSubstr("nobody.msh: cannot be opened")));
 }
 
 TEST_F(MeshInput, SaysHowToMakeGroupsWhereThereAreNone) {
@@ -125,6 +126,14 @@ TEST_F(MeshInput, SaysHowToMakeGroupsWhereThereAreNone) {
   for (const auto& [grouped, plain] : entities) text.replace(text.find(grouped), grouped.size(), plain);
   test::write_text(directory_ / "body.msh", text);
   EXPECT_THAT(refusal("", ""), HasSubstr("write Physical Surface(\"plate\") = {...};"));
+}
+
+TEST_F(MeshInput, CracksCutBonds) {
+  CaseFile input = parse();
+  input.cracks = {{{{1.0, -1.0, 0.0}, {1.0, 0.5, 0.0}}}};  // only the lower side is crossed
+  const Model model = build_model(input);
+  EXPECT_EQ(model.network.bonds.size(), 10 - 1);
+  EXPECT_THAT(model.network.cut_by_crack, ElementsAre(1));
 }
 
 TEST_F(MeshInput, IsFoundFromTheFolderOfTheResults) {

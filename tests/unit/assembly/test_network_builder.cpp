@@ -165,5 +165,38 @@ TEST(LooseParticles, OfACubicLatticeWithNearestBondsAreNone) {
       find_loose_particles(build_network(make_body(body_of), network_input(body_of))).empty());
 }
 
+TEST(BuildNetwork, CracksCutBondsAndTiesButNoBars) {
+  const LatticeInput body_of = two_materials(Surface::none);
+  const Body body = make_body(body_of);
+  NetworkInput input = network_input(body_of);
+  input.materials = {{30.0, 0.02}, {90.0, 0.06}};
+  const Box& left = body_of.solid[0];
+  const double x = 0.51 * left.upper[0], height = left.upper[1];
+  input.bars = {{{0.1 * left.upper[0], 0.5 * height, 0}, {0.9 * left.upper[0], 0.5 * height, 0}}};
+  input.bar_materials.resize(1);
+  input.bar_materials[0].youngs_modulus = input.bar_materials[0].area = 1.0;
+  const Network whole = build_network(body, input);
+  input.cracks = {{{{x, -height, 0}, {x, 2.0 * height, 0}}}};
+  const Network cracked = build_network(body, input);
+
+  const auto across = [x](const Network& network, Index begin, Index end) {
+    Index count = 0;
+    for (Index e = begin; e < end; ++e) {
+      const double from = network.particles.position(network.bonds.first[e])[0];
+      const double to = network.particles.position(network.bonds.second[e])[0];
+      count += (from < x) != (to < x);
+    }
+    return count;
+  };
+  const Index bonds = across(whole, 0, whole.first_tie);
+  EXPECT_GT(bonds, 0);
+  EXPECT_GT(across(whole, whole.first_tie, whole.first_segment), 0);
+  EXPECT_EQ(across(cracked, 0, cracked.first_segment), 0);
+  EXPECT_EQ(across(cracked, cracked.first_segment, cracked.num_elements()), 1);
+  EXPECT_EQ(cracked.first_tie, whole.first_tie - bonds);
+  EXPECT_EQ(cracked.cut_by_crack, std::vector<Index>{bonds});
+  EXPECT_EQ(cracked.stiffness.size(), static_cast<std::size_t>(cracked.num_elements()));
+}
+
 }  // namespace
 }  // namespace perilink

@@ -75,6 +75,9 @@ region = "cap"
 x = 0.1
 z = -1
 
+[[cracks]]
+corners = [[0, 0, 0], [0.5, 0, 0], [0.5, 0, 0.25]]
+
 [[loads]]
 region = "cap"
 body_force = [0, 0, -25]
@@ -135,6 +138,9 @@ fracture_energy = 0.1
 [[loads]]
 region = "right"
 force = [0, -1]
+
+[[cracks]]
+points = [[0, 0.125], [1, 2], [3, 4.5]]
 )";
 
 /// The text with the first occurrence of `from` replaced.

@@ -27,6 +27,10 @@ TEST(CaseWriter, WritesWhatItReads) {
     EXPECT_EQ(again.supports.size(), input.supports.size());
     EXPECT_EQ(again.displacements.size(), input.displacements.size());
     EXPECT_EQ(again.loads.back().force, input.loads.back().force);
+    ASSERT_EQ(again.cracks.size(), input.cracks.size());
+    for (std::size_t i = 0; i < input.cracks.size(); ++i) {
+      EXPECT_EQ(again.cracks[i].points, input.cracks[i].points);
+    }
     EXPECT_EQ(again.rebar.size(), input.rebar.size());
     EXPECT_EQ(again.analysis.load_factors, input.analysis.load_factors);
     EXPECT_EQ(again.stop.displacement, input.stop.displacement);

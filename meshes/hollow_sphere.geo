@@ -1,0 +1,21 @@
+// Eighth of a hollow sphere with radii 1 and 2 around the origin. h: size of the cells.
+DefineConstant[ h = 0.45 ];
+SetFactory("OpenCASCADE");
+Sphere(1) = {0, 0, 0, 2, 0, Pi/2, Pi/2};
+Sphere(2) = {0, 0, 0, 1, 0, Pi/2, Pi/2};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Mesh.MeshSizeMin = h;
+Mesh.MeshSizeMax = h;
+tiny = 1e-3;
+Physical Surface("x0") = Surface In BoundingBox{-tiny, -tiny, -tiny, tiny, 2 + tiny, 2 + tiny};
+Physical Surface("y0") = Surface In BoundingBox{-tiny, -tiny, -tiny, 2 + tiny, tiny, 2 + tiny};
+Physical Surface("z0") = Surface In BoundingBox{-tiny, -tiny, -tiny, 2 + tiny, 2 + tiny, tiny};
+inner() = Surface In BoundingBox{-tiny, -tiny, -tiny, 1 + tiny, 1 + tiny, 1 + tiny};
+Physical Surface("inner") = inner();
+all() = Surface In BoundingBox{-tiny, -tiny, -tiny, 2 + tiny, 2 + tiny, 2 + tiny};
+all() -= inner();
+all() -= {Surface In BoundingBox{-tiny, -tiny, -tiny, tiny, 2 + tiny, 2 + tiny}};
+all() -= {Surface In BoundingBox{-tiny, -tiny, -tiny, 2 + tiny, tiny, 2 + tiny}};
+all() -= {Surface In BoundingBox{-tiny, -tiny, -tiny, 2 + tiny, 2 + tiny, tiny}};
+Physical Surface("outer") = all();
+Physical Volume("sphere") = {3};

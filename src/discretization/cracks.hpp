@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "discretization/bonds.hpp"
+#include "discretization/particles.hpp"
+
+namespace perilink {
+
+/// A crack that is there before the analysis begins.
+struct Crack {
+  /// Two dimensions: the points of a line of straight pieces. Three dimensions: the corners of a
+  /// plane convex polygon, in order [length].
+  std::vector<Vector3> points;
+};
+
+/// A particle this close to a crack lies on it, in spacings.
+inline constexpr double on_crack_tolerance = 1e-6;
+
+/// Bonds that cracks cross.
+struct CutBonds {
+  std::vector<std::uint8_t> keep;  ///< of each bond: 0 where a crack crosses it
+  std::vector<Index> count;        ///< of each crack; a bond that crosses two counts for both
+};
+
+/// Refuses what is no crack.
+/// \throws std::invalid_argument  where a piece has no length, or corners are no convex polygon in a
+///         plane
+void check_crack(const Crack& crack, int dim);
+
+/// Finds the bonds that cross a crack, its ends and border included. A particle on a crack belongs
+/// to its positive side, so that a crack along a row of particles cuts too: to the left of the line
+/// in the direction of its points, or where the corners are seen to run counter-clockwise; where
+/// pieces meet, to the side of their mean normal.
+/// \param spacing  of the particles [length]
+/// \throws std::invalid_argument  as check_crack()
+CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,
+                        std::span<const Crack> cracks, double spacing);
+
+}  // namespace perilink

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "base/types.hpp"
+#include "discretization/facets.hpp"
+#include "discretization/particles.hpp"
+
+namespace perilink {
+
+/// Edge (2D) or triangle (3D) of a surface by its corners.
+struct FacetGeometry {
+  bool edge = true;          ///< of the corners only a and b count
+  Vector3 a{}, b{}, c{};     ///< [length]
+  Vector3 normal{};          ///< unit vector out of the body
+  double size = 0.0;         ///< longest side [length]
+};
+
+/// \param facet  with two corners, or three in space
+FacetGeometry facet_geometry(const Particles& particles, const Facets& facets, Index facet);
+
+/// Distance along the normal from the facet's line or plane, positive outside [length].
+double height_above(const FacetGeometry& facet, const Vector3& point);
+
+/// Point of the facet nearest to a point.
+Vector3 nearest_point(const FacetGeometry& facet, const Vector3& point);
+
+double dot(const Vector3& a, const Vector3& b);
+Vector3 minus(const Vector3& a, const Vector3& b);
+Vector3 cross(const Vector3& a, const Vector3& b);
+double norm(const Vector3& a);
+/// start + fraction * (end - start)
+Vector3 between(const Vector3& start, const Vector3& end, double fraction);
+
+}  // namespace perilink
