@@ -9,7 +9,9 @@
 #include "base/error.hpp"
 #include "discretization/mesh_body.hpp"
 #include "io/case_schema.hpp"
+#include "io/case_words.hpp"
 #include "io/gmsh_file.hpp"
+#include "io/gmsh_mesher.hpp"
 #include "io/toml_tree.hpp"
 
 namespace perilink {
@@ -78,7 +80,9 @@ Patches patches_of(const CaseFile& input, const Mesh& mesh) {
 
 Mesh read_mesh(const CaseFile& input, int dim) {
   try {
-    return read_gmsh_file(mesh_path(input).string(), dim);
+    const std::string path = mesh_path(input).string();
+    return is_geometry(path) ? mesh_geometry(path, dim, input.body.mesh_size)
+                             : read_gmsh_file(path, dim);
   } catch (const FileError& error) {
     throw InputError(input.where("body.mesh"), error.what(),
                      "give the file as seen from the folder of the case");

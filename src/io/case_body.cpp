@@ -42,6 +42,14 @@ void read_lattice(const CaseTable& table, BodySection& body) {
 void read_mesh(const CaseTable& table, BodySection& body) {
   body.mesh = table.path("mesh");
   if (body.mesh->empty()) table.refuse("mesh", "is empty", "name the file of a gmsh mesh");
+  body.mesh_size = table.positive("mesh_size");
+  if (body.mesh_size && !is_geometry(*body.mesh)) {
+    table.refuse("mesh_size", "is given, but `mesh` is meshed already",
+                 "delete it, or name a geometry (.geo, .step, .stp, .brep) as `mesh`");
+  }
+  if (!body.mesh_size && is_geometry(*body.mesh) && !is_gmsh_script(*body.mesh)) {
+    table.refuse_missing("mesh_size", "the size of the cells of this geometry");
+  }
   body.pattern = Pattern::irregular;
   body.micromodulus = body.critical_stretch = "continuum";
   if (table.has("pattern")) {
@@ -190,6 +198,9 @@ BodySection read_body(const CaseTable& table) {
   if (table.has("mesh")) {
     read_mesh(table, body);
   } else {
+    if (table.has("mesh_size")) {
+      table.refuse("mesh_size", "is given, but the body has no `mesh`", "delete it");
+    }
     read_lattice(table, body);
   }
   read_horizon(table, body);

@@ -98,7 +98,7 @@ const std::vector<TableSchema>& case_schema() {
       {"", false, {"title", "units"}},
       {"body",
        false,
-       {"problem", "model", "torsion", "thickness", "mesh", "pattern", "surface", "columns",
+       {"problem", "model", "torsion", "thickness", "mesh", "mesh_size", "pattern", "surface", "columns",
         "spacing", "horizon", "horizon_level", "horizon_ratio", "micromodulus",
         "critical_stretch"}},
       {"regions", true, {"name", "group", "x", "y", "z"}},

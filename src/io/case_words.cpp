@@ -12,6 +12,13 @@ Enumeration find_word(const std::vector<std::string_view>& words, std::string_vi
   return static_cast<Enumeration>(std::find(words.begin(), words.end(), word) - words.begin());
 }
 
+/// In letters of either case.
+bool ends_with(std::string_view path, std::string_view extension) {
+  if (path.size() < extension.size()) return false;
+  return std::equal(extension.begin(), extension.end(), path.end() - extension.size(),
+                    [](char small, char c) { return small == (c >= 'A' && c <= 'Z' ? c + 32 : c); });
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& pattern_words() {
@@ -41,6 +48,13 @@ std::string_view word_of(Surface surface) {
 Pattern pattern_of(std::string_view word) { return find_word<Pattern>(pattern_words(), word); }
 
 Surface surface_of(std::string_view word) { return find_word<Surface>(surface_words(), word); }
+
+bool is_gmsh_script(std::string_view path) { return ends_with(path, ".geo"); }
+
+bool is_geometry(std::string_view path) {
+  return is_gmsh_script(path) || ends_with(path, ".step") || ends_with(path, ".stp") ||
+         ends_with(path, ".brep");
+}
 
 bool is_flat(Pattern pattern) {
   return pattern == Pattern::rectangular || pattern == Pattern::hexagonal;

@@ -19,6 +19,7 @@ void write_body(TomlWriter& out, const BodySection& body) {
   if (dimension_of(body) == 3 && body.model == "micropolar") out.write("torsion", body.torsion);
   if (dimension_of(body) == 2) out.write("thickness", body.thickness);
   out.write("mesh", body.mesh);
+  out.write("mesh_size", body.mesh_size);
   if (!body.mesh) out.write("pattern", word_of(body.pattern));
   out.write("surface", word_of(body.surface));
   out.write("columns", body.columns);

@@ -44,7 +44,7 @@ const std::vector<Confinement>& confined_headers() {
       {std::regex("^pugi(xml|config)\\.hpp$"), "io/"},
       {std::regex("^muParser.*\\.h$"), "io/formula.cpp"},
       {std::regex("^zlib\\.h$"), "io/"},
-      {std::regex("^gmsh\\.h(_cwrap)?$"), "io/"},
+      {std::regex("^gmshc?\\.h(_cwrap)?$"), "io/"},
       {std::regex("^CLI/.*"), "app/"},
       {std::regex("^nlohmann/.*"), "app/"},
   };
