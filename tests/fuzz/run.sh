@@ -1,33 +1,51 @@
 #!/bin/sh
-# Fuzzes the case reader.   tests/fuzz/run.sh [SECONDS] [BUILD_DIR]
+# Fuzzes the readers of cases and meshes.   tests/fuzz/run.sh [SECONDS] [BUILD_DIR] [case|mesh]
 #
 # Needs clang++ with its runtime (Debian: clang libclang-rt-14-dev). With `replay` in place of the
 # seconds it builds with the default compiler and runs the seeds and the malformed cases once.
-# New inputs are kept in BUILD_DIR/found; crashes are written to BUILD_DIR.
+# New inputs are kept in BUILD_DIR/found_TARGET; crashes are written to BUILD_DIR.
 set -eu
 seconds=${1:-300}
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${2:-$root/build/fuzz}
-mkdir -p "$build/found"
+target=${3:-case}
+libraries=-lfmt
+mkdir -p "$build/found_$target"
 
-sources="$root/tests/fuzz/fuzz_case.cpp $root/src/base/error.cpp"
-for source in "$root"/src/io/case_*.cpp "$root"/src/io/toml_*.cpp; do
-  sources="$sources $source"
-done
-flags="-std=c++20 -g -O1 -fno-omit-frame-pointer -I$root/src"
+src=$root/src
+case $target in
+  case)
+    sources=$(ls "$src"/io/case_*.cpp "$src"/io/toml_*.cpp "$src"/io/formula.cpp \
+                 "$src"/io/input_text.cpp)
+    libraries="-lfmt -lmuparser"
+    seeds="$root/tests/fuzz/corpus $root/tests/cli/malformed $root/meshes"
+    replayed="$root/tests/fuzz/corpus/* $root/tests/cli/malformed/*.toml $root/meshes/*.toml"
+    options="-max_len=8192 -dict=$root/tests/fuzz/case.dict" ;;
+  mesh)
+    sources="$(ls "$src"/io/toml_*.cpp "$src"/discretization/mesh_*.cpp) $src/io/gmsh_file.cpp
+             $src/io/gmsh_sections.cpp $src/io/gmsh_cursor.cpp"
+    for name in facet_geometry facets region neighbor_search; do
+      sources="$sources $src/discretization/$name.cpp"
+    done
+    seeds=$root/tests/fuzz/corpus_mesh
+    replayed="$root/tests/fuzz/corpus_mesh/* $root/meshes/*.msh"
+    options="-max_len=4096" ;;
+  *) echo "the target is case or mesh, not $target" >&2; exit 2 ;;
+esac
+sources="$root/tests/fuzz/fuzz_$target.cpp $src/base/error.cpp $sources"
+flags="-std=c++20 -g -O1 -fno-omit-frame-pointer -I$src"
 cd "$build"
 
+# shellcheck disable=SC2086
 if [ "$seconds" = replay ]; then
-  # shellcheck disable=SC2086
   ${CXX:-g++} $flags -fsanitize=address,undefined -fno-sanitize-recover=all \
-    $sources "$root/tests/fuzz/replay.cpp" -lfmt -o replay_case
-  exec ./replay_case "$root"/tests/fuzz/corpus/* "$root"/tests/cli/malformed/*.toml \
-    "$root"/meshes/*.toml
+    $sources "$root/tests/fuzz/replay.cpp" $libraries -o "replay_$target"
+  exec "./replay_$target" $replayed
 fi
 
 # shellcheck disable=SC2086
 ${CLANGXX:-clang++} $flags -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all \
-  $sources -lfmt -o fuzz_case
-exec ./fuzz_case -max_total_time="$seconds" -max_len=8192 -timeout=10 -rss_limit_mb=2048 \
-  -dict="$root/tests/fuzz/case.dict" -print_final_stats=1 \
-  found "$root/tests/fuzz/corpus" "$root/tests/cli/malformed" "$root/meshes"
+  $sources $libraries -o "fuzz_$target"
+# shellcheck disable=SC2086
+exec "./fuzz_$target" -max_total_time="$seconds" $options -timeout=10 -rss_limit_mb=2048 \
+  -print_final_stats=1 "found_$target" $seeds
