@@ -7,14 +7,18 @@
 #include "base/timer.hpp"
 
 namespace perilink {
+namespace {
 
-ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unknowns,
-                                   const Loads& loads, int threads) {
-  const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
+/// \param assemble     gives K
+/// \param right_side   gives f
+/// \param internal_of  gives K u and the energy for displacements of all particles
+template <class Assemble, class RightSide, class Internal>
+ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, int threads,
+                            Assemble assemble, RightSide right_side, Internal internal_of) {
   ElasticResult result;
   Timer timer;
-  const SparseMatrix stiffness = assemble_stiffness(network, secants, unknowns);
-  const std::vector<double> load = assemble_right_hand_side(network, secants, unknowns, loads);
+  const SparseMatrix stiffness = assemble();
+  const std::vector<double> load = right_side();
   result.seconds.assembly = timer.seconds();
 
   timer.restart();
@@ -29,7 +33,7 @@ ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unkno
   for (const double value : load) load_norm += value * value;
   for (int pass = 0; pass < 2; ++pass) {
     result.displacement = expand(unknowns, solution);
-    const InternalForce internal = internal_force(network, secants, result.displacement);
+    const InternalForce internal = internal_of(result.displacement);
     std::vector<double> residual;
     double square = 0.0;
     for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
@@ -46,6 +50,25 @@ ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unkno
   result.factor = factor->statistics();
   result.seconds.solve = timer.seconds();
   return result;
+}
+
+}  // namespace
+
+ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unknowns,
+                                   const Loads& loads, int threads) {
+  const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
+  return solve_elastic(
+      unknowns, loads, threads, [&] { return assemble_stiffness(network, secants, unknowns); },
+      [&] { return assemble_right_hand_side(network, secants, unknowns, loads); },
+      [&](std::span<const double> u) { return internal_force(network, secants, u); });
+}
+
+ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknowns& unknowns,
+                                   const Loads& loads, int threads) {
+  return solve_elastic(
+      unknowns, loads, threads, [&] { return assemble_stiffness(elements, unknowns); },
+      [&] { return assemble_right_hand_side(elements, unknowns, loads); },
+      [&](std::span<const double> u) { return internal_force(elements, u); });
 }
 
 }  // namespace perilink

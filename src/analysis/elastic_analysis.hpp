@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "assembly/linear_elements.hpp"
 #include "assembly/network.hpp"
 #include "assembly/unknowns.hpp"
 #include "solver/factor.hpp"
@@ -25,7 +26,12 @@ struct ElasticResult {
 };
 
 /// One assembly, one factorisation, one solve.
+/// \throws SolverError when the stiffness matrix is not positive definite
 ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unknowns,
+                                   const Loads& loads, int threads);
+
+/// The same with linear finite elements in place of bonds.
+ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknowns& unknowns,
                                    const Loads& loads, int threads);
 
 }  // namespace perilink

@@ -32,6 +32,20 @@ void print_breakable(const Network& network) {
   }
 }
 
+void print_elements(const Model& model) {
+  if (model.elements) {
+    fmt::print("#   linear elements    {}\n", model.elements->cells.size());
+    return;
+  }
+  const Network& network = model.network;
+  fmt::print("#   bonds              {} and {} ties of bars\n", network.first_tie,
+             network.first_segment - network.first_tie);
+  for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
+    fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
+  }
+  print_breakable(network);
+}
+
 }  // namespace
 
 int check_case(const std::string& case_path) {
@@ -52,14 +66,13 @@ int check_case(const std::string& case_path) {
   fmt::print("# sizes\n");
   fmt::print("#   particles          {} ({} ghosts, {} bar nodes)\n", network.particles.size(),
              ghosts, bar_nodes);
-  fmt::print("#   spacing            {:.6g}, horizon {:.6g} = {:.4g} spacings\n",
-             model.lattice.spacing, model.horizon, model.horizon / model.lattice.spacing);
-  fmt::print("#   bonds              {} and {} ties of bars\n", network.first_tie,
-             network.first_segment - network.first_tie);
-  for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
-    fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
+  fmt::print("#   spacing            {:.6g}", model.lattice.spacing);
+  if (!model.elements) {
+    fmt::print(", horizon {:.6g} = {:.4g} spacings", model.horizon,
+               model.horizon / model.lattice.spacing);
   }
-  print_breakable(network);
+  fmt::print("\n");
+  print_elements(model);
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {
     fmt::print("#   group              {}: {} particles, {} facets of the surface\n", group.name,

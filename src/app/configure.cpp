@@ -6,9 +6,11 @@
 #include <cmath>
 
 #include "app/boundary_conditions.hpp"
+#include "app/element_model.hpp"
 #include "app/mesh_input.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
+#include "discretization/triangulate.hpp"
 
 namespace perilink {
 namespace {
@@ -107,12 +109,21 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   const Box box = bounding_box(lattice.solid);
   lattice.spacing = wanted_spacing(input.body, box.upper[0] - box.lower[0]);
   refuse_too_many_particles(input, box, lattice.spacing, dim);
-  lattice.horizon = horizon_of(input.body, lattice.spacing);
+  const bool bonds = input.body.method == "bonds";
+  if (bonds) {
+    lattice.horizon = horizon_of(input.body, lattice.spacing);
+    refuse_short_horizon(input, lattice.horizon, lattice.spacing);
+  } else {
+    lattice.surface = Surface::none;
+  }
   const std::string spacing_key = input.body.spacing ? "body.spacing" : "body.columns";
-  refuse_short_horizon(input, lattice.horizon, lattice.spacing);
   try {
     Body body = make_body(lattice);
-    horizon = horizon_on_lattice(input.body, body.lattice);
+    if (bonds) {
+      horizon = horizon_on_lattice(input.body, body.lattice);
+    } else {
+      body.cells = triangulate(lattice, body);
+    }
     return body;
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where(spacing_key), error.what(), "");
@@ -122,6 +133,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
 Body build_body(const CaseFile& input, int dim, double& horizon, std::vector<std::string>& notes) {
   if (!input.body.mesh) return build_lattice_body(input, dim, horizon);
   Body body = read_mesh_body(input, dim, notes);
+  if (input.body.method != "bonds") return body;
   horizon = horizon_of(input.body, body.lattice.spacing);
   refuse_short_horizon(input, horizon, body.lattice.spacing);
   return body;
@@ -249,6 +261,20 @@ void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
                    "give a material a finite fracture energy, or set analysis.type = \"elastic\"");
 }
 
+void build_bonds(const CaseFile& input, const Body& body, Model& model) {
+  refuse_bars_outside(input, body);
+  const NetworkInput network = network_input(input, model.problem, model.horizon);
+  refuse_poissons_ratios(input, body, network);
+  refuse_impossible_cracks(input, body.particles.dim);
+  try {
+    model.network = build_network(body, network);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(input.where(horizon_key(input.body)), error.what(), "");
+  }
+  refuse_cracks_without_bonds(input, model.network);
+  refuse_unbreakable_bodies(input, model.network);
+}
+
 }  // namespace
 
 Model build_model(const CaseFile& input) {
@@ -258,17 +284,11 @@ Model build_model(const CaseFile& input) {
   Body body = build_body(input, dim, model.horizon, model.notes);
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
-  refuse_bars_outside(input, body);
-  const NetworkInput network = network_input(input, model.problem, model.horizon);
-  refuse_poissons_ratios(input, body, network);
-  refuse_impossible_cracks(input, dim);
-  try {
-    model.network = build_network(body, network);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(input.where(horizon_key(input.body)), error.what(), "");
+  if (input.body.method == "bonds") {
+    build_bonds(input, body, model);
+  } else {
+    build_elements(input, body, model);
   }
-  refuse_cracks_without_bonds(input, model.network);
-  refuse_unbreakable_bodies(input, model.network);
   model.facets = std::move(body.facets);
   model.cells = std::move(body.cells);
   model.groups = std::move(body.groups);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/damage_analysis.hpp"
+#include "assembly/linear_elements.hpp"
 #include "assembly/network.hpp"
 #include "assembly/rigid_modes.hpp"
 #include "assembly/unknowns.hpp"
@@ -21,7 +23,10 @@ struct Model {
   Simplices cells;            ///< of a mesh
   std::vector<Group> groups;  ///< of a mesh
   double horizon = 0.0;  ///< [length]
+  /// Of linear elements the particles with the edges of the cells as bonds that stand for them in
+  /// all questions of what holds what; their stiffness means nothing.
   Network network;
+  std::optional<LinearElements> elements;  ///< with method = "linear_elements"
   Unknowns unknowns;
   Loads loads;
   ReferenceLoad reference;

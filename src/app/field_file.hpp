@@ -3,13 +3,14 @@
 #include <span>
 
 #include "analysis/observer.hpp"
+#include "assembly/linear_elements.hpp"
 #include "base/csr.hpp"
 #include "io/vtu.hpp"
 
 namespace perilink {
 
 /// What a cell of a field file stands for (cell data "element").
-enum class FieldElement { particle = 0, broken_bond = 1, rebar_segment = 2 };
+enum class FieldElement { particle = 0, broken_bond = 1, rebar_segment = 2, cell = 3 };
 
 /// The state of a body at the load factor of `record` as a grid to look at. Points are the
 /// particles at their reference positions (z = 0 in two dimensions). Cells: a vertex for each
@@ -27,5 +28,14 @@ enum class FieldElement { particle = 0, broken_bond = 1, rebar_segment = 2 };
 VtuGrid make_field_grid(const Network& network, const StepState& state, const StepRecord& record,
                         std::span<const Index> broken_elements_in_order, const Csr& families,
                         double spacing);
+
+/// The state of linear elements. Cells: a vertex for each particle, then the triangles or tetrahedra.
+/// Fields as above; particles have the mean of the cells around them, and cells further
+///   strain_energy_density, principal_strain and principal_stress (largest first; in the plane or in
+///   space; zero for vertices)
+/// \param displacement  at load factor 1, shape (particles, dim) [length]
+VtuGrid make_element_grid(const LinearElements& elements, const Particles& particles,
+                          std::span<const double> displacement, const StepRecord& record,
+                          double spacing);
 
 }  // namespace perilink

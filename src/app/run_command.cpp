@@ -70,8 +70,8 @@ int run_case(const RunOptions& options) {
   catch_stop_signals();
   write_resolved_case(directory, seen_from(input, directory));
   const auto log = open_log(directory);
-  log->info("{} : {} particles, {} bonds, {} unknowns, {} threads", input.path,
-            model.network.particles.size(), model.network.first_segment, model.unknowns.count,
+  log->info("{} : {} particles, {}, {} unknowns, {} threads", input.path,
+            model.network.particles.size(), elements_text(model), model.unknowns.count,
             threads);
   for (const std::string& note : model.notes) log->info("note: {}", note);
 

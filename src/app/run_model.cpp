@@ -49,7 +49,9 @@ ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepO
                                      damage_options(input, threads), observer);
     return run;
   }
-  run.elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, threads);
+  run.elastic = model.elements
+                    ? run_elastic_analysis(*model.elements, model.unknowns, model.loads, threads)
+                    : run_elastic_analysis(model.network, model.unknowns, model.loads, threads);
   run.result = as_history(model, *run.elastic);
   ElasticState state(model.network, *run.elastic);
   observer.on_step(run.result.last, state);

@@ -59,15 +59,23 @@ bool RunObserver::wants_fields(Index broken_bonds) const {
   return every && broken_bonds / *every != last / *every;
 }
 
+VtuGrid RunObserver::make_grid(const StepRecord& record, StateSource& source) {
+  const Network& network = model_.network;
+  if (model_.elements) {
+    return make_element_grid(*model_.elements, network.particles, source.state().displacement,
+                             record, model_.lattice.spacing);
+  }
+  if (families_.rows() == 0) {
+    families_ = bonds_of_particles(network.bonds, network.particles.size());
+  }
+  return make_field_grid(network, source.state(), record, broken_, families_,
+                         model_.lattice.spacing);
+}
+
 void RunObserver::write_fields(const StepRecord& record, StateSource& source) {
   const Timer timer;
-  if (families_.rows() == 0) {
-    families_ = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
-  }
   const std::string name = fmt::format("fields_{:06}.vtu", record.broken_bonds);
-  write_vtu((directory_ / name).string(),
-            make_field_grid(model_.network, source.state(), record, broken_, families_,
-                            model_.lattice.spacing));
+  write_vtu((directory_ / name).string(), make_grid(record, source));
   written_.insert(record.broken_bonds);
   series_.push_back({static_cast<double>(record.broken_bonds), name});
   write_pvd((directory_ / "fields.pvd").string(), series_);

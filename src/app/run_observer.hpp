@@ -31,6 +31,7 @@ class RunObserver final : public StepObserver {
  private:
   void note_broken(const StepRecord& record, StateSource& source);
   bool wants_fields(Index broken_bonds) const;
+  VtuGrid make_grid(const StepRecord& record, StateSource& source);
   void write_fields(const StepRecord& record, StateSource& source);
 
   const CaseFile& input_;

@@ -12,6 +12,7 @@
 #include "analysis/convergence.hpp"
 #include "app/run_model.hpp"
 #include "app/signals.hpp"
+#include "assembly/fields.hpp"
 #include "base/timer.hpp"
 #include "io/case_overrides.hpp"
 #include "io/case_sections.hpp"
@@ -70,20 +71,9 @@ SourceLocation where_of_field(const ErrorSection& error) {
   return where;
 }
 
-/// Displacements without rotations, which closed forms do not have; shape (particles, dim).
-std::vector<double> translations(const Particles& particles, std::span<const double> motion) {
-  const std::size_t dim = static_cast<std::size_t>(particles.dim);
-  const std::size_t width = motion.size() / particles.volumes.size();
-  std::vector<double> result;
-  for (std::size_t k = 0; k < motion.size(); ++k) {
-    if (k % width < dim) result.push_back(motion[k]);
-  }
-  return result;
-}
-
 double field_error(const ErrorSection& error, const Model& model, const ElasticResult& elastic) {
   const Particles& particles = model.network.particles;
-  const std::vector<double> displacement = translations(particles, elastic.displacement);
+  const std::vector<double> displacement = translations(model.network, elastic.displacement);
   std::vector<double> exact(displacement.size());
   for (int axis = 0; axis < particles.dim; ++axis) {
     const Formula formula(Expression(error.displacement[axis]), particles.dim);
@@ -104,12 +94,12 @@ double field_error(const ErrorSection& error, const Model& model, const ElasticR
 
 void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) {
   const Model& model = repeat.model;
-  member.method = "bonds";
-  member.surface = word_of(repeat.input.body.surface);
+  member.method = repeat.input.body.method;
+  if (!model.elements) member.surface = word_of(repeat.input.body.surface);
   member.spacing = model.lattice.spacing;
   member.horizon = model.horizon;
   member.particles = model.network.particles.size();
-  member.bonds = model.network.first_segment;
+  member.bonds = model.elements ? 0 : model.network.first_segment;
   member.unknowns = model.unknowns.count;
   for (const ErrorSection& error : study.errors) {
     member.values.push_back(error.is_field() ? field_error(error, model, *repeat.run.elastic)

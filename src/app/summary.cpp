@@ -12,6 +12,11 @@
 
 namespace perilink {
 
+std::string elements_text(const Model& model) {
+  return model.elements ? fmt::format("{} linear elements", model.elements->cells.size())
+                        : fmt::format("{} bonds", model.network.first_segment);
+}
+
 double peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -38,7 +43,8 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["energy_error"] = result.energy_error;
   json["largest_residual"] = result.largest_residual;
   json["particles"] = model.network.particles.size();
-  json["bonds"] = model.network.first_segment;
+  json["bonds"] = model.elements ? 0 : model.network.first_segment;
+  if (model.elements) json["cells"] = model.elements->cells.size();
   json["unknowns"] = model.unknowns.count;
   json["spacing"] = model.lattice.spacing;
   json["horizon"] = model.horizon;
@@ -76,8 +82,8 @@ void print_summary(const CaseFile& input, const Model& model, const DamageResult
              result.last.yield_events, result.last.step);
   fmt::print("  {:<14} {:.6g} dissipated, balance to {:.1e}\n", "energy",
              result.last.dissipated_energy, result.energy_error);
-  fmt::print("  {:<14} {} particles, {} bonds, {} unknowns\n", "size",
-             model.network.particles.size(), model.network.first_segment, model.unknowns.count);
+  fmt::print("  {:<14} {} particles, {}, {} unknowns\n", "size", model.network.particles.size(),
+             elements_text(model), model.unknowns.count);
   fmt::print("  {:<14} {} factorisations, largest residual {:.1e}\n", "solver",
              result.factor.factorizations, result.largest_residual);
   fmt::print("  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} ms per row), output {:.2f} s\n",

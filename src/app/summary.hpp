@@ -18,6 +18,9 @@ struct PhaseSeconds {
   std::optional<ElasticSeconds> elastic = {};  ///< parts of `analysis` where it is elastic
 };
 
+/// "1234 bonds" or "1234 linear elements".
+std::string elements_text(const Model& model);
+
 /// Peak memory of this process [bytes].
 double peak_memory_bytes();
 

@@ -219,15 +219,22 @@ SparseMatrix assemble_stiffness(const Network& network, std::span<const double> 
 std::vector<double> assemble_right_hand_side(const Network& network,
                                              std::span<const double> secants,
                                              const Unknowns& unknowns, const Loads& loads) {
-  std::vector<double> forces = loads.forces;
-  const auto& prescribed = unknowns.prescribed;
-  if (std::any_of(prescribed.begin(), prescribed.end(), [](double u) { return u != 0.0; })) {
-    const InternalForce driven = internal_force(network, secants, prescribed);
-    for (std::size_t slot = 0; slot < forces.size(); ++slot) forces[slot] -= driven.forces[slot];
-  }
+  if (!is_driven(unknowns)) return right_hand_side(unknowns, loads, {});
+  return right_hand_side(unknowns, loads,
+                         internal_force(network, secants, unknowns.prescribed).forces);
+}
+
+bool is_driven(const Unknowns& unknowns) {
+  return std::any_of(unknowns.prescribed.begin(), unknowns.prescribed.end(),
+                     [](double u) { return u != 0.0; });
+}
+
+std::vector<double> right_hand_side(const Unknowns& unknowns, const Loads& loads,
+                                    std::span<const double> driven) {
   std::vector<double> result(static_cast<std::size_t>(unknowns.count));
-  for (std::size_t slot = 0; slot < forces.size(); ++slot) {
-    if (unknowns.number[slot] != no_index) result[unknowns.number[slot]] = forces[slot];
+  for (std::size_t slot = 0; slot < loads.forces.size(); ++slot) {
+    if (unknowns.number[slot] == no_index) continue;
+    result[unknowns.number[slot]] = loads.forces[slot] - (driven.empty() ? 0.0 : driven[slot]);
   }
   return result;
 }

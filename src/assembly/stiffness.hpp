@@ -25,6 +25,14 @@ std::vector<double> assemble_right_hand_side(const Network& network,
                                              std::span<const double> secants,
                                              const Unknowns& unknowns, const Loads& loads);
 
+/// The same from the forces that the prescribed displacements need, K of all particles times them.
+/// \param driven  shape (particles, width) [force]; empty: none
+std::vector<double> right_hand_side(const Unknowns& unknowns, const Loads& loads,
+                                    std::span<const double> driven);
+
+/// Whether any prescribed displacement is not zero.
+bool is_driven(const Unknowns& unknowns);
+
 /// Particle of every unknown, size unknowns.count.
 std::vector<Index> particle_of_unknown(const Unknowns& unknowns);
 

@@ -96,6 +96,23 @@ void read_horizon(const CaseTable& table, BodySection& body) {
   }
 }
 
+/// Keys that speak of bonds mean nothing to elements.
+void refuse_keys_of_bonds(const CaseTable& table) {
+  for (const char* key : {"model", "torsion", "surface", "horizon", "horizon_level",
+                          "horizon_ratio", "micromodulus", "critical_stretch"}) {
+    if (!table.has(key)) continue;
+    table.refuse(key, "is given, but linear elements have no bonds",
+                 "delete it, or the line method = \"linear_elements\"");
+  }
+}
+
+void check_element_ratio(const CaseTable& table, double given) {
+  if (given > -1.0 && given < 0.5) return;
+  table.refuse("poissons_ratio",
+               fmt::format("is {}, but an elastic solid has ratios above -1 and below 1/2", given),
+               "an incompressible solid would need other elements");
+}
+
 /// Poisson's ratio of bonds that act along their length, the most that micropolar bonds can have
 /// (Gerstle, Sau & Silling 2005, section 2; Gerstle, Sau & Aguilera 2007, Eqs. 15, 17 and 20). The
 /// material module has the same two numbers; this module may not include it, and a test holds the
@@ -132,7 +149,9 @@ void check_micropolar_ratio(const CaseTable& table, const BodySection& body, dou
 
 std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySection& body) {
   std::optional<double> given = table.number("poissons_ratio");
-  if (body.model == "micropolar") {
+  if (body.method == "linear_elements") {
+    if (given) check_element_ratio(table, *given);
+  } else if (body.model == "micropolar") {
     given = table.need("poissons_ratio", given, "Poisson's ratio, which micropolar bonds need");
     check_micropolar_ratio(table, body, *given);
   } else if (given) {
@@ -185,6 +204,8 @@ BodySection read_body(const CaseTable& table) {
                  "delete it; the regions' z intervals say how thick the body is");
   }
   assign(body.thickness, table.positive("thickness"));
+  assign(body.method, table.choice("method", method_words()));
+  if (body.method == "linear_elements") refuse_keys_of_bonds(table);
   assign(body.model, table.choice("model", {"bond_based", "micropolar"}));
   if (table.has("torsion") && (dimension_of(body) == 2 || body.model != "micropolar")) {
     table.refuse("torsion",
@@ -203,7 +224,7 @@ BodySection read_body(const CaseTable& table) {
     }
     read_lattice(table, body);
   }
-  read_horizon(table, body);
+  if (body.method == "bonds") read_horizon(table, body);
   assign(body.micromodulus, table.choice("micromodulus", {"lattice", "continuum"}));
   assign(body.critical_stretch, table.choice("critical_stretch", {"lattice", "continuum"}));
   return body;

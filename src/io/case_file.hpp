@@ -27,6 +27,7 @@ struct BodySection {
   std::optional<std::string> mesh;       ///< file, from the folder of the case; irregular pattern
   std::optional<double> mesh_size;       ///< of the cells where `mesh` is a geometry [length]
   std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
+  std::string method = "bonds";          ///< bonds | linear_elements
   std::string model = "bond_based";      ///< bond_based | micropolar
   double torsion = 1.0;                  ///< torsional over bending modulus of micropolar bonds, 3D
   double thickness = 1.0;                ///< of two-dimensional bodies

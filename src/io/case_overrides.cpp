@@ -12,8 +12,8 @@ std::vector<std::string_view> replaced_by(const TomlValue& key) {
   if (key.key == "columns") return {"spacing"};
   if (key.key == "horizon_ratio") return {"horizon", "horizon_level"};
   if (key.key == "method" && key.text == "linear_elements") {
-    return {"surface",       "horizon",      "horizon_level",
-            "horizon_ratio", "micromodulus", "critical_stretch"};
+    return {"model",         "torsion",       "surface",      "horizon",
+            "horizon_level", "horizon_ratio", "micromodulus", "critical_stretch"};
   }
   return {};
 }

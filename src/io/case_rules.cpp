@@ -174,9 +174,23 @@ void check_tractions(const CaseFile& input) {
                    "[body]");
 }
 
+void check_method(const CaseFile& input) {
+  if (input.body.method != "linear_elements") return;
+  const SourceLocation where = input.where("body.method");
+  if (input.analysis.type != "elastic") {
+    throw InputError(where, "is \"linear_elements\", which cannot break",
+                     "set analysis.type = \"elastic\", or delete the line");
+  }
+  if (!input.rebar.empty()) {
+    throw InputError(where, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
+                     "delete one of the two");
+  }
+}
+
 }  // namespace
 
 void check_rules(const CaseFile& input) {
+  check_method(input);
   const std::set<std::string> names = check_region_names(input);
   check_groups(input);
   check_materials(input, names);

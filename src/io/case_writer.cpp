@@ -15,18 +15,21 @@ namespace {
 void write_body(TomlWriter& out, const BodySection& body) {
   out.header("[body]");
   out.write("problem", body.problem);
-  out.write("model", body.model);
+  out.write("method", body.method);
+  const bool bonds = body.method == "bonds";
+  if (bonds) out.write("model", body.model);
   if (dimension_of(body) == 3 && body.model == "micropolar") out.write("torsion", body.torsion);
   if (dimension_of(body) == 2) out.write("thickness", body.thickness);
   out.write("mesh", body.mesh);
   out.write("mesh_size", body.mesh_size);
   if (!body.mesh) out.write("pattern", word_of(body.pattern));
-  out.write("surface", word_of(body.surface));
+  if (bonds) out.write("surface", word_of(body.surface));
   out.write("columns", body.columns);
   out.write("spacing", body.spacing);
   out.write("horizon", body.horizon);
   out.write("horizon_level", body.horizon_level);
   out.write("horizon_ratio", body.horizon_ratio);
+  if (!bonds) return;
   out.write("micromodulus", body.micromodulus);
   out.write("critical_stretch", body.critical_stretch);
 }

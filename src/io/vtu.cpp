@@ -169,11 +169,13 @@ void read_cells(const Reader& reader, pugi::xml_node cells, VtuGrid& grid) {
   grid.connectivity = reader.values<std::int32_t>(array("connectivity"), "Int32");
   grid.offsets = reader.values<std::int32_t>(array("offsets"), "Int32");
   for (const std::uint8_t type : reader.values<std::uint8_t>(array("types"), "UInt8")) {
-    if (type != static_cast<std::uint8_t>(VtuCell::vertex) &&
-        type != static_cast<std::uint8_t>(VtuCell::line)) {
-      reader.fail("holds cells of VTK type " + std::to_string(type) + "; only 1 and 3 are known");
+    const auto cell = static_cast<VtuCell>(type);
+    if (cell != VtuCell::vertex && cell != VtuCell::line && cell != VtuCell::triangle &&
+        cell != VtuCell::tetrahedron) {
+      reader.fail("holds cells of VTK type " + std::to_string(type) +
+                  "; only 1, 3, 5 and 10 are known");
     }
-    grid.types.push_back(static_cast<VtuCell>(type));
+    grid.types.push_back(cell);
   }
 }
 

@@ -19,7 +19,7 @@ struct VtuArray {
 };
 
 /// VTK cell types used here.
-enum class VtuCell : std::uint8_t { vertex = 1, line = 3 };
+enum class VtuCell : std::uint8_t { vertex = 1, line = 3, triangle = 5, tetrahedron = 10 };
 
 /// An unstructured grid.
 struct VtuGrid {

@@ -91,6 +91,21 @@ TEST_F(Study, TheErrorOfAnUncorrectedBarFalls) {
   }
 }
 
+TEST_F(Study, LinearElementsSolveTheStripToRoundOff) {
+  ASSERT_EQ(converge("case = \"bar.toml\"\n[vary]\nspacing = [0.25, 0.125]\n"
+                     "method = [\"bonds\", \"linear_elements\"]\n"
+                     "[error]\ndisplacement = [\"0.02*x\", \"-0.02/3*y\"]\n")
+                .exit_status,
+            0);
+  const auto table = rows(file("results/study/table.csv"));
+  ASSERT_EQ(table.size(), 5u);
+  for (int row = 3; row <= 4; ++row) {
+    EXPECT_EQ(table[row][2], "linear_elements");
+    EXPECT_LT(std::stod(table[row][9]), 1e-12);  // condition numbers near 1e3
+  }
+  EXPECT_GT(std::stod(table[2][9]), 1e-3) << "bonds without correction are too soft";
+}
+
 TEST_F(Study, TheTableDependsNeitherOnThreadsNorOnTheClock) {
   ASSERT_EQ(converge(vary + energy, {"--out", "one", "--threads", "1", "--quiet"}).exit_status, 0);
   ASSERT_EQ(converge(vary + energy, {"--out", "two", "--threads", "2", "--quiet"}).exit_status, 0);

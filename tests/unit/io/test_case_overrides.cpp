@@ -27,6 +27,14 @@ TEST(CaseOverrides, TakeThePlaceOfKeysThatSayTheSame) {
   EXPECT_FALSE(ratio.body.horizon.has_value());
 }
 
+TEST(CaseOverrides, LinearElementsDropAllKeysOfBonds) {
+  const std::string text = std::string(test::strip_text) + "[analysis]\ntype = \"elastic\"\n";
+  const CaseFile input =
+      parse_case(text, "strip.toml", {body_key("method", std::string("linear_elements"))});
+  EXPECT_EQ(input.body.method, "linear_elements");
+  EXPECT_FALSE(input.body.horizon.has_value());
+}
+
 TEST(CaseOverrides, AreCheckedAsTheFileIs) {
   EXPECT_THROW(strip_with({body_key("surface", "golden")}), InputError);
   EXPECT_THROW(strip_with({body_key("columns", 1)}), InputError);

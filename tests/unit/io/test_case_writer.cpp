@@ -61,6 +61,16 @@ TEST(CaseWriter, WritesMicropolarBodies) {
   EXPECT_EQ(again.supports.at(0).fix, input.supports.at(0).fix);
 }
 
+TEST(CaseWriter, WritesBodiesOfLinearElements) {
+  const CaseFile input = parse_case(
+      replaced(std::string(small_case) + "[analysis]\ntype = \"elastic\"\n", "horizon_ratio = 3",
+               "method = \"linear_elements\""),
+      "");
+  const std::string written = write_case(input);
+  EXPECT_EQ(parse_case(written, "").body.method, "linear_elements");
+  EXPECT_EQ(write_case(parse_case(written, "")), written);
+}
+
 TEST(CaseWriter, WritesMinusZeroAsZero) {
   const CaseFile input = parse_case(replaced(small_case, "x = [0,", "x = [-0.0,"), "");
   EXPECT_EQ(write_case(input), write_case(parse_case(small_case, "")));

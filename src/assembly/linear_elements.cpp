@@ -1,0 +1,324 @@
+#include "assembly/linear_elements.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "assembly/stiffness.hpp"
+#include "base/csr.hpp"
+
+namespace perilink {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
+
+template <int Dim>
+using Tensor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
+
+/// Gradients of a cell's shape functions, one row for each vertex.
+template <int Dim>
+using Gradients = Eigen::Map<const Eigen::Matrix<double, Dim + 1, Dim, Eigen::RowMajor>>;
+
+template <int Dim>
+Gradients<Dim> gradients_of(const LinearElements& elements, Index cell) {
+  return Gradients<Dim>(elements.gradients.data() +
+                        static_cast<std::size_t>(cell) * (Dim + 1) * Dim);
+}
+
+template <int Dim>
+Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double> values, Index i) {
+  return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(values.data() +
+                                                         static_cast<std::size_t>(i) * Dim);
+}
+
+/// With x = x_0 + J xi the gradients of the last Dim shape functions xi are the rows of J^-1, and
+/// all sum to zero.
+template <int Dim>
+void fill_geometry(std::span<const double> positions, double thickness, LinearElements& elements) {
+  for (Index number = 0; number < elements.cells.size(); ++number) {
+    const std::span<const Index> cell = elements.cells.cell(number);
+    Eigen::Matrix<double, Dim, Dim> jacobian;
+    for (int v = 0; v < Dim; ++v) {
+      jacobian.col(v) = vector_at<Dim>(positions, cell[v + 1]) - vector_at<Dim>(positions, cell[0]);
+    }
+    const double determinant = jacobian.determinant();
+    if (!(determinant > 0.0)) {
+      throw std::invalid_argument("cell " + std::to_string(number + 1) +
+                                  " of the mesh is turned inside out or has no volume");
+    }
+    elements.volumes.push_back(determinant * (Dim == 2 ? 0.5 * thickness : 1.0 / 6.0));
+    Eigen::Matrix<double, Dim + 1, Dim, Eigen::RowMajor> gradients;
+    gradients.template bottomRows<Dim>() = jacobian.inverse();
+    gradients.row(0) = -gradients.template bottomRows<Dim>().colwise().sum();
+    elements.gradients.insert(elements.gradients.end(), gradients.data(),
+                              gradients.data() + gradients.size());
+  }
+}
+
+void fill_moduli(Problem problem, std::span<const IsotropicMaterial> materials,
+                 LinearElements& elements) {
+  for (const Index m : elements.cells.material) {
+    const double e = materials[m].youngs_modulus;
+    const double nu = materials[m].poissons_ratio;
+    elements.mu.push_back(e / (2.0 * (1.0 + nu)));
+    elements.lambda.push_back(problem == Problem::plane_stress
+                                  ? e * nu / (1.0 - nu * nu)
+                                  : e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)));
+  }
+}
+
+Csr cells_of_particles(const LinearElements& elements) {
+  Csr rows;
+  rows.offsets.assign(static_cast<std::size_t>(elements.num_particles) + 1, 0);
+  for (const Index i : elements.cells.vertices) ++rows.offsets[i + 1];
+  for (Index i = 0; i < elements.num_particles; ++i) rows.offsets[i + 1] += rows.offsets[i];
+  rows.values.resize(elements.cells.vertices.size());
+  std::vector<Index> next(rows.offsets.begin(), rows.offsets.end() - 1);
+  for (Index number = 0; number < elements.cells.size(); ++number) {
+    for (const Index i : elements.cells.cell(number)) rows.values[next[i]++] = number;
+  }
+  return rows;
+}
+
+/// Columns of the matrix particle by particle, each by one thread in one order, so that the sums do
+/// not depend on the number of threads.
+template <int Dim>
+class ElementStiffness {
+ public:
+  ElementStiffness(const LinearElements& elements, const Unknowns& unknowns)
+      : elements_(elements), unknowns_(unknowns), cells_(cells_of_particles(elements)) {}
+
+  SparseMatrix build() {
+    SparseMatrix matrix(unknowns_.count, unknowns_.count);
+    lay_out(matrix);
+#pragma omp parallel for schedule(static)
+    for (Index i = 0; i < elements_.num_particles; ++i) fill_columns(i, matrix);
+    return matrix;
+  }
+
+ private:
+  /// The particle itself and its neighbours of higher number, ascending.
+  std::vector<Index> rows_of(Index particle) const {
+    std::vector<Index> rows;
+    for (const Index cell : cells_.row(particle)) {
+      for (const Index j : elements_.cells.cell(cell)) {
+        if (j >= particle) rows.push_back(j);
+      }
+    }
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    return rows;
+  }
+
+  int num_free(Index particle) const {
+    int count = 0;
+    for (int axis = 0; axis < Dim; ++axis) count += unknowns_.at(particle, axis) != no_index;
+    return count;
+  }
+
+  void lay_out(SparseMatrix& matrix) const {
+    std::vector<Index> below(static_cast<std::size_t>(elements_.num_particles), 0);
+#pragma omp parallel for schedule(static)
+    for (Index i = 0; i < elements_.num_particles; ++i) {
+      for (const Index j : rows_of(i)) below[i] += j > i ? num_free(j) : 0;
+    }
+    Index* outer = matrix.outerIndexPtr();
+    outer[0] = 0;
+    for (Index i = 0; i < elements_.num_particles; ++i) {
+      int own = num_free(i);
+      for (int axis = 0; axis < Dim; ++axis) {
+        const Index column = unknowns_.at(i, axis);
+        if (column != no_index) outer[column + 1] = outer[column] + own-- + below[i];
+      }
+    }
+    matrix.resizeNonZeros(outer[unknowns_.count]);
+  }
+
+  /// Blocks K_ji of a particle i with the particles j of its rows:
+  /// V (lambda g_j g_i' + mu g_i g_j' + mu (g_i g_j) 1).
+  std::vector<Tensor<Dim>> blocks_of(Index particle, const std::vector<Index>& rows) const {
+    std::vector<Tensor<Dim>> blocks(rows.size(), Tensor<Dim>::Zero());
+    for (const Index number : cells_.row(particle)) {
+      const std::span<const Index> cell = elements_.cells.cell(number);
+      const Gradients<Dim> gradients = gradients_of<Dim>(elements_, number);
+      const auto own = std::find(cell.begin(), cell.end(), particle) - cell.begin();
+      const Eigen::Matrix<double, Dim, 1> g_i = gradients.row(own).transpose();
+      const double lambda = elements_.volumes[number] * elements_.lambda[number];
+      const double mu = elements_.volumes[number] * elements_.mu[number];
+      for (int v = 0; v <= Dim; ++v) {
+        if (cell[v] < particle) continue;
+        const Eigen::Matrix<double, Dim, 1> g_j = gradients.row(v).transpose();
+        const auto at = std::lower_bound(rows.begin(), rows.end(), cell[v]) - rows.begin();
+        Tensor<Dim>& block = blocks[static_cast<std::size_t>(at)];
+        block += lambda * g_j * g_i.transpose() + mu * g_i * g_j.transpose();
+        block.diagonal().array() += mu * g_i.dot(g_j);
+      }
+    }
+    return blocks;
+  }
+
+  void fill_columns(Index i, SparseMatrix& matrix) const {
+    const std::vector<Index> rows = rows_of(i);
+    const std::vector<Tensor<Dim>> blocks = blocks_of(i, rows);
+    for (int col = 0; col < Dim; ++col) {
+      const Index column = unknowns_.at(i, col);
+      if (column == no_index) continue;
+      Index entry = matrix.outerIndexPtr()[column];
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        for (int row = rows[r] == i ? col : 0; row < Dim; ++row) {
+          const Index number = unknowns_.at(rows[r], row);
+          if (number == no_index) continue;
+          matrix.innerIndexPtr()[entry] = number;
+          matrix.valuePtr()[entry++] = blocks[r](row, col);
+        }
+      }
+    }
+  }
+
+  const LinearElements& elements_;
+  const Unknowns& unknowns_;
+  Csr cells_;
+};
+
+template <int Dim>
+Tensor<Dim> strain_of(const LinearElements& elements, Index number,
+                      std::span<const double> displacement) {
+  const std::span<const Index> cell = elements.cells.cell(number);
+  const Gradients<Dim> gradients = gradients_of<Dim>(elements, number);
+  Tensor<Dim> gradient = Tensor<Dim>::Zero();
+  for (int v = 0; v <= Dim; ++v) {
+    gradient += vector_at<Dim>(displacement, cell[v]) * gradients.row(v);
+  }
+  return 0.5 * (gradient + gradient.transpose());
+}
+
+template <int Dim>
+Tensor<Dim> stress_of(const LinearElements& elements, Index number, const Tensor<Dim>& strain) {
+  return elements.lambda[number] * strain.trace() * Tensor<Dim>::Identity() +
+         2.0 * elements.mu[number] * strain;
+}
+
+template <int Dim>
+void add_cells(const LinearElements& elements, std::span<const double> displacement,
+               InternalForce& result) {
+  for (Index number = 0; number < elements.cells.size(); ++number) {
+    const Tensor<Dim> strain = strain_of<Dim>(elements, number, displacement);
+    const Tensor<Dim> stress = stress_of<Dim>(elements, number, strain);
+    const double volume = elements.volumes[number];
+    result.energy += 0.5 * volume * stress.cwiseProduct(strain).sum();
+    const Gradients<Dim> gradients = gradients_of<Dim>(elements, number);
+    const std::span<const Index> cell = elements.cells.cell(number);
+    for (int v = 0; v <= Dim; ++v) {
+      Eigen::Map<Eigen::Matrix<double, Dim, 1>>(result.forces.data() +
+                                                static_cast<std::size_t>(cell[v]) * Dim) +=
+          volume * stress * gradients.row(v).transpose();
+    }
+  }
+}
+
+template <int Dim, class TensorOf>
+std::vector<double> tensors_of_cells(const LinearElements& elements, TensorOf tensor_of) {
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(elements.cells.size()) * Dim * Dim);
+  for (Index number = 0; number < elements.cells.size(); ++number) {
+    const Tensor<Dim> tensor = tensor_of(number);
+    values.insert(values.end(), tensor.data(), tensor.data() + Dim * Dim);
+  }
+  return values;
+}
+
+template <int Dim>
+std::vector<double> stresses_of(const LinearElements& elements, std::span<const double> strains) {
+  return tensors_of_cells<Dim>(elements, [&](Index number) {
+    return stress_of<Dim>(elements, number,
+                          Eigen::Map<const Tensor<Dim>>(
+                              strains.data() + static_cast<std::size_t>(number) * Dim * Dim));
+  });
+}
+
+template <int Dim>
+std::vector<double> eigenvalues_of(std::span<const double> tensors) {
+  std::vector<double> values;
+  for (std::size_t at = 0; at < tensors.size(); at += Dim * Dim) {
+    const Tensor<Dim> tensor = Eigen::Map<const Tensor<Dim>>(tensors.data() + at);
+    const Eigen::Matrix<double, Dim, 1> ascending =
+        Eigen::SelfAdjointEigenSolver<Tensor<Dim>>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
+    values.insert(values.end(), ascending.data(), ascending.data() + Dim);
+    std::reverse(values.end() - Dim, values.end());
+  }
+  return values;
+}
+
+}  // namespace
+
+LinearElements make_linear_elements(Simplices cells, std::span<const double> positions,
+                                    double thickness, Problem problem,
+                                    std::span<const IsotropicMaterial> materials) {
+  LinearElements elements;
+  elements.cells = std::move(cells);
+  elements.num_particles =
+      static_cast<Index>(positions.size() / static_cast<std::size_t>(elements.dim()));
+  elements.dim() == 2 ? fill_geometry<2>(positions, thickness, elements)
+                      : fill_geometry<3>(positions, thickness, elements);
+  fill_moduli(problem, materials, elements);
+  return elements;
+}
+
+SparseMatrix assemble_stiffness(const LinearElements& elements, const Unknowns& unknowns) {
+  if (elements.dim() == 2) return ElementStiffness<2>(elements, unknowns).build();
+  return ElementStiffness<3>(elements, unknowns).build();
+}
+
+std::vector<double> assemble_right_hand_side(const LinearElements& elements,
+                                             const Unknowns& unknowns, const Loads& loads) {
+  if (!is_driven(unknowns)) return right_hand_side(unknowns, loads, {});
+  return right_hand_side(unknowns, loads, internal_force(elements, unknowns.prescribed).forces);
+}
+
+InternalForce internal_force(const LinearElements& elements, std::span<const double> displacement) {
+  InternalForce result;
+  result.forces.assign(displacement.size(), 0.0);
+  elements.dim() == 2 ? add_cells<2>(elements, displacement, result)
+                      : add_cells<3>(elements, displacement, result);
+  return result;
+}
+
+std::vector<double> cell_strains(const LinearElements& elements,
+                                 std::span<const double> displacement) {
+  if (elements.dim() == 2) {
+    return tensors_of_cells<2>(elements,
+                               [&](Index n) { return strain_of<2>(elements, n, displacement); });
+  }
+  return tensors_of_cells<3>(elements,
+                             [&](Index n) { return strain_of<3>(elements, n, displacement); });
+}
+
+std::vector<double> cell_stresses(const LinearElements& elements, std::span<const double> strains) {
+  return elements.dim() == 2 ? stresses_of<2>(elements, strains)
+                             : stresses_of<3>(elements, strains);
+}
+
+std::vector<double> principal_values(std::span<const double> tensors, int dim) {
+  return dim == 2 ? eigenvalues_of<2>(tensors) : eigenvalues_of<3>(tensors);
+}
+
+std::vector<double> averaged_at_particles(const LinearElements& elements,
+                                          std::span<const double> values, std::size_t width) {
+  std::vector<double> sums(static_cast<std::size_t>(elements.num_particles) * width, 0.0);
+  std::vector<double> volumes(static_cast<std::size_t>(elements.num_particles), 0.0);
+  for (Index number = 0; number < elements.cells.size(); ++number) {
+    for (const Index i : elements.cells.cell(number)) {
+      volumes[i] += elements.volumes[number];
+      for (std::size_t c = 0; c < width; ++c) {
+        sums[i * width + c] +=
+            elements.volumes[number] * values[static_cast<std::size_t>(number) * width + c];
+      }
+    }
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= volumes[k / width];
+  return sums;
+}
+
+}  // namespace perilink
