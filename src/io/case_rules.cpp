@@ -185,6 +185,10 @@ void check_method(const CaseFile& input) {
     throw InputError(where, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
                      "delete one of the two");
   }
+  if (!input.cracks.empty()) {
+    throw InputError(where, "is \"linear_elements\", but the case has [[cracks]], which cut bonds",
+                     "delete one of the two, or leave the crack out of the mesh");
+  }
 }
 
 }  // namespace

@@ -147,21 +147,26 @@ void read_reference(const CaseTable& table, ErrorSection& error, std::size_t mem
   }
 }
 
+/// As many formulas as the case has dimensions, which is looked at later.
+std::vector<Expression> read_field(const CaseTable& table) {
+  const std::size_t count = table.value("displacement")->items.size();
+  if (table.value("displacement")->kind == TomlValue::Kind::array && count != 2 && count != 3) {
+    table.refuse("displacement", fmt::format("has {} formulas", count),
+                 "give one for each axis: [\"formula x\", \"formula y\"]");
+  }
+  const int dim = static_cast<int>(count);
+  const ExpressionVector formulas = *table.expressions("displacement", dim);
+  return {formulas.begin(), formulas.begin() + dim};
+}
+
 ErrorSection read_error(const CaseTable& table, std::size_t members, SourceLocation where) {
   ErrorSection error;
   error.where = std::move(where);
   table.need_one_of({"displacement", "gauge", "quantity"});
-  assign(error.displacement, table.texts("displacement"));
+  if (table.has("displacement")) error.displacement = read_field(table);
   assign(error.gauge, table.text("gauge"));
   assign(error.quantity, table.choice("quantity", quantity_words()));
   if (table.has("displacement")) {
-    if (error.displacement.size() != 2 && error.displacement.size() != 3) {
-      table.refuse("displacement", fmt::format("has {} formulas", error.displacement.size()),
-                   "give one for each axis: [\"formula x\", \"formula y\"]");
-    }
-    for (const std::string& formula : error.displacement) {
-      if (formula.empty()) table.refuse("displacement", "holds an empty formula", "write \"0\"");
-    }
     if (table.has("reference")) {
       table.refuse("reference", "is given, but `displacement` is the reference itself",
                    "delete it");

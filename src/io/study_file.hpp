@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "io/formula.hpp"
 #include "io/toml_tree.hpp"
 
 /// \file
@@ -34,11 +35,11 @@ enum class Reference {
 /// [error]: exactly one of displacement, gauge and quantity.
 struct ErrorSection {
   SourceLocation where;
-  std::string name;                       ///< of columns and pictures
-  std::vector<std::string> displacement;  ///< closed form, one formula of x, y, z for each axis
-  bool remove_rigid_motion = false;       ///< from the difference to the closed form
-  std::string gauge;                      ///< column of the history
-  std::string quantity;                   ///< one of quantity_words()
+  std::string name;                      ///< of columns and pictures
+  std::vector<Expression> displacement;  ///< closed form, one formula of x, y, z for each axis
+  bool remove_rigid_motion = false;      ///< from the difference to the closed form
+  std::string gauge;                     ///< column of the history
+  std::string quantity;                  ///< one of quantity_words()
   Reference reference = Reference::number;
   double reference_value = 0.0;
 

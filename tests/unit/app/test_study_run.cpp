@@ -138,8 +138,6 @@ void expect_check_refused(const StudyFile& file, const std::string& key, const s
 TEST_F(StudyRun, ErrorsThatTheCaseCannotHaveAreRefused) {
   expect_check_refused(study("[error]\ndisplacement = [\"x\", \"y\", \"z\"]\n"),
                        "error.displacement", "2 dimensions");
-  expect_check_refused(study("[error]\ndisplacement = [\"x\", \"sinus(y)\"]\n"),
-                       "error.displacement", "\"sinus(y)\"");
   expect_check_refused(study("[error]\ngauge = \"mouth\"\nreference = 1\n"), "error.gauge",
                        "no gauge of that name");
   test::write_text(directory_ / "strip.toml", test::strip_text);
