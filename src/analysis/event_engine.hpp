@@ -19,7 +19,7 @@ struct Event {
 /// What became of an event.
 struct EventOutcome {
   bool mechanism = false;  ///< the element held the last load path: nothing was changed
-  double pivot = 1.0;      ///< 1 - x' K^-1 x
+  double pivot = 1.0;      ///< 1 - x' K^-1 x; of a micropolar bond the smallest of its modes
   /// Growth of f'u - R'd at load factor 1: k e^2 / pivot [force length]. The event dissipates
   /// lambda_k lambda_(k+1) / 2 times this along the path drawn through the events.
   double compliance_growth = 0.0;
@@ -75,6 +75,10 @@ inline constexpr double tie_tolerance = 1e-10;
 
 /// Below this pivot an event leaves a mechanism: the specimen has separated.
 inline constexpr double mechanism_pivot = 1e-6;
+
+/// Pivots below this are computed again with refinement: a body that is about to separate has a
+/// condition number that takes most digits of what the factor says.
+inline constexpr double doubtful_pivot = 1e-2;
 
 /// What an engine needs to know.
 struct EngineOptions {

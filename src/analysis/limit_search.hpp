@@ -3,30 +3,21 @@
 #include <span>
 #include <vector>
 
-#include "assembly/network.hpp"
+#include "analysis/break_search.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
 
-/// Finds the bond that is nearest to its critical stretch. Holds only the bonds that can still break,
+/// Search among bonds that only stretch. Holds only the bonds that can still break,
 /// in the order of their numbers, with everything that does not change folded into one vector per
 /// bond: ratio = g . (u_second - u_first), g = n / (xi s_c), so that a bond breaks at the load factor
 /// 1 / ratio. One pass costs about one nanosecond per bond.
-class LimitSearch {
+class LimitSearch final : public BreakSearch {
  public:
   explicit LimitSearch(const Network& network);
 
-  struct Hit {
-    Index element = no_index;
-    double ratio = 0.0;  ///< stretch over critical stretch at load factor 1
-  };
-
-  /// Largest positive ratio; of those within `tolerance` of it the lowest element.
-  /// \param displacement  shape (particles, dim)
-  Hit find(std::span<const double> displacement, double tolerance, int threads);
-
-  /// Takes a broken bond out of the search.
-  void remove(Index element);
+  Hit find(std::span<const double> displacement, double tolerance, int threads) override;
+  void remove(Index element) override;
 
  private:
   template <int Dim>

@@ -12,10 +12,6 @@
 namespace perilink {
 namespace {
 
-/// Pivots below this are computed again with refinement: a body that is about to separate has a
-/// condition number that takes most digits of what the factor says.
-constexpr double doubtful_pivot = 1e-2;
-
 /// Where even a fresh factor leaves more than this of the load out of balance, no figure that follows
 /// would mean anything.
 constexpr double hopeless_residual = 1e-3;
@@ -34,7 +30,7 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
       loads_(loads),
       options_(options),
       factor_(make_factor(options.route, options.threads)),
-      search_(network),
+      search_(make_break_search(network)),
       secants_(static_cast<std::size_t>(network.num_elements()), 1.0),
       solution_(static_cast<std::size_t>(unknowns.count), 0.0),
       displacement_(unknowns.prescribed) {
@@ -44,10 +40,10 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
     slot_of_.push_back(slot);
     if (loads.forces[slot] != 0.0) loaded_slots_.push_back(slot);
   }
-  const int dim = network.dim();
+  const int width = network.width();
   auto driven = [&](Index particle) {
-    const auto begin = unknowns.prescribed.begin() + static_cast<std::ptrdiff_t>(particle) * dim;
-    return std::any_of(begin, begin + dim, [](double value) { return value != 0.0; });
+    const auto begin = unknowns.prescribed.begin() + static_cast<std::ptrdiff_t>(particle) * width;
+    return std::any_of(begin, begin + width, [](double value) { return value != 0.0; });
   };
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (driven(network.bonds.first[e]) || driven(network.bonds.second[e])) {
@@ -78,7 +74,7 @@ void SingleEventEngine::choose_current_unknowns() {
   if (!driven_elements_.empty()) return;
   std::vector<std::uint8_t> wanted(solution_.size(), 0);
   auto want = [&](Index particle) {
-    for (int a = 0; a < network_.dim(); ++a) {
+    for (int a = 0; a < network_.width(); ++a) {
       const Index unknown = unknowns_.at(particle, a);
       if (unknown != no_index) wanted[unknown] = 1;
     }
@@ -136,7 +132,7 @@ void SingleEventEngine::scatter_solution() {
 }
 
 Event SingleEventEngine::next_event() {
-  LimitSearch::Hit hit = search_.find(displacement_, tie_tolerance, options_.threads);
+  BreakSearch::Hit hit = search_->find(displacement_, tie_tolerance, options_.threads);
   for (const Index k : yielding_) {
     const Index element = network_.first_segment + k;
     if (secants_[element] == 0.0) continue;  // cut
@@ -153,10 +149,10 @@ SingleEventEngine::Change SingleEventEngine::make_change(Index element,
                                                          double stiffness_lost) const {
   Change change;
   change.x = element_vector(network_, unknowns_, element, stiffness_lost);
-  const int dim = network_.dim();
+  const int dim = network_.dim(), width = network_.width();
   const std::span<const double> n = network_.bonds.direction(element);
-  const std::size_t i = static_cast<std::size_t>(network_.bonds.first[element]) * dim;
-  const std::size_t j = static_cast<std::size_t>(network_.bonds.second[element]) * dim;
+  const std::size_t i = static_cast<std::size_t>(network_.bonds.first[element]) * width;
+  const std::size_t j = static_cast<std::size_t>(network_.bonds.second[element]) * width;
   const double root = std::sqrt(stiffness_lost);
   // Prescribed displacements are zero where there is an unknown.
   for (int a = 0; a < dim; ++a) {
@@ -167,9 +163,10 @@ SingleEventEngine::Change SingleEventEngine::make_change(Index element,
   return change;
 }
 
-/// 1 - x' K^-1 x with K^-1 x refined against the elements themselves.
-double SingleEventEngine::refined_pivot(const SparseVector& x) {
-  std::vector<double> rhs(solution_.size(), 0.0), direction(solution_.size(), 0.0);
+/// K^-1 x refined against the elements themselves.
+void SingleEventEngine::refined_solve(const SparseVector& x, std::vector<double>& direction) {
+  std::vector<double> rhs(solution_.size(), 0.0);
+  direction.assign(solution_.size(), 0.0);
   for (int k = 0; k < x.size; ++k) rhs[x.rows[k]] = x.values[k];
   std::vector<double> residual = rhs;
   std::vector<double> spread(displacement_.size(), 0.0);
@@ -185,6 +182,11 @@ double SingleEventEngine::refined_pivot(const SparseVector& x) {
       if (!ground_stiffness_.empty()) residual[k] -= ground_stiffness_[k] * direction[k];
     }
   }
+}
+
+double SingleEventEngine::refined_pivot(const SparseVector& x) {
+  std::vector<double> direction;
+  refined_solve(x, direction);
   double removed = 0.0;
   for (int k = 0; k < x.size; ++k) removed += x.values[k] * direction[x.rows[k]];
   return 1.0 - removed;
@@ -206,7 +208,7 @@ double SingleEventEngine::pivot_of(const Change& change) {
 
 void SingleEventEngine::commit(const Change& change, Index element, double secant) {
   secants_[element] = secant;
-  if (secant == 0.0) search_.remove(element);
+  if (secant == 0.0) search_->remove(element);
   if (change.x.size == 0) return;  // both ends prescribed: nothing unknown is held by this element
   factor_->commit_downdate(change.load_change, solution_);
   scatter_solution();
@@ -215,6 +217,7 @@ void SingleEventEngine::commit(const Change& change, Index element, double secan
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
   const Index element = event.element;
+  if (is_frame(element)) return break_frame(element);
   double next = 0.0;
   if (network_.is_segment(element)) {
     const Index k = element - network_.first_segment;
@@ -247,6 +250,10 @@ LoadWork SingleEventEngine::load_work() {
   const int dim = network_.dim();
   for (const Index e : driven_elements_) {
     if (secants_[e] == 0.0) continue;
+    if (network_.carries_moments()) {
+      work.supports += driven_work_of(e);
+      continue;
+    }
     const std::span<const double> n = network_.bonds.direction(e);
     const std::size_t i = static_cast<std::size_t>(network_.bonds.first[e]) * dim;
     const std::size_t j = static_cast<std::size_t>(network_.bonds.second[e]) * dim;
@@ -323,13 +330,26 @@ Index SingleEventEngine::most_mobile_unknown(const SparseVector& x) {
   return static_cast<Index>(largest - direction.begin());
 }
 
+/// That of the stiffest bond; of a rotation the largest bending stiffness.
+double SingleEventEngine::ground_stiffness_of(Index unknown) const {
+  const auto component = static_cast<int>(slot_of_[unknown] % network_.width());
+  if (component < network_.dim()) {
+    return *std::max_element(network_.stiffness.begin(),
+                             network_.stiffness.begin() + network_.first_tie);
+  }
+  double largest = 0.0;
+  for (Index e = 0; e < network_.first_tie; ++e) {
+    largest = std::max(largest, network_.bending[e] * std::pow(network_.bonds.lengths[e], 2));
+  }
+  return largest;
+}
+
 void SingleEventEngine::add_ground_spring(Index unknown) {
   if (ground_stiffness_.empty()) {
     ground_stiffness_.assign(solution_.size(), 0.0);
     ground_load_.assign(solution_.size(), 0.0);
   }
-  const double stiffness =
-      *std::max_element(network_.stiffness.begin(), network_.stiffness.begin() + network_.first_tie);
+  const double stiffness = ground_stiffness_of(unknown);
   SparseVector x;
   x.size = 1;
   x.rows[0] = unknown;
@@ -339,15 +359,23 @@ void SingleEventEngine::add_ground_spring(Index unknown) {
   ground_load_[unknown] += stiffness * solution_[unknown];
 }
 
-int SingleEventEngine::cut(std::span<const Index> elements) {
-  // Springs act on displacements anywhere: from now on all of them are kept current.
+/// Springs act on displacements anywhere: from now on all of them are kept current.
+void SingleEventEngine::keep_all_current() {
   if (partial_) factor_->keep_current(std::vector<std::uint8_t>(solution_.size(), 1));
   if (stale_) refresh();
   partial_ = false;
+}
+
+int SingleEventEngine::cut(std::span<const Index> elements) {
+  keep_all_current();
   int springs = 0;
   const int most = network_.dim() == 2 ? 3 : 6;
   for (const Index element : elements) {
     if (secants_[element] == 0.0) continue;
+    if (is_frame(element)) {
+      springs += cut_frame(element);
+      continue;
+    }
     const Change change =
         make_change(element, network_.stiffness[element] * secants_[element]);
     double pivot = pivot_of(change);

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "analysis/event_engine.hpp"
-#include "analysis/limit_search.hpp"
+#include "analysis/break_search.hpp"
+#include "analysis/removal.hpp"
 #include "assembly/internal_force.hpp"
 #include "material/bond_law.hpp"
 
@@ -42,6 +43,7 @@ class SingleEventEngine final : public EventEngine {
   void factorize();
   double pivot_of(const Change& change);
   double refined_pivot(const SparseVector& x);
+  void refined_solve(const SparseVector& x, std::vector<double>& direction);
   void commit(const Change& change, Index element, double secant);
   void scatter_solution();
   void choose_current_unknowns();
@@ -51,14 +53,28 @@ class SingleEventEngine final : public EventEngine {
   std::vector<double> present_load() const;
   double measure_residual(std::vector<double>& residual);
   void add_ground_spring(Index unknown);
+  double ground_stiffness_of(Index unknown) const;
   Index most_mobile_unknown(const SparseVector& x);
+  void keep_all_current();
+  bool is_frame(Index element) const {
+    return network_.carries_moments() && network_.bending[element] > 0.0;
+  }
+
+  // Micropolar bonds: frame_events.cpp.
+  std::vector<double> refined_compliance(const Removal& removal);
+  void measure_pivots(Removal& removal);
+  bool hold_free_modes(Removal& removal, Index element, double unloaded, int& springs);
+  void commit_frame(const Removal& removal, Index element);
+  EventOutcome break_frame(Index element);
+  int cut_frame(Index element);
+  double driven_work_of(Index element) const;
 
   const Network& network_;
   const Unknowns& unknowns_;
   const Loads& loads_;
   EngineOptions options_;
   std::unique_ptr<Factor> factor_;
-  LimitSearch search_;
+  std::unique_ptr<BreakSearch> search_;
 
   std::vector<double> secants_;
   std::vector<int> teeth_;              ///< present tooth of each bar segment
@@ -69,7 +85,7 @@ class SingleEventEngine final : public EventEngine {
   bool partial_ = false;  ///< events keep only the displacements current that the search looks at
   bool stale_ = false;    ///< the other displacements are those of an earlier event
   double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
-  std::vector<std::size_t> slot_of_;    ///< particle * dim + axis of every unknown
+  std::vector<std::size_t> slot_of_;    ///< particle * width + component of every unknown
   std::vector<double> solution_;        ///< per unknown
   std::vector<double> displacement_;
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_

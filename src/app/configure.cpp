@@ -246,11 +246,6 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
 
 void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
   if (input.analysis.type != "damage") return;
-  if (network.carries_moments()) {
-    throw InputError(input.where("body.model"),
-                     "is \"micropolar\", whose bonds cannot break in this version",
-                     "set analysis.type = \"elastic\"");
-  }
   auto finite = [](double value) { return std::isfinite(value); };
   if (std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite) ||
       std::any_of(network.yield_strain.begin(), network.yield_strain.end(), finite)) {

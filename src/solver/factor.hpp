@@ -67,6 +67,17 @@ class Factor {
   /// \param solution  of the load that is followed: before the removal on entry, after it on return
   virtual void commit_downdate(double load_change, std::span<double> solution) = 0;
 
+  /// x_a' K^-1 x_b of a few vectors that share a path (those of one bond), row after row in
+  /// `result`, shape (n, n). Changes nothing, but forgets what prepare_downdate prepared.
+  virtual void compliance(std::span<const SparseVector> x, std::span<double> result);
+
+  /// K <- K - sum x x', f <- f + sum load_change x for vectors that do not interact: x_a' K^-1 x_b = 0
+  /// where a and b differ.
+  /// \param pivots    1 - x' K^-1 x of each, all positive
+  /// \param solution  as in commit_downdate
+  virtual void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
+                        std::span<const double> pivots, std::span<double> solution);
+
   /// K <- K + x x' (a ground spring); the pattern of x must lie in that of the matrix. The load that is
   /// followed grows by x (x'u), the force of the spring, so that its solution u stays where it is.
   virtual void update(const SparseVector& x, std::span<const double> solution) = 0;

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "solver/supernodal_kernels.hpp"
@@ -200,10 +201,14 @@ void InPlaceFactor::follow_load(std::span<const double> load, std::span<double> 
 
 /// Eliminates x along its path and leaves p = L^-1 x in p_.
 void InPlaceFactor::forward_path(const SparseVector& permuted) {
+  forward_path(permuted, permuted.size == 0 ? no_index : permuted.rows[0]);
+}
+
+/// The same along the path from column `start`, at or before the first row of x; no_index: none.
+void InPlaceFactor::forward_path(const SparseVector& permuted, Index start) {
   clear_path();
-  if (permuted.size == 0) return;
+  if (start == no_index) return;
   for (int k = 0; k < permuted.size; ++k) p_[permuted.rows[k]] = permuted.values[k];
-  Index start = permuted.rows[0];
   for (Index s = supernode_of_[start]; s != no_index; s = parent_[s]) {
     path_.push_back(s);
     on_path_[s] = 1;
@@ -274,13 +279,75 @@ void InPlaceFactor::commit_downdate(double load_change, std::span<double> soluti
   for (Index k = 0; k < size_; ++k) solution[k] += scale * vector_[position_[k]];
 }
 
-void InPlaceFactor::update(const SparseVector& x, std::span<const double> /*solution*/) {
-  x_ = permute(x, position_);
-  forward_path(x_);
-  start_change(1.0);
+void InPlaceFactor::compliance(std::span<const SparseVector> x, std::span<double> result) {
+  std::vector<SparseVector> permuted;
+  Index start = no_index;
+  for (const SparseVector& column : x) {
+    permuted.push_back(permute(column, position_));
+    if (column.size == 0) continue;
+    const Index first = permuted.back().rows[0];
+    start = start == no_index ? first : std::min(start, first);
+  }
+  std::vector<std::vector<double>> scaled(x.size());  // D^-1/2 L^-1 x along the common path
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    forward_path(permuted[a], start);
+    for (const Index s : path_) {
+      const Block b = block(s);
+      for (Index j = 0; j < b.columns; ++j) {
+        scaled[a].push_back(p_[b.first_column + j] / std::sqrt(*diagonal(s, j)));
+      }
+    }
+    for (std::size_t b = 0; b <= a; ++b) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < scaled[a].size(); ++k) sum += scaled[a][k] * scaled[b][k];
+      result[a * x.size() + b] = result[b * x.size() + a] = sum;
+    }
+  }
+}
+
+/// With K^-1 x_b across each other the new solution is u + sum (load_change + x'u) / pivot K^-1 x.
+void InPlaceFactor::downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
+                             std::span<const double> pivots, std::span<double> solution) {
+  SparseVector sum;
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    double extension = load_changes[a];
+    for (int k = 0; k < x[a].size; ++k) extension += x[a].values[k] * solution[x[a].rows[k]];
+    for (int k = 0; k < x[a].size; ++k) {
+      const auto end = sum.rows.begin() + sum.size;
+      const auto place = std::find(sum.rows.begin(), end, x[a].rows[k]) - sum.rows.begin();
+      if (place == sum.size) {
+        sum.rows[sum.size] = x[a].rows[k];
+        sum.values[sum.size++] = 0.0;
+      }
+      sum.values[place] += extension / pivots[a] * x[a].values[k];
+    }
+  }
+  forward_path(permute(sum, position_));
+  std::fill(vector_.begin(), vector_.end(), 0.0);
+  for (const Index s : path_) {
+    const Block b = block(s);
+    for (Index j = 0; j < b.columns; ++j) {
+      vector_[b.first_column + j] = p_[b.first_column + j] / *diagonal(s, j);
+    }
+  }
+  descend([this](Index s, double* local) {
+    if (on_path_[s] || wanted_.empty() || wanted_[s]) backward_on(s, vector_.data(), local);
+  });
+  for (Index k = 0; k < size_; ++k) solution[k] += vector_[position_[k]];
+  for (const SparseVector& column : x) change_path(permute(column, position_), -1.0);
+}
+
+/// K -+ x x' on the columns of its path.
+void InPlaceFactor::change_path(const SparseVector& permuted, double sign) {
+  forward_path(permuted);
+  start_change(sign);
   for (auto s = path_.rbegin(); s != path_.rend(); ++s) {
     backward_and_change_on(*s, vector_.data(), local_.data());
   }
+}
+
+void InPlaceFactor::update(const SparseVector& x, std::span<const double> /*solution*/) {
+  change_path(permute(x, position_), 1.0);
 }
 
 /// Trapezoids of the supernodes that the backward pass of the last event computed, those of the path

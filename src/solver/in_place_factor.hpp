@@ -27,6 +27,10 @@ class InPlaceFactor final : public Factor {
   void keep_current(std::span<const std::uint8_t> wanted) override;
   double prepare_downdate(const SparseVector& x) override;
   void commit_downdate(double load_change, std::span<double> solution) override;
+  void compliance(std::span<const SparseVector> x, std::span<double> result) override;
+  /// One backward pass for the solution; the columns of the path change vector by vector.
+  void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
+                std::span<const double> pivots, std::span<double> solution) override;
   void update(const SparseVector& x, std::span<const double> solution) override;
   int factorizations() const override { return factorizations_; }
   FactorStatistics statistics() const override;
@@ -55,6 +59,8 @@ class InPlaceFactor final : public Factor {
   template <typename Function>
   void descend(const Function& on_supernode);
   void forward_path(const SparseVector& permuted);
+  void forward_path(const SparseVector& permuted, Index start);
+  void change_path(const SparseVector& permuted, double sign);
   void clear_path();
   void start_change(double sign);
 

@@ -61,9 +61,21 @@ void RefactorizingFactor::change_matrix(const SparseVector& x, double sign) {
   }
 }
 
+void RefactorizingFactor::add_to_load(const SparseVector& x, double factor) {
+  for (int k = 0; k < x.size; ++k) load_[x.rows[k]] += factor * x.values[k];
+}
+
 void RefactorizingFactor::commit_downdate(double load_change, std::span<double> solution) {
-  change_matrix(x_, -1.0);
-  for (int k = 0; k < x_.size; ++k) load_[x_.rows[k]] += load_change * x_.values[k];
+  downdate({&x_, 1}, {&load_change, 1}, {}, solution);
+}
+
+void RefactorizingFactor::downdate(std::span<const SparseVector> x,
+                                   std::span<const double> load_changes,
+                                   std::span<const double> /*pivots*/, std::span<double> solution) {
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    change_matrix(x[a], -1.0);
+    add_to_load(x[a], load_changes[a]);
+  }
   factorize_numerically(session_, matrix_, factor_.get());
   ++factorizations_;
   solve(load_, solution);
@@ -73,7 +85,7 @@ void RefactorizingFactor::update(const SparseVector& x, std::span<const double> 
   change_matrix(x, 1.0);
   double extension = 0.0;
   for (int k = 0; k < x.size; ++k) extension += x.values[k] * solution[x.rows[k]];
-  for (int k = 0; k < x.size; ++k) load_[x.rows[k]] += extension * x.values[k];
+  add_to_load(x, extension);
   factorize_numerically(session_, matrix_, factor_.get());
   ++factorizations_;
 }

@@ -18,11 +18,15 @@ class RefactorizingFactor final : public Factor {
   void follow_load(std::span<const double> load, std::span<double> solution) override;
   double prepare_downdate(const SparseVector& x) override;
   void commit_downdate(double load_change, std::span<double> solution) override;
+  /// One factorisation for all of them.
+  void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
+                std::span<const double> pivots, std::span<double> solution) override;
   void update(const SparseVector& x, std::span<const double> solution) override;
   int factorizations() const override { return factorizations_; }
   FactorStatistics statistics() const override;
 
  private:
+  void add_to_load(const SparseVector& x, double factor);
   void change_matrix(const SparseVector& x, double sign);
 
   CholmodSession session_;

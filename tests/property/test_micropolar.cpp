@@ -10,6 +10,7 @@
 #include "assembly/rigid_modes.hpp"
 #include "assembly/stiffness.hpp"
 #include "support/micropolar_networks.hpp"
+#include "support/textbook_beams.hpp"
 
 namespace perilink {
 namespace {
@@ -41,30 +42,21 @@ Eigen::MatrixXd dense(const Network& network, const std::vector<double>& secants
   return lower.selfadjointView<Eigen::Lower>();
 }
 
-/// Beam of length L with axial stiffness EA and bending stiffness EI along x, unknowns (u, v, theta)
-/// at either end (Gerstle, Sau & Aguilera 2007, Eq. 5).
-Eigen::MatrixXd beam_stiffness(double L, double EA, double EI) {
-  const double a = EA / L, b = 12.0 * EI / (L * L * L), c = 6.0 * EI / (L * L), d = 4.0 * EI / L,
-               e = 2.0 * EI / L;
-  Eigen::MatrixXd k(6, 6);
-  k << a, 0, 0, -a, 0, 0,    //
-      0, b, c, 0, -b, c,     //
-      0, c, d, 0, -c, e,     //
-      -a, 0, 0, a, 0, 0,     //
-      0, -b, -c, 0, b, -c,   //
-      0, c, e, 0, -c, d;
-  return k;
-}
-
 TEST(OneFrame, HasTheStiffnessOfABeam) {
   constexpr double L = 5.0, EA = 70.0, EI = 11.0;
   const Network network = single_frame(2, {3.0, 4.0}, EA / L, 12.0 * EI / (L * L * L));
-  Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(6, 6);  // from x, y to along and across
-  for (const int end : {0, 3}) turn.block<2, 2>(end, end) << 0.6, 0.8, -0.8, 0.6;
-  const Eigen::MatrixXd expected = turn.transpose() * beam_stiffness(L, EA, EI) * turn;
+  const Eigen::MatrixXd expected = element_stiffness(network, 0);
   const Eigen::MatrixXd stiffness = dense(network, {1.0}, all_free(network));
   EXPECT_LT((stiffness - expected).cwiseAbs().maxCoeff(), 1e-14 * expected.maxCoeff());
   EXPECT_EQ(dense(network, {0.0}, all_free(network)).norm(), 0.0);  // broken
+}
+
+TEST(OneFrame, HasTheStiffnessOfABeamInSpace) {
+  Network network = single_frame(3, {2.0, -3.0, 6.0}, 14.0, 3.0);
+  network.torsion = 0.4;
+  const Eigen::MatrixXd expected = element_stiffness(network, 0);
+  const Eigen::MatrixXd stiffness = dense(network, {1.0}, all_free(network));
+  EXPECT_LT((stiffness - expected).cwiseAbs().maxCoeff(), 1e-14 * expected.maxCoeff());
 }
 
 TEST(OneFrame, IsACantilever) {

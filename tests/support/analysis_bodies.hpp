@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "analysis/damage_analysis.hpp"
-#include "support/small_networks.hpp"
+#include "support/micropolar_networks.hpp"
+#include "support/textbook_beams.hpp"
 
 /// \file
 /// Small bodies with supports and loads, and a dense solution of their equilibrium that shares no
@@ -32,7 +33,7 @@ inline std::vector<double> intact(const Network& network) {
 /// Body without supports and loads.
 inline AnalysisBody free_body(Network network) {
   AnalysisBody body;
-  const std::size_t slots = network.particles.positions.size();
+  const std::size_t slots = static_cast<std::size_t>(network.particles.size()) * network.width();
   body.network = std::move(network);
   body.unknowns.width = body.network.width();
   body.unknowns.number.assign(slots, 0);
@@ -47,13 +48,14 @@ using IsHeld = std::function<bool(Index particle, int axis)>;
 inline void number(AnalysisBody& body, const IsHeld& is_held) {
   std::vector<std::uint8_t> held;
   for (Index i = 0; i < body.network.particles.size(); ++i) {
-    for (int a = 0; a < body.network.dim(); ++a) held.push_back(is_held(i, a));
+    for (int a = 0; a < body.network.width(); ++a) held.push_back(is_held(i, a));
   }
-  body.unknowns = number_unknowns(body.network.dim(), held, body.unknowns.prescribed);
+  hold_idle_rotations(body.network, held);
+  body.unknowns = number_unknowns(body.network.width(), held, body.unknowns.prescribed);
 }
 
 inline std::size_t slot(const AnalysisBody& body, Index particle, int axis) {
-  return static_cast<std::size_t>(particle) * body.network.dim() + axis;
+  return static_cast<std::size_t>(particle) * body.network.width() + axis;
 }
 
 /// Rows of `columns` bonds in series that know nothing of one another: a square lattice of unit
@@ -142,10 +144,11 @@ struct BlockCase {
   bool bar = false;     ///< a bar that yields runs along x
   int columns = 6;
   double scatter = 0.1;  ///< relative scatter of the critical stretches; 0: exact ties by symmetry
+  bool micropolar = false;  ///< Poisson's ratio 0.1, torsion 1.3
 };
 
 inline std::string to_string(const BlockCase& block) {
-  return block.lattice.name + (block.driven ? "_driven" : "_pulled") + (block.bar ? "_bar" : "");
+  return (block.micropolar ? "micropolar_" : "") + block.lattice.name + (block.driven ? "_driven" : "_pulled") + (block.bar ? "_bar" : "");
 }
 
 inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
@@ -156,7 +159,7 @@ inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
 /// the particles of these faces, so that the block fails between them.
 inline AnalysisBody make_block(const BlockCase& block) {
   const LatticeInput input = body_input(block.lattice, block.columns);
-  NetworkInput constants = network_input(input);
+  NetworkInput constants = block.micropolar ? micropolar_input(input) : network_input(input);
   const Vector3 end = input.solid[0].upper;
   if (block.bar) {
     // Yields at about the stretch at which bonds break.
@@ -200,18 +203,16 @@ inline AnalysisBody make_block(const BlockCase& block) {
 
 /// Stiffness over all components, supported ones and all, as a dense matrix.
 inline Eigen::MatrixXd dense_stiffness(const Network& network, std::span<const double> secants) {
-  const int dim = network.dim();
+  const int width = network.width();
   Eigen::MatrixXd matrix =
-      Eigen::MatrixXd::Zero(network.particles.size() * dim, network.particles.size() * dim);
+      Eigen::MatrixXd::Zero(network.particles.size() * width, network.particles.size() * width);
   for (Index e = 0; e < network.num_elements(); ++e) {
-    Eigen::VectorXd n(dim);
-    for (int a = 0; a < dim; ++a) n[a] = network.bonds.direction(e)[a];
-    const Eigen::MatrixXd block = network.stiffness[e] * secants[e] * n * n.transpose();
-    const Index i = network.bonds.first[e] * dim, j = network.bonds.second[e] * dim;
-    matrix.block(i, i, dim, dim) += block;
-    matrix.block(j, j, dim, dim) += block;
-    matrix.block(i, j, dim, dim) -= block;
-    matrix.block(j, i, dim, dim) -= block;
+    const Eigen::MatrixXd block = secants[e] * element_stiffness(network, e);
+    const Index i = network.bonds.first[e] * width, j = network.bonds.second[e] * width;
+    matrix.block(i, i, width, width) += block.topLeftCorner(width, width);
+    matrix.block(j, j, width, width) += block.bottomRightCorner(width, width);
+    matrix.block(i, j, width, width) += block.topRightCorner(width, width);
+    matrix.block(j, i, width, width) += block.bottomLeftCorner(width, width);
   }
   return matrix;
 }
@@ -256,15 +257,20 @@ inline double difference(std::span<const double> displacement, const Eigen::Vect
   return largest / reference.cwiseAbs().maxCoeff();
 }
 
-/// Extension of an element per length.
+/// Extension of an element per length; of a micropolar bond in tension the stretch of equal energy.
 inline double stretch(const Network& network, std::span<const double> displacement, Index e) {
-  const int dim = network.dim();
+  const int dim = network.dim(), width = network.width();
+  const double length = network.bonds.lengths[e];
   double extension = 0.0;
   for (int a = 0; a < dim; ++a) {
-    extension += network.bonds.direction(e)[a] * (displacement[network.bonds.second[e] * dim + a] -
-                                                  displacement[network.bonds.first[e] * dim + a]);
+    extension += network.bonds.direction(e)[a] * (displacement[network.bonds.second[e] * width + a] -
+                                                  displacement[network.bonds.first[e] * width + a]);
   }
-  return extension / network.bonds.lengths[e];
+  if (!network.carries_moments()) return extension / length;
+  const double equivalent =
+      std::sqrt(2.0 * element_energy(network, displacement, e) / network.stiffness[e]);
+  // Bonds that symmetry neither stretches nor shortens do not break.
+  return (extension > 1e-6 * equivalent ? equivalent : extension) / length;
 }
 
 /// Energy stored in all elements.
@@ -272,8 +278,7 @@ inline double stored_energy(const Network& network, std::span<const double> seca
                             std::span<const double> displacement) {
   double energy = 0.0;
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const double extension = stretch(network, displacement, e) * network.bonds.lengths[e];
-    energy += 0.5 * network.stiffness[e] * secants[e] * extension * extension;
+    energy += secants[e] * element_energy(network, displacement, e);
   }
   return energy;
 }

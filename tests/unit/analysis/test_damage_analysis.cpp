@@ -315,7 +315,9 @@ INSTANTIATE_TEST_SUITE_P(DamageAnalysis, DamagedBlock,
                                          BlockCase{hexagonal_ghost, false, true},
                                          BlockCase{rectangular, true, false, 6, 0.0},
                                          BlockCase{cubic, false, false, 3, 0.0},
-                                         BlockCase{cubic, true, false, 3}),
+                                         BlockCase{cubic, true, false, 3},
+                                         BlockCase{hexagonal, false, true, 6, 0.1, true},
+                                         BlockCase{cubic, true, false, 3, 0.1, true}),
                          [](const auto& test) {
                            return to_string(test.param) + "_" + std::to_string(test.index);
                          });

@@ -171,7 +171,11 @@ INSTANTIATE_TEST_SUITE_P(EventEngine, FollowedBlock,
                                          BlockCase{hexagonal_ghost, false, true},
                                          BlockCase{hexagonal_ghost, true},
                                          BlockCase{cubic, false, false, 3},
-                                         BlockCase{cubic, true, true, 3}),
+                                         BlockCase{cubic, true, true, 3},
+                                         BlockCase{rectangular, false, true, 6, 0.1, true},
+                                         BlockCase{hexagonal_ghost, true, true, 6, 0.1, true},
+                                         BlockCase{cubic, false, false, 3, 0.1, true},
+                                         BlockCase{cubic, true, true, 3, 0.1, true}),
                          [](const auto& test) { return to_string(test.param); });
 
 }  // namespace

@@ -216,5 +216,42 @@ TEST(BoundaryConditions, LooseParticlesAreRefused) {
   EXPECT_NO_THROW(build_model(input)) << "a support holds it";
 }
 
+/// The strip with micropolar bonds.
+CaseFile micropolar_strip() {
+  CaseFile input = strip_case();
+  input.body.model = "micropolar";
+  input.materials[0].poissons_ratio = 0.2;
+  return input;
+}
+
+TEST(BoundaryConditions, RotationsAreFreeUnlessASupportHoldsThem) {
+  CaseFile input = micropolar_strip();
+  const Model free = build_model(input);
+  EXPECT_EQ(free.network.width(), 3);
+  EXPECT_EQ(free.unknowns.count, 3 * 45 - 2 * 15);
+  input.supports[0].fix[5] = true;
+  const Model held = build_model(input);
+  EXPECT_EQ(held.unknowns.count, 3 * 45 - 3 * 15);
+  for (Index i = 0; i < 45; ++i) {
+    EXPECT_EQ(held.unknowns.at(i, 2) == no_index, held.network.particles.position(i)[1] < 20.5);
+  }
+  // The load is a force: moments stay zero.
+  for (Index i = 0; i < 45; ++i) EXPECT_EQ(held.loads.forces[3 * i + 2], 0.0);
+}
+
+TEST(BoundaryConditions, RotationsInSpaceGoAboutTheAxesThatAreNamed) {
+  CaseFile input = prism_case();
+  input.body.model = "micropolar";
+  input.materials[0].poissons_ratio = 0.2;
+  input.supports[0].fix = {true, true, true, false, true, false};
+  const Model model = build_model(input);
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    const bool low = model.network.particles.position(i)[1] < 0.06;
+    for (int a = 0; a < 6; ++a) {
+      EXPECT_EQ(model.unknowns.at(i, a) == no_index, low && a != 3 && a != 5);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace perilink

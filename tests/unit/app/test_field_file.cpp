@@ -73,6 +73,25 @@ TEST_F(FieldFile, DisplacementsAndEnergiesAreThoseOfTheLoadFactor) {
   EXPECT_EQ(strain[2], 0.0);
 }
 
+TEST_F(FieldFile, ShowsTheRotationsOfMicropolarBodies) {
+  EXPECT_EQ(grid_.find_point_data("rotation"), nullptr);
+  network_.bending = {1, 1, 1, 1, 0, 0};
+  std::vector<double> motion;
+  for (int i = 0; i < 6; ++i) {
+    motion.insert(motion.end(), {displacement_[2 * i], displacement_[2 * i + 1], 0.1 * i});
+  }
+  const VtuGrid grid = make_field_grid(network_, {network_, secants_, motion}, record_,
+                                       std::vector<Index>{3, 4}, families_, 1.0);
+  EXPECT_EQ(grid.find_point_data("displacement")->values,
+            grid_.find_point_data("displacement")->values);
+  EXPECT_EQ(grid.find_point_data("principal_strain")->values,
+            grid_.find_point_data("principal_strain")->values);
+  const VtuArray* rotation = grid.find_point_data("rotation");
+  ASSERT_NE(rotation, nullptr);
+  EXPECT_EQ(rotation->components, 1);
+  for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(rotation->values[i], 0.5 * 0.1 * i);
+}
+
 TEST_F(FieldFile, SaysWhatTheParticlesAre) {
   EXPECT_EQ(grid_.points.size(), 18u);
   EXPECT_EQ(grid_.points[9], 1.0);

@@ -151,6 +151,69 @@ TEST_P(EveryRoute, NamesTheUnknownOfAMatrixThatIsNotPositiveDefinite) {
   }
 }
 
+/// Vectors on the unknowns of one spring, as the modes of a frame are.
+std::vector<SparseVector> several_vectors(const SparseVector& spring, int count) {
+  std::vector<SparseVector> vectors(static_cast<std::size_t>(count), spring);
+  for (int a = 0; a < count; ++a) {
+    const auto values = random_vector(spring.size, 50 + a);
+    for (int k = 0; k < spring.size; ++k) vectors[a].values[k] = 0.2 * values[k];
+  }
+  vectors.back().size -= 1;  // a held unknown
+  return vectors;
+}
+
+TEST_P(EveryRoute, ComplianceOfSeveralVectorsIsThatOfADenseFactor) {
+  const auto lattice = make_spring_lattice(9, 9, 2.3);
+  const auto factor = make();
+  factor->factorize(lattice.lower, lattice.groups);
+  const Eigen::MatrixXd inverse = lattice.dense().inverse();
+  for (std::size_t s = 0; s < lattice.springs.size(); s += 37) {
+    const auto vectors = several_vectors(lattice.springs[s], 3);
+    std::vector<double> compliance(9);
+    factor->compliance(vectors, compliance);
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b < 3; ++b) {
+        const double expected = dense_vector(vectors[a], lattice.size)
+                                    .dot(inverse * dense_vector(vectors[b], lattice.size));
+        EXPECT_NEAR(compliance[3 * a + b], expected, tolerance);
+      }
+    }
+  }
+}
+
+TEST_P(EveryRoute, DowndatesOfSeveralVectorsFollowTheLoad) {
+  const auto lattice = make_spring_lattice(9, 9, 2.3, 1.0);  // the ground can spare them
+  const auto factor = make();
+  factor->factorize(lattice.lower, lattice.groups);
+  std::vector<double> load = random_vector(lattice.size, 2);
+  std::vector<double> solution(load.size());
+  factor->follow_load(load, solution);
+  Eigen::MatrixXd matrix = lattice.dense();
+  for (std::size_t s = 0; s < lattice.springs.size(); s += 37) {
+    // Vectors that do not interact: the second less its share of the first.
+    auto vectors = several_vectors(lattice.springs[s], 2);
+    vectors[1].size = vectors[0].size;
+    std::vector<double> compliance(4);
+    factor->compliance(vectors, compliance);
+    for (int k = 0; k < vectors[0].size; ++k) {
+      vectors[1].values[k] -= compliance[1] / compliance[0] * vectors[0].values[k];
+    }
+    factor->compliance(vectors, compliance);
+    const std::vector<double> changes = {0.3, -0.2};
+    const std::vector<double> pivots = {1.0 - compliance[0], 1.0 - compliance[3]};
+    factor->downdate(vectors, changes, pivots, solution);
+    for (int a = 0; a < 2; ++a) {
+      const Eigen::VectorXd x = dense_vector(vectors[a], lattice.size);
+      matrix -= x * x.transpose();
+      for (Index k = 0; k < lattice.size; ++k) load[k] += changes[a] * x[k];
+    }
+    EXPECT_LT(relative_difference(solution, dense_solution(matrix, load)), tolerance);
+    std::vector<double> other(load.size());
+    factor->solve(load, other);
+    EXPECT_LT(relative_difference(other, dense_solution(matrix, load)), tolerance);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Routes, EveryRoute,
     testing::Values(std::pair{FactorRoute::in_place, 1}, std::pair{FactorRoute::in_place, 2},

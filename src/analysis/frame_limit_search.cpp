@@ -1,0 +1,126 @@
+#include "analysis/frame_limit_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/limit_search.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr Index block_size = 512;
+/// Fewer blocks than this are searched faster by one thread.
+constexpr Index smallest_parallel_search = 100;
+
+/// A bond counts as stretched when the square of its axial stretch is at least this share of that of
+/// its equivalent stretch. Where symmetry keeps its length, round-off must not decide.
+constexpr double least_tension = 1e-12;
+
+}  // namespace
+
+std::unique_ptr<BreakSearch> make_break_search(const Network& network) {
+  if (network.carries_moments()) return std::make_unique<FrameLimitSearch>(network);
+  return std::make_unique<LimitSearch>(network);
+}
+
+FrameLimitSearch::FrameLimitSearch(const Network& network)
+    : dim_(network.dim()), torsion_(network.torsion) {
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const double limit = network.critical_stretch[e];
+    if (!std::isfinite(limit)) continue;
+    const double length = network.bonds.lengths[e];
+    const double share = network.bending[e] / network.stiffness[e];
+    Bond bond{network.bonds.first[e] * network.width(),
+              network.bonds.second[e] * network.width(),
+              {},
+              0.5 * length,
+              share,
+              share * length * length / 12.0,
+              1.0 / (length * limit * length * limit)};
+    for (int a = 0; a < dim_; ++a) bond.n[a] = network.bonds.direction(e)[a];
+    elements_.push_back(e);
+    bonds_.push_back(bond);
+  }
+  block_largest_.resize((elements_.size() + block_size - 1) / block_size);
+}
+
+template <int Dim>
+double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const {
+  const double* i = u + bond.first;
+  const double* j = u + bond.second;
+  const double* n = bond.n;
+  double extension = 0.0, square = 0.0;
+  if constexpr (Dim == 2) {
+    const double dx = j[0] - i[0], dy = j[1] - i[1];
+    extension = n[0] * dx + n[1] * dy;
+    const double shear = n[0] * dy - n[1] * dx - bond.half_length * (i[2] + j[2]);
+    const double bend = j[2] - i[2];
+    square = bond.bending_share * shear * shear + bond.rotation_share * bend * bend;
+  } else {
+    double twist = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      extension += n[a] * (j[a] - i[a]);
+      twist += n[a] * (j[3 + a] - i[3 + a]);
+    }
+    double shear_square = 0.0, bend_square = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      // Across the bond: u_j - u_i less its axial part, plus xi/2 n x (theta_i + theta_j).
+      const double shear = j[a] - i[a] - n[a] * extension +
+                           bond.half_length * (n[b] * (i[3 + c] + j[3 + c]) -
+                                               n[c] * (i[3 + b] + j[3 + b]));
+      const double bend = j[3 + a] - i[3 + a] - n[a] * twist;
+      shear_square += shear * shear;
+      bend_square += bend * bend;
+    }
+    square = bond.bending_share * shear_square +
+             bond.rotation_share * (bend_square + torsion_ * twist * twist);
+  }
+  square += extension * extension;
+  const bool stretched = extension > 0.0 && extension * extension > least_tension * square;
+  return stretched ? square * bond.inverse : 0.0;
+}
+
+template <int Dim>
+FrameLimitSearch::Hit FrameLimitSearch::find_in(const double* u, double tolerance, int threads) {
+  const Index blocks = static_cast<Index>(block_largest_.size());
+  const auto end_of = [&](Index block) {
+    return std::min<Index>((block + 1) * block_size, static_cast<Index>(bonds_.size()));
+  };
+#pragma omp parallel for schedule(static) num_threads(threads) \
+    if (threads > 1 && blocks > smallest_parallel_search)
+  for (Index b = 0; b < blocks; ++b) {
+    double largest = 0.0;
+    for (Index k = b * block_size; k < end_of(b); ++k) {
+      largest = std::max(largest, squared_ratio<Dim>(bonds_[k], u));
+    }
+    block_largest_[b] = largest;
+  }
+  double largest = 0.0;
+  for (const double value : block_largest_) largest = std::max(largest, value);
+  if (largest <= 0.0) return {};
+  // The two passes may be rounded differently: a little below the tolerance.
+  const double threshold = largest * (1.0 - tolerance) * (1.0 - tolerance) * (1.0 - 1e-14);
+  for (Index b = 0; b < blocks; ++b) {
+    if (block_largest_[b] < threshold) continue;
+    for (Index k = b * block_size; k < end_of(b); ++k) {
+      const double square = squared_ratio<Dim>(bonds_[k], u);
+      if (square >= threshold) return {elements_[k], std::sqrt(square)};
+    }
+  }
+  return {};
+}
+
+FrameLimitSearch::Hit FrameLimitSearch::find(std::span<const double> displacement, double tolerance,
+                                             int threads) {
+  return dim_ == 3 ? find_in<3>(displacement.data(), tolerance, threads)
+                   : find_in<2>(displacement.data(), tolerance, threads);
+}
+
+void FrameLimitSearch::remove(Index element) {
+  const auto found = std::lower_bound(elements_.begin(), elements_.end(), element);
+  if (found == elements_.end() || *found != element) return;
+  bonds_[found - elements_.begin()].inverse = 0.0;
+}
+
+}  // namespace perilink
