@@ -89,12 +89,27 @@ TEST_F(ProgramRuns, KilledOnesLeaveAReadableHistory) {
   EXPECT_EQ(run({"run", "long.toml", "--out", "r"}).exit_status, 2) << "and are not overwritten";
 }
 
+/// The hexagonal block with bonds that bend.
+std::string micropolar_case(int columns, int broken_bonds) {
+  std::string text = hexagonal_case(columns, broken_bonds);
+  const auto add = [&](const std::string& before, const std::string& line) {
+    for (auto at = text.find(before); at != std::string::npos;
+         at = text.find(before, at + line.size() + before.size())) {
+      text.insert(at, line);
+    }
+  };
+  add("pattern = ", "model = \"micropolar\"\n");
+  add("youngs_modulus = ", "poissons_ratio = 0.2\n");
+  return text;
+}
+
 /// Not a bit of the history may depend on the threads or on the run.
 TEST_F(ProgramRuns, HistoriesDoNotDependOnThreads) {
   write_text(work() / "small.toml", small_ghost_case);
+  write_text(work() / "micropolar.toml", micropolar_case(24, 100));
   // Far above the size from which all threads work on one factor (smallest_parallel_factor).
   write_text(work() / "large.toml", hexagonal_case(42, 300));
-  for (const std::string name : {"small", "large"}) {
+  for (const std::string name : {"small", "micropolar", "large"}) {
     int number = 0;
     for (const char* threads : {"1", "1", "2", "3"}) {
       const std::string directory = name + std::to_string(number++);
@@ -110,6 +125,8 @@ TEST_F(ProgramRuns, HistoriesDoNotDependOnThreads) {
   EXPECT_GT(large["factor_bytes"].get<double>(), 8.0 * 2e6) << "too small to use threads";
   EXPECT_GT(large["unknowns"].get<int>(), 10000);
   EXPECT_EQ(large["broken_bonds"], 300);
+  EXPECT_EQ(summary("micropolar0")["broken_bonds"], 100);
+  EXPECT_LT(summary("micropolar0")["largest_residual"].get<double>(), 1e-10);
 }
 
 struct BarCase {

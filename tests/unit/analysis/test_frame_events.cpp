@@ -98,6 +98,44 @@ TEST(FrameEvents, TheLastBondOfALoadedPartLeavesAMechanism) {
   }
 }
 
+/// Two prescribed particles stretch (1), shear (0.5 - 0.2 / 2 = 0.4) and bend (0.2) the bond between
+/// them: nothing unknown is held by it, and all that it takes along is its share of the reactions.
+TEST(FrameEvents, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
+  Network network = single_frame(2, {1.0, 0.0}, 1.0, 3.0);
+  network.particles.positions.insert(network.particles.positions.end(), {0.0, 1.0});
+  network.particles.volumes.push_back(1.0);
+  network.particles.material.push_back(0);
+  network.particles.kind.push_back(ParticleKind::solid);
+  network.bonds.append(network.particles, 1, 2);  // to a particle that moves with the driven one
+  network.stiffness.push_back(1.0);
+  network.bending.push_back(3.0);
+  network.critical_stretch.push_back(1e-3);
+  network.first_tie = network.first_segment = 2;
+  AnalysisBody body = free_body(std::move(network));
+  const double driven[] = {1.0, 0.5, 0.2};
+  for (int a = 0; a < 3; ++a) body.unknowns.prescribed[slot(body, 1, a)] = driven[a];
+  number(body, [](Index i, int) { return i < 2; });
+  body.reference = {true, 1.0};
+  const double twice_energy = 1.0 + 3.0 * 0.16 + 3.0 * 0.04 / 12.0;
+  for (const FactorRoute route : routes) {
+    SCOPED_TRACE(to_string(route));
+    SingleEventEngine engine(body.network, body.unknowns, body.loads, with_route(route));
+    EXPECT_NEAR(engine.load_work().supports, twice_energy, 1e-14);
+    const Event event = engine.next_event();
+    ASSERT_EQ(event.element, 0);
+    EXPECT_NEAR(event.load_factor, 1e-3 / std::sqrt(twice_energy), 1e-16);
+    const std::vector<double> before(engine.displacement().begin(), engine.displacement().end());
+    const EventOutcome outcome = engine.apply(event);
+    EXPECT_EQ(outcome.pivot, 1.0);
+    EXPECT_NEAR(outcome.released, 0.5 * twice_energy, 1e-14);
+    EXPECT_NEAR(outcome.compliance_growth, twice_energy, 1e-14);
+    EXPECT_LT(std::abs(engine.load_work().supports), 1e-14);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      EXPECT_NEAR(engine.displacement()[k], before[k], 1e-14);
+    }
+  }
+}
+
 /// Bonds of the particle nearest the middle.
 std::vector<Index> bonds_of_middle(const Network& network) {
   const Particles& particles = network.particles;
