@@ -34,6 +34,10 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
       secants_(static_cast<std::size_t>(network.num_elements()), 1.0),
       solution_(static_cast<std::size_t>(unknowns.count), 0.0),
       displacement_(unknowns.prescribed) {
+  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
+    const double driven = unknowns.prescribed[slot];
+    driven_spring_work_ += network.support_stiffness[slot] * driven * driven;
+  }
   for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
     // A force on a prescribed displacement is a part of the reaction there, whose work counts.
     if (unknowns.number[slot] == no_index) continue;
@@ -247,6 +251,7 @@ LoadWork SingleEventEngine::load_work() {
     return work;
   }
   work.forces = work_of_forces();
+  work.supports = driven_spring_work_;
   const int dim = network_.dim();
   for (const Index e : driven_elements_) {
     if (secants_[e] == 0.0) continue;

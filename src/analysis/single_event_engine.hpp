@@ -85,6 +85,7 @@ class SingleEventEngine final : public EventEngine {
   bool partial_ = false;  ///< events keep only the displacements current that the search looks at
   bool stale_ = false;    ///< the other displacements are those of an earlier event
   double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
+  double driven_spring_work_ = 0.0;  ///< of elastic supports at driven displacements
   std::vector<std::size_t> slot_of_;    ///< particle * width + component of every unknown
   std::vector<double> solution_;        ///< per unknown
   std::vector<double> displacement_;

@@ -93,7 +93,7 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
           input.where(input.supports.empty() ? "analysis" : "supports[1]"),
           fmt::format("{} of the {} rigid-body modes of {} are free", fragment.free_modes, all,
                       fragments.size() == 1 ? "the body" : where),
-          "hold the body with [[supports]], or, when the loads balance by themselves, set "
+          "hold the body with [[supports]], [[symmetry]] or [[springs]], or, when the loads balance by themselves, set "
           "analysis.rigid_body_modes = \"pin\"");
     }
     if (fragment.free_modes != all) {
@@ -131,6 +131,8 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   Prescription prescription = collect_prescriptions(input, model);
   AppliedLoads applied = collect_loads(input, model, model.network.width());
   model.loads = std::move(applied.loads);
+  model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
+  model.network.support_stiffness = collect_springs(input, model);
   double largest_displacement = 0.0;
   for (const double value : prescription.value) {
     largest_displacement = std::max(largest_displacement, std::abs(value));

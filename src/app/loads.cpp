@@ -1,14 +1,20 @@
 #include "app/loads.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "app/model_regions.hpp"
 #include "app/position_field.hpp"
 #include "assembly/distributed_loads.hpp"
+#include "base/error.hpp"
 
 namespace perilink {
 namespace {
+
+/// A point load this close to its particle, in spacings, has not moved.
+constexpr double moved = 1e-6;
 
 /// An entry whose resultant is less than this fraction of its forces' sizes is in balance.
 constexpr double balanced = 1e-9;
@@ -100,6 +106,35 @@ void add_traction(const CaseFile& input, const Model& model, std::size_t k, Load
       loads);
 }
 
+/// Force and moment of a point load. \return norm of the force, or of the moment of a mere moment
+double add_point_load(const CaseFile& input, const Model& model, std::size_t k, AppliedLoads& all) {
+  const PointLoadSection& section = input.point_loads[k];
+  const Particles& particles = model.network.particles;
+  const int dim = particles.dim;
+  const std::size_t width = all.loads.forces.size() / static_cast<std::size_t>(particles.size());
+  const std::span<const double> at(section.at.data(), static_cast<std::size_t>(dim));
+  const NearestParticle nearest = nearest_particle(particles, at);
+  const double spacing = model.lattice.spacing;
+  if (nearest.distance > spacing) {
+    throw InputError(input.where(item_key("point_loads", k, "at")),
+                     fmt::format("is ({}), {:.6g} from the nearest particle", fmt::join(at, ", "),
+                                 nearest.distance),
+                     fmt::format("particles are {:.6g} apart; the load must lie within that of one",
+                                 spacing));
+  }
+  if (nearest.distance > moved * spacing) {
+    all.notes.push_back(fmt::format("the point load at ({}) acts on the particle at ({})",
+                                    fmt::join(at, ", "),
+                                    fmt::join(particles.position(nearest.particle), ", ")));
+  }
+  double* force = all.loads.forces.data() + nearest.particle * width;
+  for (int a = 0; a < dim; ++a) force[a] += section.force[a];
+  for (std::size_t a = dim; a < width; ++a) force[a] += section.moment[dim == 2 ? 2 : a - dim];
+  const double size = std::hypot(section.force[0], section.force[1], section.force[2]);
+  return size > 0.0 ? size
+                    : std::hypot(section.moment[0], section.moment[1], section.moment[2]);
+}
+
 }  // namespace
 
 AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width) {
@@ -125,6 +160,9 @@ AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width)
     add_traction(input, model, k, entry);
     all.reference = std::max(all.reference, resultant_of(particles, entry));
     for (std::size_t s = 0; s < entry.forces.size(); ++s) all.loads.forces[s] += entry.forces[s];
+  }
+  for (std::size_t k = 0; k < input.point_loads.size(); ++k) {
+    all.reference = std::max(all.reference, add_point_load(input, model, k, all));
   }
   return all;
 }

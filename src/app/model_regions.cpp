@@ -134,4 +134,19 @@ std::vector<Index> facets_of_region(const CaseFile& input, const Model& model,
   return inside;
 }
 
+NearestParticle nearest_particle(const Particles& particles, std::span<const double> point) {
+  NearestParticle nearest{no_index, INFINITY};
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (particles.kind[i] != ParticleKind::solid) continue;
+    double square = 0.0;
+    for (int a = 0; a < particles.dim; ++a) {
+      const double away = particles.position(i)[a] - point[a];
+      square += away * away;
+    }
+    const double distance = std::sqrt(square);
+    if (distance < nearest.distance) nearest = {i, distance};
+  }
+  return nearest;
+}
+
 }  // namespace perilink

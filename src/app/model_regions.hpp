@@ -23,4 +23,11 @@ std::vector<Index> particles_of_region(const CaseFile& input, const Model& model
 std::vector<Index> facets_of_region(const CaseFile& input, const Model& model,
                                     const std::string& region, const std::string& key);
 
+/// Solid particle nearest to a point; of several equally near ones the first.
+struct NearestParticle {
+  Index particle = no_index;
+  double distance = 0.0;  ///< [length]
+};
+NearestParticle nearest_particle(const Particles& particles, std::span<const double> point);
+
 }  // namespace perilink

@@ -13,8 +13,13 @@ struct Prescription {
   std::vector<double> value;       ///< at load factor 1 [length], of rotations [-]
 };
 
-/// Supports and driven displacements of a case.
+/// Supports, planes of symmetry and driven displacements of a case.
 /// \throws InputError  for regions without particles and entries that contradict each other
 Prescription collect_prescriptions(const CaseFile& input, const Model& model);
+
+/// Stiffness of the elastic supports of a case, Network::support_stiffness; empty: none. Facets share
+/// their area equally among their corners, a total is shared in proportion to the volumes.
+/// \throws InputError  for regions that catch no particle or no facet
+std::vector<double> collect_springs(const CaseFile& input, const Model& model);
 
 }  // namespace perilink

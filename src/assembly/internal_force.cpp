@@ -63,6 +63,11 @@ void internal_force(const Network& network, std::span<const double> secants,
   } else {
     add_elements<3>(network, secants, displacement, result);
   }
+  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
+    const double force = network.support_stiffness[slot] * displacement[slot];
+    result.forces[slot] += force;
+    result.energy += 0.5 * force * displacement[slot];
+  }
 }
 
 InternalForce internal_force(const Network& network, std::span<const double> secants,

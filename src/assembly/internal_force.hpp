@@ -7,7 +7,7 @@
 
 namespace perilink {
 
-/// Forces of all elements on all particles, and their energy.
+/// Forces of all elements and elastic supports on all particles, and their energy.
 struct InternalForce {
   std::vector<double> forces;  ///< K u: force needed to hold each particle, shape
                                ///< (particles, width), moments behind the forces

@@ -19,6 +19,9 @@ struct Network {
   std::vector<double> bending;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
+  /// Stiffness of elastic supports between the components of particles and the ground
+  /// [force/length], shape (particles, width); empty: none.
+  std::vector<double> support_stiffness;
   Index first_tie = 0;                   ///< number of the first tie
   Index first_segment = 0;               ///< number of the first bar segment
   std::vector<double> yield_strain;      ///< per segment [-]; infinity: stays elastic

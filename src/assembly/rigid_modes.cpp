@@ -181,9 +181,13 @@ std::vector<Fragment> find_fragments(const Network& network,
     fragments[number].particles.push_back(i);
   }
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  std::vector<std::uint8_t> resisted = held;
+  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
+    if (network.support_stiffness[slot] > 0.0) resisted[slot] = 1;
+  }
   for (Fragment& fragment : fragments) {
     const RigidModes modes(network, rotating, fragment.particles);
-    const ModeRanks ranks = mode_ranks(fragment.particles, modes, held);
+    const ModeRanks ranks = mode_ranks(fragment.particles, modes, resisted);
     fragment.free_modes = ranks.all - ranks.held;
   }
   return fragments;

@@ -12,7 +12,8 @@ namespace perilink {
 /// A part of the body that nothing holds together with the rest.
 struct Fragment {
   std::vector<Index> particles;
-  int free_modes = 0;  ///< rigid-body modes that the prescribed displacements leave free
+  int free_modes = 0;  ///< rigid-body modes that prescribed displacements and elastic supports
+                       ///< leave free
 };
 
 /// Connected parts of the network (elements of zero stiffness do not connect) with the number of

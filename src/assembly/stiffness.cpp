@@ -156,6 +156,10 @@ class StiffnessBuilder {
         }
       }
     }
+    for (std::size_t slot = 0; slot < network_.support_stiffness.size(); ++slot) {
+      const std::size_t row = slot % width;
+      diagonal_[slot / width][row * width + row] += network_.support_stiffness[slot];
+    }
   }
 
   /// Columns of one particle. Numbers of unknowns rise with those of the particles, so rows come

@@ -69,7 +69,7 @@ class Document {
   [[noreturn]] void refuse_missing(const std::string& header) const {
     throw InputError({path_, 0, ""}, fmt::format("the case has no {}", header),
                      "a case needs [body], [[regions]], [[materials]] and [[loads]], "
-                     "[[tractions]] or [[displacements]]; docs/case_file.md describes them");
+                     "[[tractions]], [[point_loads]] or [[displacements]]; docs/case_file.md describes them");
   }
 
   const TomlValue& root_;
@@ -127,6 +127,11 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.displacements = document.list("displacements", in_dimension(read_displacement));
   input.loads = document.list("loads", in_dimension(read_load));
   input.tractions = document.list("tractions", in_dimension(read_traction));
+  input.point_loads = document.list("point_loads", [&](const CaseTable& table, std::size_t) {
+    return read_point_load(table, input.body);
+  });
+  input.symmetry = document.list("symmetry", in_dimension(read_symmetry));
+  input.springs = document.list("springs", in_dimension(read_springs));
   input.cracks = document.list("cracks", in_dimension(read_crack));
   input.rebar = document.list("rebar", in_dimension(read_rebar));
   input.analysis = read_analysis(document.table("analysis"));

@@ -79,6 +79,27 @@ struct TractionSection {
   std::optional<Expression> pressure;  ///< at load factor 1, positive inwards [force/length^2]
 };
 
+/// [[point_loads]]: force on the particle nearest to a point; moment in micropolar bodies.
+struct PointLoadSection {
+  Vector3 at{};
+  Vector3 force{};   ///< at load factor 1 [force]
+  Vector3 moment{};  ///< at load factor 1 about x, y, z; in two dimensions z [force length]
+};
+
+/// [[symmetry]]: a plane across which the body is mirrored; exactly one of at and region.
+struct SymmetrySection {
+  int axis = 0;              ///< normal to the plane
+  std::optional<double> at;  ///< coordinate of the plane [length]
+  std::string region;        ///< particles in the plane
+};
+
+/// [[springs]]: elastic supports; exactly one of stiffness and total.
+struct SpringSection {
+  std::string region;
+  std::optional<Vector3> stiffness;  ///< per area of the surface along each axis [force/length^3]
+  std::optional<Vector3> total;      ///< shared by volume, along each axis [force/length]
+};
+
 /// [[cracks]]: there before the analysis begins.
 struct CrackSection {
   std::vector<Vector3> points;  ///< of a line (2D), corners of a plane convex polygon (3D) [length]
@@ -129,6 +150,9 @@ struct CaseFile {
   std::vector<DisplacementSection> displacements;
   std::vector<LoadSection> loads;
   std::vector<TractionSection> tractions;
+  std::vector<PointLoadSection> point_loads;
+  std::vector<SymmetrySection> symmetry;
+  std::vector<SpringSection> springs;
   std::vector<CrackSection> cracks;
   std::vector<RebarSection> rebar;
   AnalysisSection analysis;

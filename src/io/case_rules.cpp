@@ -156,21 +156,22 @@ void check_contradictions(const CaseFile& input) {
 }
 
 void check_driven(const CaseFile& input) {
-  bool driven = !input.loads.empty() || !input.tractions.empty();
+  bool driven = !input.loads.empty() || !input.tractions.empty() ||
+                !input.point_loads.empty();
   for (const DisplacementSection& section : input.displacements) {
     for (const auto& value : section.value) driven = driven || (value && !value->is_zero());
   }
   if (driven) return;
   throw InputError(input.where("loads"), "nothing loads the body",
-                   "add [[loads]], [[tractions]], or [[displacements]] that are not zero");
+                   "add [[loads]], [[tractions]], [[point_loads]], or [[displacements]] that are not zero");
 }
 
-void check_tractions(const CaseFile& input) {
-  if (input.tractions.empty() || input.body.surface != Surface::ghost) return;
-  throw InputError(input.where("tractions[1]"),
+void refuse_on_ghosts(const CaseFile& input, const std::string& key) {
+  if (input.body.surface != Surface::ghost) return;
+  throw InputError(input.where(key),
                    "acts on the surface, but with surface = \"ghost\" the particles stand in the "
                    "middle of their cells and none on it",
-                   "share a total force over a region with [[loads]], or set surface = \"none\" in "
+                   "share a total over a region ([[loads]].force, [[springs]].total), or set surface = \"none\" in "
                    "[body]");
 }
 
@@ -201,8 +202,17 @@ void check_rules(const CaseFile& input) {
   check_references(input, names, "supports", input.supports);
   check_references(input, names, "displacements", input.displacements);
   check_references(input, names, "loads", input.loads);
-  check_tractions(input);
+  if (!input.tractions.empty()) refuse_on_ghosts(input, "tractions[1]");
   check_references(input, names, "tractions", input.tractions);
+  for (std::size_t i = 0; i < input.springs.size(); ++i) {
+    if (input.springs[i].stiffness) refuse_on_ghosts(input, item_key("springs", i, "stiffness"));
+  }
+  check_references(input, names, "springs", input.springs);
+  for (std::size_t i = 0; i < input.symmetry.size(); ++i) {
+    if (input.symmetry[i].at) continue;
+    check_reference(input, names, item_key("symmetry", i, "region"), input.symmetry[i].region,
+                    Reserved::refused);
+  }
   check_contradictions(input);
   check_driven(input);
 }

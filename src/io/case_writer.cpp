@@ -85,11 +85,34 @@ void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
     if (load.force) out.write("force", *load.force, dim);
     if (load.body_force) out.write("body_force", *load.body_force, dim);
   }
+}
+
+void write_more_loading(TomlWriter& out, const CaseFile& input, int dim) {
   for (const TractionSection& section : input.tractions) {
     out.header("[[tractions]]");
     out.write("region", section.region);
     if (section.traction) out.write("traction", *section.traction, dim);
     out.write("pressure", section.pressure);
+  }
+  for (const PointLoadSection& section : input.point_loads) {
+    out.header("[[point_loads]]");
+    out.write("at", section.at, dim);
+    out.write("force", section.force, dim);
+    if (section.moment == Vector3{}) continue;
+    if (dim == 2) out.write("moment", section.moment[2]);
+    if (dim == 3) out.write("moment", section.moment, dim);
+  }
+  for (const SymmetrySection& section : input.symmetry) {
+    out.header("[[symmetry]]");
+    out.write("axis", axis_names[section.axis]);
+    out.write("at", section.at);
+    if (!section.at) out.write("region", section.region);
+  }
+  for (const SpringSection& section : input.springs) {
+    out.header("[[springs]]");
+    out.write("region", section.region);
+    if (section.stiffness) out.write("stiffness", *section.stiffness, dim);
+    if (section.total) out.write("total", *section.total, dim);
   }
 }
 
@@ -138,6 +161,7 @@ std::string write_case(const CaseFile& input) {
   write_body(out, input.body);
   write_solid(out, input, dim);
   write_loading(out, input, dim);
+  write_more_loading(out, input, dim);
   for (const CrackSection& crack : input.cracks) write_crack(out, crack, dim);
   for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);
   write_run(out, input);

@@ -51,6 +51,11 @@ const std::string driven = "[[displacements]]\nregion = \"cap\"\ny = 1.0\n";
 const std::string pulled = "[[loads]]\nregion = \"cap\"\nforce = [0, 100]\n";
 const std::string weight = "[[loads]]\nregion = \"block\"\nbody_force = [0, 0.5]\n";
 
+/// On a driven side, at a loaded one, and as the foundation of a body that nothing else holds in x.
+const std::string springs =
+    "[[springs]]\nregion = \"cap\"\ntotal = [50, 200]\n"
+    "[[springs]]\nregion = \"surface\"\nstiffness = [0.5, 0]\n";
+
 /// Keeps rows and, when asked, looks at the state at every row as field output does.
 struct Recorder final : StepObserver {
   explicit Recorder(bool look_at_state = false) : look(look_at_state) {}
@@ -107,7 +112,49 @@ TEST_P(LoadKind, LookingAtTheStateChangesNoRow) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, LoadKind,
-                         testing::Values(driven, pulled, driven + weight, pulled + weight));
+                         testing::Values(driven, pulled, driven + weight, pulled + weight,
+                                         driven + springs, pulled + springs));
+
+/// A block on springs that are stiff against none of its bonds: a rigid body on its foundation.
+TEST(ElasticSupports, CarryTheWholeLoad) {
+  const std::string free = R"(
+[body]
+columns = 5
+horizon_ratio = 2.0
+[[regions]]
+name = "block"
+x = [0, 1]
+y = [0, 1]
+[[regions]]
+name = "bottom"
+x = [0, 1]
+y = [0, 0]
+[[materials]]
+region = "block"
+youngs_modulus = 1e9
+fracture_energy = "infinite"
+[[springs]]
+region = "bottom"
+stiffness = [5, 20]
+[[tractions]]
+region = "bottom"
+traction = [1, "3*x"]
+[analysis]
+type = "elastic"
+)";
+  const Model model = build_model(parse_case(free, "test"));
+  const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
+  // Along x: force 1 on stiffness 5. Along y: force 3/2 on 20, and the couple of 3 x and of the
+  // uniform force along x at y = 0 about the centre of the springs: integral of 3 x (x - 1/2) = 1/4
+  // over the lumped second moment of the springs, 20 (1/12 + h^2 / 6) with h = 1/4.
+  const double turn = 0.25 / (20.0 * (1.0 / 12.0 + 1.0 / 96.0));
+  for (Index i = 0; i < 5; ++i) {
+    const double x = model.network.particles.position(i)[0];
+    // The bonds are 1e7 times as stiff as the springs.
+    EXPECT_NEAR(elastic.displacement[2 * i], 0.2, 1e-6);
+    EXPECT_NEAR(elastic.displacement[2 * i + 1], 0.075 + turn * (x - 0.5), 1e-6);
+  }
+}
 
 TEST(DrivenBody, ItsDisplacementIsTheDrivenOne) {
   for (const std::string& loading : {driven, driven + weight}) {

@@ -168,5 +168,39 @@ TEST(Loads, BodyForcesOnAMeshAreIntegratedOverItsCells) {
   EXPECT_NEAR(applied.loads.forces[2], 2.0 * 1600.0 * (2.0 * 40.0 + 40.0) / 12.0, 1e-9);
 }
 
+TEST(Loads, PointLoadsGoToTheNearestParticle) {
+  CaseFile input = strip_with_top();
+  input.point_loads.push_back({{20.0, 80.0, 0.0}, {1.0, -4.0, 0.0}, {}});
+  const Model exact = build_model(input);
+  EXPECT_EQ(total_force(exact, 0), 1.0);
+  EXPECT_EQ(total_force(exact, 1), -4.0);
+  EXPECT_DOUBLE_EQ(exact.reference.value, std::hypot(1.0, 4.0));
+  for (Index i = 0; i < exact.network.particles.size(); ++i) {
+    const std::span<const double> x = exact.network.particles.position(i);
+    EXPECT_EQ(force(exact, i, 1) != 0.0, x[0] == 20.0 && x[1] == 80.0);
+  }
+  EXPECT_TRUE(exact.notes.empty());
+  input.point_loads[0].at = {23.0, 81.0, 0.0};
+  const Model moved = build_model(input);
+  EXPECT_EQ(moved.loads.forces, exact.loads.forces);
+  ASSERT_EQ(moved.notes.size(), 1u);
+  EXPECT_EQ(moved.notes[0], "the point load at (23, 81) acts on the particle at (20, 80)");
+  input.point_loads[0].at = {20.0, 91.0, 0.0};
+  expect_refused(input, "point_loads[1].at", "is (20, 91), 11 from the nearest particle");
+}
+
+TEST(Loads, PointMomentsTurnMicropolarParticles) {
+  CaseFile input = strip_with_top();
+  input.body.model = "micropolar";
+  input.analysis.type = "elastic";
+  input.materials[0].poissons_ratio = 0.2;
+  input.point_loads.push_back({{20.0, 80.0, 0.0}, {}, {0.0, 0.0, 6.0}});
+  const Model model = build_model(input);
+  double sum = 0.0;
+  for (Index i = 0; i < model.network.particles.size(); ++i) sum += model.loads.forces[3 * i + 2];
+  EXPECT_EQ(sum, 6.0);
+  EXPECT_EQ(model.reference.value, 6.0);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -92,6 +92,14 @@ TEST(ModelRegions, CatchTheFacetsWhoseCentresLieInside) {
   EXPECT_EQ(facets_of_region(input, model, "middle", "tractions[1]").size(), 5u) << "round-off";
 }
 
+TEST(ModelRegions, TheNearestParticleIsTheFirstOfEquals) {
+  const Model model = build_model(strip_case());
+  const std::vector<double> between = {15.0, 80.0};
+  const NearestParticle nearest = nearest_particle(model.network.particles, between);
+  EXPECT_EQ(nearest.particle, 41);  // the ninth row begins with 40
+  EXPECT_DOUBLE_EQ(nearest.distance, 5.0);
+}
+
 TEST(ModelRegions, OfAPhysicalGroupAreItsParticlesAndFacets) {
   CaseFile input = strip_case();
   Model model = build_model(input);

@@ -36,5 +36,20 @@ TEST(InternalForce, ReusesItsMemoryWithoutRemembering) {
   EXPECT_EQ(again.energy, fresh.energy);
 }
 
+TEST(InternalForce, ElasticSupportsPullBackAndStoreEnergy) {
+  Network network = make_network({"", Pattern::rectangular, Surface::none}, 3);
+  const auto secants = random_secants(network.num_elements(), 1);
+  const auto displacement = random_vector(network.particles.positions.size(), 2);
+  const InternalForce without = internal_force(network, secants, displacement);
+  network.support_stiffness.assign(displacement.size(), 0.0);
+  network.support_stiffness[3] = 20.0;
+  const InternalForce with = internal_force(network, secants, displacement);
+  const double u = displacement[3];
+  EXPECT_NEAR(with.energy, without.energy + 0.5 * 20.0 * u * u, 1e-14 * with.energy);
+  for (std::size_t slot = 0; slot < displacement.size(); ++slot) {
+    EXPECT_EQ(with.forces[slot], without.forces[slot] + (slot == 3 ? 20.0 * u : 0.0));
+  }
+}
+
 }  // namespace
 }  // namespace perilink

@@ -181,5 +181,17 @@ TEST(Fragments, AHeldRotationOfAFrameHoldsTheBodyAndThatOfAnIdleParticleDoesNot)
   EXPECT_EQ(find_fragments(network, held).front().free_modes, 0);
 }
 
+TEST(Fragments, ElasticSupportsHoldModes) {
+  Network network = make_network({"", Pattern::rectangular, Surface::none}, 3);
+  const std::size_t slots = network.particles.positions.size();
+  const std::vector<std::uint8_t> held(slots, 0);
+  network.support_stiffness.assign(slots, 0.0);
+  EXPECT_EQ(find_fragments(network, held)[0].free_modes, 3);
+  network.support_stiffness[1] = 1e-3;
+  EXPECT_EQ(find_fragments(network, held)[0].free_modes, 2);
+  network.support_stiffness[0] = network.support_stiffness[slots - 1] = 5.0;
+  EXPECT_EQ(find_fragments(network, held)[0].free_modes, 0);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -128,5 +128,27 @@ INSTANTIATE_TEST_SUITE_P(
                     LatticeCase{"cubic", Pattern::cubic, Surface::none}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(StiffnessOfElasticSupports, IsOnTheDiagonalOfWhatIsFree) {
+  Network network = make_network({"", Pattern::cubic, Surface::none}, 2);
+  const std::size_t slots = network.particles.positions.size();
+  const auto secants = random_secants(network.num_elements(), 1);
+  std::vector<std::uint8_t> held(slots, 0);
+  held[4] = 1;
+  const Unknowns unknowns = number_unknowns(3, held, std::vector<double>(slots, 0.0));
+  const Eigen::MatrixXd without = dense(assemble_stiffness(network, secants, unknowns));
+  network.support_stiffness.assign(slots, 0.0);
+  network.support_stiffness[3] = 2.0;
+  network.support_stiffness[4] = 4.0;  // at a held displacement: no unknown feels it
+  network.support_stiffness[5] = 8.0;
+  const Eigen::MatrixXd added =
+      dense(assemble_stiffness(network, secants, unknowns)) - without;
+  for (Index row = 0; row < unknowns.count; ++row) {
+    for (Index col = 0; col < unknowns.count; ++col) {
+      const double expected = row != col ? 0.0 : row == 3 ? 2.0 : row == 4 ? 8.0 : 0.0;
+      EXPECT_NEAR(added(row, col), expected, 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace perilink

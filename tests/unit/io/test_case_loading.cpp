@@ -96,5 +96,79 @@ TEST(CaseLoading, KeepsTheNamesThatEveryCaseHas) {
               HasSubstr("has no particles on it"));
 }
 
+const char* const micropolar_body = "columns = 11\nmodel = \"micropolar\"";
+
+TEST(CaseLoading, ReadsPointLoadsSymmetryAndSprings) {
+  const std::string text =
+      with("[[point_loads]]\nat = [0.5, 2]\nforce = [0, -3]\n"
+           "[[symmetry]]\naxis = \"x\"\nat = 0.0\n[[symmetry]]\naxis = \"y\"\nregion = \"block\"\n"
+           "[[springs]]\nregion = \"surface\"\nstiffness = [0, 4]\n"
+           "[[springs]]\nregion = \"block\"\ntotal = [1, 2]\n");
+  for (const CaseFile& input : {parse_case(text, ""), parse_case(write_case(parse_case(text, "")), "")}) {
+    ASSERT_EQ(input.point_loads.size(), 1u);
+    EXPECT_EQ(input.point_loads[0].at, (Vector3{0.5, 2.0, 0.0}));
+    EXPECT_EQ(input.point_loads[0].force, (Vector3{0.0, -3.0, 0.0}));
+    ASSERT_EQ(input.symmetry.size(), 2u);
+    EXPECT_EQ(input.symmetry[0].axis, 0);
+    EXPECT_EQ(input.symmetry[0].at, 0.0);
+    EXPECT_EQ(input.symmetry[1].axis, 1);
+    EXPECT_EQ(input.symmetry[1].region, "block");
+    ASSERT_EQ(input.springs.size(), 2u);
+    EXPECT_EQ(*input.springs[0].stiffness, (Vector3{0.0, 4.0, 0.0}));
+    EXPECT_EQ(*input.springs[1].total, (Vector3{1.0, 2.0, 0.0}));
+  }
+}
+
+TEST(CaseLoading, ReadsMomentsOfMicropolarBodies) {
+  const std::string text =
+      replaced(replaced(with("[[point_loads]]\nat = [0.5, 2]\nmoment = 7\n"), "columns = 11",
+                        micropolar_body),
+               "youngs_modulus = 30", "youngs_modulus = 30\npoissons_ratio = 0.2");
+  for (const CaseFile& input : {parse_case(text, ""), parse_case(write_case(parse_case(text, "")), "")}) {
+    EXPECT_EQ(input.point_loads[0].moment, (Vector3{0.0, 0.0, 7.0}));
+    EXPECT_EQ(input.point_loads[0].force, (Vector3{}));
+  }
+}
+
+TEST(CaseLoading, APointLoadAloneLoadsTheBody) {
+  const std::string load = "[[loads]]\nregion = \"block\"\nforce = [0, -1]\n";
+  EXPECT_EQ(message_of(replaced(base, load, "[[point_loads]]\nat = [0, 0]\nforce = [0, -3]\n")),
+            "accepted");
+}
+
+TEST(CaseLoading, RefusesPointLoadsThatCannotBe) {
+  EXPECT_THAT(message_of(with("[[point_loads]]\nforce = [0, 1]\n")),
+              HasSubstr("the point that is loaded"));
+  EXPECT_THAT(message_of(with("[[point_loads]]\nat = [0, 1]\n")),
+              HasSubstr("the force at load factor 1"));
+  EXPECT_THAT(message_of(with("[[point_loads]]\nat = [0, 1]\nforce = [0, 0]\n")),
+              HasSubstr("is zero in every direction"));
+  EXPECT_THAT(message_of(with("[[point_loads]]\nat = [0, 1]\nmoment = 3\n")),
+              HasSubstr("the particles of a bond-based body do not rotate"));
+}
+
+TEST(CaseLoading, RefusesPlanesOfSymmetryThatCannotBe) {
+  EXPECT_THAT(message_of(with("[[symmetry]]\nat = 0\n")), HasSubstr("the axis normal to the plane"));
+  EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"q\"\nat = 0\n")), HasSubstr("Allowed: x, y, z"));
+  EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"z\"\nat = 0\n")), HasSubstr("Allowed: x, y"));
+  EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"x\"\n")), HasSubstr("none of `at` or `region`"));
+  EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"x\"\nregion = \"blok\"\n")),
+              HasSubstr("did you mean `block`?"));
+}
+
+TEST(CaseLoading, RefusesSpringsThatCannotBe) {
+  EXPECT_THAT(message_of(with("[[springs]]\nregion = \"block\"\n")),
+              HasSubstr("none of `stiffness` or `total`"));
+  EXPECT_THAT(message_of(with("[[springs]]\nregion = \"block\"\ntotal = [1, -2]\n")),
+              HasSubstr("holds a negative stiffness"));
+  EXPECT_THAT(message_of(with("[[springs]]\nregion = \"block\"\ntotal = [0, 0]\n")),
+              HasSubstr("is zero in every direction"));
+  EXPECT_THAT(message_of(with("[[springs]]\nregion = \"blok\"\ntotal = [0, 1]\n")),
+              HasSubstr("did you mean `block`?"));
+  EXPECT_THAT(message_of(replaced(with("[[springs]]\nregion = \"block\"\nstiffness = [0, 1]\n"),
+                                  "columns = 11", "columns = 11\nsurface = \"ghost\"")),
+              HasSubstr("springs[1].stiffness: acts on the surface"));
+}
+
 }  // namespace
 }  // namespace perilink
