@@ -125,6 +125,17 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
   }
 }
 
+/// Largest displacement that is driven; where only rotations are, the largest of these.
+double largest_driven(const Network& network, const Prescription& prescription) {
+  double displacement = 0.0, rotation = 0.0;
+  for (std::size_t slot = 0; slot < prescription.value.size(); ++slot) {
+    const bool turns = static_cast<int>(slot % network.width()) >= network.dim();
+    double& largest = turns ? rotation : displacement;
+    largest = std::max(largest, std::abs(prescription.value[slot]));
+  }
+  return displacement > 0.0 ? displacement : rotation;
+}
+
 }  // namespace
 
 void apply_boundary_conditions(const CaseFile& input, Model& model) {
@@ -133,12 +144,9 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.loads = std::move(applied.loads);
   model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
   model.network.support_stiffness = collect_springs(input, model);
-  double largest_displacement = 0.0;
-  for (const double value : prescription.value) {
-    largest_displacement = std::max(largest_displacement, std::abs(value));
-  }
-  model.reference.driven = largest_displacement > 0.0;
-  model.reference.value = model.reference.driven ? largest_displacement : applied.reference;
+  const double driven = largest_driven(model.network, prescription);
+  model.reference.driven = driven > 0.0;
+  model.reference.value = model.reference.driven ? driven : applied.reference;
   if (model.reference.value == 0.0) {
     throw InputError(input.where(input.displacements.empty() ? "tractions" : "displacements"),
                      "nothing loads the body: all formulas are zero on their particles", "");

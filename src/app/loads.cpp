@@ -8,6 +8,7 @@
 #include "app/model_regions.hpp"
 #include "app/position_field.hpp"
 #include "assembly/distributed_loads.hpp"
+#include "assembly/unknowns.hpp"
 #include "base/error.hpp"
 
 namespace perilink {
@@ -106,6 +107,11 @@ void add_traction(const CaseFile& input, const Model& model, std::size_t k, Load
       loads);
 }
 
+bool resists_rotation(const Network& network, Index particle) {
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  return !rotating.empty() && rotating[particle];
+}
+
 /// Force and moment of a point load. \return norm of the force, or of the moment of a mere moment
 double add_point_load(const CaseFile& input, const Model& model, std::size_t k, AppliedLoads& all) {
   const PointLoadSection& section = input.point_loads[k];
@@ -126,6 +132,12 @@ double add_point_load(const CaseFile& input, const Model& model, std::size_t k, 
     all.notes.push_back(fmt::format("the point load at ({}) acts on the particle at ({})",
                                     fmt::join(at, ", "),
                                     fmt::join(particles.position(nearest.particle), ", ")));
+  }
+  if (section.moment != Vector3{} && !resists_rotation(model.network, nearest.particle)) {
+    throw InputError(input.where(item_key("point_loads", k, "moment")),
+                     "acts on a particle whose bonds resist no rotation",
+                     "a Poisson's ratio below that of bond-based solids gives the bonds bending "
+                     "stiffness; or apply a couple of forces");
   }
   double* force = all.loads.forces.data() + nearest.particle * width;
   for (int a = 0; a < dim; ++a) force[a] += section.force[a];

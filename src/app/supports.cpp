@@ -8,6 +8,7 @@
 #include "app/model_regions.hpp"
 #include "app/position_field.hpp"
 #include "base/error.hpp"
+#include "io/case_words.hpp"
 
 namespace perilink {
 namespace {
@@ -117,12 +118,13 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
   for (std::size_t k = 0; k < input.displacements.size(); ++k) {
     const std::vector<Index> particles = particles_of_region(
         input, model, input.displacements[k].region, item_key("displacements", k, "region"));
-    for (int a = 0; a < dim; ++a) {
-      const auto& value = input.displacements[k].value[a];
+    for (int entry = 0; entry < 6; ++entry) {
+      const auto& value = input.displacements[k].value[entry];
       if (!value) continue;
-      const PositionField values(input, item_key("displacements", k, std::string(1, "xyz"[a])),
+      const PositionField values(input, item_key("displacements", k, motion_name(dim, entry)),
                                  {&*value, 1});
-      prescribe(input, model, prescription, particles, item_key("displacements", k), a, values);
+      prescribe(input, model, prescription, particles, item_key("displacements", k),
+                component_of(model.network, entry), values);
     }
   }
   return prescription;

@@ -121,15 +121,16 @@ CaseFile parse_case(const std::string& text, const std::string& path,
       document.needed_list("materials", [&input](const CaseTable& table, std::size_t index) {
         return read_material(table, input.body, index);
       });
-  input.supports = document.list("supports", [&input](const CaseTable& table, std::size_t) {
-    return read_support(table, input.body);
-  });
-  input.displacements = document.list("displacements", in_dimension(read_displacement));
+  const auto in_body = [&input](auto reader) {
+    return [&input, reader](const CaseTable& table, std::size_t) {
+      return reader(table, input.body);
+    };
+  };
+  input.supports = document.list("supports", in_body(read_support));
+  input.displacements = document.list("displacements", in_body(read_displacement));
   input.loads = document.list("loads", in_dimension(read_load));
   input.tractions = document.list("tractions", in_dimension(read_traction));
-  input.point_loads = document.list("point_loads", [&](const CaseTable& table, std::size_t) {
-    return read_point_load(table, input.body);
-  });
+  input.point_loads = document.list("point_loads", in_body(read_point_load));
   input.symmetry = document.list("symmetry", in_dimension(read_symmetry));
   input.springs = document.list("springs", in_dimension(read_springs));
   input.cracks = document.list("cracks", in_dimension(read_crack));

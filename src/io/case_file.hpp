@@ -59,10 +59,11 @@ struct SupportSection {
   std::array<bool, 6> fix{};  ///< displacements along x, y, z, rotations about x, y, z
 };
 
-/// [[displacements]]: displacements driven in proportion to the load factor.
+/// [[displacements]]: displacements and rotations driven in proportion to the load factor.
 struct DisplacementSection {
   std::string region;
-  std::array<std::optional<Expression>, 3> value;  ///< at load factor 1 [length]
+  /// At load factor 1 along x, y, z [length] and of rotations about x, y, z [-].
+  std::array<std::optional<Expression>, 6> value;
 };
 
 /// [[loads]]: exactly one of force (total, shared by volume) and body_force (per volume).

@@ -127,21 +127,22 @@ std::string shown(const Expression& value) {
 void check_contradictions(const CaseFile& input) {
   std::set<std::pair<std::string, int>> held;
   for (const SupportSection& support : input.supports) {
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 6; ++axis) {
       if (support.fix[axis]) held.emplace(support.region, axis);
     }
   }
   std::map<std::pair<std::string, int>, Expression> driven;
   for (std::size_t i = 0; i < input.displacements.size(); ++i) {
     const DisplacementSection& section = input.displacements[i];
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 6; ++axis) {
       if (!section.value[axis]) continue;
       const Expression& value = *section.value[axis];
-      const SourceLocation where = input.where(item_key("displacements", i, axis_names[axis]));
+      const std::string name = motion_name(dimension_of(input.body), axis);
+      const SourceLocation where = input.where(item_key("displacements", i, name));
       if (!value.is_zero() && held.count({section.region, axis}) > 0) {
         throw InputError(where,
                          fmt::format("drives region {} by {}, but [[supports]] holds it in {}",
-                                     quoted(section.region), shown(value), axis_names[axis]),
+                                     quoted(section.region), shown(value), name),
                          "delete one of the two");
       }
       const auto [at, is_new] = driven.emplace(std::pair(section.region, axis), value);
@@ -189,6 +190,10 @@ void check_method(const CaseFile& input) {
   if (!input.cracks.empty()) {
     throw InputError(where, "is \"linear_elements\", but the case has [[cracks]], which cut bonds",
                      "delete one of the two, or leave the crack out of the mesh");
+  }
+  if (!input.springs.empty()) {
+    throw InputError(where, "is \"linear_elements\", but the case has [[springs]], which only bonds know",
+                     "delete one of the two");
   }
 }
 

@@ -106,7 +106,7 @@ const std::vector<TableSchema>& case_schema() {
        true,
        {"name", "region", "regions", "youngs_modulus", "poissons_ratio", "fracture_energy"}},
       {"supports", true, {"region", "fix"}},
-      {"displacements", true, {"region", "x", "y", "z"}},
+      {"displacements", true, {"region", "x", "y", "z", "rotation", "rx", "ry", "rz"}},
       {"loads", true, {"region", "force", "body_force"}},
       {"tractions", true, {"region", "traction", "pressure"}},
       {"point_loads", true, {"at", "force", "moment"}},

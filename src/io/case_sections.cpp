@@ -20,6 +20,21 @@ void refuse_third_axis(const CaseTable& table, const std::string& key, int dim) 
                "delete it, or set problem = \"three_dimensional\" in [body]");
 }
 
+/// Rotations that the particles of the body do not have, or that go by another name.
+void refuse_rotations(const CaseTable& table, const BodySection& body) {
+  const bool flat = dimension_of(body) == 2;
+  for (const char* key : {"rotation", "rx", "ry", "rz"}) {
+    if (!table.has(key)) continue;
+    if (body.model != "micropolar") {
+      table.refuse(key, "is given, but the particles of a bond-based body do not rotate",
+                   "delete it, or set model = \"micropolar\" in [body]");
+    }
+    if (flat == (std::string_view(key) == "rotation")) continue;
+    table.refuse(key, fmt::format("is no rotation of a body in {} dimensions", flat ? "two" : "three"),
+                 flat ? "Allowed: rotation" : "Allowed: rx, ry, rz");
+  }
+}
+
 /// Index in SupportSection::fix of what a support names.
 std::size_t find_held_component(const CaseTable& table, const BodySection& body,
                                 const std::string& name) {
@@ -100,14 +115,17 @@ SupportSection read_support(const CaseTable& table, const BodySection& body) {
   return support;
 }
 
-DisplacementSection read_displacement(const CaseTable& table, int dim) {
+DisplacementSection read_displacement(const CaseTable& table, const BodySection& body) {
+  const int dim = dimension_of(body);
   DisplacementSection driven;
   driven.region = need_region(table, "that is driven");
   if (table.has("z")) refuse_third_axis(table, "z", dim);
+  refuse_rotations(table, body);
   bool any = false;
-  for (int axis = 0; axis < dim; ++axis) {
-    driven.value[axis] = table.expression(axis_names[axis], dim);
-    any = any || driven.value[axis].has_value();
+  for (std::size_t component = 0; component < 6; ++component) {
+    if (dim == 2 && component >= 2 && component != 5) continue;
+    driven.value[component] = table.expression(motion_name(dim, component), dim);
+    any = any || driven.value[component].has_value();
   }
   if (!any) {
     table.refuse("", "drives no axis",

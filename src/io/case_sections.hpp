@@ -19,7 +19,7 @@ Region read_region(const CaseTable& table, int dim);
 /// \param index  zero-based, for the name of a nameless material
 MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index);
 SupportSection read_support(const CaseTable& table, const BodySection& body);
-DisplacementSection read_displacement(const CaseTable& table, int dim);
+DisplacementSection read_displacement(const CaseTable& table, const BodySection& body);
 LoadSection read_load(const CaseTable& table, int dim);
 TractionSection read_traction(const CaseTable& table, int dim);
 PointLoadSection read_point_load(const CaseTable& table, const BodySection& body);

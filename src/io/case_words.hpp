@@ -21,6 +21,11 @@ inline const char* rotation_name(int dim, std::size_t axis) {
   return dim == 2 ? "rotation" : rotation_names[axis];
 }
 
+/// Key of a displacement along an axis (0 to 2) or of a rotation about one (3 to 5).
+inline const char* motion_name(int dim, std::size_t component) {
+  return component < 3 ? axis_names[component] : rotation_name(dim, component - 3);
+}
+
 /// Regions that every case has besides its own: the particles and facets of the surface, and all of
 /// the body.
 inline constexpr const char* surface_region = "surface";

@@ -77,7 +77,7 @@ void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
   for (const DisplacementSection& section : input.displacements) {
     out.header("[[displacements]]");
     out.write("region", section.region);
-    for (int axis = 0; axis < dim; ++axis) out.write(axis_names[axis], section.value[axis]);
+    for (std::size_t c = 0; c < 6; ++c) out.write(motion_name(dim, c), section.value[c]);
   }
   for (const LoadSection& load : input.loads) {
     out.header("[[loads]]");

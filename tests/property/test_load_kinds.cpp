@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -153,6 +154,70 @@ type = "elastic"
     // The bonds are 1e7 times as stiff as the springs.
     EXPECT_NEAR(elastic.displacement[2 * i], 0.2, 1e-6);
     EXPECT_NEAR(elastic.displacement[2 * i + 1], 0.075 + turn * (x - 0.5), 1e-6);
+  }
+}
+
+/// A micropolar body of small width, held below; `loading` turns it above.
+Model column(const std::string& loading) {
+  return build_model(parse_case(R"(
+[body]
+model = "micropolar"
+columns = 5
+horizon_ratio = 2.0
+[[regions]]
+name = "column"
+x = [0, 1]
+y = [0, 2]
+[[regions]]
+name = "rim"
+x = [0, 1]
+y = [0, 0]
+[[regions]]
+name = "corner"
+x = [1, 1]
+y = [2, 2]
+[[materials]]
+region = "column"
+youngs_modulus = 10
+poissons_ratio = 0.1
+fracture_energy = "infinite"
+[analysis]
+type = "elastic"
+)" + loading, "test"));
+}
+
+TEST(DrivenRotation, ABodyTurnedAsAWholeStaysWithoutStress) {
+  const Model model = column("[[displacements]]\nregion = \"rim\"\nx = \"-0.1*y\"\n"
+                             "y = \"0.1*x\"\nrotation = 0.1\n");
+  const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
+  EXPECT_NEAR(elastic.strain_energy, 0.0, 1e-25);  // the square of round-off, stiffness 10
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    const std::span<const double> x = model.network.particles.position(i);
+    EXPECT_NEAR(elastic.displacement[3 * i], -0.1 * x[1], 1e-12);
+    EXPECT_NEAR(elastic.displacement[3 * i + 1], 0.1 * x[0], 1e-12);
+    EXPECT_NEAR(elastic.displacement[3 * i + 2], 0.1, 1e-12);
+  }
+}
+
+/// The moment that turns a particle by an angle turns it by that angle.
+TEST(DrivenRotation, NeedsTheMomentThatMakesIt) {
+  const std::string held = "[[supports]]\nregion = \"rim\"\nfix = [\"x\", \"y\", \"rotation\"]\n";
+  const Model turned = column(held + "[[point_loads]]\nat = [1, 2]\nmoment = 0.3\n");
+  const ElasticResult by_moment =
+      run_elastic_analysis(turned.network, turned.unknowns, turned.loads, 1);
+  const Index corner = turned.network.particles.size() - 1;
+  const double angle = by_moment.displacement[3 * corner + 2];
+  ASSERT_GT(angle, 0.0);
+  const Model moved = column(held + fmt::format(
+                                        "[[displacements]]\nregion = \"corner\"\nrotation = {}\n",
+                                        angle));
+  const ElasticResult by_angle = run_elastic_analysis(moved.network, moved.unknowns, moved.loads, 1);
+  EXPECT_TRUE(moved.reference.driven);
+  EXPECT_EQ(moved.reference.value, angle);
+  // Two solutions of systems with condition numbers near 1e3.
+  EXPECT_NEAR(2.0 * by_angle.strain_energy / angle, 0.3, 1e-12);
+  for (std::size_t slot = 0; slot < by_angle.displacement.size(); ++slot) {
+    EXPECT_NEAR(by_angle.displacement[slot], by_moment.displacement[slot], 1e-12 * angle);
   }
 }
 

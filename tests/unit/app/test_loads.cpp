@@ -200,6 +200,9 @@ TEST(Loads, PointMomentsTurnMicropolarParticles) {
   for (Index i = 0; i < model.network.particles.size(); ++i) sum += model.loads.forces[3 * i + 2];
   EXPECT_EQ(sum, 6.0);
   EXPECT_EQ(model.reference.value, 6.0);
+  input.body.micromodulus = "continuum";
+  input.materials[0].poissons_ratio = 1.0 / 3.0;
+  expect_refused(input, "point_loads[1].moment", "resist no rotation");
 }
 
 }  // namespace

@@ -130,6 +130,21 @@ TEST(CaseLoading, ReadsMomentsOfMicropolarBodies) {
   }
 }
 
+TEST(CaseLoading, ReadsDrivenRotations) {
+  const std::string flat =
+      replaced(replaced(with("[[displacements]]\nregion = \"block\"\nrotation = \"0.1*x\"\n"),
+                        "columns = 11", micropolar_body),
+               "youngs_modulus = 30", "youngs_modulus = 30\npoissons_ratio = 0.2");
+  for (const CaseFile& input : {parse_case(flat, ""), parse_case(write_case(parse_case(flat, "")), "")}) {
+    EXPECT_EQ(input.displacements[0].value[5]->formula, "0.1*x");
+    EXPECT_FALSE(input.displacements[0].value[0]);
+  }
+  EXPECT_THAT(message_of(with("[[displacements]]\nregion = \"block\"\nrotation = 1\n")),
+              HasSubstr("displacements[1].rotation: is given, but the particles of a bond-based"));
+  EXPECT_THAT(message_of(replaced(flat, "rotation", "rz")),
+              HasSubstr("displacements[1].rz: is no rotation of a body in two dimensions"));
+}
+
 TEST(CaseLoading, APointLoadAloneLoadsTheBody) {
   const std::string load = "[[loads]]\nregion = \"block\"\nforce = [0, -1]\n";
   EXPECT_EQ(message_of(replaced(base, load, "[[point_loads]]\nat = [0, 0]\nforce = [0, -3]\n")),
