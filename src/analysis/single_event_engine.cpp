@@ -245,13 +245,8 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
 }
 
 LoadWork SingleEventEngine::load_work() {
-  LoadWork work;
-  if (partial_) {
-    work.forces = force_work_;
-    return work;
-  }
-  work.forces = work_of_forces();
-  work.supports = driven_spring_work_;
+  if (partial_) return {force_work_, 0.0};
+  LoadWork work{work_of_forces(), driven_spring_work_};
   const int dim = network_.dim();
   for (const Index e : driven_elements_) {
     if (secants_[e] == 0.0) continue;
