@@ -7,6 +7,7 @@
 
 #include "app/boundary_conditions.hpp"
 #include "app/element_model.hpp"
+#include "app/gauges.hpp"
 #include "app/mesh_input.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
@@ -288,6 +289,12 @@ Model build_model(const CaseFile& input) {
   model.cells = std::move(body.cells);
   model.groups = std::move(body.groups);
   apply_boundary_conditions(input, model);
+  model.gauges = build_gauges(input, model);
+  for (const MaterialSection& material : input.materials) {
+    model.lame.push_back(
+        lame_constants(model.problem, material.youngs_modulus,
+                       material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
+  }
   return model;
 }
 

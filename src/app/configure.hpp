@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,18 @@
 #include "material/elasticity.hpp"
 
 namespace perilink {
+
+/// A displacement or stress of the history: weights times values at particles.
+struct Gauge {
+  struct Term {
+    Index particle = no_index;
+    double weight = 0.0;
+  };
+  std::string name;
+  std::vector<Term> terms;
+  Vector3 direction{};                       ///< of the displacement that is measured
+  std::optional<std::array<int, 2>> stress;  ///< axes of the component instead of a displacement
+};
 
 /// A case turned into particles, bonds, unknowns and loads.
 struct Model {
@@ -30,6 +43,8 @@ struct Model {
   Unknowns unknowns;
   Loads loads;
   ReferenceLoad reference;
+  std::vector<Gauge> gauges;
+  std::vector<LameConstants> lame;  ///< elastic constants per material
   LoadResultant resultant;
   std::vector<std::string> notes;  ///< what the user should know: pinned modes, unbalanced moments
 };

@@ -43,22 +43,28 @@ constexpr std::array columns = {
     column<&StepRecord::element>("element"),
 };
 
-std::vector<std::string> column_names() {
-  std::vector<std::string> names;
-  for (const Column& column : columns) names.emplace_back(column.name);
+std::vector<std::string> with(std::vector<std::string> names, const std::vector<std::string>& more) {
+  names.insert(names.end(), more.begin(), more.end());
   return names;
 }
 
 }  // namespace
 
-HistoryFile::HistoryFile(const std::string& directory)
-    : history_(directory + "/history.csv", column_names()),
+std::vector<std::string> history_columns() {
+  std::vector<std::string> names;
+  for (const Column& column : columns) names.emplace_back(column.name);
+  return names;
+}
+
+HistoryFile::HistoryFile(const std::string& directory, const std::vector<std::string>& gauges)
+    : history_(directory + "/history.csv", with(history_columns(), gauges)),
       timing_(directory + "/timing.csv", {"step", "seconds"}) {}
 
-void HistoryFile::append(const StepRecord& record) {
+void HistoryFile::append(const StepRecord& record, std::span<const double> gauges) {
   std::vector<double> row;
-  row.reserve(columns.size());
+  row.reserve(columns.size() + gauges.size());
   for (const Column& column : columns) row.push_back(column.get(record));
+  row.insert(row.end(), gauges.begin(), gauges.end());
   history_.write_row(row);
   timing_.write_row({static_cast<double>(record.step), record.seconds});
   if (since_flush_.seconds() > seconds_between_flushes) flush();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,12 @@ namespace perilink {
 /// of events per second, and when the writer is destroyed.
 class HistoryFile {
  public:
+  /// \param gauges  names of further columns
   /// \throws FileError
-  explicit HistoryFile(const std::string& directory);
+  explicit HistoryFile(const std::string& directory, const std::vector<std::string>& gauges = {});
 
-  void append(const StepRecord& record);
+  /// \param gauges  values of the further columns
+  void append(const StepRecord& record, std::span<const double> gauges = {});
   /// Call it at the end and when a signal stops the run, to learn of a full disk.
   /// \throws FileError
   void flush();
@@ -27,6 +30,9 @@ class HistoryFile {
   CsvWriter timing_;
   Timer since_flush_;
 };
+
+/// Columns that every history has.
+std::vector<std::string> history_columns();
 
 /// Rows of a history.csv; columns that the file lacks keep their defaults.
 /// \throws FileError when the file or one of its columns load and displacement is missing

@@ -55,6 +55,7 @@ ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepO
   run.result = as_history(model, *run.elastic);
   ElasticState state(model.network, *run.elastic);
   observer.on_step(run.result.last, state);
+  observer.on_end(run.result.last, state);
   return run;
 }
 

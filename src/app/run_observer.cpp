@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "app/field_file.hpp"
+#include "app/gauges.hpp"
 #include "app/signals.hpp"
+#include "assembly/fields.hpp"
 #include "base/timer.hpp"
 
 namespace perilink {
@@ -23,7 +25,7 @@ RunObserver::RunObserver(const CaseFile& input, const Model& model,
     : input_(input),
       model_(model),
       directory_(std::move(directory)),
-      history_(directory_.string()),
+      history_(directory_.string(), names_of(model.gauges)),
       progress_(quiet, last_broken_bonds(input), input.stop.displacement),
       is_broken_(static_cast<std::size_t>(model.network.num_elements()), 0) {}
 
@@ -61,15 +63,20 @@ bool RunObserver::wants_fields(Index broken_bonds) const {
 
 VtuGrid RunObserver::make_grid(const StepRecord& record, StateSource& source) {
   const Network& network = model_.network;
-  if (model_.elements) {
-    return make_element_grid(*model_.elements, network.particles, source.state().displacement,
-                             record, model_.lattice.spacing);
-  }
   if (families_.rows() == 0) {
     families_ = bonds_of_particles(network.bonds, network.particles.size());
   }
-  return make_field_grid(network, source.state(), record, broken_, families_,
-                         model_.lattice.spacing);
+  VtuGrid grid = model_.elements
+                     ? make_element_grid(*model_.elements, network.particles,
+                                         source.state().displacement, record, model_.lattice.spacing)
+                     : make_field_grid(network, source.state(), record, broken_, families_,
+                                       model_.lattice.spacing);
+  if (input_.analysis.type == "elastic") {
+    const std::vector<double> displacement = translations(network, source.state().displacement);
+    grid.point_data.push_back(
+        {"stress", 6, particle_stresses(stress_input(model_, families_), displacement)});
+  }
+  return grid;
 }
 
 void RunObserver::write_fields(const StepRecord& record, StateSource& source) {
@@ -84,7 +91,11 @@ void RunObserver::write_fields(const StepRecord& record, StateSource& source) {
 
 void RunObserver::on_step(const StepRecord& record, StateSource& source) {
   note_broken(record, source);
-  history_.append(record);
+  if (model_.gauges.empty()) {
+    history_.append(record);
+  } else {
+    history_.append(record, gauge_values(model_, source.state(), record.load_factor));
+  }
   progress_.update(record);
   if (wants_fields(record.broken_bonds)) write_fields(record, source);
   last_element_ = model_.network.is_segment(record.element) ? no_index : record.element;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "analysis/convergence.hpp"
+#include "app/gauges.hpp"
 #include "app/run_model.hpp"
 #include "app/signals.hpp"
 #include "assembly/fields.hpp"
@@ -24,11 +25,21 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Keeps nothing; lets Ctrl-C end a long run.
+/// Keeps the last values of the gauges; lets Ctrl-C end a long run.
 class StudyObserver final : public StepObserver {
  public:
+  explicit StudyObserver(const Model& model) : model_(model) {}
   void on_step(const StepRecord& /*record*/, StateSource& /*source*/) override {}
+  void on_end(const StepRecord& last, StateSource& source) override {
+    if (model_.gauges.empty()) return;
+    gauges = gauge_values(model_, source.state(), last.load_factor);
+  }
   bool stop_requested() override { return stop_signal_received(); }
+
+  std::vector<double> gauges;  ///< in the order of the case
+
+ private:
+  const Model& model_;
 };
 
 /// What run_model leaves of one repeat.
@@ -36,6 +47,7 @@ struct Repeat {
   CaseFile input;
   Model model;
   ModelRun run;
+  std::vector<double> gauges;
   MemberSeconds seconds;
 };
 
@@ -46,15 +58,22 @@ Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int 
   repeat.model = build_model(repeat.input);
   repeat.seconds.set_up = timer.seconds();
   timer.restart();
-  StudyObserver observer;
+  StudyObserver observer(repeat.model);
   repeat.run = run_model(repeat.input, repeat.model, threads, observer);
   repeat.seconds.analysis = timer.seconds();
+  repeat.gauges = std::move(observer.gauges);
   if (repeat.run.elastic) {
     repeat.seconds.assembly = repeat.run.elastic->seconds.assembly;
     repeat.seconds.factorization = repeat.run.elastic->seconds.factorization;
     repeat.seconds.solve = repeat.run.elastic->seconds.solve;
   }
   return repeat;
+}
+
+/// Place of a gauge in the case; the number of gauges where it has none of the name.
+std::size_t gauge_number(const CaseFile& input, const std::string& name) {
+  const auto named = [&](const GaugeSection& gauge) { return gauge.name == name; };
+  return std::find_if(input.gauges.begin(), input.gauges.end(), named) - input.gauges.begin();
 }
 
 double quantity_of(const DamageResult& result, const std::string& word) {
@@ -103,7 +122,9 @@ void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) 
   member.unknowns = model.unknowns.count;
   for (const ErrorSection& error : study.errors) {
     member.values.push_back(error.is_field() ? field_error(error, model, *repeat.run.elastic)
-                                             : quantity_of(repeat.run.result, error.quantity));
+                            : !error.gauge.empty()
+                                ? repeat.gauges.at(gauge_number(repeat.input, error.gauge))
+                                : quantity_of(repeat.run.result, error.quantity));
   }
 }
 
@@ -188,11 +209,11 @@ std::vector<StudySeries> study_series(const StudyFile& study) {
 void check_study(const StudyFile& study, const CaseFile& input) {
   const int dim = dimension_of(input.body);
   for (const ErrorSection& error : study.errors) {
-    if (!error.gauge.empty()) {
+    if (!error.gauge.empty() && gauge_number(input, error.gauge) == input.gauges.size()) {
       throw InputError({error.where.file, error.where.line, error.where.key + ".gauge"},
                        fmt::format("is {}, but the case has no gauge of that name",
                                    perilink::quoted(error.gauge)),
-                       "measure a `quantity` or a `displacement`");
+                       "name one of the case's [[gauges]], or add it there");
     }
     if (!error.is_field()) continue;
     const SourceLocation where = where_of_field(error);

@@ -60,12 +60,10 @@ void fill_geometry(std::span<const double> positions, double thickness, LinearEl
 void fill_moduli(Problem problem, std::span<const IsotropicMaterial> materials,
                  LinearElements& elements) {
   for (const Index m : elements.cells.material) {
-    const double e = materials[m].youngs_modulus;
-    const double nu = materials[m].poissons_ratio;
-    elements.mu.push_back(e / (2.0 * (1.0 + nu)));
-    elements.lambda.push_back(problem == Problem::plane_stress
-                                  ? e * nu / (1.0 - nu * nu)
-                                  : e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)));
+    const LameConstants constants =
+        lame_constants(problem, materials[m].youngs_modulus, materials[m].poissons_ratio);
+    elements.mu.push_back(constants.mu);
+    elements.lambda.push_back(constants.lambda);
   }
 }
 

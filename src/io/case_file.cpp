@@ -135,6 +135,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.springs = document.list("springs", in_dimension(read_springs));
   input.cracks = document.list("cracks", in_dimension(read_crack));
   input.rebar = document.list("rebar", in_dimension(read_rebar));
+  input.gauges = document.list("gauges", in_dimension(read_gauge));
   input.analysis = read_analysis(document.table("analysis"));
   input.stop = read_stop(document.table("stop"));
   input.output = read_output(document.table("output"));

@@ -117,6 +117,17 @@ struct RebarSection {
   bool ties_break = true;                ///< false: the bond to the concrete is perfect
 };
 
+/// [[gauges]]: a displacement or stress that is written as a column of the history. Exactly one of
+/// between, at and region; exactly one of axis and stress but that `between` needs none.
+struct GaugeSection {
+  std::string name;
+  std::vector<Vector3> between;  ///< two points: displacement of the second relative to the first
+  std::optional<Vector3> at;
+  std::string region;            ///< mean over its particles
+  std::optional<int> axis;       ///< of the displacement; between two points else that from one to the other
+  std::optional<std::array<int, 2>> stress;  ///< axes of a component of the stress, ascending
+};
+
 /// [analysis]
 struct AnalysisSection {
   std::string type = "damage";               ///< damage | elastic
@@ -156,6 +167,7 @@ struct CaseFile {
   std::vector<SpringSection> springs;
   std::vector<CrackSection> cracks;
   std::vector<RebarSection> rebar;
+  std::vector<GaugeSection> gauges;
   AnalysisSection analysis;
   StopSection stop;
   OutputSection output;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/case_gauges.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_schema.hpp"
 #include "io/case_words.hpp"
@@ -218,6 +219,12 @@ void check_rules(const CaseFile& input) {
     check_reference(input, names, item_key("symmetry", i, "region"), input.symmetry[i].region,
                     Reserved::refused);
   }
+  for (std::size_t i = 0; i < input.gauges.size(); ++i) {
+    if (input.gauges[i].region.empty()) continue;
+    check_reference(input, names, item_key("gauges", i, "region"), input.gauges[i].region,
+                    Reserved::allowed);
+  }
+  check_gauges(input);
   check_contradictions(input);
   check_driven(input);
 }

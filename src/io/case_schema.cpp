@@ -116,6 +116,7 @@ const std::vector<TableSchema>& case_schema() {
       {"rebar",
        true,
        {"from", "to", "youngs_modulus", "area", "yield_strength", "yields", "ties_break"}},
+      {"gauges", true, {"name", "between", "at", "region", "axis", "stress"}},
       {"analysis", false, {"type", "control", "load_factors", "rigid_body_modes", "factor"}},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}},
       {"output", false, {"fields_at", "fields_every"}},

@@ -27,6 +27,7 @@ SymmetrySection read_symmetry(const CaseTable& table, int dim);
 SpringSection read_springs(const CaseTable& table, int dim);
 CrackSection read_crack(const CaseTable& table, int dim);
 RebarSection read_rebar(const CaseTable& table, int dim);
+GaugeSection read_gauge(const CaseTable& table, int dim);
 AnalysisSection read_analysis(const CaseTable& table);
 StopSection read_stop(const CaseTable& table);
 OutputSection read_output(const CaseTable& table);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "io/case_file.hpp"
+#include "io/case_gauges.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
 #include "io/toml_writer.hpp"
@@ -164,6 +165,7 @@ std::string write_case(const CaseFile& input) {
   write_more_loading(out, input, dim);
   for (const CrackSection& crack : input.cracks) write_crack(out, crack, dim);
   for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);
+  write_gauges(out, input);
   write_run(out, input);
   return out.take();
 }

@@ -12,4 +12,11 @@ int dimension_of(Problem problem);
 /// plane strain and in three dimensions (Gerstle, Sau & Silling 2005, section 2).
 double bond_poissons_ratio(Problem problem);
 
+/// stress = lambda trace(strain) + 2 mu strain, in the plane or in space [force/length^2].
+struct LameConstants {
+  double lambda = 0.0;  ///< in plane stress that of the plane, E nu / (1 - nu^2)
+  double mu = 0.0;      ///< shear modulus
+};
+LameConstants lame_constants(Problem problem, double youngs_modulus, double poissons_ratio);
+
 }  // namespace perilink

@@ -75,6 +75,20 @@ TEST_F(HistoryFileTest, ColumnsAreTheAgreedOnes) {
                                       "factorizations", "element"}));
 }
 
+TEST_F(HistoryFileTest, GaugesAreFurtherColumns) {
+  {
+    HistoryFile file(directory_, {"mouth", "top"});
+    const std::vector<double> values = {0.1, -2.0};
+    file.append(make_record(), values);
+  }
+  const CsvTable table = read_csv(directory_ + "/history.csv");
+  ASSERT_EQ(table.columns.size(), history_columns().size() + 2);
+  EXPECT_EQ(table.columns.back(), "top");
+  EXPECT_EQ(table.rows[0][table.column("mouth")], 0.1);
+  EXPECT_EQ(table.rows[0][table.column("top")], -2.0);
+  EXPECT_EQ(read_history(directory_ + "/history.csv")[0].load, 100000.0);
+}
+
 TEST_F(HistoryFileTest, FlushedRowsAreInTheFile) {
   HistoryFile file(directory_);
   file.append(make_record());

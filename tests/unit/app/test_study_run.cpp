@@ -124,6 +124,24 @@ TEST_F(StudyRun, AFormulaThatIsNotFiniteFailsTheMember) {
       << member.failure;
 }
 
+TEST_F(StudyRun, GaugesAreValues) {
+  const std::string text = std::string(test::strip_text) +
+                           "[[gauges]]\nname = \"other\"\nat = [0, 0]\naxis = \"x\"\n"
+                           "[[gauges]]\nname = \"top\"\nregion = \"upper end\"\naxis = \"y\"\n"
+                           "[analysis]\ntype = \"elastic\"\n";
+  test::write_text(directory_ / "strip.toml", text);
+  const StudyFile file = study("[error]\ngauge = \"top\"\nreference = 1\n");
+  const StudyMember member =
+      run_member(file, study_series(file).front(), body_key("spacing", 10.0), 1);
+  ASSERT_TRUE(member.failure.empty()) << member.failure;
+  const CaseFile input = read_case_file(file.case_path, {body_key("spacing", 10.0), body_key("horizon_ratio", 2.0)});
+  const Model model = build_model(input);
+  const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
+  // The load acts on the region in proportion to the volumes, so its work is that of the mean.
+  EXPECT_NEAR(member.values[0], 2.0 * elastic.strain_energy / 12.0, 1e-12 * member.values[0]);
+  EXPECT_NO_THROW(check_study(file, input));
+}
+
 void expect_check_refused(const StudyFile& file, const std::string& key, const std::string& says) {
   try {
     check_study(file, read_case_file(file.case_path));

@@ -17,5 +17,17 @@ TEST(Elasticity, ProblemsHaveADimension) {
   EXPECT_EQ(dimension_of(Problem::three_dimensional), 3);
 }
 
+/// Uniaxial stress E with the lateral strains of Poisson's ratio.
+TEST(Elasticity, LameConstantsGiveHookesLaw) {
+  const double e = 30.0, nu = 0.2;
+  const LameConstants space = lame_constants(Problem::three_dimensional, e, nu);
+  EXPECT_NEAR(space.lambda * (1.0 - 2.0 * nu) + 2.0 * space.mu, e, 1e-13);
+  EXPECT_NEAR(space.lambda * (1.0 - 2.0 * nu) - 2.0 * space.mu * nu, 0.0, 1e-13);
+  const LameConstants plane = lame_constants(Problem::plane_stress, e, nu);
+  EXPECT_NEAR(plane.lambda * (1.0 - nu) + 2.0 * plane.mu, e, 1e-13);
+  EXPECT_NEAR(plane.lambda * (1.0 - nu) - 2.0 * plane.mu * nu, 0.0, 1e-13);
+  EXPECT_EQ(lame_constants(Problem::plane_strain, e, nu).lambda, space.lambda);
+}
+
 }  // namespace
 }  // namespace perilink
