@@ -291,8 +291,8 @@ Model build_model(const CaseFile& input) {
   apply_boundary_conditions(input, model);
   model.gauges = build_gauges(input, model);
   for (const MaterialSection& material : input.materials) {
-    model.lame.push_back(
-        lame_constants(model.problem, material.youngs_modulus,
+    model.hooke.push_back(
+        hooke_constants(model.problem, material.youngs_modulus,
                        material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
   }
   return model;

@@ -44,7 +44,7 @@ struct Model {
   Loads loads;
   ReferenceLoad reference;
   std::vector<Gauge> gauges;
-  std::vector<LameConstants> lame;  ///< elastic constants per material
+  std::vector<HookeConstants> hooke;  ///< elastic constants per material
   LoadResultant resultant;
   std::vector<std::string> notes;  ///< what the user should know: pinned modes, unbalanced moments
 };

@@ -102,7 +102,7 @@ std::vector<std::string> names_of(const std::vector<Gauge>& gauges) {
 }
 
 StressInput stress_input(const Model& model, const Csr& families) {
-  return {model.network, families, model.problem, model.lame, model.elements.has_value()};
+  return {model.network, families, model.problem, model.hooke, model.elements.has_value()};
 }
 
 std::vector<double> gauge_values(const Model& model, const StepState& state, double load_factor) {

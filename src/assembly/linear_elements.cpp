@@ -60,8 +60,8 @@ void fill_geometry(std::span<const double> positions, double thickness, LinearEl
 void fill_moduli(Problem problem, std::span<const IsotropicMaterial> materials,
                  LinearElements& elements) {
   for (const Index m : elements.cells.material) {
-    const LameConstants constants =
-        lame_constants(problem, materials[m].youngs_modulus, materials[m].poissons_ratio);
+    const HookeConstants constants =
+        hooke_constants(problem, materials[m].youngs_modulus, materials[m].poissons_ratio);
     elements.mu.push_back(constants.mu);
     elements.lambda.push_back(constants.lambda);
   }

@@ -98,7 +98,7 @@ Stress stress_in(const StressInput& input, std::span<const double> displacement,
   }
   Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
   strain.topLeftCorner<Dim, Dim>() = 0.5 * (gradient + gradient.transpose());
-  const LameConstants& c = input.materials[particles.material[particle]];
+  const HookeConstants& c = input.materials[particles.material[particle]];
   const Eigen::Matrix3d s =
       c.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2.0 * c.mu * strain;
   const double out_of_plane = input.problem == Problem::plane_stress ? 0.0 : s(2, 2);

@@ -21,7 +21,7 @@ struct StressInput {
   const Network& network;
   const Csr& families;                        ///< bonds of each particle (bonds_of_particles)
   Problem problem = Problem::plane_stress;
-  std::span<const LameConstants> materials;   ///< that the particles' material numbers
+  std::span<const HookeConstants> materials;   ///< that the particles' material numbers
   bool second_neighbors = false;  ///< also those of the neighbours: for the edges of elements, which
                                   ///< are too few
 };

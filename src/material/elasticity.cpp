@@ -8,7 +8,7 @@ double bond_poissons_ratio(Problem problem) {
   return problem == Problem::plane_stress ? 1.0 / 3.0 : 0.25;
 }
 
-LameConstants lame_constants(Problem problem, double youngs_modulus, double poissons_ratio) {
+HookeConstants hooke_constants(Problem problem, double youngs_modulus, double poissons_ratio) {
   const double e = youngs_modulus, nu = poissons_ratio;
   return {problem == Problem::plane_stress ? e * nu / (1.0 - nu * nu)
                                            : e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),

@@ -13,10 +13,10 @@ int dimension_of(Problem problem);
 double bond_poissons_ratio(Problem problem);
 
 /// stress = lambda trace(strain) + 2 mu strain, in the plane or in space [force/length^2].
-struct LameConstants {
+struct HookeConstants {
   double lambda = 0.0;  ///< in plane stress that of the plane, E nu / (1 - nu^2)
   double mu = 0.0;      ///< shear modulus
 };
-LameConstants lame_constants(Problem problem, double youngs_modulus, double poissons_ratio);
+HookeConstants hooke_constants(Problem problem, double youngs_modulus, double poissons_ratio);
 
 }  // namespace perilink

@@ -30,7 +30,7 @@ std::vector<double> quadratic_displacement(const Particles& particles) {
   return displacement;
 }
 
-Stress exact_stress(const Particles& particles, Problem problem, LameConstants c, Index i) {
+Stress exact_stress(const Particles& particles, Problem problem, HookeConstants c, Index i) {
   const int dim = particles.dim;
   const std::span<const double> x = particles.position(i);
   double gradient[3][3] = {};
@@ -60,7 +60,7 @@ TEST_P(StressOfQuadraticFields, IsExactEverywhere) {
   for (const Problem problem : {Problem::plane_stress, Problem::plane_strain,
                                 Problem::three_dimensional}) {
     if (dimension_of(problem) != particles.dim) continue;
-    const std::vector<LameConstants> materials = {lame_constants(problem, 30.0, 0.2)};
+    const std::vector<HookeConstants> materials = {hooke_constants(problem, 30.0, 0.2)};
     const std::vector<double> stresses =
         particle_stresses({network, families, problem, materials}, displacement);
     for (Index i = 0; i < particles.size(); ++i) {
@@ -89,7 +89,7 @@ TEST(StressAt, FallsBackToWhatTheNeighborsSettle) {
   const Network network = build_network(make_body(body), test::network_input(body));
   const Particles& particles = network.particles;
   const Csr families = bonds_of_particles(network.bonds, particles.size());
-  const std::vector<LameConstants> materials = {lame_constants(Problem::plane_stress, 30.0, 0.2)};
+  const std::vector<HookeConstants> materials = {hooke_constants(Problem::plane_stress, 30.0, 0.2)};
   std::vector<double> displacement;
   for (Index i = 0; i < particles.size(); ++i) {
     const std::span<const double> x = particles.position(i);
@@ -106,7 +106,7 @@ TEST(StressAt, FallsBackToWhatTheNeighborsSettle) {
   for (Index i = 0; i < particles.size(); ++i) {
     if (particles.position(i)[1] > 0.0) row.particles.material[i] = 1;
   }
-  const std::vector<LameConstants> two = {materials[0], materials[0]};
+  const std::vector<HookeConstants> two = {materials[0], materials[0]};
   const Stress none = stress_at({row, families, Problem::plane_stress, two}, displacement, 3);
   EXPECT_EQ(none, Stress{}) << "neighbours of another material do not count";
 }
@@ -120,7 +120,7 @@ TEST(StressAt, SecondNeighborsAreTheNeighborsOfNeighbors) {
   const Network network = build_network(make_body(body), constants);
   const Csr families = bonds_of_particles(network.bonds, network.particles.size());
   const std::vector<double> displacement = quadratic_displacement(network.particles);
-  const std::vector<LameConstants> materials = {lame_constants(Problem::plane_stress, 30.0, 0.2)};
+  const std::vector<HookeConstants> materials = {hooke_constants(Problem::plane_stress, 30.0, 0.2)};
   const Index middle = 24;
   const Stress exact =
       exact_stress(network.particles, Problem::plane_stress, materials[0], middle);

@@ -18,15 +18,15 @@ TEST(Elasticity, ProblemsHaveADimension) {
 }
 
 /// Uniaxial stress E with the lateral strains of Poisson's ratio.
-TEST(Elasticity, LameConstantsGiveHookesLaw) {
+TEST(Elasticity, HookeConstantsGiveHookesLaw) {
   const double e = 30.0, nu = 0.2;
-  const LameConstants space = lame_constants(Problem::three_dimensional, e, nu);
+  const HookeConstants space = hooke_constants(Problem::three_dimensional, e, nu);
   EXPECT_NEAR(space.lambda * (1.0 - 2.0 * nu) + 2.0 * space.mu, e, 1e-13);
   EXPECT_NEAR(space.lambda * (1.0 - 2.0 * nu) - 2.0 * space.mu * nu, 0.0, 1e-13);
-  const LameConstants plane = lame_constants(Problem::plane_stress, e, nu);
+  const HookeConstants plane = hooke_constants(Problem::plane_stress, e, nu);
   EXPECT_NEAR(plane.lambda * (1.0 - nu) + 2.0 * plane.mu, e, 1e-13);
   EXPECT_NEAR(plane.lambda * (1.0 - nu) - 2.0 * plane.mu * nu, 0.0, 1e-13);
-  EXPECT_EQ(lame_constants(Problem::plane_strain, e, nu).lambda, space.lambda);
+  EXPECT_EQ(hooke_constants(Problem::plane_strain, e, nu).lambda, space.lambda);
 }
 
 }  // namespace
