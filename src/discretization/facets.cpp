@@ -88,6 +88,7 @@ void Facets::append(std::span<const Index> corner_particles, const Vector3& area
                     Index material_inside, Index material_outside) {
   corners.values.insert(corners.values.end(), corner_particles.begin(), corner_particles.end());
   corners.offsets.push_back(static_cast<Index>(corners.values.size()));
+  shares.resize(corners.values.size(), 1.0 / static_cast<double>(corner_particles.size()));
   area_vectors.insert(area_vectors.end(), area_vector.begin(), area_vector.begin() + dim);
   inside.push_back(material_inside);
   outside.push_back(material_outside);

@@ -26,9 +26,11 @@ int dimension_of(Pattern pattern) {
   return pattern == Pattern::rectangular || pattern == Pattern::hexagonal ? 2 : 3;
 }
 
-/// Steps that divide the extent evenly and come nearest to the wanted distance.
-double even_step(const Box& bounds, int axis, double wanted) {
+/// Steps that divide the extent evenly and come nearest to the wanted distance; on demand an even number
+/// of them.
+double even_step(const Box& bounds, int axis, double wanted, bool even_number = false) {
   const double extent = bounds.upper[axis] - bounds.lower[axis];
+  if (even_number) return extent / (2.0 * std::max(1.0, std::round(0.5 * extent / wanted)));
   return extent / std::max(1.0, std::round(extent / wanted));
 }
 
@@ -37,11 +39,16 @@ double even_step(const Box& bounds, int axis, double wanted) {
 Lattice conforming_lattice(const LatticeInput& input, const Box& bounds, double spacing) {
   Lattice lattice;
   lattice.pattern = input.pattern;
-  lattice.surface = Surface::none;
+  lattice.surface = input.surface;
   lattice.dim = dimension_of(input.pattern);
+  // Calibrated bonds need a particle with an equal-sided neighbourhood at the corners of the body: of a
+  // face-centred lattice one at all, of a hexagonal one none on the right angle of half a triangle.
+  const bool even_number = input.surface == Surface::calibrated;
   if (input.pattern == Pattern::face_centred) {
     const double half_cube = spacing / std::numbers::sqrt2;
-    for (int axis = 0; axis < 3; ++axis) lattice.step[axis] = even_step(bounds, axis, half_cube);
+    for (int axis = 0; axis < 3; ++axis) {
+      lattice.step[axis] = even_step(bounds, axis, half_cube, even_number);
+    }
     lattice.spacing = std::numbers::sqrt2 * lattice.step[0];
     // Every other point of the grid of half cubes carries a particle.
     lattice.cell_volume = 2.0 * lattice.step[0] * lattice.step[1] * lattice.step[2];
@@ -51,7 +58,8 @@ Lattice conforming_lattice(const LatticeInput& input, const Box& bounds, double 
   lattice.spacing = lattice.step[0];
   const double rows =
       input.pattern == Pattern::hexagonal ? 0.5 * std::numbers::sqrt3 * lattice.spacing : spacing;
-  lattice.step[1] = even_step(bounds, 1, rows);
+  lattice.step[1] =
+      even_step(bounds, 1, rows, even_number && input.pattern == Pattern::hexagonal);
   lattice.cell_volume = lattice.step[0] * lattice.step[1];
   if (lattice.dim == 3) {
     lattice.step[2] = even_step(bounds, 2, spacing);

@@ -1,0 +1,93 @@
+#include "discretization/bond_equations.hpp"
+
+#include <array>
+
+namespace perilink {
+namespace {
+
+double delta(int a, int b) { return a == b ? 1.0 : 0.0; }
+
+/// Calls f(a, b, c) for every component of a symmetric third-order tensor.
+template <class Function>
+void for_third_order(int dim, Function f) {
+  for (int a = 0; a < dim; ++a) {
+    for (int b = a; b < dim; ++b) {
+      for (int c = b; c < dim; ++c) f(a, b, c);
+    }
+  }
+}
+
+/// Calls f(a, b, c, d) for the components of a tensor of moduli: all that differ by its major and minor
+/// symmetries, or, where it is symmetric in all indices, those with ascending ones.
+template <class Function>
+void for_moduli(int dim, bool symmetric, Function f) {
+  constexpr std::array<std::array<int, 2>, 6> all_pairs = {
+      {{0, 0}, {1, 1}, {0, 1}, {2, 2}, {1, 2}, {0, 2}}};
+  if (!symmetric) {
+    const int pairs = dim == 2 ? 3 : 6;
+    for (int i = 0; i < pairs; ++i) {
+      for (int j = i; j < pairs; ++j) {
+        f(all_pairs[i][0], all_pairs[i][1], all_pairs[j][0], all_pairs[j][1]);
+      }
+    }
+    return;
+  }
+  for (int a = 0; a < dim; ++a) {
+    for_third_order(dim, [&](int b, int c, int d) {
+      if (b >= a) f(a, b, c, d);
+    });
+  }
+}
+
+}  // namespace
+
+void ForceRows::axial(double length, std::span<const double> n, double* row) const {
+  for_third_order(dim, [&](int a, int b, int c) { *row++ = length * n[a] * n[b] * n[c]; });
+  if (!bending) return;
+  for (int k = third_order(); k < count(); ++k) *row++ = 0.0;
+}
+
+void ForceRows::shear(double length, std::span<const double> n, double* row) const {
+  for_third_order(dim, [&](int a, int b, int c) { *row++ = -length * n[a] * n[b] * n[c]; });
+  for (int a = 0; a < dim; ++a) *row++ = length * n[a];
+  const double square = length * length;
+  for (int a = 0; a < dim; ++a) {
+    for (int b = a + 1; b < dim; ++b) *row++ = square * n[a] * n[b];
+  }
+  for (int a = 0; a + 1 < dim; ++a) *row++ = 0.5 * square * (n[a] * n[a] - n[a + 1] * n[a + 1]);
+}
+
+void ForceRows::right(const Vector3& lambda_area, const Vector3& mu_area, double* row) const {
+  for_third_order(dim, [&](int a, int b, int c) {
+    *row++ = -(delta(a, b) * lambda_area[c] + delta(a, c) * lambda_area[b] +
+               delta(b, c) * lambda_area[a]);
+  });
+  if (!bending) return;
+  for (int a = 0; a < dim; ++a) *row++ = -2.0 * (mu_area[a] - lambda_area[a]);
+  for (int k = odd(); k < count(); ++k) *row++ = 0.0;
+}
+
+void ModuliRows::axial(double length, std::span<const double> n, double* row) const {
+  const double half_square = 0.5 * length * length;
+  for_moduli(dim, !bending, [&](int a, int b, int c, int d) {
+    *row++ = half_square * n[a] * n[b] * n[c] * n[d];
+  });
+}
+
+void ModuliRows::shear(double length, std::span<const double> n, double* row) const {
+  const double half_square = 0.5 * length * length;
+  for_moduli(dim, !bending, [&](int a, int b, int c, int d) {
+    const double product = 0.25 * (delta(a, c) * n[b] * n[d] + delta(a, d) * n[b] * n[c] +
+                                   delta(b, c) * n[a] * n[d] + delta(b, d) * n[a] * n[c]);
+    *row++ = half_square * (product - n[a] * n[b] * n[c] * n[d]);
+  });
+}
+
+void ModuliRows::right(double volume, const LameConstants& constants, double* row) const {
+  for_moduli(dim, !bending, [&](int a, int b, int c, int d) {
+    *row++ = volume * (constants.lambda * delta(a, b) * delta(c, d) +
+                       constants.mu * (delta(a, c) * delta(b, d) + delta(a, d) * delta(b, c)));
+  });
+}
+
+}  // namespace perilink

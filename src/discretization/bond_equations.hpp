@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+
+/// \file
+/// What a bond adds, per unit of its stiffness, to the forces on its ends and to their elastic moduli
+/// under every uniform strain. Symmetric tensors are stored by components with ascending indices:
+/// third order xxx, xxy, xyy, yyy in two dimensions, ten components in three; fourth order five and
+/// fifteen.
+
+namespace perilink {
+
+/// Elastic constants C = lambda dd + mu (dd + dd), d Kronecker's delta; in plane stress those of the
+/// plane. Bonds without moment can only have lambda = mu.
+struct LameConstants {
+  double lambda = 0.0;  ///< [force/length^2]
+  double mu = 0.0;      ///< [force/length^2]
+};
+
+/// Equations of equilibrium under all uniform strains at a particle without rotation. An axial stiffness
+/// k pulls with k xi (n.eps.n) n, a bending stiffness k with k xi (eps.n - (n.eps.n) n) and the moment
+/// k xi^2 n x (eps.n) / 2. Forces and moments vanish for every strain where
+///   sum (k_axial - k_bending) xi nnn = -lambda (d_ab A_c + d_ac A_b + d_bc A_a),
+///   sum k_bending xi n = -2 (mu - lambda) A,   sum k_bending xi^2 (nn - I/dim) = 0,
+/// A the area vector of the particle. Without bending only the first equation is left, with
+/// lambda = mu. The first two act on both ends with opposite signs.
+struct ForceRows {
+  int dim;
+  bool bending;  ///< bonds that carry moments
+
+  int third_order() const { return dim == 2 ? 4 : 10; }
+  int odd() const { return third_order() + (bending ? dim : 0); }
+  int count() const { return odd() + (bending ? (dim == 2 ? 2 : 5) : 0); }
+
+  void axial(double length, std::span<const double> direction, double* row) const;
+  void shear(double length, std::span<const double> direction, double* row) const;
+  /// Right side of a particle from its area vector times the constants of each material:
+  /// sum lambda A and sum mu A, in and out of the facets [force].
+  void right(const Vector3& lambda_area, const Vector3& mu_area, double* row) const;
+};
+
+/// Equations of the moduli of a particle: half of the energy of its bonds under every uniform strain is
+/// that of its volume,
+///   1/2 sum xi^2 (k_axial nnnn + k_bending ((d nn) - nnnn)) = V C,
+/// ((d nn) the symmetrised product with eps.(d nn).eps = |eps.n|^2). Without bending both sides are
+/// symmetric in all indices.
+struct ModuliRows {
+  int dim;
+  bool bending;
+
+  int count() const { return bending ? (dim == 2 ? 6 : 21) : (dim == 2 ? 5 : 15); }
+
+  void axial(double length, std::span<const double> direction, double* row) const;
+  void shear(double length, std::span<const double> direction, double* row) const;
+  void right(double volume, const LameConstants& constants, double* row) const;
+};
+
+}  // namespace perilink

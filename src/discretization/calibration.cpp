@@ -1,0 +1,359 @@
+#include "discretization/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "discretization/facet_shares.hpp"
+#include "discretization/least_change.hpp"
+
+namespace perilink {
+namespace {
+
+/// Forces out of balance above this are told to the user.
+constexpr double met = 1e-9;
+
+/// Weights below this are zero but for round-off.
+constexpr double vanished = 1e-9;
+
+/// Moduli are soft equations: what weights cannot do for them at small changes is left.
+constexpr double moduli_ridge = 1e-3;
+constexpr double least_moduli_weight = 0.1;
+
+/// Intermediate passes need no more digits.
+constexpr double coarse_tolerance = 1e-6;
+
+/// Connected parts of the body, numbered in the order of their first particles.
+std::vector<Index> parts_of(const Bonds& bonds, Index num_particles) {
+  std::vector<Index> parent(static_cast<std::size_t>(num_particles));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (Index b = 0; b < bonds.size(); ++b) {
+    const Index i = root(bonds.first[b]), j = root(bonds.second[b]);
+    parent[std::max(i, j)] = std::min(i, j);
+  }
+  std::vector<Index> part(parent.size());
+  Index count = 0;
+  for (Index i = 0; i < num_particles; ++i) {
+    part[i] = root(i) == i ? count++ : part[root(i)];
+  }
+  return part;
+}
+
+class Calibration {
+ public:
+  Calibration(const CalibrationInput& input, const CalibrationOptions& options, Facets& facets,
+              BondStiffness& stiffness)
+      : input_(input),
+        options_(options),
+        facets_(facets),
+        stiffness_(stiffness),
+        start_(stiffness),
+        dim_(input.particles.dim),
+        forces_{dim_, !stiffness.bending.empty()},
+        moduli_{dim_, !stiffness.bending.empty()} {}
+
+  CalibrationReport run();
+
+ private:
+  void solve(const LeastChangeOptions& forces, CalibrationReport& report);
+  bool allow_zero();
+  bool is_free(Index b) const { return input_.free.empty() || input_.free[b] != 0; }
+  void choose_points();
+  void measure_particles();
+  std::vector<double> boundary_forces() const;
+  template <class Rows>
+  PointEquations make_equations(const Rows& rows, double least_weight) const;
+  PointEquations force_equations() const;
+  PointEquations moduli_equations() const;
+  LeastChange improve(const PointEquations& equations, const LeastChangeOptions& options);
+  void report_balance(CalibrationReport& report) const;
+  std::vector<double> out_of_balance() const;
+
+  const CalibrationInput& input_;
+  const CalibrationOptions& options_;
+  Facets& facets_;
+  BondStiffness& stiffness_;
+  BondStiffness start_;
+  int dim_;
+  ForceRows forces_;
+  ModuliRows moduli_;
+  std::vector<Index> point_of_;      // of each particle, no_index where no free bond ends
+  std::vector<Index> particle_of_;   // of each point
+  std::vector<Index> free_bonds_;
+  std::vector<std::uint8_t> may_vanish_;  // bonds without a lower bound
+  std::vector<double> modulus_;      // 1/2 sum k xi^2 of each particle at the start
+  std::vector<double> length_;       // mean xi of each particle
+};
+
+void Calibration::choose_points() {
+  const Index num_particles = input_.particles.size();
+  std::vector<std::uint8_t> touched(static_cast<std::size_t>(num_particles), 0);
+  for (Index b = 0; b < input_.bonds.size(); ++b) {
+    if (!is_free(b)) continue;
+    free_bonds_.push_back(b);
+    touched[input_.bonds.first[b]] = touched[input_.bonds.second[b]] = 1;
+  }
+  point_of_.assign(static_cast<std::size_t>(num_particles), no_index);
+  for (Index i = 0; i < num_particles; ++i) {
+    if (!touched[i]) continue;
+    point_of_[i] = static_cast<Index>(particle_of_.size());
+    particle_of_.push_back(i);
+  }
+}
+
+void Calibration::measure_particles() {
+  const std::size_t count = static_cast<std::size_t>(input_.particles.size());
+  modulus_.assign(count, 0.0);
+  length_.assign(count, 0.0);
+  std::vector<double> forces(count, 0.0);
+  const Bonds& bonds = input_.bonds;
+  for (Index b = 0; b < bonds.size(); ++b) {
+    const double force = start_.axial[b] * bonds.lengths[b];
+    for (const Index i : {bonds.first[b], bonds.second[b]}) {
+      modulus_[i] += 0.5 * force * bonds.lengths[b];
+      forces[i] += 0.5 * force;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (forces[i] > 0.0) length_[i] = modulus_[i] / forces[i];
+  }
+}
+
+/// Right sides of the force equations of all particles.
+std::vector<double> Calibration::boundary_forces() const {
+  const Index num_particles = input_.particles.size();
+  std::vector<Vector3> lambda(static_cast<std::size_t>(num_particles), Vector3{});
+  std::vector<Vector3> mu = lambda;
+  for (Index f = 0; f < facets_.size(); ++f) {
+    LameConstants jump = input_.materials[facets_.inside[f]];
+    if (!facets_.on_surface(f)) {
+      jump.lambda -= input_.materials[facets_.outside[f]].lambda;
+      jump.mu -= input_.materials[facets_.outside[f]].mu;
+    }
+    for (Index c = facets_.corners.offsets[f]; c < facets_.corners.offsets[f + 1]; ++c) {
+      const Index i = facets_.corners.values[c];
+      for (int a = 0; a < dim_; ++a) {
+        const double area = facets_.shares[c] * facets_.area_vector(f)[a];
+        lambda[i][a] += jump.lambda * area;
+        mu[i][a] += jump.mu * area;
+      }
+    }
+  }
+  const std::size_t rows = static_cast<std::size_t>(forces_.count());
+  std::vector<double> right(num_particles * rows);
+  for (Index i = 0; i < num_particles; ++i) forces_.right(lambda[i], mu[i], right.data() + i * rows);
+  return right;
+}
+
+/// Variables, coefficients and bounds; right sides and scales are left to the caller.
+template <class Rows>
+PointEquations Calibration::make_equations(const Rows& rows, double least_weight) const {
+  PointEquations equations;
+  equations.dim = dim_;
+  equations.rows = rows.count();
+  const Bonds& bonds = input_.bonds;
+  std::vector<double> row(static_cast<std::size_t>(rows.count()));
+  for (const bool bending : {false, true}) {
+    if (bending && stiffness_.bending.empty()) break;
+    const std::vector<double>& present = bending ? stiffness_.bending : stiffness_.axial;
+    const std::vector<double>& start = bending ? start_.bending : start_.axial;
+    for (const Index b : free_bonds_) {
+      equations.first.push_back(point_of_[bonds.first[b]]);
+      equations.second.push_back(point_of_[bonds.second[b]]);
+      if (bending) {
+        rows.shear(bonds.lengths[b], bonds.direction(b), row.data());
+      } else {
+        rows.axial(bonds.lengths[b], bonds.direction(b), row.data());
+      }
+      for (const double value : row) equations.coefficients.push_back(present[b] * value);
+      const bool to_zero = bending || may_vanish_[b] != 0;
+      equations.lower.push_back(
+          to_zero ? 0.0 : std::min(1.0, least_weight * start[b] / present[b]));
+    }
+  }
+  for (const Index i : particle_of_) {
+    const auto x = input_.particles.position(i);
+    equations.positions.insert(equations.positions.end(), x.begin(), x.end());
+  }
+  return equations;
+}
+
+/// Forces out of balance at all particles, shape (particles, rows of forces_).
+std::vector<double> Calibration::out_of_balance() const {
+  std::vector<double> rest = boundary_forces();
+  const std::size_t rows = static_cast<std::size_t>(forces_.count());
+  const Bonds& bonds = input_.bonds;
+  std::vector<double> row(rows);
+  for (Index b = 0; b < bonds.size(); ++b) {
+    double* first = rest.data() + bonds.first[b] * rows;
+    double* second = rest.data() + bonds.second[b] * rows;
+    for (const bool bending : {false, true}) {
+      if (bending && stiffness_.bending.empty()) break;
+      if (bending) {
+        forces_.shear(bonds.lengths[b], bonds.direction(b), row.data());
+      } else {
+        forces_.axial(bonds.lengths[b], bonds.direction(b), row.data());
+      }
+      const double k = bending ? stiffness_.bending[b] : stiffness_.axial[b];
+      for (std::size_t r = 0; r < rows; ++r) {
+        first[r] -= k * row[r];
+        second[r] -= r < static_cast<std::size_t>(forces_.odd()) ? -k * row[r] : k * row[r];
+      }
+    }
+  }
+  return rest;
+}
+
+PointEquations Calibration::force_equations() const {
+  PointEquations equations = make_equations(forces_, options_.least_weight);
+  equations.odd = forces_.odd();
+  const std::size_t rows = static_cast<std::size_t>(forces_.count());
+  // What the bonds that stay leave to be done: the rest, and what the free bonds carry now.
+  const std::vector<double> rest = out_of_balance();
+  for (const Index i : particle_of_) {
+    for (std::size_t r = 0; r < rows; ++r) {
+      equations.right.push_back(rest[i * rows + r]);
+      const double moment_arm = static_cast<int>(r) < forces_.odd() ? 1.0 : 1.0 / length_[i];
+      equations.scale.push_back(length_[i] / modulus_[i] * moment_arm);
+    }
+  }
+  for (Index v = 0; v < equations.num_variables(); ++v) {
+    const double* a = equations.coefficients.data() + v * rows;
+    double* first = equations.right.data() + equations.first[v] * rows;
+    double* second = equations.right.data() + equations.second[v] * rows;
+    for (std::size_t r = 0; r < rows; ++r) {
+      first[r] += a[r];
+      second[r] += static_cast<int>(r) < forces_.odd() ? -a[r] : a[r];
+    }
+  }
+  return equations;
+}
+
+PointEquations Calibration::moduli_equations() const {
+  PointEquations equations = make_equations(moduli_, least_moduli_weight);
+  std::vector<std::uint8_t> on_facet(static_cast<std::size_t>(input_.particles.size()), 0);
+  for (const Index i : facets_.corners.values) on_facet[i] = 1;
+  const std::size_t rows = static_cast<std::size_t>(moduli_.count());
+  equations.right.resize(particle_of_.size() * rows);
+  for (std::size_t p = 0; p < particle_of_.size(); ++p) {
+    const Index i = particle_of_[p];
+    moduli_.right(input_.particles.volumes[i], input_.materials[input_.particles.material[i]],
+                  equations.right.data() + p * rows);
+    equations.scale.insert(equations.scale.end(), rows, on_facet[i] ? 0.0 : 1.0 / modulus_[i]);
+  }
+  return equations;
+}
+
+LeastChange Calibration::improve(const PointEquations& equations,
+                                 const LeastChangeOptions& options) {
+  LeastChange change = least_change(equations, options);
+  for (std::size_t k = 0; k < free_bonds_.size(); ++k) {
+    stiffness_.axial[free_bonds_[k]] *= change.weights[k];
+    if (stiffness_.bending.empty()) continue;
+    stiffness_.bending[free_bonds_[k]] *= change.weights[free_bonds_.size() + k];
+  }
+  return change;
+}
+
+void Calibration::report_balance(CalibrationReport& report) const {
+  const std::vector<double> rest = out_of_balance();
+  const std::size_t rows = static_cast<std::size_t>(forces_.count());
+  report.residual_after = 0.0;
+  report.unmet = 0;
+  for (Index i = 0; i < input_.particles.size(); ++i) {
+    if (modulus_[i] == 0.0) continue;
+    double largest = 0.0;
+    for (std::size_t r = 0; r < rows; ++r) {
+      const double arm = static_cast<int>(r) < forces_.odd() ? 1.0 : length_[i];
+      largest = std::max(largest, std::abs(rest[i * rows + r]) * length_[i] / modulus_[i] / arm);
+    }
+    report.unmet += largest > met;
+    if (largest <= report.residual_after) continue;
+    report.residual_after = largest;
+    report.worst_particle = i;
+  }
+}
+
+/// Takes the lower bound from the bonds of particles that are out of balance.
+/// \return whether there was a bound to take
+bool Calibration::allow_zero() {
+  const std::vector<double> rest = out_of_balance();
+  const std::size_t rows = static_cast<std::size_t>(forces_.count());
+  bool any = false;
+  const auto unmet = [&](Index i) {
+    for (std::size_t r = 0; r < rows; ++r) {
+      if (std::abs(rest[i * rows + r]) * length_[i] > met * modulus_[i]) return true;
+    }
+    return false;
+  };
+  for (const Index b : free_bonds_) {
+    if (may_vanish_[b] || (!unmet(input_.bonds.first[b]) && !unmet(input_.bonds.second[b]))) continue;
+    may_vanish_[b] = 1;
+    any = true;
+  }
+  return any;
+}
+
+/// Moduli of the single particles and forces in turn, forces last.
+void Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& report) {
+  stiffness_ = start_;
+  LeastChangeOptions moduli;
+  moduli.ridge = moduli_ridge;
+  moduli.tolerance = coarse_tolerance;
+  const int passes = input_.free.empty() ? options_.moduli_passes : 0;
+  for (int pass = 0; pass < std::max(passes, 1); ++pass) {
+    if (passes > 0) report.iterations += improve(moduli_equations(), moduli).iterations;
+    LeastChangeOptions options = forces;
+    if (pass + 1 < passes) options.tolerance = coarse_tolerance;
+    const LeastChange change = improve(force_equations(), options);
+    report.iterations += change.iterations;
+  }
+}
+
+CalibrationReport Calibration::run() {
+  CalibrationReport report;
+  choose_points();
+  measure_particles();
+  may_vanish_.assign(static_cast<std::size_t>(input_.bonds.size()), 0);
+  std::vector<double> modulus;
+  for (const LameConstants& material : input_.materials) modulus.push_back(material.lambda);
+  balance_shares(facets_, input_.particles.positions,
+                 parts_of(input_.bonds, input_.particles.size()), modulus);
+  report.free_bonds = static_cast<Index>(free_bonds_.size());
+  report_balance(report);
+  report.residual_before = report.residual_after;
+  LeastChangeOptions forces;
+  forces.tolerance = options_.tolerance;
+  solve(forces, report);
+  report_balance(report);
+  if (report.unmet > 0 && allow_zero()) {
+    solve(forces, report);
+    report_balance(report);
+  }
+  for (const Index b : free_bonds_) {
+    const double weight = stiffness_.axial[b] / start_.axial[b];
+    if (weight < vanished) {
+      ++report.dropped;
+      stiffness_.axial[b] = 0.0;
+      if (!stiffness_.bending.empty()) stiffness_.bending[b] = 0.0;
+      continue;
+    }
+    report.at_least_weight += weight <= 1.000001 * options_.least_weight;
+    report.smallest_weight = std::min(report.smallest_weight, weight);
+    report.largest_weight = std::max(report.largest_weight, weight);
+  }
+  return report;
+}
+
+}  // namespace
+
+CalibrationReport calibrate_bonds(const CalibrationInput& input, const CalibrationOptions& options,
+                                  Facets& facets, BondStiffness& stiffness) {
+  return Calibration(input, options, facets, stiffness).run();
+}
+
+}  // namespace perilink

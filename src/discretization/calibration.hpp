@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+#include "discretization/bond_equations.hpp"
+#include "discretization/bonds.hpp"
+#include "discretization/facets.hpp"
+#include "discretization/particles.hpp"
+
+/// \file
+/// Bond stiffnesses with which a body of bonds passes the linear patch test, boundary included: in every
+/// uniform strain the bond forces on a particle are those of the stress on its share of the surface.
+
+namespace perilink {
+
+/// What is calibrated.
+struct CalibrationInput {
+  const Particles& particles;  ///< solid ones
+  const Bonds& bonds;          ///< between them
+  std::vector<LameConstants> materials;  ///< by Particles::material and Facets
+  /// Bonds whose stiffness may change, the others are right as they are (interior of a lattice). Empty:
+  /// all may, and the moduli of the single particles are made right as well (irregular clouds).
+  std::vector<std::uint8_t> free;
+};
+
+/// Stiffness of the bonds: where they start and what they become.
+struct BondStiffness {
+  std::vector<double> axial;    ///< [force/length]
+  std::vector<double> bending;  ///< [force/length]; empty where bonds carry no moment
+};
+
+struct CalibrationOptions {
+  double least_weight = 0.02;  ///< of axial stiffness, relative to the start; that of bending is 0
+  double tolerance = 1e-12;    ///< root mean square of the forces out of balance (see below)
+  int moduli_passes = 2;       ///< of irregular clouds
+};
+
+/// What was reached. Forces out of balance are those on a particle at a uniform strain of one, divided by
+/// 1/2 sum k xi^2 / (mean xi) of its bonds at the start: about the force on a face of its cell.
+struct CalibrationReport {
+  Index free_bonds = 0;
+  double residual_before = 0.0;  ///< largest force out of balance at the start ...
+  double residual_after = 0.0;   ///< ... and at the end
+  Index worst_particle = no_index;
+  Index unmet = 0;               ///< particles with more than 1e-9 out of balance at the end
+  double smallest_weight = 1.0;  ///< of axial stiffness, end over start
+  double largest_weight = 1.0;
+  Index at_least_weight = 0;     ///< number of bonds there
+  Index dropped = 0;             ///< bonds that may carry nothing: their stiffness is zero
+  int iterations = 0;            ///< of conjugate gradients
+};
+
+/// Changes the stiffness of the free bonds as little as possible (least squares of the relative changes,
+/// positive bounds) such that every particle is in balance in every uniform strain; see
+/// docs/theory/calibration.md. Shifts the shares of facets a little where no stiffness could do it
+/// (balance_shares). Where the bounds stand in the way (a corner of a cube: bonds along its diagonal pull
+/// out of all three faces at once) the bonds there may fall to zero.
+CalibrationReport calibrate_bonds(const CalibrationInput& input, const CalibrationOptions& options,
+                                  Facets& facets, BondStiffness& stiffness);
+
+}  // namespace perilink

@@ -1,0 +1,135 @@
+#include "discretization/coarse_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace perilink {
+namespace {
+
+/// Points in a box: fewer make the coarse system dear, more leave work to the iteration.
+constexpr double points_per_box = 64.0;
+
+}  // namespace
+
+CoarseSpace::CoarseSpace(const PointEquations& equations, const std::vector<double>& active,
+                         double ridge)
+    : dim_(equations.dim), rows_(equations.rows) {
+  functions_ = 1 + dim_;
+  number_boxes(equations);
+  assemble(equations, active, ridge);
+}
+
+/// Boxes of equal size; those without points get no number.
+void CoarseSpace::number_boxes(const PointEquations& equations) {
+  const Index count = equations.num_points();
+  Vector3 lower{}, upper{};
+  for (Index p = 0; p < count; ++p) {
+    for (int a = 0; a < dim_; ++a) {
+      const double x = equations.positions[static_cast<std::size_t>(p) * dim_ + a];
+      lower[a] = p == 0 ? x : std::min(lower[a], x);
+      upper[a] = p == 0 ? x : std::max(upper[a], x);
+    }
+  }
+  double extent = 1.0;
+  for (int a = 0; a < dim_; ++a) extent *= upper[a] - lower[a];
+  const double side = std::pow(extent * points_per_box / std::max<Index>(count, 1), 1.0 / dim_);
+  std::map<std::array<Index, 3>, Index> numbers;
+  box_of_.resize(static_cast<std::size_t>(count));
+  values_.resize(static_cast<std::size_t>(count) * functions_);
+  for (Index p = 0; p < count; ++p) {
+    std::array<Index, 3> box{};
+    for (int a = 0; a < dim_; ++a) {
+      const double place =
+          (equations.positions[static_cast<std::size_t>(p) * dim_ + a] - lower[a]) / side;
+      box[a] = static_cast<Index>(place);
+      values_[static_cast<std::size_t>(p) * functions_ + 1 + a] = 2.0 * (place - box[a]) - 1.0;
+    }
+    values_[static_cast<std::size_t>(p) * functions_] = 1.0;
+    box_of_[p] = numbers.emplace(box, static_cast<Index>(numbers.size())).first->second;
+  }
+  num_boxes_ = static_cast<Index>(numbers.size());
+}
+
+void CoarseSpace::assemble(const PointEquations& equations, const std::vector<double>& active,
+                           double ridge) {
+  const int width = rows_ * functions_;
+  std::map<std::pair<Index, Index>, Eigen::MatrixXd> blocks;
+  const auto block = [&](Index a, Index b) -> Eigen::MatrixXd& {
+    Eigen::MatrixXd& found = blocks[{a, b}];
+    if (found.size() == 0) found = Eigen::MatrixXd::Zero(width, width);
+    return found;
+  };
+  Eigen::VectorXd at_first(width), at_second(width);
+  const auto fill = [&](Index v, Index p, bool second, Eigen::VectorXd& vector) {
+    for (int r = 0; r < rows_; ++r) {
+      const double sign = second && r < equations.odd ? -1.0 : 1.0;
+      const double value = sign * equations.coefficients[static_cast<std::size_t>(v) * rows_ + r] *
+                           equations.scale[static_cast<std::size_t>(p) * rows_ + r];
+      for (int f = 0; f < functions_; ++f) {
+        vector[r * functions_ + f] = value * values_[static_cast<std::size_t>(p) * functions_ + f];
+      }
+    }
+  };
+  for (Index v = 0; v < equations.num_variables(); ++v) {
+    if (active[v] == 0.0) continue;
+    const Index p = equations.first[v], q = equations.second[v];
+    fill(v, p, false, at_first);
+    fill(v, q, true, at_second);
+    if (box_of_[p] == box_of_[q]) {
+      at_first += at_second;
+      block(box_of_[p], box_of_[p]).noalias() += at_first * at_first.transpose();
+      continue;
+    }
+    block(box_of_[p], box_of_[p]).noalias() += at_first * at_first.transpose();
+    block(box_of_[q], box_of_[q]).noalias() += at_second * at_second.transpose();
+    if (box_of_[p] > box_of_[q]) {
+      block(box_of_[p], box_of_[q]).noalias() += at_first * at_second.transpose();
+    } else {
+      block(box_of_[q], box_of_[p]).noalias() += at_second * at_first.transpose();
+    }
+  }
+  // The ridge of the fine system, and a little more where constants and rigid modes have no stiffness.
+  std::vector<Eigen::Triplet<double>> entries;
+  for (auto& [place, matrix] : blocks) {
+    if (place.first == place.second) {
+      const double floor = 1e-10 * matrix.trace() / width + points_per_box * ridge;
+      for (int k = 0; k < width; ++k) matrix(k, k) += matrix(k, k) > 0.0 ? floor : 1.0;
+    }
+    for (int c = 0; c < width; ++c) {
+      for (int r = 0; r < width; ++r) {
+        if (place.first == place.second && r < c) continue;
+        entries.emplace_back(place.first * width + r, place.second * width + c, matrix(r, c));
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(num_boxes_) * width,
+                                     static_cast<Eigen::Index>(num_boxes_) * width);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  factor_.compute(matrix);
+}
+
+void CoarseSpace::add_correction(const double* residual, double* result) const {
+  const int width = rows_ * functions_;
+  Eigen::VectorXd coarse = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(num_boxes_) * width);
+  for (std::size_t p = 0; p < box_of_.size(); ++p) {
+    double* block = coarse.data() + static_cast<std::size_t>(box_of_[p]) * width;
+    for (int r = 0; r < rows_; ++r) {
+      for (int f = 0; f < functions_; ++f) {
+        block[r * functions_ + f] += residual[p * rows_ + r] * values_[p * functions_ + f];
+      }
+    }
+  }
+  const Eigen::VectorXd correction = factor_.solve(coarse);
+  for (std::size_t p = 0; p < box_of_.size(); ++p) {
+    const double* block = correction.data() + static_cast<std::size_t>(box_of_[p]) * width;
+    for (int r = 0; r < rows_; ++r) {
+      for (int f = 0; f < functions_; ++f) {
+        result[p * rows_ + r] += block[r * functions_ + f] * values_[p * functions_ + f];
+      }
+    }
+  }
+}
+
+}  // namespace perilink

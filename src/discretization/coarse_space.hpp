@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+
+#include "discretization/least_change.hpp"
+
+namespace perilink {
+
+/// Second level of the preconditioner of least_change(): functions that are linear on boxes of points,
+/// one set for each equation row. Single points exchange errors only with their neighbours; what varies
+/// over the whole body is taken out here.
+class CoarseSpace {
+ public:
+  /// \param active  1 for the variables that the system holds, else 0
+  /// \param ridge   added to the diagonal of the fine system
+  CoarseSpace(const PointEquations& equations, const std::vector<double>& active, double ridge);
+
+  /// Adds P (P' S P)^-1 P' residual to `result`, both of shape (points, rows).
+  void add_correction(const double* residual, double* result) const;
+
+ private:
+  void number_boxes(const PointEquations& equations);
+  void assemble(const PointEquations& equations, const std::vector<double>& active, double ridge);
+
+  int dim_, rows_;
+  int functions_ = 1;          // per row and box
+  Index num_boxes_ = 0;
+  std::vector<Index> box_of_;  // of each point
+  std::vector<double> values_; // of the functions at the points, shape (points, functions)
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+}  // namespace perilink

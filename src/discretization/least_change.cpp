@@ -1,0 +1,301 @@
+#include "discretization/least_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Dense>
+
+#include "discretization/coarse_space.hpp"
+
+namespace perilink {
+namespace {
+
+/// Fewer points converge without a coarse space.
+constexpr Index smallest_coarse_problem = 2000;
+
+/// Weight of the method of multipliers, relative to equations of order one: contradictions decay by
+/// this factor over the smallest squared singular value in each Newton step.
+constexpr double proximity = 1e-8;
+
+constexpr int most_newton_steps = 40;
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(sum);
+}
+
+template <int Rows>
+class DualNewton {
+ public:
+  using Vector = std::vector<double>;  // shape (points, Rows)
+  using Block = Eigen::Matrix<double, Rows, Rows>;
+
+  DualNewton(const PointEquations& equations, const LeastChangeOptions& options)
+      : equations_(equations),
+        options_(options),
+        size_(equations.right.size()),
+        active_(static_cast<std::size_t>(equations.num_variables()), 1.0),
+        elongation_(active_.size()),
+        weights_(active_.size(), 1.0),
+        scaled_(size_) {}
+
+  LeastChange solve();
+
+ private:
+  void apply_transpose(const Vector& y, std::vector<double>& result);
+  void apply(const std::vector<double>& w, Vector& result) const;
+  double choose_weights(const Vector& y);
+  double dual(const Vector& y);
+  void measure(const Vector& y, Vector& residual);
+  int newton_direction(const Vector& residual, double reduction, Vector& direction);
+  void precondition(const Vector& residual, Vector& result) const;
+  void build_preconditioner();
+  double search_line(const Vector& residual, const Vector& direction, Vector& y);
+  void report(const Vector& y, const Vector& residual, LeastChange& result) const;
+
+  const PointEquations& equations_;
+  const LeastChangeOptions& options_;
+  std::size_t size_;
+  std::vector<double> active_;      // 1 between the bounds, else 0
+  std::vector<double> elongation_;  // A' y
+  std::vector<double> weights_;
+  Vector scaled_;
+  std::vector<Block> inverse_blocks_;
+  std::unique_ptr<CoarseSpace> coarse_;
+};
+
+/// result_v = a_v . (s y at the first end -+ s y at the second).
+template <int Rows>
+void DualNewton<Rows>::apply_transpose(const Vector& y, std::vector<double>& result) {
+  for (std::size_t k = 0; k < size_; ++k) scaled_[k] = y[k] * equations_.scale[k];
+  const int odd = equations_.odd;
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    const double* p = scaled_.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
+    const double* q = scaled_.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
+    double sum = 0.0;
+    if (odd == Rows) {
+      for (int r = 0; r < Rows; ++r) sum += a[r] * (p[r] - q[r]);
+    } else {
+      for (int r = 0; r < Rows; ++r) sum += a[r] * (p[r] + (r < odd ? -q[r] : q[r]));
+    }
+    result[v] = sum;
+  }
+}
+
+template <int Rows>
+void DualNewton<Rows>::apply(const std::vector<double>& w, Vector& result) const {
+  result.assign(size_, 0.0);
+  const int odd = equations_.odd;
+  for (std::size_t v = 0; v < w.size(); ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    double* p = result.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
+    double* q = result.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
+    const double weight = w[v];
+    for (int r = 0; r < Rows; ++r) {
+      const double term = a[r] * weight;
+      p[r] += term;
+      q[r] += r < odd ? -term : term;
+    }
+  }
+  for (std::size_t k = 0; k < size_; ++k) result[k] *= equations_.scale[k];
+}
+
+/// Weights of a dual vector, and the part of the dual function that they make.
+template <int Rows>
+double DualNewton<Rows>::choose_weights(const Vector& y) {
+  apply_transpose(y, elongation_);
+  double charge = 0.0;
+  for (std::size_t v = 0; v < weights_.size(); ++v) {
+    const double free = 1.0 + elongation_[v];
+    weights_[v] = std::clamp(free, equations_.lower[v], options_.upper);
+    active_[v] = weights_[v] == free ? 1.0 : 0.0;
+    charge += weights_[v] * free - 0.5 * weights_[v] * weights_[v];
+  }
+  return charge;
+}
+
+template <int Rows>
+double DualNewton<Rows>::dual(const Vector& y) {
+  double value = -choose_weights(y);
+  for (std::size_t k = 0; k < size_; ++k) {
+    value += y[k] * (equations_.right[k] * equations_.scale[k] - 0.5 * options_.ridge * y[k]);
+  }
+  return value;
+}
+
+/// Gradient of the dual function, with the weights that choose_weights() left.
+template <int Rows>
+void DualNewton<Rows>::measure(const Vector& y, Vector& residual) {
+  apply(weights_, residual);
+  for (std::size_t k = 0; k < size_; ++k) {
+    residual[k] = equations_.right[k] * equations_.scale[k] - residual[k] - options_.ridge * y[k];
+  }
+}
+
+template <int Rows>
+void DualNewton<Rows>::build_preconditioner() {
+  const Index points = equations_.num_points();
+  inverse_blocks_.assign(static_cast<std::size_t>(points), Block::Zero());
+  using Column = Eigen::Matrix<double, Rows, 1>;
+  for (std::size_t v = 0; v < active_.size(); ++v) {
+    if (active_[v] == 0.0) continue;
+    const Column a = Eigen::Map<const Column>(equations_.coefficients.data() + v * Rows);
+    for (const bool second : {false, true}) {
+      const Index p = second ? equations_.second[v] : equations_.first[v];
+      Column row = a.cwiseProduct(Eigen::Map<const Column>(equations_.scale.data() +
+                                                           static_cast<std::size_t>(p) * Rows));
+      if (second) row.head(equations_.odd) *= -1.0;
+      inverse_blocks_[p].noalias() += row * row.transpose();
+    }
+  }
+  for (Block& block : inverse_blocks_) {
+    // What no variable between the bounds acts on keeps the identity.
+    const double floor = options_.ridge + proximity + 1e-11 * block.trace();
+    for (int r = 0; r < Rows; ++r) block(r, r) += block(r, r) > 0.0 ? floor : 1.0;
+    block = block.llt().solve(Block::Identity()).eval();
+  }
+  if (points >= smallest_coarse_problem) {
+    coarse_ = std::make_unique<CoarseSpace>(equations_, active_, options_.ridge + proximity);
+  }
+}
+
+template <int Rows>
+void DualNewton<Rows>::precondition(const Vector& residual, Vector& result) const {
+  using Column = Eigen::Matrix<double, Rows, 1>;
+  for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
+    Eigen::Map<Column>(result.data() + p * Rows).noalias() =
+        inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
+  }
+  if (coarse_) coarse_->add_correction(residual.data(), result.data());
+}
+
+/// Conjugate gradients on (A D A' + ridge + proximity) direction = residual.
+/// \return iterations
+template <int Rows>
+int DualNewton<Rows>::newton_direction(const Vector& residual, double reduction,
+                                       Vector& direction) {
+  const double shift = options_.ridge + proximity;
+  Vector r = residual, z(size_), q(size_);
+  std::vector<double> stretch(active_.size());
+  direction.assign(size_, 0.0);
+  precondition(r, z);
+  Vector p = z;
+  double rz = dot(r, z);
+  const double target = reduction * norm(residual);
+  int count = 0;
+  for (; count < options_.iterations && norm(r) > target; ++count) {
+    apply_transpose(p, stretch);
+    for (std::size_t v = 0; v < stretch.size(); ++v) stretch[v] *= active_[v];
+    apply(stretch, q);
+    for (std::size_t k = 0; k < size_; ++k) q[k] += shift * p[k];
+    const double step = rz / dot(p, q);
+    for (std::size_t k = 0; k < size_; ++k) {
+      direction[k] += step * p[k];
+      r[k] -= step * q[k];
+    }
+    precondition(r, z);
+    const double next = dot(r, z);
+    for (std::size_t k = 0; k < size_; ++k) p[k] = z[k] + next / rz * p[k];
+    rz = next;
+  }
+  return count;
+}
+
+/// Halves the step until the concave dual function grows. \return length of the step
+template <int Rows>
+double DualNewton<Rows>::search_line(const Vector& residual, const Vector& direction, Vector& y) {
+  const double before = dual(y);
+  const double slope = dot(residual, direction);
+  Vector trial(size_);
+  double step = 1.0;
+  for (int halvings = 0; halvings < 30; ++halvings, step *= 0.5) {
+    for (std::size_t k = 0; k < size_; ++k) trial[k] = y[k] + step * direction[k];
+    // Round-off of the sums in dual(): 1e-13 of their size.
+    if (dual(trial) >= before + 1e-4 * step * slope - 1e-13 * std::abs(before)) break;
+  }
+  y = trial;
+  return step;
+}
+
+template <int Rows>
+LeastChange DualNewton<Rows>::solve() {
+  LeastChange result;
+  Vector y(size_, 0.0), residual, direction(size_), previous;
+  const double target =
+      options_.tolerance * std::sqrt(static_cast<double>(std::max<Index>(equations_.num_points(), 1)));
+  choose_weights(y);
+  measure(y, residual);
+  std::vector<double> pattern;  // weights between their bounds when the preconditioner was made
+  for (int step = 0; step < most_newton_steps; ++step) {
+    const double size = norm(residual);
+    if (size <= target || result.iterations >= options_.iterations) break;
+    const bool settled = pattern == active_;
+    if (settled && distance(residual, previous) <= 10.0 * target) break;  // contradictions are left
+    if (!settled) build_preconditioner();
+    pattern = active_;
+    // The first steps only find out which weights are at their bounds.
+    const double reduction = step == 0 ? 1e-2 : settled ? 0.3 * target / size : 1e-3;
+    result.iterations += newton_direction(residual, std::max(reduction, 1e-12), direction);
+    previous = residual;
+    search_line(residual, direction, y);
+    measure(y, residual);
+  }
+  result.converged = norm(residual) <= target;
+  report(y, residual, result);
+  return result;
+}
+
+template <int Rows>
+void DualNewton<Rows>::report(const Vector& y, const Vector& residual, LeastChange& result) const {
+  result.weights = weights_;
+  for (std::size_t v = 0; v < weights_.size(); ++v) {
+    result.at_lower += weights_[v] <= equations_.lower[v];
+  }
+  for (std::size_t k = 0; k < size_; ++k) {
+    const double rest = std::abs(residual[k] + options_.ridge * y[k]);
+    if (rest <= result.residual) continue;
+    result.residual = rest;
+    result.worst_point = static_cast<Index>(k / Rows);
+  }
+}
+
+}  // namespace
+
+LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options) {
+  switch (equations.rows) {
+    case 4:
+      return DualNewton<4>(equations, options).solve();
+    case 5:
+      return DualNewton<5>(equations, options).solve();
+    case 6:
+      return DualNewton<6>(equations, options).solve();
+    case 8:
+      return DualNewton<8>(equations, options).solve();
+    case 10:
+      return DualNewton<10>(equations, options).solve();
+    case 15:
+      return DualNewton<15>(equations, options).solve();
+    case 18:
+      return DualNewton<18>(equations, options).solve();
+    case 21:
+      return DualNewton<21>(equations, options).solve();
+    default:
+      throw std::invalid_argument(std::to_string(equations.rows) +
+                                  " equations per point are not built in");
+  }
+}
+
+}  // namespace perilink

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+
+/// \file
+/// The optimisation behind bond calibration: weights that satisfy linear equations at points and
+/// depart as little as possible from one.
+
+namespace perilink {
+
+/// Weights w_v, one per variable, each with an end at two points. At every point p hold `rows`
+/// equations
+///
+///   sum over variables with first end p of a_v w_v + sum over those with second end p of +- a_v w_v
+///     = r_p,
+///
+/// with the sign - in the first `odd` rows (forces, that act against each other at the two ends) and
+/// + in the others (moments, moduli).
+struct PointEquations {
+  int dim = 2;
+  int rows = 0;
+  int odd = 0;
+  std::vector<Index> first, second;  ///< points of each variable
+  std::vector<double> coefficients;  ///< a_v, shape (variables, rows)
+  std::vector<double> lower;         ///< least weight of each variable
+  std::vector<double> right;         ///< r_p, shape (points, rows)
+  std::vector<double> scale;         ///< of the equations, shape (points, rows): times r they are of
+                                     ///< order one; 0 switches an equation off
+  std::vector<double> positions;     ///< of the points, shape (points, dim) [length]
+
+  Index num_variables() const { return static_cast<Index>(first.size()); }
+  Index num_points() const {
+    return static_cast<Index>(right.size() / static_cast<std::size_t>(rows));
+  }
+};
+
+/// How to solve them.
+struct LeastChangeOptions {
+  double upper = 100.0;       ///< largest weight
+  double ridge = 0.0;         ///< 0: equations hold exactly; > 0: their squared residuals are charged
+                              ///< 1 / ridge against the squared changes of the weights
+  double tolerance = 1e-12;   ///< of the norm of the scaled residual, per root of the number of points
+  int iterations = 20000;     ///< of conjugate gradients, in all
+};
+
+/// What came out.
+struct LeastChange {
+  std::vector<double> weights;
+  double residual = 0.0;     ///< largest scaled residual of an equation
+  Index worst_point = no_index;  ///< where it is
+  Index at_lower = 0;        ///< number of weights at their lower bound
+  int iterations = 0;        ///< of conjugate gradients
+  bool converged = false;    ///< false: no weights within the bounds satisfy all equations, or too few
+                             ///< iterations; what can be met is met
+};
+
+/// Minimises sum (w_v - 1)^2 subject to the equations and the bounds. The bounded problem is solved,
+/// not clamped: Newton's method on the concave dual function, w(y) = min(max(1 + A' y, lower), upper)
+/// with A w(y) + ridge y = r, whose linear systems A D A' (D: the weights between the bounds) conjugate
+/// gradients solve, preconditioned by the blocks of the points and a coarse space that is linear on
+/// aggregates of points. Where the equations contradict each other or the bounds, the steps, which are
+/// those of the method of multipliers, lead to the least squared residual.
+/// \throws std::invalid_argument for numbers of rows that are not built in
+LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);
+
+}  // namespace perilink

@@ -1,0 +1,128 @@
+#include "discretization/calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "discretization/isotropic_weights.hpp"
+#include "discretization/lattice.hpp"
+
+namespace perilink {
+namespace {
+
+/// A body whose bonds start from c V V / xi, scaled so that each particle has about its modulus.
+struct Problem {
+  Body body;
+  Bonds bonds;
+  BondStiffness stiffness;
+};
+
+Problem make_problem(const LatticeInput& input, double ratio, double jitter, bool bending) {
+  Problem problem;
+  problem.body = make_body(input);
+  Particles& particles = problem.body.particles;
+  std::vector<std::uint8_t> on_facet(static_cast<std::size_t>(particles.size()), 0);
+  for (const Index i : problem.body.facets.corners.values) on_facet[i] = 1;
+  std::mt19937 random(7);
+  for (Index i = 0; i < particles.size(); ++i) {
+    for (int a = 0; a < particles.dim; ++a) {
+      const double shift = static_cast<double>(random()) / 4294967296.0 - 0.5;
+      if (!on_facet[i]) particles.positions[i * particles.dim + a] += jitter * input.spacing * shift;
+    }
+  }
+  const double horizon = ratio * problem.body.lattice.spacing;
+  problem.bonds = make_bonds(particles, horizon);
+  std::vector<double> modulus(static_cast<std::size_t>(particles.size()), 0.0);
+  for (Index b = 0; b < problem.bonds.size(); ++b) {
+    const Index i = problem.bonds.first[b], j = problem.bonds.second[b];
+    const double xi = problem.bonds.lengths[b];
+    problem.stiffness.axial.push_back(particles.volumes[i] * particles.volumes[j] / xi *
+                                      partial_volume(xi, horizon, input.spacing));
+    modulus[i] += 0.5 * problem.stiffness.axial.back() * xi * xi;
+    modulus[j] += 0.5 * problem.stiffness.axial.back() * xi * xi;
+  }
+  const double trace = particles.dim == 2 ? 8.0 : 15.0;
+  for (Index b = 0; b < problem.bonds.size(); ++b) {
+    double factor = 0.0;
+    for (const Index i : {problem.bonds.first[b], problem.bonds.second[b]}) {
+      factor += 0.5 * trace * particles.volumes[i] / modulus[i];
+    }
+    problem.stiffness.axial[b] *= factor;
+    if (bending) problem.stiffness.bending.push_back(0.2 * problem.stiffness.axial[b]);
+  }
+  return problem;
+}
+
+LatticeInput box(Pattern pattern, double spacing, Vector3 size) {
+  LatticeInput input;
+  input.pattern = pattern;
+  input.spacing = spacing;
+  input.surface = Surface::calibrated;
+  input.solid = {{{0, 0, 0}, size}};
+  input.material = {0};
+  return input;
+}
+
+CalibrationReport calibrate(Problem& problem, bool bending = false) {
+  const CalibrationInput input{problem.body.particles, problem.bonds,
+                               {bending ? LameConstants{0.8, 1.3} : LameConstants{1.0, 1.0}}, {}};
+  return calibrate_bonds(input, {}, problem.body.facets, problem.stiffness);
+}
+
+struct BodyCase {
+  const char* name;
+  LatticeInput input;
+  double ratio;
+  double jitter;
+  bool bending;
+};
+
+class Calibrated : public testing::TestWithParam<BodyCase> {};
+
+/// 1e-10: a hundred times the tolerance of the solver, which bounds the root mean square.
+TEST_P(Calibrated, BodyIsInBalanceInEveryUniformStrain) {
+  const BodyCase& given = GetParam();
+  Problem problem = make_problem(given.input, given.ratio, given.jitter, given.bending);
+  const CalibrationReport report = calibrate(problem, given.bending);
+  EXPECT_GT(report.residual_before, 0.1);
+  EXPECT_LT(report.residual_after, 1e-10);
+  EXPECT_EQ(report.unmet, 0);
+  EXPECT_GT(report.smallest_weight, 0.0);
+  for (const double k : problem.stiffness.axial) EXPECT_GE(k, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, Calibrated,
+    testing::Values(
+        BodyCase{"square", box(Pattern::rectangular, 0.1, {1, 1, 0}), 2.0, 0.0, false},
+        BodyCase{"oblong", box(Pattern::rectangular, 0.1, {2, 1, 0}), 3.0, 0.0, false},
+        BodyCase{"hexagonal", box(Pattern::hexagonal, 0.1, {1, 1, 0}), 3.01, 0.0, false},
+        BodyCase{"cube", box(Pattern::cubic, 0.2, {1, 1, 1}), 2.0, 0.0, false},
+        BodyCase{"face_centred", box(Pattern::face_centred, 0.2, {1, 1, 1}), 2.0, 0.0, false},
+        BodyCase{"irregular", box(Pattern::rectangular, 0.05, {1, 1, 0}), 3.0, 0.5, false},
+        BodyCase{"irregular_cube", box(Pattern::cubic, 0.2, {1, 1, 1}), 3.0, 0.3, false},
+        BodyCase{"moments", box(Pattern::rectangular, 0.1, {1, 1, 0}), 3.0, 0.0, true}),
+    [](const auto& given) { return std::string(given.param.name); });
+
+/// The floor stands in the way at the corners of a cube only: bonds along the diagonals of the corner
+/// particles pull out of three faces at once and vanish.
+TEST(Calibration, DropsTheDiagonalsAtTheCornersOfACube) {
+  Problem problem = make_problem(box(Pattern::cubic, 0.2, {1, 1, 1}), 2.0, 0.0, false);
+  const CalibrationReport report = calibrate(problem);
+  EXPECT_EQ(report.dropped, 8);
+}
+
+/// A chain of bonds cannot balance a shear: the report says where and how far.
+TEST(Calibration, SaysWhatCannotBeMet) {
+  Problem problem = make_problem(box(Pattern::rectangular, 0.25, {1, 1, 0}), 1.1, 0.0, false);
+  const CalibrationReport report = calibrate(problem);
+  EXPECT_GT(report.unmet, 0);
+  EXPECT_GT(report.residual_after, 1e-3);
+  ASSERT_NE(report.worst_particle, no_index);
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,137 @@
+#include "discretization/least_change.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace perilink {
+namespace {
+
+double uniform(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0 - 0.5; }
+
+/// A ring of points, each tied to the next three; right sides from weights near one.
+PointEquations ring(Index points, int odd, std::vector<double>& weights) {
+  std::mt19937 random(3);
+  PointEquations equations;
+  equations.rows = 4;
+  equations.odd = odd;
+  equations.right.assign(static_cast<std::size_t>(points) * 4, 0.0);
+  equations.scale.assign(static_cast<std::size_t>(points) * 4, 0.5);
+  weights.clear();
+  for (Index p = 0; p < points; ++p) {
+    const double angle = 6.283185307179586 * p / points;
+    equations.positions.push_back(std::cos(angle));
+    equations.positions.push_back(std::sin(angle));
+    for (Index k = 1; k <= 3; ++k) {
+      equations.first.push_back(p);
+      equations.second.push_back((p + k) % points);
+      equations.lower.push_back(0.1);
+      weights.push_back(1.0 + 0.3 * uniform(random));
+      for (int r = 0; r < 4; ++r) {
+        const double a = uniform(random);
+        equations.coefficients.push_back(a);
+        equations.right[static_cast<std::size_t>(p) * 4 + r] += a * weights.back();
+        equations.right[static_cast<std::size_t>((p + k) % points) * 4 + r] +=
+            (r < odd ? -a : a) * weights.back();
+      }
+    }
+  }
+  return equations;
+}
+
+double largest_residual(const PointEquations& equations, const std::vector<double>& weights) {
+  std::vector<double> rest = equations.right;
+  const std::size_t rows = static_cast<std::size_t>(equations.rows);
+  for (Index v = 0; v < equations.num_variables(); ++v) {
+    for (std::size_t r = 0; r < rows; ++r) {
+      const double term = equations.coefficients[v * rows + r] * weights[v];
+      rest[equations.first[v] * rows + r] -= term;
+      rest[equations.second[v] * rows + r] += static_cast<int>(r) < equations.odd ? term : -term;
+    }
+  }
+  double largest = 0.0;
+  for (const double value : rest) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+/// Three variables, four equations per point: only the weights that made the right sides fit.
+TEST(LeastChange, FindsTheOnlyWeightsThatFit) {
+  std::vector<double> weights;
+  const PointEquations equations = ring(50, 4, weights);
+  const LeastChange found = least_change(equations, {});
+  EXPECT_TRUE(found.converged);
+  // The tolerance 1e-12 of the equations over their smallest singular value, about 0.1.
+  for (std::size_t v = 0; v < weights.size(); ++v) EXPECT_NEAR(found.weights[v], weights[v], 1e-9);
+}
+
+TEST(LeastChange, MeetsEvenEquationsToo) {
+  std::vector<double> weights;
+  const PointEquations equations = ring(40, 2, weights);
+  const LeastChange found = least_change(equations, {});
+  EXPECT_LT(largest_residual(equations, found.weights), 1e-10);
+}
+
+TEST(LeastChange, TheCoarseSpaceChangesNoAnswer) {
+  std::vector<double> weights;
+  const PointEquations equations = ring(2500, 4, weights);  // more than smallest_coarse_problem
+  const LeastChange found = least_change(equations, {});
+  EXPECT_TRUE(found.converged);
+  for (std::size_t v = 0; v < weights.size(); ++v) EXPECT_NEAR(found.weights[v], weights[v], 1e-8);
+}
+
+/// One equation w_1 + w_2 + w_3 = 1.5 and a bound w_3 >= 0.8: minimum of the squares by hand.
+PointEquations one_point(double right, double lower) {
+  PointEquations equations;
+  equations.rows = 4;
+  equations.positions = {0.0, 0.0};
+  equations.right = {right, 0, 0, 0};
+  equations.scale = {1, 0, 0, 0};
+  for (int v = 0; v < 3; ++v) {
+    equations.first.push_back(0);
+    equations.second.push_back(0);
+    equations.coefficients.insert(equations.coefficients.end(), {0.5, 0, 0, 0});  // acts twice
+    equations.lower.push_back(v == 2 ? lower : 0.0);
+  }
+  return equations;
+}
+
+TEST(LeastChange, SharesAChangeEqually) {
+  const LeastChange found = least_change(one_point(1.5, 0.0), {});
+  for (const double w : found.weights) EXPECT_NEAR(w, 0.5, 1e-12);
+}
+
+TEST(LeastChange, RespectsBoundsInsteadOfClamping) {
+  const LeastChange found = least_change(one_point(1.5, 0.8), {});
+  EXPECT_TRUE(found.converged);
+  EXPECT_NEAR(found.weights[0], 0.35, 1e-12);
+  EXPECT_NEAR(found.weights[1], 0.35, 1e-12);
+  EXPECT_DOUBLE_EQ(found.weights[2], 0.8);
+  EXPECT_EQ(found.at_lower, 1);
+}
+
+/// The bounds allow no less than 0.8: what is left is 0.3 of the equation.
+TEST(LeastChange, SaysHowFarContradictionsAre) {
+  const LeastChange found = least_change(one_point(0.5, 0.8), {});
+  EXPECT_FALSE(found.converged);
+  EXPECT_NEAR(found.residual, 0.3, 1e-8);
+  EXPECT_EQ(found.worst_point, 0);
+  EXPECT_EQ(found.at_lower, 3);
+}
+
+/// Least squares of change and residual: w = 1 - t, t = d / (3 + ridge) with d = 3 - 1.5.
+TEST(LeastChange, ARidgeTradesResidualForChange) {
+  LeastChangeOptions options;
+  options.ridge = 0.5;
+  const LeastChange found = least_change(one_point(1.5, 0.0), options);
+  for (const double w : found.weights) EXPECT_NEAR(w, 1.0 - 1.5 / 3.5, 1e-12);
+}
+
+TEST(LeastChange, RefusesRowsThatAreNotBuiltIn) {
+  PointEquations equations;
+  equations.rows = 7;
+  EXPECT_THROW(least_change(equations, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace perilink
