@@ -13,8 +13,8 @@ namespace {
 /// Forces out of balance above this are told to the user.
 constexpr double met = 1e-9;
 
-/// Weights below this are zero but for round-off.
-constexpr double vanished = 1e-9;
+/// Where a bond may fall to zero, it is on its way there below this weight.
+constexpr double vanishing = 1e-3;
 
 /// Moduli are soft equations: what weights cannot do for them at small changes is left.
 constexpr double moduli_ridge = 1e-3;
@@ -61,6 +61,7 @@ class Calibration {
  private:
   void solve(const LeastChangeOptions& forces, CalibrationReport& report);
   bool allow_zero();
+  void drop_vanishing();
   bool is_free(Index b) const { return input_.free.empty() || input_.free[b] != 0; }
   void choose_points();
   void measure_particles();
@@ -84,6 +85,8 @@ class Calibration {
   std::vector<Index> point_of_;      // of each particle, no_index where no free bond ends
   std::vector<Index> particle_of_;   // of each point
   std::vector<Index> free_bonds_;
+  /// Bonds with a variable in the equations: first for axial stiffness, then for bending.
+  std::vector<Index> variables_[2];
   std::vector<std::uint8_t> may_vanish_;  // bonds without a lower bound
   std::vector<double> modulus_;      // 1/2 sum k xi^2 of each particle at the start
   std::vector<double> length_;       // mean xi of each particle
@@ -97,6 +100,8 @@ void Calibration::choose_points() {
     free_bonds_.push_back(b);
     touched[input_.bonds.first[b]] = touched[input_.bonds.second[b]] = 1;
   }
+  variables_[0] = free_bonds_;
+  if (!stiffness_.bending.empty()) variables_[1] = free_bonds_;
   point_of_.assign(static_cast<std::size_t>(num_particles), no_index);
   for (Index i = 0; i < num_particles; ++i) {
     if (!touched[i]) continue;
@@ -158,10 +163,9 @@ PointEquations Calibration::make_equations(const Rows& rows, double least_weight
   const Bonds& bonds = input_.bonds;
   std::vector<double> row(static_cast<std::size_t>(rows.count()));
   for (const bool bending : {false, true}) {
-    if (bending && stiffness_.bending.empty()) break;
     const std::vector<double>& present = bending ? stiffness_.bending : stiffness_.axial;
     const std::vector<double>& start = bending ? start_.bending : start_.axial;
-    for (const Index b : free_bonds_) {
+    for (const Index b : variables_[bending]) {
       equations.first.push_back(point_of_[bonds.first[b]]);
       equations.second.push_back(point_of_[bonds.second[b]]);
       if (bending) {
@@ -170,9 +174,8 @@ PointEquations Calibration::make_equations(const Rows& rows, double least_weight
         rows.axial(bonds.lengths[b], bonds.direction(b), row.data());
       }
       for (const double value : row) equations.coefficients.push_back(present[b] * value);
-      const bool to_zero = bending || may_vanish_[b] != 0;
       equations.lower.push_back(
-          to_zero ? 0.0 : std::min(1.0, least_weight * start[b] / present[b]));
+          may_vanish_[b] ? 0.0 : std::min(1.0, least_weight * start[b] / present[b]));
     }
   }
   for (const Index i : particle_of_) {
@@ -251,11 +254,9 @@ PointEquations Calibration::moduli_equations() const {
 LeastChange Calibration::improve(const PointEquations& equations,
                                  const LeastChangeOptions& options) {
   LeastChange change = least_change(equations, options);
-  for (std::size_t k = 0; k < free_bonds_.size(); ++k) {
-    stiffness_.axial[free_bonds_[k]] *= change.weights[k];
-    if (stiffness_.bending.empty()) continue;
-    stiffness_.bending[free_bonds_[k]] *= change.weights[free_bonds_.size() + k];
-  }
+  auto weight = change.weights.begin();
+  for (const Index b : variables_[0]) stiffness_.axial[b] *= *weight++;
+  for (const Index b : variables_[1]) stiffness_.bending[b] *= *weight++;
   return change;
 }
 
@@ -298,6 +299,24 @@ bool Calibration::allow_zero() {
   return any;
 }
 
+/// Takes what has fallen to zero out of the equations. Where weights must be exactly zero no multiplier
+/// brings them there, only nearer and nearer.
+void Calibration::drop_vanishing() {
+  for (const bool bending : {false, true}) {
+    const std::vector<double>& present = bending ? stiffness_.bending : stiffness_.axial;
+    std::vector<double>& start = bending ? start_.bending : start_.axial;
+    std::vector<Index> kept;
+    for (const Index b : variables_[bending]) {
+      if (may_vanish_[b] && present[b] < vanishing * start[b]) {
+        start[b] = 0.0;
+      } else {
+        kept.push_back(b);
+      }
+    }
+    variables_[bending] = std::move(kept);
+  }
+}
+
 /// Moduli of the single particles and forces in turn, forces last.
 void Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& report) {
   stiffness_ = start_;
@@ -332,16 +351,17 @@ CalibrationReport Calibration::run() {
   report_balance(report);
   if (report.unmet > 0 && allow_zero()) {
     solve(forces, report);
+    drop_vanishing();
+    solve(forces, report);
     report_balance(report);
   }
   for (const Index b : free_bonds_) {
-    const double weight = stiffness_.axial[b] / start_.axial[b];
-    if (weight < vanished) {
+    if (stiffness_.axial[b] == 0.0) {
       ++report.dropped;
-      stiffness_.axial[b] = 0.0;
       if (!stiffness_.bending.empty()) stiffness_.bending[b] = 0.0;
       continue;
     }
+    const double weight = stiffness_.axial[b] / start_.axial[b];
     report.at_least_weight += weight <= 1.000001 * options_.least_weight;
     report.smallest_weight = std::min(report.smallest_weight, weight);
     report.largest_weight = std::max(report.largest_weight, weight);

@@ -33,7 +33,7 @@ struct BondStiffness {
 };
 
 struct CalibrationOptions {
-  double least_weight = 0.02;  ///< of axial stiffness, relative to the start; that of bending is 0
+  double least_weight = 0.02;  ///< relative to the start
   double tolerance = 1e-12;    ///< root mean square of the forces out of balance (see below)
   int moduli_passes = 2;       ///< of irregular clouds
 };

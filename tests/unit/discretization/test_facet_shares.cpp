@@ -35,7 +35,8 @@ Ring quarter_ring() {
   return ring;
 }
 
-/// Work of the boundary on r r r, r the rigid rotation about the origin: 3 (A . r) (r . r).
+/// Work of the boundary on e r r, e the unit vector along x and r the rigid rotation about the origin:
+/// 2 (e . r) (A . r) + (r . r) (A . e).
 double cubic_work(const Facets& facets, const std::vector<double>& positions) {
   double work = 0.0;
   for (Index f = 0; f < facets.size(); ++f) {
@@ -43,7 +44,8 @@ double cubic_work(const Facets& facets, const std::vector<double>& positions) {
       const double x = positions[2 * facets.corners.values[c]];
       const double y = positions[2 * facets.corners.values[c] + 1];
       const auto area = facets.area_vector(f);
-      work += facets.shares[c] * 3.0 * (-y * area[0] + x * area[1]) * (x * x + y * y);
+      work += facets.shares[c] *
+              (-2.0 * y * (-y * area[0] + x * area[1]) + (x * x + y * y) * area[0]);
     }
   }
   return work;
