@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/types.hpp"
 #include "discretization/bonds.hpp"
+#include "discretization/calibration.hpp"
+#include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 
 namespace perilink {
@@ -25,6 +28,8 @@ struct Network {
   Index first_tie = 0;                   ///< number of the first tie
   Index first_segment = 0;               ///< number of the first bar segment
   std::vector<double> yield_strain;      ///< per segment [-]; infinity: stays elastic
+  Facets facets;  ///< surface and interfaces, with the shares that the bonds balance
+  std::optional<CalibrationReport> calibration;  ///< of calibrated bonds
 
   std::vector<Index> cut_by_crack;       ///< bonds that each pre-crack took out
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "assembly/surface_correction.hpp"
 #include "assembly/unknowns.hpp"
 #include "discretization/gaps.hpp"
 #include "discretization/outside_bonds.hpp"
@@ -94,11 +95,11 @@ void add_bonds(const PairConstants& constants, Network& network) {
   }
 }
 
-/// Bending stiffness of the bonds between particles; ties and segments have none.
+/// Bending stiffness of the bonds between particles.
 void add_bending(const PairConstants& constants, Network& network) {
   const Particles& particles = network.particles;
-  network.bending.assign(static_cast<std::size_t>(network.num_elements()), 0.0);
-  for (Index b = 0; b < network.first_tie; ++b) {
+  network.bending.reserve(static_cast<std::size_t>(network.bonds.size()));
+  for (Index b = 0; b < network.bonds.size(); ++b) {
     const Index i = network.bonds.first[b];
     const Index j = network.bonds.second[b];
     const Index own = particles.material[i];
@@ -106,8 +107,8 @@ void add_bending(const PairConstants& constants, Network& network) {
     const double d = constants.bending_modulus(own, ghost ? own : particles.material[j]) *
                      (ghost ? 0.5 : 1.0);
     const double length = network.bonds.lengths[b];
-    network.bending[b] =
-        12.0 * d * particles.volumes[i] * particles.volumes[j] / (length * length * length);
+    network.bending.push_back(12.0 * d * particles.volumes[i] * particles.volumes[j] /
+                              (length * length * length));
   }
 }
 
@@ -189,6 +190,14 @@ MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
   return {moduli.micromodulus_per_modulus * material.youngs_modulus, 0.0};
 }
 
+LameConstants lame_constants(const NetworkInput& input, const SolidMaterial& material) {
+  const double nu = input.model == BondModel::micropolar ? material.poissons_ratio
+                                                         : bond_poissons_ratio(input.problem);
+  const double mu = 0.5 * material.youngs_modulus / (1.0 + nu);
+  const double through = input.problem == Problem::plane_stress ? 1.0 - nu : 1.0 - 2.0 * nu;
+  return {2.0 * mu * nu / through, mu};
+}
+
 Network build_network(const Body& body, const NetworkInput& input) {
   check_input(body, input);
   const PairConstants constants(body, input);
@@ -207,14 +216,17 @@ Network build_network(const Body& body, const NetworkInput& input) {
     network.cut_by_crack = cut.count;
   }
   remove_loose_ghosts(network.particles, network.bonds);
+  network.facets = body.facets;
   network.stiffness.reserve(static_cast<std::size_t>(network.bonds.size()));
   network.critical_stretch.reserve(static_cast<std::size_t>(network.bonds.size()));
   add_bonds(constants, network);
-  add_bars(body, input, constants, network);
   if (input.model == BondModel::micropolar) {
     network.torsion = input.torsion;
     add_bending(constants, network);
   }
+  correct_surfaces(body, input, network);
+  add_bars(body, input, constants, network);
+  if (network.carries_moments()) network.bending.resize(network.stiffness.size(), 0.0);
   return network;
 }
 

@@ -64,7 +64,11 @@ struct NetworkInput {
 MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
                            const SolidMaterial& material);
 
-/// Bonds, bars and ties of a body with their constants.
+/// Lame's constants of a material in the body's kinematics; of bond-based solids lambda = mu.
+LameConstants lame_constants(const NetworkInput& input, const SolidMaterial& material);
+
+/// Bonds, bars and ties of a body with their constants, corrected near surfaces as the body's surface
+/// option asks (correct_surfaces).
 /// - Bond: k = c V_i V_j / xi with the mean c of its ends; a ghost's c is zero, hence half
 /// stiffness
 ///   (Gerstle, Sau & Silling 2005, section 4). It breaks at the critical stretch of the mean

@@ -23,6 +23,15 @@ double continuum_critical_stretch(Problem problem, double fracture_energy, doubl
 double lattice_fracture_sum(Problem problem, std::span<const Vector3> offsets, double cell_volume,
                             double micromodulus, std::optional<Vector3> normal = std::nullopt);
 
+/// Mean of |cos| over all directions: 2/pi in two dimensions, 1/2 in three.
+double mean_cosine(Problem problem);
+
+/// The fracture sum of bonds whose stiffness does not follow from one micromodulus: the mean over all
+/// normals of Q(e) = sum over unordered neighbours of k xi^2 |xi . e| / V [force/length].
+/// \param stiffness  k of the bond to each neighbour [force/length]
+double fracture_sum_of_family(Problem problem, std::span<const Vector3> offsets,
+                              std::span<const double> stiffness, double cell_volume);
+
 /// Critical stretch with which a straight crack through the lattice releases G_F.
 double lattice_critical_stretch(double fracture_energy, double fracture_sum);
 

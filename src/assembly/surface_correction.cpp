@@ -1,0 +1,245 @@
+#include "assembly/surface_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "assembly/lattice_families.hpp"
+#include "discretization/calibration.hpp"
+#include "material/critical_stretch.hpp"
+
+namespace perilink {
+namespace {
+
+/// 1/2 sum k xi^2 of every particle, axial [force length].
+std::vector<double> moduli_of_particles(const Network& network, std::span<const double> stiffness) {
+  std::vector<double> modulus(static_cast<std::size_t>(network.particles.size()), 0.0);
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const double xi = network.bonds.lengths[b];
+    modulus[network.bonds.first[b]] += 0.5 * stiffness[b] * xi * xi;
+    modulus[network.bonds.second[b]] += 0.5 * stiffness[b] * xi * xi;
+  }
+  return modulus;
+}
+
+/// The same per volume in the infinite body: the integral of c xi / 2 over the horizon.
+double continuum_modulus(const NetworkInput& input, double micromodulus) {
+  const double delta = input.horizon;
+  if (dimension_of(input.problem) == 3) {
+    return 0.5 * std::numbers::pi * micromodulus * std::pow(delta, 4);
+  }
+  return std::numbers::pi / 3.0 * micromodulus * input.thickness * std::pow(delta, 3);
+}
+
+class Correction {
+ public:
+  Correction(const Body& body, const NetworkInput& input, Network& network)
+      : body_(body), input_(input), network_(network) {}
+
+  void energy();
+  void calibrate();
+
+ private:
+  bool on_lattice() const { return body_.lattice.pattern != Pattern::irregular; }
+  bool micropolar() const { return input_.model == BondModel::micropolar; }
+  Index material(Index particle) const { return network_.particles.material[particle]; }
+  void fade_at_horizon();
+  void take_bulk_families(const LatticeFamilies& families);
+  std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
+  void scale_to(const std::vector<double>& wanted);
+  std::vector<std::uint8_t> free_bonds(const LatticeFamilies& families) const;
+  void take_out_empty_bonds();
+  void update_critical_stretches(const LatticeFamilies* families);
+  double fracture_sum(const LatticeFamilies* families, Index a, Index b) const;
+
+  const Body& body_;
+  const NetworkInput& input_;
+  Network& network_;
+};
+
+/// Neighbours at the horizon count with the part of their cells that lies within it.
+void Correction::fade_at_horizon() {
+  for (Index b = 0; b < network_.bonds.size(); ++b) {
+    const double part =
+        partial_volume(network_.bonds.lengths[b], input_.horizon, body_.lattice.spacing);
+    network_.stiffness[b] *= part;
+    if (micropolar()) network_.bending[b] *= part;
+  }
+}
+
+/// Stiffness of the isotropic families, in proportion to the volumes of the ends.
+void Correction::take_bulk_families(const LatticeFamilies& families) {
+  const double volume = body_.lattice.cell_volume;
+  for (Index e = 0; e < network_.bonds.size(); ++e) {
+    const Index i = network_.bonds.first[e], j = network_.bonds.second[e];
+    const Index k = families.find(network_.bonds.direction(e), network_.bonds.lengths[e]);
+    if (k == no_index) continue;
+    const double share = network_.particles.volumes[i] / volume *
+                         (network_.particles.volumes[j] / volume);
+    const FamilyStiffness& a = families.stiffness(material(i));
+    const FamilyStiffness& b = families.stiffness(material(j));
+    network_.stiffness[e] = 0.5 * (a.axial[k] + b.axial[k]) * share;
+    if (micropolar()) network_.bending[e] = 0.5 * (a.bending[k] + b.bending[k]) * share;
+  }
+}
+
+/// What moduli_of_particles() would be inside the body.
+std::vector<double> Correction::wanted_moduli(const LatticeFamilies* families) const {
+  std::vector<double> per_volume;
+  for (std::size_t m = 0; m < input_.materials.size(); ++m) {
+    per_volume.push_back(
+        families ? families->modulus(static_cast<Index>(m)) / body_.lattice.cell_volume
+                 : continuum_modulus(input_,
+                                     moduli_of(body_, input_, input_.materials[m]).micromodulus));
+  }
+  std::vector<double> wanted(static_cast<std::size_t>(network_.particles.size()));
+  for (Index i = 0; i < network_.particles.size(); ++i) {
+    wanted[i] = per_volume[material(i)] * network_.particles.volumes[i];
+  }
+  return wanted;
+}
+
+void Correction::scale_to(const std::vector<double>& wanted) {
+  const std::vector<double> present = moduli_of_particles(network_, network_.stiffness);
+  for (Index b = 0; b < network_.bonds.size(); ++b) {
+    const Index i = network_.bonds.first[b], j = network_.bonds.second[b];
+    const double factor = 0.5 * (wanted[i] / present[i] + wanted[j] / present[j]);
+    network_.stiffness[b] *= factor;
+    if (micropolar()) network_.bending[b] *= factor;
+  }
+}
+
+/// Bonds with an end that lacks neighbours, or has some of another material.
+std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families) const {
+  std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
+  const Bonds& bonds = network_.bonds;
+  for (Index b = 0; b < bonds.size(); ++b) {
+    const Index i = bonds.first[b], j = bonds.second[b];
+    if (material(i) != material(j)) continue;
+    if (families.find(bonds.direction(b), bonds.lengths[b]) == no_index) continue;
+    ++regular[i];
+    ++regular[j];
+  }
+  std::vector<std::uint8_t> free(static_cast<std::size_t>(bonds.size()));
+  for (Index b = 0; b < bonds.size(); ++b) {
+    free[b] = regular[bonds.first[b]] != families.size() || regular[bonds.second[b]] != families.size();
+  }
+  return free;
+}
+
+void Correction::take_out_empty_bonds() {
+  Bonds kept;
+  kept.dim = network_.bonds.dim;
+  Index next = 0;
+  for (Index b = 0; b < network_.bonds.size(); ++b) {
+    if (network_.stiffness[b] == 0.0) continue;
+    kept.append(network_.particles, network_.bonds.first[b], network_.bonds.second[b]);
+    network_.stiffness[next] = network_.stiffness[b];
+    network_.critical_stretch[next] = network_.critical_stretch[b];
+    if (micropolar()) network_.bending[next] = network_.bending[b];
+    ++next;
+  }
+  network_.bonds = std::move(kept);
+  network_.stiffness.resize(static_cast<std::size_t>(next));
+  network_.critical_stretch.resize(static_cast<std::size_t>(next));
+  if (micropolar()) network_.bending.resize(static_cast<std::size_t>(next));
+}
+
+/// Energy that the bonds across a unit area of crack hold at unit stretch, twice: on a lattice from the
+/// families of both materials; on a cloud from the bonds of its particles, the mean over those that lie
+/// on no facet.
+double Correction::fracture_sum(const LatticeFamilies* families, Index a, Index b) const {
+  if (families) {
+    std::vector<double> stiffness(families->offsets().size());
+    for (std::size_t k = 0; k < stiffness.size(); ++k) {
+      stiffness[k] = 0.5 * (families->stiffness(a).axial[k] + families->stiffness(b).axial[k]);
+    }
+    return fracture_sum_of_family(input_.problem, families->offsets(), stiffness,
+                                  body_.lattice.cell_volume);
+  }
+  std::vector<std::uint8_t> inside(static_cast<std::size_t>(network_.particles.size()), 1);
+  for (const Index i : body_.facets.corners.values) inside[i] = 0;
+  double moments = 0.0, volume = 0.0;
+  for (Index i = 0; i < network_.particles.size(); ++i) {
+    if (inside[i] && (material(i) == a || material(i) == b)) volume += network_.particles.volumes[i];
+  }
+  for (Index e = 0; e < network_.bonds.size(); ++e) {
+    const double moment = network_.stiffness[e] * std::pow(network_.bonds.lengths[e], 3);
+    for (const Index i : {network_.bonds.first[e], network_.bonds.second[e]}) {
+      if (inside[i] && (material(i) == a || material(i) == b)) moments += 0.5 * moment;
+    }
+  }
+  return volume > 0.0 ? mean_cosine(input_.problem) * moments / volume : 0.0;
+}
+
+void Correction::update_critical_stretches(const LatticeFamilies* families) {
+  const std::size_t count = input_.materials.size();
+  std::vector<double> stretch(count * count);
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = 0; b < count; ++b) {
+      const double energy =
+          0.5 * (input_.materials[a].fracture_energy + input_.materials[b].fracture_energy);
+      stretch[a * count + b] = lattice_critical_stretch(
+          energy, fracture_sum(families, static_cast<Index>(a), static_cast<Index>(b)));
+    }
+  }
+  for (Index e = 0; e < network_.bonds.size(); ++e) {
+    network_.critical_stretch[e] = stretch[material(network_.bonds.first[e]) * count +
+                                           material(network_.bonds.second[e])];
+  }
+}
+
+void Correction::energy() {
+  std::vector<double> wanted = wanted_moduli(nullptr);
+  if (on_lattice()) {
+    // Moduli of the lattice's own family, so that nothing changes inside.
+    const BulkFamily family = bulk_family(body_.lattice, input_.horizon);
+    for (Index i = 0; i < network_.particles.size(); ++i) {
+      const double c = moduli_of(body_, input_, input_.materials[material(i)]).micromodulus;
+      double sum = 0.0;
+      for (const Vector3& x : family.offsets) sum += std::hypot(x[0], x[1], x[2]);
+      wanted[i] = 0.5 * c * sum * body_.lattice.cell_volume * network_.particles.volumes[i];
+    }
+  }
+  scale_to(wanted);
+}
+
+void Correction::calibrate() {
+  std::optional<LatticeFamilies> families;
+  fade_at_horizon();
+  if (on_lattice()) {
+    families.emplace(body_, input_);
+    take_bulk_families(*families);
+  }
+  const LatticeFamilies* family = families ? &*families : nullptr;
+  CalibrationInput calibration{network_.particles, network_.bonds, {}, {}};
+  if (family) calibration.free = free_bonds(*family);
+  std::vector<double> bulk = network_.stiffness;
+  std::vector<double> bulk_bending = network_.bending;
+  scale_to(wanted_moduli(family));
+  for (std::size_t b = 0; b < calibration.free.size(); ++b) {
+    if (calibration.free[b]) continue;
+    network_.stiffness[b] = bulk[b];  // exactly
+    if (micropolar()) network_.bending[b] = bulk_bending[b];
+  }
+  for (const SolidMaterial& m : input_.materials) {
+    calibration.materials.push_back(lame_constants(input_, m));
+  }
+  BondStiffness stiffness{network_.stiffness, network_.bending};
+  network_.calibration = calibrate_bonds(calibration, {}, network_.facets, stiffness);
+  network_.stiffness = std::move(stiffness.axial);
+  network_.bending = std::move(stiffness.bending);
+  if (network_.calibration->dropped > 0) take_out_empty_bonds();
+  if (input_.critical_stretch == Constants::lattice || !family) update_critical_stretches(family);
+}
+
+}  // namespace
+
+void correct_surfaces(const Body& body, const NetworkInput& input, Network& network) {
+  const Surface surface = body.lattice.surface;
+  if (surface == Surface::energy) Correction(body, input, network).energy();
+  if (surface == Surface::calibrated) Correction(body, input, network).calibrate();
+}
+
+}  // namespace perilink
