@@ -135,6 +135,7 @@ Body build_body(const CaseFile& input, int dim, double& horizon, std::vector<std
   if (!input.body.mesh) return build_lattice_body(input, dim, horizon);
   Body body = read_mesh_body(input, dim, notes);
   if (input.body.method != "bonds") return body;
+  body.lattice.surface = input.body.surface;
   horizon = horizon_of(input.body, body.lattice.spacing);
   refuse_short_horizon(input, horizon, body.lattice.spacing);
   return body;

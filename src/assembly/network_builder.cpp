@@ -172,14 +172,17 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
 MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
                            const SolidMaterial& material) {
   const ElasticConstants elastic{material.youngs_modulus, material.poissons_ratio};
+  // Calibration starts from the continuum: a lattice alone may not reach the Poisson's ratio.
+  const bool continuum = input.micromodulus == Constants::continuum ||
+                         body.lattice.surface == Surface::calibrated;
   if (input.model == BondModel::micropolar) {
-    if (input.micromodulus == Constants::continuum) {
+    if (continuum) {
       return continuum_micropolar(input.problem, elastic, input.horizon, input.thickness);
     }
     return lattice_micropolar(input.problem, bulk_family(body.lattice, input.horizon).offsets,
                               body.lattice.cell_volume, elastic);
   }
-  if (input.micromodulus == Constants::continuum) {
+  if (continuum) {
     return {continuum_micromodulus(input.problem, material.youngs_modulus, input.horizon,
                                    input.thickness),
             0.0};

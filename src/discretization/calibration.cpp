@@ -10,8 +10,9 @@
 namespace perilink {
 namespace {
 
-/// Forces out of balance above this are told to the user.
-constexpr double met = 1e-9;
+/// Forces out of balance above this are told to the user. Round-off leaves up to 1e-8 along boundaries of
+/// some hundred spacings.
+constexpr double met = 1e-7;
 
 /// Where a bond may fall to zero, it is on its way there below this weight.
 constexpr double vanishing = 1e-3;
@@ -347,6 +348,7 @@ CalibrationReport Calibration::run() {
   report.residual_before = report.residual_after;
   LeastChangeOptions forces;
   forces.tolerance = options_.tolerance;
+  forces.thin = dim_ == 2 && !input_.free.empty();
   solve(forces, report);
   report_balance(report);
   if (report.unmet > 0 && allow_zero()) {

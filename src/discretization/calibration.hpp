@@ -45,7 +45,7 @@ struct CalibrationReport {
   double residual_before = 0.0;  ///< largest force out of balance at the start ...
   double residual_after = 0.0;   ///< ... and at the end
   Index worst_particle = no_index;
-  Index unmet = 0;               ///< particles with more than 1e-9 out of balance at the end
+  Index unmet = 0;               ///< particles with more than 1e-7 out of balance at the end
   double smallest_weight = 1.0;  ///< of axial stiffness, end over start
   double largest_weight = 1.0;
   Index at_least_weight = 0;     ///< number of bonds there

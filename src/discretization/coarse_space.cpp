@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace perilink {
@@ -11,14 +12,28 @@ namespace {
 /// Points in a box: fewer make the coarse system dear, more leave work to the iteration.
 constexpr double points_per_box = 64.0;
 
+/// Added to the diagonal, relative to its mean, for what has no stiffness at all.
+constexpr double tiny = 1e-14;
+
 }  // namespace
 
 CoarseSpace::CoarseSpace(const PointEquations& equations, const std::vector<double>& active,
-                         double ridge)
+                         double ridge, Boxes boxes)
     : dim_(equations.dim), rows_(equations.rows) {
-  functions_ = 1 + dim_;
-  number_boxes(equations);
+  if (boxes == Boxes::of_many_points) {
+    functions_ = 1 + dim_;
+    number_boxes(equations);
+  } else {
+    put_points_in_boxes_of_their_own(equations);
+  }
   assemble(equations, active, ridge);
+}
+
+void CoarseSpace::put_points_in_boxes_of_their_own(const PointEquations& equations) {
+  num_boxes_ = equations.num_points();
+  box_of_.resize(static_cast<std::size_t>(num_boxes_));
+  std::iota(box_of_.begin(), box_of_.end(), 0);
+  values_.assign(box_of_.size(), 1.0);
 }
 
 /// Boxes of equal size; those without points get no number.
@@ -90,11 +105,12 @@ void CoarseSpace::assemble(const PointEquations& equations, const std::vector<do
       block(box_of_[q], box_of_[p]).noalias() += at_second * at_first.transpose();
     }
   }
+  const double points_in_box = static_cast<double>(box_of_.size()) / num_boxes_;
   // The ridge of the fine system, and a little more where constants and rigid modes have no stiffness.
   std::vector<Eigen::Triplet<double>> entries;
   for (auto& [place, matrix] : blocks) {
     if (place.first == place.second) {
-      const double floor = 1e-10 * matrix.trace() / width + points_per_box * ridge;
+      const double floor = tiny * matrix.trace() / width + ridge * points_in_box;
       for (int k = 0; k < width; ++k) matrix(k, k) += matrix(k, k) > 0.0 ? floor : 1.0;
     }
     for (int c = 0; c < width; ++c) {

@@ -11,18 +11,21 @@ namespace perilink {
 
 /// Second level of the preconditioner of least_change(): functions that are linear on boxes of points,
 /// one set for each equation row. Single points exchange errors only with their neighbours; what varies
-/// over the whole body is taken out here.
+/// over the whole body is taken out here. With a box for each point it is the system itself.
 class CoarseSpace {
  public:
+  enum class Boxes { of_many_points, of_single_points };
   /// \param active  1 for the variables that the system holds, else 0
   /// \param ridge   added to the diagonal of the fine system
-  CoarseSpace(const PointEquations& equations, const std::vector<double>& active, double ridge);
+  CoarseSpace(const PointEquations& equations, const std::vector<double>& active, double ridge,
+              Boxes boxes);
 
   /// Adds P (P' S P)^-1 P' residual to `result`, both of shape (points, rows).
   void add_correction(const double* residual, double* result) const;
 
  private:
   void number_boxes(const PointEquations& equations);
+  void put_points_in_boxes_of_their_own(const PointEquations& equations);
   void assemble(const PointEquations& equations, const std::vector<double>& active, double ridge);
 
   int dim_, rows_;

@@ -17,10 +17,16 @@ namespace {
 constexpr Index smallest_coarse_problem = 2000;
 
 /// Weight of the method of multipliers, relative to equations of order one: contradictions decay by
-/// this factor over the smallest squared singular value in each Newton step.
-constexpr double proximity = 1e-8;
+/// this factor over the smallest squared singular value in each Newton step. Long waves along a boundary
+/// have singular values that fall with the square of their length: there a factor of the equations allows
+/// a smaller weight.
+constexpr double proximity = 1e-10;
+constexpr double thin_proximity = 1e-14;
 
 constexpr int most_newton_steps = 40;
+
+/// A factor is made anew when the last step needed more iterations than this.
+constexpr int stale_iterations = 40;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
@@ -62,6 +68,8 @@ class DualNewton {
   int newton_direction(const Vector& residual, double reduction, Vector& direction);
   void precondition(const Vector& residual, Vector& result) const;
   void build_preconditioner();
+  void prepare(bool settled, int last_iterations);
+  double shift() const { return options_.ridge + (options_.thin ? thin_proximity : proximity); }
   double search_line(const Vector& residual, const Vector& direction, Vector& y);
   void report(const Vector& y, const Vector& residual, LeastChange& result) const;
 
@@ -163,18 +171,31 @@ void DualNewton<Rows>::build_preconditioner() {
   }
   for (Block& block : inverse_blocks_) {
     // What no variable between the bounds acts on keeps the identity.
-    const double floor = options_.ridge + proximity + 1e-11 * block.trace();
+    const double floor = shift() + 1e-11 * block.trace();
     for (int r = 0; r < Rows; ++r) block(r, r) += block(r, r) > 0.0 ? floor : 1.0;
     block = block.llt().solve(Block::Identity()).eval();
   }
   if (points >= smallest_coarse_problem) {
-    coarse_ = std::make_unique<CoarseSpace>(equations_, active_, options_.ridge + proximity);
+    coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shift(),
+                                            CoarseSpace::Boxes::of_many_points);
+  }
+}
+
+/// The factor of an earlier pattern serves until it needs too many iterations.
+template <int Rows>
+void DualNewton<Rows>::prepare(bool settled, int last_iterations) {
+  if (!options_.thin) {
+    if (!settled) build_preconditioner();
+  } else if (!coarse_ || (!settled && last_iterations > stale_iterations)) {
+    coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shift(),
+                                            CoarseSpace::Boxes::of_single_points);
   }
 }
 
 template <int Rows>
 void DualNewton<Rows>::precondition(const Vector& residual, Vector& result) const {
   using Column = Eigen::Matrix<double, Rows, 1>;
+  if (options_.thin) std::fill(result.begin(), result.end(), 0.0);
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
     Eigen::Map<Column>(result.data() + p * Rows).noalias() =
         inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
@@ -187,7 +208,7 @@ void DualNewton<Rows>::precondition(const Vector& residual, Vector& result) cons
 template <int Rows>
 int DualNewton<Rows>::newton_direction(const Vector& residual, double reduction,
                                        Vector& direction) {
-  const double shift = options_.ridge + proximity;
+  const double shift = this->shift();
   Vector r = residual, z(size_), q(size_);
   std::vector<double> stretch(active_.size());
   direction.assign(size_, 0.0);
@@ -238,17 +259,19 @@ LeastChange DualNewton<Rows>::solve() {
       options_.tolerance * std::sqrt(static_cast<double>(std::max<Index>(equations_.num_points(), 1)));
   choose_weights(y);
   measure(y, residual);
-  std::vector<double> pattern;  // weights between their bounds when the preconditioner was made
+  std::vector<double> pattern;  // weights between their bounds at the last step
+  int last = 0;                 // iterations of that step
   for (int step = 0; step < most_newton_steps; ++step) {
     const double size = norm(residual);
     if (size <= target || result.iterations >= options_.iterations) break;
     const bool settled = pattern == active_;
     if (settled && distance(residual, previous) <= 10.0 * target) break;  // contradictions are left
-    if (!settled) build_preconditioner();
+    prepare(settled, last);
     pattern = active_;
     // The first steps only find out which weights are at their bounds.
     const double reduction = step == 0 ? 1e-2 : settled ? 0.3 * target / size : 1e-3;
-    result.iterations += newton_direction(residual, std::max(reduction, 1e-12), direction);
+    last = newton_direction(residual, std::max(reduction, 1e-12), direction);
+    result.iterations += last;
     previous = residual;
     search_line(residual, direction, y);
     measure(y, residual);

@@ -44,6 +44,8 @@ struct LeastChangeOptions {
                               ///< 1 / ridge against the squared changes of the weights
   double tolerance = 1e-12;   ///< of the norm of the scaled residual, per root of the number of points
   int iterations = 20000;     ///< of conjugate gradients, in all
+  bool thin = false;          ///< the points line a boundary: factorising their equations is cheap, and
+                              ///< waves along the boundary would converge badly otherwise
 };
 
 /// What came out.
@@ -61,7 +63,7 @@ struct LeastChange {
 /// not clamped: Newton's method on the concave dual function, w(y) = min(max(1 + A' y, lower), upper)
 /// with A w(y) + ridge y = r, whose linear systems A D A' (D: the weights between the bounds) conjugate
 /// gradients solve, preconditioned by the blocks of the points and a coarse space that is linear on
-/// aggregates of points. Where the equations contradict each other or the bounds, the steps, which are
+/// aggregates of points, or, along thin boundaries, by the factor of the first of these systems. Where the equations contradict each other or the bounds, the steps, which are
 /// those of the method of multipliers, lead to the least squared residual.
 /// \throws std::invalid_argument for numbers of rows that are not built in
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);

@@ -28,7 +28,7 @@ const std::vector<std::string_view>& pattern_words() {
 }
 
 const std::vector<std::string_view>& surface_words() {
-  static const std::vector<std::string_view> words = {"none", "ghost"};
+  static const std::vector<std::string_view> words = {"none", "ghost", "energy", "calibrated"};
   return words;
 }
 
