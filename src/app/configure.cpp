@@ -115,7 +115,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
     lattice.horizon = horizon_of(input.body, lattice.spacing);
     refuse_short_horizon(input, lattice.horizon, lattice.spacing);
   } else {
-    lattice.surface = Surface::none;
+    lattice.surface = Surface::calibrated;  // the same particles
   }
   const std::string spacing_key = input.body.spacing ? "body.spacing" : "body.columns";
   try {
@@ -258,7 +258,7 @@ void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
                    "give a material a finite fracture energy, or set analysis.type = \"elastic\"");
 }
 
-void build_bonds(const CaseFile& input, const Body& body, Model& model) {
+void build_bonds(const CaseFile& input, Body& body, Model& model) {
   refuse_bars_outside(input, body);
   const NetworkInput network = network_input(input, model.problem, model.horizon);
   refuse_poissons_ratios(input, body, network);
@@ -270,6 +270,7 @@ void build_bonds(const CaseFile& input, const Body& body, Model& model) {
   }
   refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
+  body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
 }
 
 }  // namespace

@@ -212,12 +212,6 @@ Network build_network(const Body& body, const NetworkInput& input) {
   if (body.lattice.pattern == Pattern::irregular) {
     remove_bonds_outside(network.particles, network.bonds, body.facets, body.lattice.spacing);
   }
-  if (!input.cracks.empty()) {
-    const CutBonds cut =
-        find_cut_bonds(network.particles, network.bonds, input.cracks, body.lattice.spacing);
-    keep_bonds(network.particles, network.bonds, cut.keep);
-    network.cut_by_crack = cut.count;
-  }
   remove_loose_ghosts(network.particles, network.bonds);
   network.facets = body.facets;
   network.stiffness.reserve(static_cast<std::size_t>(network.bonds.size()));
@@ -228,9 +222,28 @@ Network build_network(const Body& body, const NetworkInput& input) {
     add_bending(constants, network);
   }
   correct_surfaces(body, input, network);
+  if (!input.cracks.empty()) {
+    // After the calibration: a crack is not a surface on which a uniform strain finds its stress.
+    const CutBonds cut =
+        find_cut_bonds(network.particles, network.bonds, input.cracks, body.lattice.spacing);
+    keep_elements(network, cut.keep);
+    network.cut_by_crack = cut.count;
+  }
   add_bars(body, input, constants, network);
   if (network.carries_moments()) network.bending.resize(network.stiffness.size(), 0.0);
   return network;
+}
+
+void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
+  keep_bonds(network.particles, network.bonds, keep);
+  for (std::vector<double>* values :
+       {&network.stiffness, &network.bending, &network.critical_stretch}) {
+    std::size_t next = 0;
+    for (std::size_t e = 0; e < values->size(); ++e) {
+      if (keep[e]) (*values)[next++] = (*values)[e];
+    }
+    values->resize(next);
+  }
 }
 
 std::vector<Index> find_loose_particles(const Network& network) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "assembly/network.hpp"
@@ -87,6 +89,9 @@ LameConstants lame_constants(const NetworkInput& input, const SolidMaterial& mat
 /// material is missing, the numbers of bars and of their
 ///         materials differ, or the horizon is too small for the lattice
 Network build_network(const Body& body, const NetworkInput& input);
+
+/// Takes out the elements that are not marked. Only before bars are added.
+void keep_elements(Network& network, std::span<const std::uint8_t> keep);
 
 /// Particles that elements in fewer than dim independent directions hold: without a support they
 /// move freely. Ascending.

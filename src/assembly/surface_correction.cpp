@@ -49,7 +49,6 @@ class Correction {
   std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
   void scale_to(const std::vector<double>& wanted);
   std::vector<std::uint8_t> free_bonds(const LatticeFamilies& families) const;
-  void take_out_empty_bonds();
   void update_critical_stretches(const LatticeFamilies* families);
   double fracture_sum(const LatticeFamilies* families, Index a, Index b) const;
 
@@ -126,24 +125,6 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
     free[b] = regular[bonds.first[b]] != families.size() || regular[bonds.second[b]] != families.size();
   }
   return free;
-}
-
-void Correction::take_out_empty_bonds() {
-  Bonds kept;
-  kept.dim = network_.bonds.dim;
-  Index next = 0;
-  for (Index b = 0; b < network_.bonds.size(); ++b) {
-    if (network_.stiffness[b] == 0.0) continue;
-    kept.append(network_.particles, network_.bonds.first[b], network_.bonds.second[b]);
-    network_.stiffness[next] = network_.stiffness[b];
-    network_.critical_stretch[next] = network_.critical_stretch[b];
-    if (micropolar()) network_.bending[next] = network_.bending[b];
-    ++next;
-  }
-  network_.bonds = std::move(kept);
-  network_.stiffness.resize(static_cast<std::size_t>(next));
-  network_.critical_stretch.resize(static_cast<std::size_t>(next));
-  if (micropolar()) network_.bending.resize(static_cast<std::size_t>(next));
 }
 
 /// Energy that the bonds across a unit area of crack hold at unit stretch, twice: on a lattice from the
@@ -230,7 +211,11 @@ void Correction::calibrate() {
   network_.calibration = calibrate_bonds(calibration, {}, network_.facets, stiffness);
   network_.stiffness = std::move(stiffness.axial);
   network_.bending = std::move(stiffness.bending);
-  if (network_.calibration->dropped > 0) take_out_empty_bonds();
+  if (network_.calibration->dropped > 0) {
+    std::vector<std::uint8_t> keep;
+    for (const double k : network_.stiffness) keep.push_back(k > 0.0);
+    keep_elements(network_, keep);
+  }
   if (input_.critical_stretch == Constants::lattice || !family) update_critical_stretches(family);
 }
 
