@@ -82,6 +82,19 @@ TEST(LatticeFractureSum, ApproachesTheContinuum) {
               1.0, 1e-2);
 }
 
+TEST(FractureSumOfFamily, IsThatOfTheMicromodulusWhereOneMakesTheStiffness) {
+  const std::vector<Vector3> offsets = {{1, 0, 0}, {-1, 0, 0}, {1, 2, 0}, {-1, -2, 0}};
+  constexpr double volume = 0.3, micromodulus = 1.7;
+  std::vector<double> stiffness;
+  for (const Vector3& x : offsets) {
+    stiffness.push_back(micromodulus * volume * volume / std::hypot(x[0], x[1]));
+  }
+  for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
+    EXPECT_NEAR(fracture_sum_of_family(problem, offsets, stiffness, volume),
+                lattice_fracture_sum(problem, offsets, volume, micromodulus), 1e-12);
+  }
+}
+
 TEST(LatticeCriticalStretch, ReleasesTheFractureEnergy) {
   const double stretch = lattice_critical_stretch(0.3, 7.0);
   EXPECT_DOUBLE_EQ(7.0 * stretch * stretch / 2.0, 0.3);

@@ -1,0 +1,136 @@
+#include "assembly/surface_correction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/internal_force.hpp"
+#include "support/small_networks.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+std::vector<double> moduli(const Network& network) {
+  std::vector<double> modulus(static_cast<std::size_t>(network.particles.size()), 0.0);
+  for (Index b = 0; b < network.num_elements(); ++b) {
+    const double share = 0.5 * network.stiffness[b] * std::pow(network.bonds.lengths[b], 2);
+    modulus[network.bonds.first[b]] += share;
+    modulus[network.bonds.second[b]] += share;
+  }
+  return modulus;
+}
+
+/// The particle nearest to the centre of the body.
+Index middle_of(const Network& network) {
+  const Particles& particles = network.particles;
+  Vector3 upper{};
+  for (Index i = 0; i < particles.size(); ++i) {
+    for (int a = 0; a < particles.dim; ++a) upper[a] = std::max(upper[a], particles.position(i)[a]);
+  }
+  Index nearest = 0;
+  double least = INFINITY;
+  for (Index i = 0; i < particles.size(); ++i) {
+    double square = 0.0;
+    for (int a = 0; a < particles.dim; ++a) {
+      square += std::pow(particles.position(i)[a] - 0.5 * upper[a], 2);
+    }
+    if (square >= least) continue;
+    least = square;
+    nearest = i;
+  }
+  return nearest;
+}
+
+class EveryLattice : public testing::TestWithParam<Pattern> {};
+
+TEST_P(EveryLattice, EnergyStiffensTheSurfaceAndLeavesTheInside) {
+  const Network plain = make_network({"", GetParam(), Surface::none}, 10);
+  const Network corrected = make_network({"", GetParam(), Surface::energy}, 10);
+  ASSERT_EQ(plain.num_elements(), corrected.num_elements());
+  const std::vector<double> before = moduli(plain), after = moduli(corrected);
+  const std::vector<double>& volumes = plain.particles.volumes;
+  const Index middle = middle_of(plain);
+  const double inside = before[middle] / volumes[middle];
+  Index softened = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    softened += before[i] / volumes[i] < 0.99 * inside;
+    // Close pairs at the sides of the hexagonal lattice make single particles a little too stiff.
+    EXPECT_GE(after[i], before[i] * (1.0 - 1e-3));
+    EXPECT_LT(std::abs(after[i] / volumes[i] / inside - 1.0),
+              0.5 * std::abs(before[i] / volumes[i] / inside - 1.0) + 0.15);
+  }
+  EXPECT_GT(softened, 0);
+  for (Index b = 0; b < plain.num_elements(); ++b) {
+    const Index i = plain.bonds.first[b], j = plain.bonds.second[b];
+    if (std::abs(before[i] / volumes[i] - inside) < 1e-9 * inside &&
+        std::abs(before[j] / volumes[j] - inside) < 1e-9 * inside) {
+      EXPECT_NEAR(corrected.stiffness[b], plain.stiffness[b], 1e-12 * plain.stiffness[b]);
+    }
+  }
+}
+
+/// The linear patch test with the network's own bonds and facets: C eps A on every particle.
+TEST_P(EveryLattice, CalibratedBondsPassThePatchTest) {
+  const LatticeInput of_body = body_input({"", GetParam(), Surface::calibrated}, 10);
+  const Body body = make_body(of_body);
+  const NetworkInput input = network_input(of_body);
+  const Network network = build_network(body, input);
+  ASSERT_TRUE(network.calibration.has_value());
+  EXPECT_LT(network.calibration->residual_after, 1e-10);
+  EXPECT_GT(network.calibration->residual_before, 1e-2);
+  EXPECT_GT(*std::min_element(network.stiffness.begin(), network.stiffness.end()), 0.0);
+  const LameConstants c = lame_constants(input, input.materials[0]);
+  const int dim = network.dim();
+  const std::array<Vector3, 3> strain = {Vector3{1.0, 0.2, -0.1}, Vector3{0.2, -0.4, 0.3},
+                                         Vector3{-0.1, 0.3, 0.7}};
+  std::vector<double> expected(static_cast<std::size_t>(network.particles.size() * dim), 0.0);
+  double trace = 0.0;
+  for (int a = 0; a < dim; ++a) trace += strain[a][a];
+  for (Index f = 0; f < network.facets.size(); ++f) {
+    const auto area = network.facets.area_vector(f);
+    for (Index k = network.facets.corners.offsets[f]; k < network.facets.corners.offsets[f + 1]; ++k) {
+      for (int a = 0; a < dim; ++a) {
+        double traction = c.lambda * trace * area[a];
+        for (int b = 0; b < dim; ++b) traction += 2.0 * c.mu * strain[a][b] * area[b];
+        expected[network.facets.corners.values[k] * dim + a] += network.facets.shares[k] * traction;
+      }
+    }
+  }
+  const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
+  const std::vector<double> force =
+      internal_force(network, intact, linear_field(network.particles, strain)).forces;
+  const double face = c.mu * std::pow(of_body.spacing, dim - 1);
+  for (std::size_t k = 0; k < force.size(); ++k) EXPECT_NEAR(force[k], expected[k], 1e-9 * face);
+}
+
+/// Inside, the critical stretch releases G_F: the bonds of an interior particle, summed as a crack
+/// would cross them.
+TEST_P(EveryLattice, CalibratedBondsReleaseTheFractureEnergy) {
+  // Wide enough for a particle none of whose bonds was changed.
+  const int columns = GetParam() == Pattern::face_centred ? 14 : 10;
+  const LatticeInput of_body = body_input({"", GetParam(), Surface::calibrated}, columns);
+  const Body body = make_body(of_body);
+  const NetworkInput input = network_input(of_body);
+  const Network network = build_network(body, input);
+  const Index middle = middle_of(network);
+  double sum = 0.0;
+  for (Index b = 0; b < network.num_elements(); ++b) {
+    if (network.bonds.first[b] != middle && network.bonds.second[b] != middle) continue;
+    // Each bond of the particle stands for half a bond per cell.
+    sum += 0.5 * network.stiffness[b] * std::pow(network.bonds.lengths[b], 3);
+  }
+  const double mean_cosine = network.dim() == 2 ? 2.0 / 3.14159265358979323846 : 0.5;
+  const double stretch = network.critical_stretch[0];
+  EXPECT_NEAR(0.5 * mean_cosine * sum / body.lattice.cell_volume * stretch * stretch,
+              input.materials[0].fracture_energy, 1e-9 * input.materials[0].fracture_energy);
+}
+
+INSTANTIATE_TEST_SUITE_P(SurfaceCorrection, EveryLattice,
+                         testing::Values(Pattern::rectangular, Pattern::hexagonal, Pattern::cubic,
+                                         Pattern::face_centred));
+
+}  // namespace
+}  // namespace perilink
