@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/calibration_text.hpp"
 #include "app/commands.hpp"
 #include "app/configure.hpp"
 #include "app/progress.hpp"
@@ -40,6 +41,9 @@ void print_elements(const Model& model) {
   const Network& network = model.network;
   fmt::print("#   bonds              {} and {} ties of bars\n", network.first_tie,
              network.first_segment - network.first_tie);
+  if (network.calibration) {
+    fmt::print("#   calibration        {}\n", calibration_line(*network.calibration));
+  }
   for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
     fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/boundary_conditions.hpp"
+#include "app/calibration_text.hpp"
 #include "app/element_model.hpp"
 #include "app/gauges.hpp"
 #include "app/mesh_input.hpp"
@@ -266,10 +267,12 @@ void build_bonds(const CaseFile& input, Body& body, Model& model) {
   try {
     model.network = build_network(body, network);
   } catch (const std::invalid_argument& error) {
-    throw InputError(input.where(horizon_key(input.body)), error.what(), "");
+    throw InputError(input.where(horizon_key(input.body)), error.what(),
+                     "use two to four spacings, or set surface = \"none\"");
   }
   refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
+  if (const auto text = calibration_shortfall(model.network)) model.notes.push_back(*text);
   body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/calibration_text.hpp"
 #include "app/progress.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
@@ -46,6 +47,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["bonds"] = model.elements ? 0 : model.network.first_segment;
   if (model.elements) json["cells"] = model.elements->cells.size();
   json["unknowns"] = model.unknowns.count;
+  if (model.network.calibration) json["calibration"] = calibration_json(*model.network.calibration);
   json["spacing"] = model.lattice.spacing;
   json["horizon"] = model.horizon;
   json["factorizations"] = result.factor.factorizations;

@@ -109,7 +109,9 @@ void Correction::scale_to(const std::vector<double>& wanted) {
   }
 }
 
-/// Bonds with an end that lacks neighbours, or has some of another material.
+/// Bonds with an end that lacks neighbours, or has some of another material. In three dimensions the
+/// particles bonded to such ends count as well: few neighbours leave the equations of a thinner layer
+/// nearly singular.
 std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families) const {
   std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
   const Bonds& bonds = network_.bonds;
@@ -120,16 +122,25 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
     ++regular[i];
     ++regular[j];
   }
+  std::vector<std::uint8_t> layer(regular.size());
+  for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = regular[i] != families.size();
+  if (network_.dim() == 3) {
+    const std::vector<std::uint8_t> thinner = layer;
+    for (Index b = 0; b < bonds.size(); ++b) {
+      if (thinner[bonds.first[b]]) layer[bonds.second[b]] = 1;
+      if (thinner[bonds.second[b]]) layer[bonds.first[b]] = 1;
+    }
+  }
   std::vector<std::uint8_t> free(static_cast<std::size_t>(bonds.size()));
   for (Index b = 0; b < bonds.size(); ++b) {
-    free[b] = regular[bonds.first[b]] != families.size() || regular[bonds.second[b]] != families.size();
+    free[b] = layer[bonds.first[b]] != 0 || layer[bonds.second[b]] != 0;
   }
   return free;
 }
 
 /// Energy that the bonds across a unit area of crack hold at unit stretch, twice: on a lattice from the
-/// families of both materials; on a cloud from the bonds of its particles, the mean over those that lie
-/// on no facet.
+/// families of both materials; on a cloud from the bonds of its particles, the mean over those that are
+/// bonded to none on a facet. Zero where there is no such particle.
 double Correction::fracture_sum(const LatticeFamilies* families, Index a, Index b) const {
   if (families) {
     std::vector<double> stiffness(families->offsets().size());
@@ -140,7 +151,12 @@ double Correction::fracture_sum(const LatticeFamilies* families, Index a, Index 
                                   body_.lattice.cell_volume);
   }
   std::vector<std::uint8_t> inside(static_cast<std::size_t>(network_.particles.size()), 1);
-  for (const Index i : body_.facets.corners.values) inside[i] = 0;
+  std::vector<std::uint8_t> on_facet(inside.size(), 0);
+  for (const Index i : body_.facets.corners.values) on_facet[i] = 1;
+  for (Index e = 0; e < network_.bonds.size(); ++e) {
+    const Index i = network_.bonds.first[e], j = network_.bonds.second[e];
+    if (on_facet[i] || on_facet[j]) inside[i] = inside[j] = 0;
+  }
   double moments = 0.0, volume = 0.0;
   for (Index i = 0; i < network_.particles.size(); ++i) {
     if (inside[i] && (material(i) == a || material(i) == b)) volume += network_.particles.volumes[i];
@@ -161,13 +177,15 @@ void Correction::update_critical_stretches(const LatticeFamilies* families) {
     for (std::size_t b = 0; b < count; ++b) {
       const double energy =
           0.5 * (input_.materials[a].fracture_energy + input_.materials[b].fracture_energy);
-      stretch[a * count + b] = lattice_critical_stretch(
-          energy, fracture_sum(families, static_cast<Index>(a), static_cast<Index>(b)));
+      const double sum = fracture_sum(families, static_cast<Index>(a), static_cast<Index>(b));
+      // Bodies without an inside keep the continuum's stretch.
+      stretch[a * count + b] = sum > 0.0 ? lattice_critical_stretch(energy, sum) : 0.0;
     }
   }
   for (Index e = 0; e < network_.bonds.size(); ++e) {
-    network_.critical_stretch[e] = stretch[material(network_.bonds.first[e]) * count +
-                                           material(network_.bonds.second[e])];
+    const double found = stretch[material(network_.bonds.first[e]) * count +
+                                 material(network_.bonds.second[e])];
+    if (found > 0.0) network_.critical_stretch[e] = found;
   }
 }
 

@@ -21,8 +21,9 @@ constexpr double vanishing = 1e-3;
 constexpr double moduli_ridge = 1e-3;
 constexpr double least_moduli_weight = 0.1;
 
-/// Intermediate passes need no more digits.
+/// Intermediate passes need no more digits, and what they leave is no sign of contradictions.
 constexpr double coarse_tolerance = 1e-6;
+constexpr double coarsely_met = 1e-4;
 
 /// Connected parts of the body, numbered in the order of their first particles.
 std::vector<Index> parts_of(const Bonds& bonds, Index num_particles) {
@@ -61,7 +62,7 @@ class Calibration {
 
  private:
   void solve(const LeastChangeOptions& forces, CalibrationReport& report);
-  bool allow_zero();
+  bool allow_zero(double limit);
   void drop_vanishing();
   bool is_free(Index b) const { return input_.free.empty() || input_.free[b] != 0; }
   void choose_points();
@@ -280,15 +281,15 @@ void Calibration::report_balance(CalibrationReport& report) const {
   }
 }
 
-/// Takes the lower bound from the bonds of particles that are out of balance.
+/// Takes the lower bound from the bonds of particles that are out of balance by more than the limit.
 /// \return whether there was a bound to take
-bool Calibration::allow_zero() {
+bool Calibration::allow_zero(double limit) {
   const std::vector<double> rest = out_of_balance();
   const std::size_t rows = static_cast<std::size_t>(forces_.count());
   bool any = false;
   const auto unmet = [&](Index i) {
     for (std::size_t r = 0; r < rows; ++r) {
-      if (std::abs(rest[i * rows + r]) * length_[i] > met * modulus_[i]) return true;
+      if (std::abs(rest[i * rows + r]) * length_[i] > limit * modulus_[i]) return true;
     }
     return false;
   };
@@ -324,6 +325,7 @@ void Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& rep
   LeastChangeOptions moduli;
   moduli.ridge = moduli_ridge;
   moduli.tolerance = coarse_tolerance;
+  moduli.wide = true;
   const int passes = input_.free.empty() ? options_.moduli_passes : 0;
   for (int pass = 0; pass < std::max(passes, 1); ++pass) {
     if (passes > 0) report.iterations += improve(moduli_equations(), moduli).iterations;
@@ -349,14 +351,20 @@ CalibrationReport Calibration::run() {
   LeastChangeOptions forces;
   forces.tolerance = options_.tolerance;
   forces.thin = dim_ == 2 && !input_.free.empty();
-  solve(forces, report);
-  report_balance(report);
-  if (report.unmet > 0 && allow_zero()) {
-    solve(forces, report);
+  forces.wide = input_.free.empty();
+  // Corners of solids may have no solution within the bounds. Finding out takes few digits.
+  const bool cautious = dim_ == 3;
+  LeastChangeOptions attempt = forces;
+  if (cautious) attempt.tolerance = coarse_tolerance;
+  solve(attempt, report);
+  if (allow_zero(cautious ? coarsely_met : met)) {
+    solve(attempt, report);
     drop_vanishing();
     solve(forces, report);
-    report_balance(report);
+  } else if (cautious) {
+    report.iterations += improve(force_equations(), forces).iterations;
   }
+  report_balance(report);
   for (const Index b : free_bonds_) {
     if (stiffness_.axial[b] == 0.0) {
       ++report.dropped;

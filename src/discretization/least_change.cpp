@@ -175,7 +175,7 @@ void DualNewton<Rows>::build_preconditioner() {
     for (int r = 0; r < Rows; ++r) block(r, r) += block(r, r) > 0.0 ? floor : 1.0;
     block = block.llt().solve(Block::Identity()).eval();
   }
-  if (points >= smallest_coarse_problem) {
+  if (options_.wide && points >= smallest_coarse_problem) {
     coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shift(),
                                             CoarseSpace::Boxes::of_many_points);
   }

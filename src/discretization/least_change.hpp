@@ -46,6 +46,7 @@ struct LeastChangeOptions {
   int iterations = 20000;     ///< of conjugate gradients, in all
   bool thin = false;          ///< the points line a boundary: factorising their equations is cheap, and
                               ///< waves along the boundary would converge badly otherwise
+  bool wide = false;          ///< the points fill a body: what varies slowly is solved for on aggregates
 };
 
 /// What came out.
@@ -62,9 +63,10 @@ struct LeastChange {
 /// Minimises sum (w_v - 1)^2 subject to the equations and the bounds. The bounded problem is solved,
 /// not clamped: Newton's method on the concave dual function, w(y) = min(max(1 + A' y, lower), upper)
 /// with A w(y) + ridge y = r, whose linear systems A D A' (D: the weights between the bounds) conjugate
-/// gradients solve, preconditioned by the blocks of the points and a coarse space that is linear on
-/// aggregates of points, or, along thin boundaries, by the factor of the first of these systems. Where the equations contradict each other or the bounds, the steps, which are
-/// those of the method of multipliers, lead to the least squared residual.
+/// gradients solve, preconditioned by the blocks of the points and, where they fill a body, a coarse
+/// space that is linear on aggregates of points, or, along thin boundaries, by the factor of the first
+/// of these systems. Where the equations contradict each other or the bounds, the steps, which are those
+/// of the method of multipliers, lead to the least squared residual.
 /// \throws std::invalid_argument for numbers of rows that are not built in
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);
 

@@ -32,7 +32,7 @@ void read_lattice(const CaseTable& table, BodySection& body) {
   if (const auto word = table.choice("surface", surface_words())) body.surface = surface_of(*word);
   if (body.surface == Surface::ghost && dimension_of(body) == 3) {
     table.refuse("surface", "is \"ghost\", but the ghost layer is for two-dimensional bodies",
-                 "Allowed in three dimensions: none");
+                 "Allowed in three dimensions: calibrated, energy, none");
   }
   body.columns = table.integer("columns", fewest_columns, most_columns);
   body.spacing = table.positive("spacing");
@@ -94,6 +94,14 @@ void read_horizon(const CaseTable& table, BodySection& body) {
         fmt::format("is {}, less than 1: no particle would have a neighbour", *body.horizon_ratio),
         "2 to 4 is usual");
   }
+}
+
+/// On a lattice calibrated bonds are stiff by equations of their own; a mesh has nothing but the
+/// continuum's formula to start from.
+void refuse_unused_micromodulus(const CaseTable& table, const BodySection& body) {
+  if (body.surface != Surface::calibrated || body.mesh || body.micromodulus != "continuum") return;
+  table.refuse("micromodulus", "is \"continuum\", but calibrated bonds have other stiffnesses",
+               "delete it, or set surface = \"none\"");
 }
 
 /// Keys that speak of bonds mean nothing to elements.
@@ -227,6 +235,7 @@ BodySection read_body(const CaseTable& table) {
   if (body.method == "bonds") read_horizon(table, body);
   assign(body.micromodulus, table.choice("micromodulus", {"lattice", "continuum"}));
   assign(body.critical_stretch, table.choice("critical_stretch", {"lattice", "continuum"}));
+  refuse_unused_micromodulus(table, body);
   return body;
 }
 

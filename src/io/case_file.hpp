@@ -32,7 +32,7 @@ struct BodySection {
   double torsion = 1.0;                  ///< torsional over bending modulus of micropolar bonds, 3D
   double thickness = 1.0;                ///< of two-dimensional bodies
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
-  Surface surface = Surface::none;
+  Surface surface = Surface::calibrated;
   std::optional<int> columns;            ///< particles across the body in x: this, spacing or mesh
   std::optional<double> spacing;
   std::optional<double> horizon;         ///< exactly one of horizon, horizon_level, horizon_ratio

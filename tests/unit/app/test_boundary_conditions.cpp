@@ -203,6 +203,7 @@ TEST(BoundaryConditions, EachPinnedPartNeedsBalancedLoadsOfItsOwn) {
 
 TEST(BoundaryConditions, LooseParticlesAreRefused) {
   CaseFile input = strip_case();
+  input.body.surface = Surface::none;
   input.body.horizon = 10.0;
   RebarSection bar;  // its outer node hangs on one line
   bar.from = {40.0, 40.0, 0.0};

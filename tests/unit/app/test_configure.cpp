@@ -129,6 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Columns, HexagonalColumns, testing::Values(20, 30, 50, 
 
 TEST(Configure, RatiosKeepTheirNeighboursOnEveryStretchedPattern) {
   CaseFile plane = strip_case();
+  plane.body.surface = Surface::none;
   plane.regions[0].box.upper[1] = 80.5;  // rows stretched by 0.6 %
   plane.regions[2].box.upper[1] = 80.5;
   plane.body.horizon.reset();
@@ -138,6 +139,7 @@ TEST(Configure, RatiosKeepTheirNeighboursOnEveryStretchedPattern) {
   EXPECT_EQ(interior_neighbours(build_model(plane), plane.regions[0].box), std::set<Index>{12});
 
   CaseFile space = prism_case();
+  space.body.surface = Surface::none;
   space.body.horizon_ratio = 2.0;
   for (Region& region : space.regions) {
     if (region.name != "lower end") region.box.upper[1] = 0.804;

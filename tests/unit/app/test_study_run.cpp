@@ -69,7 +69,7 @@ TEST_F(StudyRun, AMemberIsTheCaseWithItsKeys) {
   EXPECT_EQ(member.spacing, 5.0);
   EXPECT_EQ(member.horizon, 10.0);
   EXPECT_EQ(member.particles, 9 * 17);
-  EXPECT_EQ(member.surface, "none");
+  EXPECT_EQ(member.surface, "calibrated");
 
   const CaseFile input =
       read_case_file(file.case_path, {body_key("horizon_ratio", 2.0), body_key("spacing", 5.0)});

@@ -1,5 +1,7 @@
 #include "app/summary.hpp"
 
+#include "app/calibration_text.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,6 +61,7 @@ TEST(Summary, HoldsEveryFigureUnderItsKey) {
       {"particles", 45},
       {"bonds", model.network.num_elements()},
       {"unknowns", 60},
+      {"calibration", calibration_json(model.network.calibration.value())},
       {"spacing", 10.0},
       {"horizon", 31.0},
       {"factorizations", 2},

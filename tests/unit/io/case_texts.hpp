@@ -39,6 +39,7 @@ problem = "three_dimensional"
 pattern = "face_centred"
 spacing = 0.1
 horizon = 0.25
+surface = "none"
 micromodulus = "continuum"
 critical_stretch = "continuum"
 

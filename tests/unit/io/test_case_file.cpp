@@ -22,7 +22,7 @@ TEST(CaseFile, FillsInDefaults) {
   EXPECT_EQ(input.body.problem, "plane_stress");
   EXPECT_EQ(input.body.thickness, 1.0);
   EXPECT_EQ(input.body.pattern, Pattern::rectangular);
-  EXPECT_EQ(input.body.surface, Surface::none);
+  EXPECT_EQ(input.body.surface, Surface::calibrated);
   EXPECT_EQ(input.body.columns, 11);
   EXPECT_EQ(input.body.spacing, std::nullopt);
   EXPECT_EQ(input.body.horizon_ratio, 3.0);
