@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "discretization/facet_shares.hpp"
 #include "discretization/least_change.hpp"
@@ -17,33 +16,16 @@ constexpr double met = 1e-7;
 /// Where a bond may fall to zero, it is on its way there below this weight.
 constexpr double vanishing = 1e-3;
 
+/// Zeros stay where they bring the forces out of balance down to this part.
+constexpr double worth_dropping = 0.1;
+
 /// Moduli are soft equations: what weights cannot do for them at small changes is left.
 constexpr double moduli_ridge = 1e-3;
 constexpr double least_moduli_weight = 0.1;
 
-/// Intermediate passes need no more digits, and what they leave is no sign of contradictions.
+/// Intermediate passes need no more digits; what they leave is no contradiction.
 constexpr double coarse_tolerance = 1e-6;
 constexpr double coarsely_met = 1e-4;
-
-/// Connected parts of the body, numbered in the order of their first particles.
-std::vector<Index> parts_of(const Bonds& bonds, Index num_particles) {
-  std::vector<Index> parent(static_cast<std::size_t>(num_particles));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (Index b = 0; b < bonds.size(); ++b) {
-    const Index i = root(bonds.first[b]), j = root(bonds.second[b]);
-    parent[std::max(i, j)] = std::min(i, j);
-  }
-  std::vector<Index> part(parent.size());
-  Index count = 0;
-  for (Index i = 0; i < num_particles; ++i) {
-    part[i] = root(i) == i ? count++ : part[root(i)];
-  }
-  return part;
-}
 
 class Calibration {
  public:
@@ -54,6 +36,7 @@ class Calibration {
         facets_(facets),
         stiffness_(stiffness),
         start_(stiffness),
+        given_(stiffness),
         dim_(input.particles.dim),
         forces_{dim_, !stiffness.bending.empty()},
         moduli_{dim_, !stiffness.bending.empty()} {}
@@ -63,6 +46,8 @@ class Calibration {
  private:
   void solve(const LeastChangeOptions& forces, CalibrationReport& report);
   bool allow_zero(double limit);
+  bool hollow() const;
+  void restore(const LeastChangeOptions& forces, CalibrationReport& report);
   void drop_vanishing();
   bool is_free(Index b) const { return input_.free.empty() || input_.free[b] != 0; }
   void choose_points();
@@ -80,12 +65,13 @@ class Calibration {
   const CalibrationOptions& options_;
   Facets& facets_;
   BondStiffness& stiffness_;
-  BondStiffness start_;
+  BondStiffness start_;        // zero for bonds that were dropped
+  const BondStiffness given_;
   int dim_;
   ForceRows forces_;
   ModuliRows moduli_;
-  std::vector<Index> point_of_;      // of each particle, no_index where no free bond ends
-  std::vector<Index> particle_of_;   // of each point
+  std::vector<Index> point_of_;     // of each particle, no_index where no free bond ends
+  std::vector<Index> particle_of_;  // of each point
   std::vector<Index> free_bonds_;
   /// Bonds with a variable in the equations: first for axial stiffness, then for bending.
   std::vector<Index> variables_[2];
@@ -331,9 +317,29 @@ void Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& rep
     if (passes > 0) report.iterations += improve(moduli_equations(), moduli).iterations;
     LeastChangeOptions options = forces;
     if (pass + 1 < passes) options.tolerance = coarse_tolerance;
-    const LeastChange change = improve(force_equations(), options);
-    report.iterations += change.iterations;
+    report.iterations += improve(force_equations(), options).iterations;
   }
+}
+
+/// Whether a particle has lost more than half of its bonds.
+bool Calibration::hollow() const {
+  std::vector<Index> kept_minus_lost(static_cast<std::size_t>(input_.particles.size()), 0);
+  for (Index b = 0; b < input_.bonds.size(); ++b) {
+    const Index vote = stiffness_.axial[b] > 0.0 ? 1 : -1;
+    kept_minus_lost[input_.bonds.first[b]] += vote;
+    kept_minus_lost[input_.bonds.second[b]] += vote;
+  }
+  return std::any_of(kept_minus_lost.begin(), kept_minus_lost.end(), [](Index n) { return n < 0; });
+}
+
+/// Where zeros do not help (too few neighbours all over) every bond keeps something to carry.
+void Calibration::restore(const LeastChangeOptions& forces, CalibrationReport& report) {
+  start_ = given_;
+  variables_[0] = free_bonds_;
+  if (!stiffness_.bending.empty()) variables_[1] = free_bonds_;
+  std::fill(may_vanish_.begin(), may_vanish_.end(), 0);
+  solve(forces, report);
+  report_balance(report);
 }
 
 CalibrationReport Calibration::run() {
@@ -341,10 +347,10 @@ CalibrationReport Calibration::run() {
   choose_points();
   measure_particles();
   may_vanish_.assign(static_cast<std::size_t>(input_.bonds.size()), 0);
-  std::vector<double> modulus;
-  for (const LameConstants& material : input_.materials) modulus.push_back(material.lambda);
-  balance_shares(facets_, input_.particles.positions,
-                 parts_of(input_.bonds, input_.particles.size()), modulus);
+  std::vector<double> lambda;
+  for (const LameConstants& material : input_.materials) lambda.push_back(material.lambda);
+  const std::vector<Index> part_of = connected_parts(input_.bonds, input_.particles.size());
+  balance_shares(facets_, input_.particles.positions, part_of, lambda);
   report.free_bonds = static_cast<Index>(free_bonds_.size());
   report_balance(report);
   report.residual_before = report.residual_after;
@@ -357,14 +363,18 @@ CalibrationReport Calibration::run() {
   LeastChangeOptions attempt = forces;
   if (cautious) attempt.tolerance = coarse_tolerance;
   solve(attempt, report);
+  report_balance(report);
+  const double floored = report.residual_after;
   if (allow_zero(cautious ? coarsely_met : met)) {
     solve(attempt, report);
     drop_vanishing();
     solve(forces, report);
+    report_balance(report);
+    if (report.residual_after > worth_dropping * floored || hollow()) restore(forces, report);
   } else if (cautious) {
     report.iterations += improve(force_equations(), forces).iterations;
+    report_balance(report);
   }
-  report_balance(report);
   for (const Index b : free_bonds_) {
     if (stiffness_.axial[b] == 0.0) {
       ++report.dropped;

@@ -24,6 +24,7 @@ using ::testing::IsEmpty;
 constexpr const char* case_text = R"([body]
 mesh = "body.msh"
 horizon_ratio = 3
+surface = "none"
 
 [[regions]]
 name = "solid"

@@ -73,5 +73,17 @@ TEST(Bonds, LeaveOutTheNodesOfBars) {
   EXPECT_EQ(make_bonds(body.particles, 0.3).first, before.first);
 }
 
+TEST(ConnectedParts, AreNumberedByTheirFirstParticles) {
+  Particles particles;
+  particles.dim = 2;
+  particles.positions = {0, 0, 10, 0, 1, 0, 11, 0, 20, 0, 2, 0};
+  Bonds bonds;
+  bonds.dim = 2;
+  bonds.append(particles, 2, 5);
+  bonds.append(particles, 1, 3);
+  bonds.append(particles, 0, 2);
+  EXPECT_EQ(connected_parts(bonds, 6), (std::vector<Index>{0, 1, 0, 1, 2, 0}));
+}
+
 }  // namespace
 }  // namespace perilink

@@ -102,7 +102,7 @@ TEST(CaseFile, KnowsLinesOfKeys) {
   EXPECT_EQ(input.where("body.spacing").key, "body.spacing");
   EXPECT_EQ(input.where("analysis.type").line, 0);
   EXPECT_EQ(input.where("").line, 0);
-  EXPECT_EQ(parse_case(full_case, "").where("materials[2].regions").line, 32);
+  EXPECT_EQ(parse_case(full_case, "").where("materials[2].regions").line, 33);
 }
 
 TEST(CaseFile, AcceptsTomlOfOtherShapes) {
