@@ -90,4 +90,30 @@ void ModuliRows::right(double volume, const LameConstants& constants, double* ro
   });
 }
 
+std::vector<double> boundary_forces(const ForceRows& equations, const Facets& facets,
+                                    std::span<const LameConstants> materials,
+                                    Index num_particles) {
+  std::vector<Vector3> lambda(static_cast<std::size_t>(num_particles), Vector3{});
+  std::vector<Vector3> mu = lambda;
+  for (Index f = 0; f < facets.size(); ++f) {
+    LameConstants jump = materials[facets.inside[f]];
+    if (!facets.on_surface(f)) {
+      jump.lambda -= materials[facets.outside[f]].lambda;
+      jump.mu -= materials[facets.outside[f]].mu;
+    }
+    for (Index c = facets.corners.offsets[f]; c < facets.corners.offsets[f + 1]; ++c) {
+      const Index i = facets.corners.values[c];
+      for (int a = 0; a < equations.dim; ++a) {
+        const double area = facets.shares[c] * facets.area_vector(f)[a];
+        lambda[i][a] += jump.lambda * area;
+        mu[i][a] += jump.mu * area;
+      }
+    }
+  }
+  const std::size_t rows = static_cast<std::size_t>(equations.count());
+  std::vector<double> right(num_particles * rows);
+  for (Index i = 0; i < num_particles; ++i) equations.right(lambda[i], mu[i], right.data() + i * rows);
+  return right;
+}
+
 }  // namespace perilink

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "discretization/facets.hpp"
 
 /// \file
 /// What a bond adds, per unit of its stiffness, to the forces on its ends and to their elastic moduli
@@ -57,5 +58,11 @@ struct ModuliRows {
   void shear(double length, std::span<const double> direction, double* row) const;
   void right(double volume, const LameConstants& constants, double* row) const;
 };
+
+/// Right sides of the force equations of all particles, whose facets have these materials on their
+/// sides. \return shape (particles, rows) [force]
+std::vector<double> boundary_forces(const ForceRows& equations, const Facets& facets,
+                                    std::span<const LameConstants> materials,
+                                    Index num_particles);
 
 }  // namespace perilink

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "discretization/coarse_space.hpp"
 #include "discretization/facet_shares.hpp"
 #include "discretization/least_change.hpp"
 
@@ -22,6 +24,7 @@ constexpr double worth_dropping = 0.1;
 /// Moduli are soft equations: what weights cannot do for them at small changes is left.
 constexpr double moduli_ridge = 1e-3;
 constexpr double least_moduli_weight = 0.1;
+constexpr double moduli_tolerance = 1e-4;
 
 /// Intermediate passes need no more digits; what they leave is no contradiction.
 constexpr double coarse_tolerance = 1e-6;
@@ -52,12 +55,12 @@ class Calibration {
   bool is_free(Index b) const { return input_.free.empty() || input_.free[b] != 0; }
   void choose_points();
   void measure_particles();
-  std::vector<double> boundary_forces() const;
   template <class Rows>
   PointEquations make_equations(const Rows& rows, double least_weight) const;
   PointEquations force_equations() const;
   PointEquations moduli_equations() const;
-  LeastChange improve(const PointEquations& equations, const LeastChangeOptions& options);
+  int improve(const PointEquations& equations, const LeastChangeOptions& options,
+              std::unique_ptr<CoarseSpace>& factor);
   void report_balance(CalibrationReport& report) const;
   std::vector<double> out_of_balance() const;
 
@@ -78,6 +81,7 @@ class Calibration {
   std::vector<std::uint8_t> may_vanish_;  // bonds without a lower bound
   std::vector<double> modulus_;      // 1/2 sum k xi^2 of each particle at the start
   std::vector<double> length_;       // mean xi of each particle
+  std::unique_ptr<CoarseSpace> factor_;  // of the force equations
 };
 
 void Calibration::choose_points() {
@@ -116,32 +120,6 @@ void Calibration::measure_particles() {
   }
 }
 
-/// Right sides of the force equations of all particles.
-std::vector<double> Calibration::boundary_forces() const {
-  const Index num_particles = input_.particles.size();
-  std::vector<Vector3> lambda(static_cast<std::size_t>(num_particles), Vector3{});
-  std::vector<Vector3> mu = lambda;
-  for (Index f = 0; f < facets_.size(); ++f) {
-    LameConstants jump = input_.materials[facets_.inside[f]];
-    if (!facets_.on_surface(f)) {
-      jump.lambda -= input_.materials[facets_.outside[f]].lambda;
-      jump.mu -= input_.materials[facets_.outside[f]].mu;
-    }
-    for (Index c = facets_.corners.offsets[f]; c < facets_.corners.offsets[f + 1]; ++c) {
-      const Index i = facets_.corners.values[c];
-      for (int a = 0; a < dim_; ++a) {
-        const double area = facets_.shares[c] * facets_.area_vector(f)[a];
-        lambda[i][a] += jump.lambda * area;
-        mu[i][a] += jump.mu * area;
-      }
-    }
-  }
-  const std::size_t rows = static_cast<std::size_t>(forces_.count());
-  std::vector<double> right(num_particles * rows);
-  for (Index i = 0; i < num_particles; ++i) forces_.right(lambda[i], mu[i], right.data() + i * rows);
-  return right;
-}
-
 /// Variables, coefficients and bounds; right sides and scales are left to the caller.
 template <class Rows>
 PointEquations Calibration::make_equations(const Rows& rows, double least_weight) const {
@@ -175,7 +153,7 @@ PointEquations Calibration::make_equations(const Rows& rows, double least_weight
 
 /// Forces out of balance at all particles, shape (particles, rows of forces_).
 std::vector<double> Calibration::out_of_balance() const {
-  std::vector<double> rest = boundary_forces();
+  std::vector<double> rest = boundary_forces(forces_, facets_, input_.materials, input_.particles.size());
   const std::size_t rows = static_cast<std::size_t>(forces_.count());
   const Bonds& bonds = input_.bonds;
   std::vector<double> row(rows);
@@ -239,13 +217,14 @@ PointEquations Calibration::moduli_equations() const {
   return equations;
 }
 
-LeastChange Calibration::improve(const PointEquations& equations,
-                                 const LeastChangeOptions& options) {
-  LeastChange change = least_change(equations, options);
+/// \return iterations
+int Calibration::improve(const PointEquations& equations, const LeastChangeOptions& options,
+                         std::unique_ptr<CoarseSpace>& factor) {
+  const LeastChange change = least_change(equations, options, factor);
   auto weight = change.weights.begin();
   for (const Index b : variables_[0]) stiffness_.axial[b] *= *weight++;
   for (const Index b : variables_[1]) stiffness_.bending[b] *= *weight++;
-  return change;
+  return change.iterations;
 }
 
 void Calibration::report_balance(CalibrationReport& report) const {
@@ -310,14 +289,21 @@ void Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& rep
   stiffness_ = start_;
   LeastChangeOptions moduli;
   moduli.ridge = moduli_ridge;
-  moduli.tolerance = coarse_tolerance;
-  moduli.wide = true;
+  moduli.tolerance = moduli_tolerance;
+  moduli.preconditioner = Preconditioner::aggregates;
   const int passes = input_.free.empty() ? options_.moduli_passes : 0;
   for (int pass = 0; pass < std::max(passes, 1); ++pass) {
-    if (passes > 0) report.iterations += improve(moduli_equations(), moduli).iterations;
+    if (passes > 0) {
+      factor_.reset();  // the moduli change the coefficients
+      report.iterations += improve(moduli_equations(), moduli, factor_);
+      factor_.reset();
+    }
     LeastChangeOptions options = forces;
-    if (pass + 1 < passes) options.tolerance = coarse_tolerance;
-    report.iterations += improve(force_equations(), options).iterations;
+    if (pass + 1 < passes) {
+      options.tolerance = moduli_tolerance;
+      options.preconditioner = Preconditioner::aggregates;  // few digits do not pay for a factor
+    }
+    report.iterations += improve(force_equations(), options, factor_);
   }
 }
 
@@ -356,8 +342,9 @@ CalibrationReport Calibration::run() {
   report.residual_before = report.residual_after;
   LeastChangeOptions forces;
   forces.tolerance = options_.tolerance;
-  forces.thin = dim_ == 2 && !input_.free.empty();
-  forces.wide = input_.free.empty();
+  forces.preconditioner = dim_ == 2              ? Preconditioner::factor
+                          : input_.free.empty() ? Preconditioner::aggregates
+                                                : Preconditioner::blocks_then_factor;
   // Corners of solids may have no solution within the bounds. Finding out takes few digits.
   const bool cautious = dim_ == 3;
   LeastChangeOptions attempt = forces;
@@ -372,7 +359,7 @@ CalibrationReport Calibration::run() {
     report_balance(report);
     if (report.residual_after > worth_dropping * floored || hollow()) restore(forces, report);
   } else if (cautious) {
-    report.iterations += improve(force_equations(), forces).iterations;
+    report.iterations += improve(force_equations(), forces, factor_);
     report_balance(report);
   }
   for (const Index b : free_bonds_) {

@@ -51,6 +51,7 @@ struct CalibrationReport {
   Index at_least_weight = 0;     ///< number of bonds there
   Index dropped = 0;             ///< bonds that may carry nothing: their stiffness is zero
   int iterations = 0;            ///< of conjugate gradients
+  double seconds = 0.0;          ///< wall time, with that of the families of a lattice
 };
 
 /// Changes the stiffness of the free bonds as little as possible (least squares of the relative changes,

@@ -1,5 +1,9 @@
 #include "discretization/coarse_space.hpp"
 
+#include <omp.h>
+
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,11 +13,11 @@
 namespace perilink {
 namespace {
 
-/// Points in a box: fewer make the coarse system dear, more leave work to the iteration.
-constexpr double points_per_box = 64.0;
+/// Points along the side of a box: fewer make the coarse system dear, more leave work to the iteration.
+constexpr double points_along_box = 8.0;
 
 /// Added to the diagonal, relative to its mean, for what has no stiffness at all.
-constexpr double tiny = 1e-14;
+constexpr double tiny = 1e-12;
 
 }  // namespace
 
@@ -49,7 +53,8 @@ void CoarseSpace::number_boxes(const PointEquations& equations) {
   }
   double extent = 1.0;
   for (int a = 0; a < dim_; ++a) extent *= upper[a] - lower[a];
-  const double side = std::pow(extent * points_per_box / std::max<Index>(count, 1), 1.0 / dim_);
+  const double side =
+      points_along_box * std::pow(extent / std::max<Index>(count, 1), 1.0 / dim_);
   std::map<std::array<Index, 3>, Index> numbers;
   box_of_.resize(static_cast<std::size_t>(count));
   values_.resize(static_cast<std::size_t>(count) * functions_);
@@ -120,15 +125,25 @@ void CoarseSpace::assemble(const PointEquations& equations, const std::vector<do
       }
     }
   }
-  Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(num_boxes_) * width,
-                                     static_cast<Eigen::Index>(num_boxes_) * width);
+  factorize(entries);
+}
+
+void CoarseSpace::factorize(const std::vector<Eigen::Triplet<double>>& entries) {
+  const int width = rows_ * functions_;
+  SparseMatrix matrix(static_cast<Eigen::Index>(num_boxes_) * width,
+                      static_cast<Eigen::Index>(num_boxes_) * width);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  factor_.compute(matrix);
+  std::vector<Index> box_of_unknown(static_cast<std::size_t>(num_boxes_) * width);
+  for (std::size_t k = 0; k < box_of_unknown.size(); ++k) {
+    box_of_unknown[k] = static_cast<Index>(k / static_cast<std::size_t>(width));
+  }
+  factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
+  factor_->factorize(matrix, box_of_unknown);
 }
 
 void CoarseSpace::add_correction(const double* residual, double* result) const {
   const int width = rows_ * functions_;
-  Eigen::VectorXd coarse = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(num_boxes_) * width);
+  std::vector<double> coarse(static_cast<std::size_t>(num_boxes_) * width, 0.0);
   for (std::size_t p = 0; p < box_of_.size(); ++p) {
     double* block = coarse.data() + static_cast<std::size_t>(box_of_[p]) * width;
     for (int r = 0; r < rows_; ++r) {
@@ -137,9 +152,9 @@ void CoarseSpace::add_correction(const double* residual, double* result) const {
       }
     }
   }
-  const Eigen::VectorXd correction = factor_.solve(coarse);
+  factor_->solve(coarse, coarse);
   for (std::size_t p = 0; p < box_of_.size(); ++p) {
-    const double* block = correction.data() + static_cast<std::size_t>(box_of_[p]) * width;
+    const double* block = coarse.data() + static_cast<std::size_t>(box_of_[p]) * width;
     for (int r = 0; r < rows_; ++r) {
       for (int f = 0; f < functions_; ++f) {
         result[p * rows_ + r] += block[r * functions_ + f] * values_[p * functions_ + f];

@@ -3,9 +3,10 @@
 #include <array>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
+#include <memory>
 
 #include "discretization/least_change.hpp"
+#include "solver/factor.hpp"
 
 namespace perilink {
 
@@ -27,13 +28,14 @@ class CoarseSpace {
   void number_boxes(const PointEquations& equations);
   void put_points_in_boxes_of_their_own(const PointEquations& equations);
   void assemble(const PointEquations& equations, const std::vector<double>& active, double ridge);
+  void factorize(const std::vector<Eigen::Triplet<double>>& entries);  // of the lower triangle
 
   int dim_, rows_;
   int functions_ = 1;          // per row and box
   Index num_boxes_ = 0;
   std::vector<Index> box_of_;  // of each point
   std::vector<double> values_; // of the functions at the points, shape (points, functions)
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  std::unique_ptr<Factor> factor_;
 };
 
 }  // namespace perilink

@@ -18,15 +18,21 @@ constexpr Index smallest_coarse_problem = 2000;
 
 /// Weight of the method of multipliers, relative to equations of order one: contradictions decay by
 /// this factor over the smallest squared singular value in each Newton step. Long waves along a boundary
-/// have singular values that fall with the square of their length: there a factor of the equations allows
-/// a smaller weight.
+/// have singular values that fall with the square of their length: a factor of the equations allows a smaller
+/// weight.
 constexpr double proximity = 1e-10;
-constexpr double thin_proximity = 1e-14;
+constexpr double factor_proximity = 1e-14;
+
+/// A step at settled weights that leaves more than this of the residual leaves contradictions.
+constexpr double contradiction = 0.9;
 
 constexpr int most_newton_steps = 40;
 
 /// A factor is made anew when the last step needed more iterations than this.
 constexpr int stale_iterations = 40;
+
+/// Iterations of a step after which Preconditioner::blocks_then_factor turns to the factor.
+constexpr int patience = 500;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
@@ -36,26 +42,24 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 
 double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
 
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return std::sqrt(sum);
-}
-
 template <int Rows>
 class DualNewton {
  public:
   using Vector = std::vector<double>;  // shape (points, Rows)
   using Block = Eigen::Matrix<double, Rows, Rows>;
 
-  DualNewton(const PointEquations& equations, const LeastChangeOptions& options)
+  DualNewton(const PointEquations& equations, const LeastChangeOptions& options,
+             std::unique_ptr<CoarseSpace>& coarse)
       : equations_(equations),
         options_(options),
         size_(equations.right.size()),
         active_(static_cast<std::size_t>(equations.num_variables()), 1.0),
         elongation_(active_.size()),
         weights_(active_.size(), 1.0),
-        scaled_(size_) {}
+        scaled_(size_),
+        coarse_(coarse),
+        by_factor_(options.preconditioner == Preconditioner::factor ||
+                   (options.preconditioner == Preconditioner::blocks_then_factor && coarse)) {}
 
   LeastChange solve();
 
@@ -67,9 +71,10 @@ class DualNewton {
   void measure(const Vector& y, Vector& residual);
   int newton_direction(const Vector& residual, double reduction, Vector& direction);
   void precondition(const Vector& residual, Vector& result) const;
-  void build_preconditioner();
+  void build_blocks();
+  void build_factor();
   void prepare(bool settled, int last_iterations);
-  double shift() const { return options_.ridge + (options_.thin ? thin_proximity : proximity); }
+  double shift() const { return options_.ridge + (by_factor_ ? factor_proximity : proximity); }
   double search_line(const Vector& residual, const Vector& direction, Vector& y);
   void report(const Vector& y, const Vector& residual, LeastChange& result) const;
 
@@ -81,7 +86,8 @@ class DualNewton {
   std::vector<double> weights_;
   Vector scaled_;
   std::vector<Block> inverse_blocks_;
-  std::unique_ptr<CoarseSpace> coarse_;
+  std::unique_ptr<CoarseSpace>& coarse_;
+  bool by_factor_;
 };
 
 /// result_v = a_v . (s y at the first end -+ s y at the second).
@@ -154,7 +160,7 @@ void DualNewton<Rows>::measure(const Vector& y, Vector& residual) {
 }
 
 template <int Rows>
-void DualNewton<Rows>::build_preconditioner() {
+void DualNewton<Rows>::build_blocks() {
   const Index points = equations_.num_points();
   inverse_blocks_.assign(static_cast<std::size_t>(points), Block::Zero());
   using Column = Eigen::Matrix<double, Rows, 1>;
@@ -175,27 +181,34 @@ void DualNewton<Rows>::build_preconditioner() {
     for (int r = 0; r < Rows; ++r) block(r, r) += block(r, r) > 0.0 ? floor : 1.0;
     block = block.llt().solve(Block::Identity()).eval();
   }
-  if (options_.wide && points >= smallest_coarse_problem) {
+  if (options_.preconditioner == Preconditioner::aggregates && points >= smallest_coarse_problem) {
     coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shift(),
                                             CoarseSpace::Boxes::of_many_points);
   }
 }
 
+template <int Rows>
+void DualNewton<Rows>::build_factor() {
+  by_factor_ = true;
+  inverse_blocks_.clear();
+  coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shift(),
+                                          CoarseSpace::Boxes::of_single_points);
+}
+
 /// The factor of an earlier pattern serves until it needs too many iterations.
 template <int Rows>
 void DualNewton<Rows>::prepare(bool settled, int last_iterations) {
-  if (!options_.thin) {
-    if (!settled) build_preconditioner();
-  } else if (!coarse_ || (!settled && last_iterations > stale_iterations)) {
-    coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shift(),
-                                            CoarseSpace::Boxes::of_single_points);
+  if (!by_factor_) {
+    if (!settled) build_blocks();
+  } else if (!coarse_ || last_iterations > stale_iterations) {
+    build_factor();
   }
 }
 
 template <int Rows>
 void DualNewton<Rows>::precondition(const Vector& residual, Vector& result) const {
   using Column = Eigen::Matrix<double, Rows, 1>;
-  if (options_.thin) std::fill(result.begin(), result.end(), 0.0);
+  if (by_factor_) std::fill(result.begin(), result.end(), 0.0);
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
     Eigen::Map<Column>(result.data() + p * Rows).noalias() =
         inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
@@ -217,7 +230,9 @@ int DualNewton<Rows>::newton_direction(const Vector& residual, double reduction,
   double rz = dot(r, z);
   const double target = reduction * norm(residual);
   int count = 0;
-  for (; count < options_.iterations && norm(r) > target; ++count) {
+  const bool impatient = !by_factor_ && options_.preconditioner == Preconditioner::blocks_then_factor;
+  const int most = impatient ? patience : options_.iterations;
+  for (; count < most && norm(r) > target; ++count) {
     apply_transpose(p, stretch);
     for (std::size_t v = 0; v < stretch.size(); ++v) stretch[v] *= active_[v];
     apply(stretch, q);
@@ -254,25 +269,32 @@ double DualNewton<Rows>::search_line(const Vector& residual, const Vector& direc
 template <int Rows>
 LeastChange DualNewton<Rows>::solve() {
   LeastChange result;
-  Vector y(size_, 0.0), residual, direction(size_), previous;
+  Vector y(size_, 0.0), residual, direction(size_);
   const double target =
       options_.tolerance * std::sqrt(static_cast<double>(std::max<Index>(equations_.num_points(), 1)));
   choose_weights(y);
   measure(y, residual);
+  double last_size = 0.0;
   std::vector<double> pattern;  // weights between their bounds at the last step
   int last = 0;                 // iterations of that step
   for (int step = 0; step < most_newton_steps; ++step) {
     const double size = norm(residual);
     if (size <= target || result.iterations >= options_.iterations) break;
     const bool settled = pattern == active_;
-    if (settled && distance(residual, previous) <= 10.0 * target) break;  // contradictions are left
+    if (settled && size > contradiction * last_size) break;
+    last_size = size;
     prepare(settled, last);
     pattern = active_;
     // The first steps only find out which weights are at their bounds.
     const double reduction = step == 0 ? 1e-2 : settled ? 0.3 * target / size : 1e-3;
     last = newton_direction(residual, std::max(reduction, 1e-12), direction);
     result.iterations += last;
-    previous = residual;
+    if (!by_factor_ && options_.preconditioner == Preconditioner::blocks_then_factor &&
+        last == patience) {
+      build_factor();
+      last = newton_direction(residual, std::max(reduction, 1e-12), direction);
+      result.iterations += last;
+    }
     search_line(residual, direction, y);
     measure(y, residual);
   }
@@ -297,28 +319,34 @@ void DualNewton<Rows>::report(const Vector& y, const Vector& residual, LeastChan
 
 }  // namespace
 
-LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options) {
+LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
+                         std::unique_ptr<CoarseSpace>& factor) {
   switch (equations.rows) {
     case 4:
-      return DualNewton<4>(equations, options).solve();
+      return DualNewton<4>(equations, options, factor).solve();
     case 5:
-      return DualNewton<5>(equations, options).solve();
+      return DualNewton<5>(equations, options, factor).solve();
     case 6:
-      return DualNewton<6>(equations, options).solve();
+      return DualNewton<6>(equations, options, factor).solve();
     case 8:
-      return DualNewton<8>(equations, options).solve();
+      return DualNewton<8>(equations, options, factor).solve();
     case 10:
-      return DualNewton<10>(equations, options).solve();
+      return DualNewton<10>(equations, options, factor).solve();
     case 15:
-      return DualNewton<15>(equations, options).solve();
+      return DualNewton<15>(equations, options, factor).solve();
     case 18:
-      return DualNewton<18>(equations, options).solve();
+      return DualNewton<18>(equations, options, factor).solve();
     case 21:
-      return DualNewton<21>(equations, options).solve();
+      return DualNewton<21>(equations, options, factor).solve();
     default:
       throw std::invalid_argument(std::to_string(equations.rows) +
                                   " equations per point are not built in");
   }
+}
+
+LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options) {
+  std::unique_ptr<CoarseSpace> factor;
+  return least_change(equations, options, factor);
 }
 
 }  // namespace perilink

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,14 @@ struct PointEquations {
   }
 };
 
+/// What speeds up the conjugate gradients.
+enum class Preconditioner {
+  blocks,              ///< of the single points: for few points
+  aggregates,          ///< and what varies slowly, solved for on aggregates: points that fill a solid
+  factor,              ///< of all equations: bodies and boundaries in the plane
+  blocks_then_factor,  ///< the factor where blocks need many iterations: boundaries of solids
+};
+
 /// How to solve them.
 struct LeastChangeOptions {
   double upper = 100.0;       ///< largest weight
@@ -44,10 +53,10 @@ struct LeastChangeOptions {
                               ///< 1 / ridge against the squared changes of the weights
   double tolerance = 1e-12;   ///< of the norm of the scaled residual, per root of the number of points
   int iterations = 20000;     ///< of conjugate gradients, in all
-  bool thin = false;          ///< the points line a boundary: factorising their equations is cheap, and
-                              ///< waves along the boundary would converge badly otherwise
-  bool wide = false;          ///< the points fill a body: what varies slowly is solved for on aggregates
+  Preconditioner preconditioner = Preconditioner::blocks;
 };
+
+class CoarseSpace;
 
 /// What came out.
 struct LeastChange {
@@ -63,11 +72,14 @@ struct LeastChange {
 /// Minimises sum (w_v - 1)^2 subject to the equations and the bounds. The bounded problem is solved,
 /// not clamped: Newton's method on the concave dual function, w(y) = min(max(1 + A' y, lower), upper)
 /// with A w(y) + ridge y = r, whose linear systems A D A' (D: the weights between the bounds) conjugate
-/// gradients solve, preconditioned by the blocks of the points and, where they fill a body, a coarse
-/// space that is linear on aggregates of points, or, along thin boundaries, by the factor of the first
-/// of these systems. Where the equations contradict each other or the bounds, the steps, which are those
+/// gradients solve. Where the equations contradict each other or the bounds, the steps, which are those
 /// of the method of multipliers, lead to the least squared residual.
 /// \throws std::invalid_argument for numbers of rows that are not built in
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);
+
+/// The same, where `factor` is that of equations of the same points and about these coefficients, or none.
+/// It is made or made anew where it serves badly, and kept for the next.
+LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
+                         std::unique_ptr<CoarseSpace>& factor);
 
 }  // namespace perilink

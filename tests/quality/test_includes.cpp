@@ -18,7 +18,7 @@ const std::map<std::string, std::set<std::string>>& allowed_modules() {
   static const std::map<std::string, std::set<std::string>> table = {
       {"base", {}},
       {"material", {"base"}},
-      {"discretization", {"base"}},
+      {"discretization", {"base", "solver"}},
       {"solver", {"base"}},
       {"assembly", {"base", "discretization", "material"}},
       {"analysis", {"base", "discretization", "material", "assembly", "solver"}},

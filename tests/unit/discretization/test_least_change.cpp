@@ -75,13 +75,13 @@ TEST(LeastChange, MeetsEvenEquationsToo) {
 /// 2500 points are more than smallest_coarse_problem; all three ways minimise the same squares.
 TEST(LeastChange, ThePreconditionerChangesNoAnswer) {
   std::vector<double> weights;
-  LeastChangeOptions thin, wide;
-  thin.thin = true;
-  wide.wide = true;
+  LeastChangeOptions factor, aggregates;
+  factor.preconditioner = Preconditioner::factor;
+  aggregates.preconditioner = Preconditioner::aggregates;
   for (const Index points : {Index{400}, Index{2500}}) {
     const PointEquations equations = ring(points, 4, weights, 6);
-    const LeastChange iterated = least_change(equations, wide);
-    const LeastChange factorised = least_change(equations, thin);
+    const LeastChange iterated = least_change(equations, aggregates);
+    const LeastChange factorised = least_change(equations, factor);
     EXPECT_TRUE(iterated.converged);
     EXPECT_TRUE(factorised.converged);
     EXPECT_LT(largest_residual(equations, iterated.weights), 1e-9);
