@@ -57,6 +57,10 @@ Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int 
   repeat.input = read_case_file(study.case_path, keys);
   repeat.model = build_model(repeat.input);
   repeat.seconds.set_up = timer.seconds();
+  if (repeat.model.network.calibration) {
+    repeat.seconds.calibration = repeat.model.network.calibration->seconds;
+    repeat.seconds.set_up -= repeat.seconds.calibration;
+  }
   timer.restart();
   StudyObserver observer(repeat.model);
   repeat.run = run_model(repeat.input, repeat.model, threads, observer);
@@ -90,27 +94,6 @@ SourceLocation where_of_field(const ErrorSection& error) {
   return where;
 }
 
-double field_error(const ErrorSection& error, const Model& model, const ElasticResult& elastic) {
-  const Particles& particles = model.network.particles;
-  const std::vector<double> displacement = translations(model.network, elastic.displacement);
-  std::vector<double> exact(displacement.size());
-  for (int axis = 0; axis < particles.dim; ++axis) {
-    const Formula formula(error.displacement[axis], particles.dim);
-    for (Index i = 0; i < particles.size(); ++i) {
-      if (particles.kind[i] != ParticleKind::solid) continue;
-      const std::span<const double> x = particles.position(i);
-      const double value = formula.at(x);
-      if (!std::isfinite(value)) {
-        throw InputError(where_of_field(error),
-                         fmt::format("gives {} at the particle at ({})", value, fmt::join(x, ", ")),
-                         "write a formula that is finite everywhere in the body");
-      }
-      exact[static_cast<std::size_t>(i) * particles.dim + axis] = value;
-    }
-  }
-  return relative_l2_error(particles, displacement, exact, error.remove_rigid_motion);
-}
-
 void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) {
   const Model& model = repeat.model;
   member.method = repeat.input.body.method;
@@ -121,10 +104,15 @@ void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) 
   member.bonds = model.elements ? 0 : model.network.first_segment;
   member.unknowns = model.unknowns.count;
   for (const ErrorSection& error : study.errors) {
-    member.values.push_back(error.is_field() ? field_error(error, model, *repeat.run.elastic)
-                            : !error.gauge.empty()
-                                ? repeat.gauges.at(gauge_number(repeat.input, error.gauge))
-                                : quantity_of(repeat.run.result, error.quantity));
+    if (error.is_field()) {
+      member.values.push_back(
+          field_error(error, model.network.particles,
+                      translations(model.network, repeat.run.elastic->displacement)));
+    } else if (!error.gauge.empty()) {
+      member.values.push_back(repeat.gauges.at(gauge_number(repeat.input, error.gauge)));
+    } else {
+      member.values.push_back(quantity_of(repeat.run.result, error.quantity));
+    }
   }
 }
 
@@ -256,6 +244,26 @@ StudyMember run_member(const StudyFile& study, const StudySeries& series,
     member.failure = error.what();
   }
   return member;
+}
+
+double field_error(const ErrorSection& error, const Particles& particles,
+                   std::span<const double> displacement) {
+  std::vector<double> exact(displacement.size());
+  for (int axis = 0; axis < particles.dim; ++axis) {
+    const Formula formula(error.displacement[axis], particles.dim);
+    for (Index i = 0; i < particles.size(); ++i) {
+      if (particles.kind[i] != ParticleKind::solid) continue;
+      const std::span<const double> x = particles.position(i);
+      const double value = formula.at(x);
+      if (!std::isfinite(value)) {
+        throw InputError(where_of_field(error),
+                         fmt::format("gives {} at the particle at ({})", value, fmt::join(x, ", ")),
+                         "write a formula that is finite everywhere in the body");
+      }
+      exact[static_cast<std::size_t>(i) * particles.dim + axis] = value;
+    }
+  }
+  return relative_l2_error(particles, displacement, exact, error.remove_rigid_motion);
 }
 
 void compare_members(const StudyFile& study, std::vector<StudyMember>& members) {

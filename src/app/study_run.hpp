@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "discretization/particles.hpp"
 #include "io/case_file.hpp"
 #include "io/study_file.hpp"
 
@@ -17,11 +19,12 @@ struct StudySeries {
 
 /// Wall seconds of one run of a member.
 struct MemberSeconds {
-  double set_up = 0.0;  ///< reading, particles, bonds, constants
+  double set_up = 0.0;       ///< reading, particles, bonds, constants
+  double calibration = 0.0;  ///< of bonds near surfaces
   double assembly = 0.0, factorization = 0.0, solve = 0.0;  ///< of an elastic analysis
   double analysis = 0.0;                                    ///< these three, or all events
 
-  double total() const { return set_up + analysis; }
+  double total() const { return set_up + calibration + analysis; }
 };
 
 /// One run of a study.
@@ -53,6 +56,11 @@ void check_study(const StudyFile& study, const CaseFile& input);
 /// Runs one member; a failure is told in the member.
 StudyMember run_member(const StudyFile& study, const StudySeries& series,
                        const TomlValue& refinement, int threads);
+
+/// Error of a displacement field against the closed form that `error` has.
+/// \param displacement  shape (particles, dim) [length]
+double field_error(const ErrorSection& error, const Particles& particles,
+                   std::span<const double> displacement);
 
 /// Sorts members by series, coarse to fine, and finds errors and observed orders.
 void compare_members(const StudyFile& study, std::vector<StudyMember>& members);

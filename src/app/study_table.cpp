@@ -63,8 +63,8 @@ class Report {
     for (const ErrorSection& error : study_.errors) {
       append(" {:>{}} {:>6}", "error of " + error.name, width_of(error), "order");
     }
-    append(" {:>9} {:>9} {:>9} {:>9} {:>9}\n", "set-up s", "assembly", "factor", "solve",
-           "total s");
+    append(" {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "set-up s", "calibr.", "assembly", "factor",
+           "solve", "total s");
   }
 
   void row(const StudyMember& member) {
@@ -81,8 +81,8 @@ class Report {
              cell(member.orders[e], "{:>{}.2f}", 6));
     }
     const MemberSeconds& s = member.seconds;
-    append(" {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g}\n", s.set_up, s.assembly, s.factorization,
-           s.solve, s.total());
+    append(" {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g}\n", s.set_up, s.calibration,
+           s.assembly, s.factorization, s.solve, s.total());
   }
 
   void end_series() {
@@ -161,7 +161,8 @@ std::string study_timing(const StudyFile& study, std::span<const StudySeries> se
                          std::span<const StudyMember> members) {
   Row header;
   header.text("combination").text(study.vary.refinement).text("unknowns").text("set_up");
-  std::string table = header.text("assembly")
+  std::string table = header.text("calibration")
+                          .text("assembly")
                           .text("factorization")
                           .text("solve")
                           .text("analysis")
@@ -172,7 +173,8 @@ std::string study_timing(const StudyFile& study, std::span<const StudySeries> se
     Row row;
     begin_row(row, series, member);
     const MemberSeconds& s = member.seconds;
-    row.number(member.unknowns).number(s.set_up).number(s.assembly).number(s.factorization);
+    row.number(member.unknowns).number(s.set_up).number(s.calibration);
+    row.number(s.assembly).number(s.factorization);
     table += row.number(s.solve).number(s.analysis).number(s.total()).end();
   }
   return table;

@@ -55,6 +55,9 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["seconds"] = {{"set_up", seconds.set_up},
                      {"analysis", seconds.analysis},
                      {"output", seconds.output}};
+  if (model.network.calibration) {
+    json["seconds"]["calibration"] = model.network.calibration->seconds;  // part of set_up
+  }
   if (seconds.elastic) {
     json["seconds"]["assembly"] = seconds.elastic->assembly;
     json["seconds"]["factorization"] = seconds.elastic->factorization;

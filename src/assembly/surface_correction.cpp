@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "assembly/lattice_families.hpp"
+#include "base/timer.hpp"
 #include "discretization/calibration.hpp"
 #include "material/critical_stretch.hpp"
 
@@ -205,6 +206,7 @@ void Correction::energy() {
 }
 
 void Correction::calibrate() {
+  const Timer timer;
   std::optional<LatticeFamilies> families;
   fade_at_horizon();
   if (on_lattice()) {
@@ -235,6 +237,7 @@ void Correction::calibrate() {
     keep_elements(network_, keep);
   }
   if (input_.critical_stretch == Constants::lattice || !family) update_critical_stretches(family);
+  network_.calibration->seconds = timer.seconds();
 }
 
 }  // namespace

@@ -87,7 +87,8 @@ TEST_F(StudyRun, PhasesAreTimed) {
   EXPECT_GT(member.seconds.factorization, 0.0);
   const MemberSeconds& s = member.seconds;
   EXPECT_GE(s.analysis, s.assembly + s.factorization + s.solve);
-  EXPECT_EQ(s.total(), s.set_up + s.analysis);
+  EXPECT_GT(s.calibration, 0.0);
+  EXPECT_EQ(s.total(), s.set_up + s.calibration + s.analysis);
 }
 
 TEST_F(StudyRun, AMemberThatFailsSaysWhy) {

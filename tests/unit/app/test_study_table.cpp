@@ -36,7 +36,7 @@ struct Sample {
     good.values = {0.125, 5.0};
     good.errors = {0.125, 0.25};
     good.orders = {none, 1.5};
-    good.seconds = {0.5, 0.25, 2.0, 0.125, 3.0};
+    good.seconds = {0.5, 0.25, 0.25, 2.0, 0.125, 3.0};
     StudyMember bad;
     bad.series = 1;
     bad.refinement = body_key("spacing", 0.1);
@@ -57,8 +57,9 @@ TEST(StudyTable, HasAColumnForEveryErrorAndNoneForTheClock) {
 TEST(StudyTable, TimingHasTheRowsThatRan) {
   const Sample sample;
   EXPECT_EQ(study_timing(sample.study, sample.series, sample.members),
-            "combination,spacing,unknowns,set_up,assembly,factorization,solve,analysis,total\n"
-            "\"none, horizon ratio 2\",0.2,10,0.5,0.25,2,0.125,3,3.5\n");
+            "combination,spacing,unknowns,set_up,calibration,assembly,factorization,"
+            "solve,analysis,total\n"
+            "\"none, horizon ratio 2\",0.2,10,0.5,0.25,0.25,2,0.125,3,3.75\n");
 }
 
 TEST(StudyTable, TheReportSaysWhatFailedAndWhy) {

@@ -38,7 +38,8 @@ DamageResult some_result() {
 TEST(Summary, HoldsEveryFigureUnderItsKey) {
   const test::TemporaryDirectory work;
   const CaseFile input = test::strip_case();
-  const Model model = build_model(input);
+  Model model = build_model(input);
+  model.network.calibration.value().seconds = 0.125;
   write_summary(work.path(), input, model, some_result(), {0.25, 0.5, 0.75}, 3);
   const auto json = nlohmann::ordered_json::parse(test::read_text(work / "summary.json"));
 
@@ -66,7 +67,7 @@ TEST(Summary, HoldsEveryFigureUnderItsKey) {
       {"horizon", 31.0},
       {"factorizations", 2},
       {"factor_bytes", 1024.0},
-      {"seconds", {{"set_up", 0.25}, {"analysis", 0.5}, {"output", 0.75}}},
+      {"seconds", {{"set_up", 0.25}, {"analysis", 0.5}, {"output", 0.75}, {"calibration", 0.125}}},
       {"threads", 3},
       {"version", program_version()},
       {"commit", program_commit()}};
@@ -83,9 +84,12 @@ TEST(Summary, SplitsTheTimeOfAnElasticAnalysis) {
   const CaseFile input = test::strip_case();
   PhaseSeconds seconds{0.25, 0.5, 0.75};
   seconds.elastic = ElasticSeconds{0.125, 0.0625, 0.03125};
-  write_summary(work.path(), input, build_model(input), some_result(), seconds, 3);
+  Model model = build_model(input);
+  model.network.calibration.emplace().seconds = 0.1875;
+  write_summary(work.path(), input, model, some_result(), seconds, 3);
   const auto json = nlohmann::json::parse(test::read_text(work / "summary.json"));
   EXPECT_EQ(json["seconds"], (nlohmann::json{{"set_up", 0.25},
+                                             {"calibration", 0.1875},
                                              {"analysis", 0.5},
                                              {"output", 0.75},
                                              {"assembly", 0.125},
