@@ -8,6 +8,7 @@
 #include "assembly/lattice_families.hpp"
 #include "base/timer.hpp"
 #include "discretization/calibration.hpp"
+#include "discretization/facet_shares.hpp"
 #include "material/critical_stretch.hpp"
 
 namespace perilink {
@@ -110,9 +111,9 @@ void Correction::scale_to(const std::vector<double>& wanted) {
   }
 }
 
-/// Bonds with an end that lacks neighbours, or has some of another material. In three dimensions the
-/// particles bonded to such ends count as well: few neighbours leave the equations of a thinner layer
-/// nearly singular.
+/// Bonds with an end that lacks neighbours, or has some of another material. In three dimensions and in
+/// micropolar bodies the particles bonded to such ends count as well: few neighbours leave the equations of
+/// a thinner layer nearly singular, and those of forces and moments along a side without positive weights.
 std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families) const {
   std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
   const Bonds& bonds = network_.bonds;
@@ -125,7 +126,7 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
   }
   std::vector<std::uint8_t> layer(regular.size());
   for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = regular[i] != families.size();
-  if (network_.dim() == 3) {
+  if (network_.dim() == 3 || micropolar()) {
     const std::vector<std::uint8_t> thinner = layer;
     for (Index b = 0; b < bonds.size(); ++b) {
       if (thinner[bonds.first[b]]) layer[bonds.second[b]] = 1;
@@ -227,6 +228,7 @@ void Correction::calibrate() {
   for (const SolidMaterial& m : input_.materials) {
     calibration.materials.push_back(lame_constants(input_, m));
   }
+  if (family && micropolar()) correct_ends(network_.facets);
   BondStiffness stiffness{network_.stiffness, network_.bending};
   network_.calibration = calibrate_bonds(calibration, {}, network_.facets, stiffness);
   network_.stiffness = std::move(stiffness.axial);

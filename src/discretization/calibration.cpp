@@ -345,8 +345,8 @@ CalibrationReport Calibration::run() {
   forces.preconditioner = dim_ == 2              ? Preconditioner::factor
                           : input_.free.empty() ? Preconditioner::aggregates
                                                 : Preconditioner::blocks_then_factor;
-  // Corners of solids may have no solution within the bounds. Finding out takes few digits.
-  const bool cautious = dim_ == 3;
+  // Corners of these bodies may have no solution within the bounds. Finding out takes few digits.
+  const bool cautious = dim_ == 3 || !stiffness_.bending.empty();
   LeastChangeOptions attempt = forces;
   if (cautious) attempt.tolerance = coarse_tolerance;
   solve(attempt, report);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "discretization/lattice.hpp"
@@ -84,6 +85,73 @@ TEST(FacetShares, OfALatticeStayEqual) {
       EXPECT_NEAR(body.facets.shares[c], before[c], 1e-13);
     }
   }
+}
+
+Body plate(double spacing) {
+  LatticeInput input;
+  input.pattern = Pattern::rectangular;
+  input.spacing = spacing;
+  input.horizon = 3.0 * spacing;
+  input.solid = {Box{{0.0, 0.0, 0.0}, {2.0, 1.5, 0.0}}};
+  input.material = {0};
+  return make_body(input);
+}
+
+/// Sum of x^power over the lower side y = 0, of length 2.
+double sum_over_lower_side(const Body& body, int power) {
+  double sum = 0.0;
+  for (Index f = 0; f < body.facets.size(); ++f) {
+    if (!(body.facets.area_vector(f)[1] < 0.0)) continue;
+    for (Index c = body.facets.corners.offsets[f]; c < body.facets.corners.offsets[f + 1]; ++c) {
+      const double x = body.particles.position(body.facets.corners.values[c])[0];
+      sum -= body.facets.shares[c] * body.facets.area_vector(f)[1] * std::pow(x, power);
+    }
+  }
+  return sum;
+}
+
+/// By Euler and Maclaurin the error of the trapezoidal rule for x^2 is h^2 L / 6; with slopes at the
+/// ends taken over the last edge, off by h x'' / 2 = h at either end, h^3 / 6 of it is left.
+TEST(CorrectEnds, StraightSidesAreIntegratedToTheNextOrder) {
+  for (const double h : {0.25, 0.125}) {
+    Body body = plate(h);
+    EXPECT_NEAR(sum_over_lower_side(body, 2), 8.0 / 3.0 + h * h * 2.0 / 6.0, 1e-13);
+    correct_ends(body.facets);
+    EXPECT_NEAR(sum_over_lower_side(body, 0), 2.0, 1e-13);
+    EXPECT_NEAR(sum_over_lower_side(body, 1), 2.0, 1e-13);
+    EXPECT_NEAR(sum_over_lower_side(body, 2), 8.0 / 3.0 + h * h * h / 6.0, 1e-13);
+  }
+}
+
+TEST(CorrectEnds, OnlyLastEdgesOfStraightPiecesChange) {
+  Body body = plate(0.25);
+  correct_ends(body.facets);
+  int changed = 0;
+  for (Index f = 0; f < body.facets.size(); ++f) {
+    const Index c = body.facets.corners.offsets[f];
+    EXPECT_NEAR(body.facets.shares[c] + body.facets.shares[c + 1], 1.0, 1e-15);
+    const double least = std::min(body.facets.shares[c], body.facets.shares[c + 1]);
+    if (least == 0.5) continue;
+    EXPECT_NEAR(least, 5.0 / 12.0, 1e-15);
+    ++changed;
+  }
+  EXPECT_EQ(changed, 8);  // two at each corner
+}
+
+/// Arcs of the ring turn at every particle; its two straight sides of unequal edges end at both.
+TEST(CorrectEnds, CurvedOutlinesKeepEqualShares) {
+  const Ring ring = quarter_ring();
+  Facets facets = facets_of(ring.cells, ring.positions, 1.0);
+  correct_ends(facets);
+  int changed = 0;
+  for (Index f = 0; f < facets.size(); ++f) {
+    const auto area = facets.area_vector(f);
+    const bool on_straight_side = std::abs(area[0] * area[1]) < 1e-12;
+    const bool equal = std::abs(facets.shares[facets.corners.offsets[f]] - 0.5) < 1e-15;
+    EXPECT_EQ(equal, !on_straight_side);
+    changed += equal ? 0 : 1;
+  }
+  EXPECT_EQ(changed, 4);
 }
 
 }  // namespace
