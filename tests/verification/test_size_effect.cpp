@@ -121,13 +121,21 @@ TEST(SizeEffect, PlatesLoseWhatTheirSurfacesTakeAway) {
 TEST(SizeEffect, NarrowBarsAreSofter) {
   double narrower = 0.0;
   for (const int width : {1, 2, 3}) {
-    const BarRow row = compare_bar(width, 3, 0.2);
+    const BarRow row = compare_bar(width, 3, 0.2, false);
     EXPECT_LT(row.uncorrected, row.families * (1.0 + 1e-12)) << "width " << width;
     EXPECT_GT(row.uncorrected, row.families * (1.0 - largest_relaxation)) << "width " << width;
     EXPECT_GT(row.uncorrected, narrower);
     narrower = row.uncorrected;
   }
   EXPECT_LT(narrower, 0.95);
+}
+
+/// Calibrated bars are not softer, wide ones with fixed bonds inside neither.
+TEST(SizeEffect, CalibratedBarsKeepTheirModulus) {
+  for (const int width : {1, 3, 6}) {
+    EXPECT_NEAR(apparent_modulus({width, 3, 0.2, Surface::calibrated}), 1.0, calibrated_acceptance)
+        << "width " << width;
+  }
 }
 
 }  // namespace

@@ -19,10 +19,11 @@ constexpr double stress = 0.03;
 double length_of(const BarInput& bar) { return gauge_length + 2.0 * std::ceil(2.0 * bar.width + 2.0); }
 
 std::string case_of(const BarInput& bar) {
+  const char* surface = bar.surface == Surface::calibrated ? "calibrated" : "none";
   return fmt::format(R"(
 [body]
 model = "micropolar"
-surface = "none"
+surface = "{6}"
 spacing = {0}
 horizon_ratio = {1}
 
@@ -49,18 +50,18 @@ fracture_energy = "infinite"
 
 [[tractions]]
 region = "left"
-traction = [-{6}, 0]
+traction = [-{7}, 0]
 
 [[tractions]]
 region = "right"
-traction = [{6}, 0]
+traction = [{7}, 0]
 
 [analysis]
 type = "elastic"
 rigid_body_modes = "pin"
 )",
                      1.0 / bar.horizon_ratio, bar.horizon_ratio, length_of(bar), bar.width,
-                     youngs_modulus, bar.poissons_ratio, stress);
+                     youngs_modulus, bar.poissons_ratio, surface, stress);
 }
 
 /// Mean displacement along the bar of the particles at x.

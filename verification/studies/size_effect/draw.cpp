@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "app/plot_axes.hpp"
 
@@ -83,11 +84,16 @@ Svg draw_bars(const std::vector<BarRow>& rows) {
     } else {
       exact.line_to(at);
     }
+    if (!std::isnan(row.calibrated)) {
+      svg.circle({at.x, y.map(row.calibrated)}, 4.0, "fill=\"#2f5d9b\"");
+    }
     svg.circle({at.x, y.map(row.uncorrected)}, 4.0, "fill=\"none\" stroke=\"#c1440e\" stroke-width=\"1.5\"");
   }
   svg.path(exact, "fill=\"none\" stroke=\"#c1440e\" stroke-width=\"1.2\"");
   svg.circle({100, 409}, 4.0, "fill=\"none\" stroke=\"#c1440e\" stroke-width=\"1.5\"");
-  svg.text({112, 413.5}, "bonds (line: closed form)", "start", text_style);
+  svg.text({112, 413.5}, "uncorrected (line: closed form)", "start", text_style);
+  svg.circle({370, 409}, 4.0, "fill=\"#2f5d9b\"");
+  svg.text({382, 413.5}, "calibrated", "start", text_style);
   return svg;
 }
 

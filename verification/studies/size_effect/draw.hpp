@@ -10,7 +10,7 @@ namespace perilink::verification {
 /// Figs. 3-6 of Gerstle, Sau & Aguilera (2007): the closed form as lines, bonds as circles.
 Svg draw_families(const std::vector<FamilyRow>& rows);
 
-/// Apparent modulus of bars over their width, of one horizon ratio.
+/// Apparent modulus of bars over their width: uncorrected and calibrated.
 Svg draw_bars(const std::vector<BarRow>& rows);
 
 }  // namespace perilink::verification

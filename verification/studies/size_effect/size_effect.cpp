@@ -39,15 +39,19 @@ std::vector<FamilyRow> compare_families(const FamilyInput& input) {
   return rows;
 }
 
-BarRow compare_bar(int width, int horizon_ratio, double poissons_ratio) {
+BarRow compare_bar(int width, int horizon_ratio, double poissons_ratio, bool calibrated) {
   constexpr Problem problem = Problem::plane_stress;
   const MicropolarModuli moduli = continuum_micropolar(problem, {1.0, poissons_ratio}, 1.0, 1.0);
   BarRow row{width, horizon_ratio};
-  row.uncorrected = apparent_modulus({width, horizon_ratio, poissons_ratio});
+  row.uncorrected = apparent_modulus({width, horizon_ratio, poissons_ratio, Surface::none});
   row.families = layer_moduli(problem, plate_of_families(problem, horizon_ratio,
                                                          width * horizon_ratio, poissons_ratio))
                      .e2;
   row.exact = layer_moduli(problem, plate_stiffness(problem, moduli, 1.0, width)).e2;
+  row.calibrated =
+      calibrated
+          ? apparent_modulus({width, horizon_ratio, poissons_ratio, Surface::calibrated})
+          : std::nan("");
   return row;
 }
 
