@@ -1,0 +1,22 @@
+// Disc of radius 1 around the origin; the platens cover 30 degrees of the rim above and below.
+DefineConstant[ h = 0.1 ];
+angle = 75 * Pi / 180;
+Point(1) = {0, 0, 0, h};
+Point(2) = {1, 0, 0, h};
+Point(3) = {Cos(angle), Sin(angle), 0, h};
+Point(4) = {-Cos(angle), Sin(angle), 0, h};
+Point(5) = {-1, 0, 0, h};
+Point(6) = {-Cos(angle), -Sin(angle), 0, h};
+Point(7) = {Cos(angle), -Sin(angle), 0, h};
+Point(8) = {0, 0.5, 0, h};
+Circle(1) = {2, 1, 3};
+Circle(2) = {3, 1, 4};
+Circle(3) = {4, 1, 5};
+Circle(4) = {5, 1, 6};
+Circle(5) = {6, 1, 7};
+Circle(6) = {7, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6};
+Plane Surface(1) = {1};
+Point{1, 8} In Surface{1};
+Physical Curve("platens") = {2, 5};
+Physical Surface("disc") = {1};

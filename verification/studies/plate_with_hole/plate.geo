@@ -1,0 +1,24 @@
+// Half of a plate with a hole of radius 1: [0, 3] x [-3, 3] without the hole around the origin.
+DefineConstant[ h = 0.2 ];
+Point(1) = {0, -3, 0, h};
+Point(2) = {3, -3, 0, h};
+Point(3) = {3, 3, 0, h};
+Point(4) = {0, 3, 0, h};
+Point(5) = {0, 1, 0, h};
+Point(6) = {1, 0, 0, h};
+Point(7) = {0, -1, 0, h};
+Point(8) = {0, 0, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Circle(5) = {5, 8, 6};
+Circle(6) = {6, 8, 7};
+Line(7) = {7, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6, 7};
+Plane Surface(1) = {1};
+Physical Point("crown") = {6};
+Physical Curve("bottom") = {1};
+Physical Curve("right") = {2};
+Physical Curve("top") = {3};
+Physical Surface("plate") = {1};
