@@ -98,7 +98,7 @@ std::string micropolar_case(int columns, int broken_bonds) {
       text.insert(at, line);
     }
   };
-  add("pattern = ", "model = \"micropolar\"\n");
+  add("pattern = ", "model = \"micropolar\"\nsurface = \"none\"\n");
   add("youngs_modulus = ", "poissons_ratio = 0.2\n");
   return text;
 }
