@@ -32,6 +32,7 @@ nlohmann::ordered_json calibration_json(const CalibrationReport& report) {
   return {{"free_bonds", report.free_bonds},
           {"residual_before", report.residual_before},
           {"residual_after", report.residual_after},
+          {"moment_after", report.moment_after},
           {"unmet_particles", report.unmet},
           {"smallest_weight", report.smallest_weight},
           {"largest_weight", report.largest_weight},

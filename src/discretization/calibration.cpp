@@ -26,9 +26,18 @@ constexpr double moduli_ridge = 1e-3;
 constexpr double least_moduli_weight = 0.1;
 constexpr double moduli_tolerance = 1e-4;
 
+/// So are moments: together with the forces they are nearly singular (docs/theory/calibration.md).
+constexpr double moments_ridge = 1e-4;
+
 /// Intermediate passes need no more digits; what they leave is no contradiction.
 constexpr double coarse_tolerance = 1e-6;
 constexpr double coarsely_met = 1e-4;
+
+template <class Rows>
+void fill_row(const Rows& rows, const Bonds& bonds, Index b, bool bending, double* row) {
+  if (bending) return rows.shear(bonds.lengths[b], bonds.direction(b), row);
+  rows.axial(bonds.lengths[b], bonds.direction(b), row);
+}
 
 class Calibration {
  public:
@@ -57,7 +66,7 @@ class Calibration {
   void measure_particles();
   template <class Rows>
   PointEquations make_equations(const Rows& rows, double least_weight) const;
-  PointEquations force_equations() const;
+  PointEquations force_equations(bool moments) const;
   PointEquations moduli_equations() const;
   int improve(const PointEquations& equations, const LeastChangeOptions& options,
               std::unique_ptr<CoarseSpace>& factor);
@@ -134,11 +143,7 @@ PointEquations Calibration::make_equations(const Rows& rows, double least_weight
     for (const Index b : variables_[bending]) {
       equations.first.push_back(point_of_[bonds.first[b]]);
       equations.second.push_back(point_of_[bonds.second[b]]);
-      if (bending) {
-        rows.shear(bonds.lengths[b], bonds.direction(b), row.data());
-      } else {
-        rows.axial(bonds.lengths[b], bonds.direction(b), row.data());
-      }
+      fill_row(rows, bonds, b, bending, row.data());
       for (const double value : row) equations.coefficients.push_back(present[b] * value);
       equations.lower.push_back(
           may_vanish_[b] ? 0.0 : std::min(1.0, least_weight * start[b] / present[b]));
@@ -153,7 +158,8 @@ PointEquations Calibration::make_equations(const Rows& rows, double least_weight
 
 /// Forces out of balance at all particles, shape (particles, rows of forces_).
 std::vector<double> Calibration::out_of_balance() const {
-  std::vector<double> rest = boundary_forces(forces_, facets_, input_.materials, input_.particles.size());
+  std::vector<double> rest =
+      boundary_forces(forces_, facets_, input_.materials, input_.particles.size());
   const std::size_t rows = static_cast<std::size_t>(forces_.count());
   const Bonds& bonds = input_.bonds;
   std::vector<double> row(rows);
@@ -162,11 +168,7 @@ std::vector<double> Calibration::out_of_balance() const {
     double* second = rest.data() + bonds.second[b] * rows;
     for (const bool bending : {false, true}) {
       if (bending && stiffness_.bending.empty()) break;
-      if (bending) {
-        forces_.shear(bonds.lengths[b], bonds.direction(b), row.data());
-      } else {
-        forces_.axial(bonds.lengths[b], bonds.direction(b), row.data());
-      }
+      fill_row(forces_, bonds, b, bending, row.data());
       const double k = bending ? stiffness_.bending[b] : stiffness_.axial[b];
       for (std::size_t r = 0; r < rows; ++r) {
         first[r] -= k * row[r];
@@ -177,7 +179,7 @@ std::vector<double> Calibration::out_of_balance() const {
   return rest;
 }
 
-PointEquations Calibration::force_equations() const {
+PointEquations Calibration::force_equations(bool moments) const {
   PointEquations equations = make_equations(forces_, options_.least_weight);
   equations.odd = forces_.odd();
   const std::size_t rows = static_cast<std::size_t>(forces_.count());
@@ -186,8 +188,9 @@ PointEquations Calibration::force_equations() const {
   for (const Index i : particle_of_) {
     for (std::size_t r = 0; r < rows; ++r) {
       equations.right.push_back(rest[i * rows + r]);
-      const double moment_arm = static_cast<int>(r) < forces_.odd() ? 1.0 : 1.0 / length_[i];
-      equations.scale.push_back(length_[i] / modulus_[i] * moment_arm);
+      const bool moment = static_cast<int>(r) >= forces_.odd();
+      const double arm = !moment ? length_[i] : moments ? 1.0 : 0.0;
+      equations.scale.push_back(arm / modulus_[i]);
     }
   }
   for (Index v = 0; v < equations.num_variables(); ++v) {
@@ -230,14 +233,18 @@ int Calibration::improve(const PointEquations& equations, const LeastChangeOptio
 void Calibration::report_balance(CalibrationReport& report) const {
   const std::vector<double> rest = out_of_balance();
   const std::size_t rows = static_cast<std::size_t>(forces_.count());
-  report.residual_after = 0.0;
+  report.residual_after = report.moment_after = 0.0;
   report.unmet = 0;
   for (Index i = 0; i < input_.particles.size(); ++i) {
     if (modulus_[i] == 0.0) continue;
     double largest = 0.0;
     for (std::size_t r = 0; r < rows; ++r) {
-      const double arm = static_cast<int>(r) < forces_.odd() ? 1.0 : length_[i];
-      largest = std::max(largest, std::abs(rest[i * rows + r]) * length_[i] / modulus_[i] / arm);
+      const double size = std::abs(rest[i * rows + r]) / modulus_[i];
+      if (static_cast<int>(r) < forces_.odd()) {
+        largest = std::max(largest, size * length_[i]);
+      } else {
+        report.moment_after = std::max(report.moment_after, size);
+      }
     }
     report.unmet += largest > met;
     if (largest <= report.residual_after) continue;
@@ -253,10 +260,10 @@ bool Calibration::allow_zero(double limit) {
   const std::size_t rows = static_cast<std::size_t>(forces_.count());
   bool any = false;
   const auto unmet = [&](Index i) {
-    for (std::size_t r = 0; r < rows; ++r) {
-      if (std::abs(rest[i * rows + r]) * length_[i] > limit * modulus_[i]) return true;
-    }
-    return false;
+    const auto forces = rest.begin() + static_cast<std::ptrdiff_t>(i * rows);
+    return std::any_of(forces, forces + forces_.odd(), [&](double force) {
+      return std::abs(force) * length_[i] > limit * modulus_[i];
+    });
   };
   for (const Index b : free_bonds_) {
     if (may_vanish_[b] || (!unmet(input_.bonds.first[b]) && !unmet(input_.bonds.second[b]))) continue;
@@ -287,15 +294,23 @@ void Calibration::drop_vanishing() {
 /// Moduli of the single particles and forces in turn, forces last.
 void Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& report) {
   stiffness_ = start_;
-  LeastChangeOptions moduli;
+  const int passes = input_.free.empty() ? options_.moduli_passes : 0;
+  LeastChangeOptions moduli, moments;
   moduli.ridge = moduli_ridge;
   moduli.tolerance = moduli_tolerance;
   moduli.preconditioner = Preconditioner::aggregates;
-  const int passes = input_.free.empty() ? options_.moduli_passes : 0;
+  moments.ridge = moments_ridge;
+  moments.tolerance = coarse_tolerance;
+  if (passes > 0) moments.preconditioner = Preconditioner::aggregates;
   for (int pass = 0; pass < std::max(passes, 1); ++pass) {
     if (passes > 0) {
       factor_.reset();  // the moduli change the coefficients
       report.iterations += improve(moduli_equations(), moduli, factor_);
+      factor_.reset();
+    }
+    if (!stiffness_.bending.empty()) {
+      factor_.reset();
+      report.iterations += improve(force_equations(true), moments, factor_);
       factor_.reset();
     }
     LeastChangeOptions options = forces;
@@ -303,7 +318,7 @@ void Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& rep
       options.tolerance = moduli_tolerance;
       options.preconditioner = Preconditioner::aggregates;  // few digits do not pay for a factor
     }
-    report.iterations += improve(force_equations(), options, factor_);
+    report.iterations += improve(force_equations(false), options, factor_);
   }
 }
 
@@ -359,7 +374,7 @@ CalibrationReport Calibration::run() {
     report_balance(report);
     if (report.residual_after > worth_dropping * floored || hollow()) restore(forces, report);
   } else if (cautious) {
-    report.iterations += improve(force_equations(), forces, factor_);
+    report.iterations += improve(force_equations(false), forces, factor_);
     report_balance(report);
   }
   for (const Index b : free_bonds_) {

@@ -44,6 +44,8 @@ struct CalibrationReport {
   Index free_bonds = 0;
   double residual_before = 0.0;  ///< largest force out of balance at the start ...
   double residual_after = 0.0;   ///< ... and at the end
+  double moment_after = 0.0;     ///< largest moment out of balance of bonds that carry moments, over
+                                 ///< 1/2 sum k xi^2
   Index worst_particle = no_index;
   Index unmet = 0;               ///< particles with more than 1e-7 out of balance at the end
   double smallest_weight = 1.0;  ///< of axial stiffness, end over start
