@@ -8,7 +8,6 @@
 #include "assembly/lattice_families.hpp"
 #include "base/timer.hpp"
 #include "discretization/calibration.hpp"
-#include "discretization/facet_shares.hpp"
 #include "material/critical_stretch.hpp"
 
 namespace perilink {
@@ -228,7 +227,6 @@ void Correction::calibrate() {
   for (const SolidMaterial& m : input_.materials) {
     calibration.materials.push_back(lame_constants(input_, m));
   }
-  if (family && micropolar()) correct_ends(network_.facets);
   BondStiffness stiffness{network_.stiffness, network_.bending};
   network_.calibration = calibrate_bonds(calibration, {}, network_.facets, stiffness);
   network_.stiffness = std::move(stiffness.axial);

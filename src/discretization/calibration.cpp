@@ -303,13 +303,10 @@ void Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& rep
   moments.tolerance = coarse_tolerance;
   if (passes > 0) moments.preconditioner = Preconditioner::aggregates;
   for (int pass = 0; pass < std::max(passes, 1); ++pass) {
-    if (passes > 0) {
-      factor_.reset();  // the moduli change the coefficients
-      report.iterations += improve(moduli_equations(), moduli, factor_);
-      factor_.reset();
-    }
+    factor_.reset();  // moduli and moments change the coefficients
+    if (passes > 0) report.iterations += improve(moduli_equations(), moduli, factor_);
+    factor_.reset();
     if (!stiffness_.bending.empty()) {
-      factor_.reset();
       report.iterations += improve(force_equations(true), moments, factor_);
       factor_.reset();
     }
@@ -360,8 +357,8 @@ CalibrationReport Calibration::run() {
   forces.preconditioner = dim_ == 2              ? Preconditioner::factor
                           : input_.free.empty() ? Preconditioner::aggregates
                                                 : Preconditioner::blocks_then_factor;
-  // Corners of these bodies may have no solution within the bounds. Finding out takes few digits.
-  const bool cautious = dim_ == 3 || !stiffness_.bending.empty();
+  // Corners of solids may have no solution within the bounds. Finding out takes few digits.
+  const bool cautious = dim_ == 3;
   LeastChangeOptions attempt = forces;
   if (cautious) attempt.tolerance = coarse_tolerance;
   solve(attempt, report);

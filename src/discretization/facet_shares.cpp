@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <Eigen/Dense>
 
@@ -11,12 +10,6 @@ namespace {
 
 /// Defects below this, relative to the sum of all terms, are round-off and change nothing.
 constexpr double balanced = 1e-14;
-
-/// First coefficient of Gregory's rule (Euler and Maclaurin's formula with one-sided differences).
-constexpr double end_correction = 1.0 / 12.0;
-
-/// Largest sine of the angle between edges of a straight line: round-off of coordinates.
-constexpr double straight = 1e-9;
 
 /// Rigid motions of a part about its middle, scaled to about one at its rim.
 class RigidMotions {
@@ -154,14 +147,6 @@ class Part {
   std::vector<Index> members_;
 };
 
-/// Whether an edge goes straight on as another, between the same materials.
-bool continues(const Facets& facets, Index a, Index b) {
-  const auto p = facets.area_vector(a), q = facets.area_vector(b);
-  const double along = p[0] * q[0] + p[1] * q[1], across = p[0] * q[1] - p[1] * q[0];
-  return facets.inside[a] == facets.inside[b] && facets.outside[a] == facets.outside[b] &&
-         std::abs(across) < straight * along;
-}
-
 }  // namespace
 
 void balance_shares(Facets& facets, std::span<const double> positions,
@@ -174,26 +159,6 @@ void balance_shares(Facets& facets, std::span<const double> positions,
   }
   for (std::vector<Index>& part : members) {
     Part(facets, positions, modulus, std::move(part)).balance();
-  }
-}
-
-void correct_ends(Facets& facets) {
-  if (facets.dim != 2) return;
-  std::map<Index, std::vector<Index>> edges_at;
-  for (Index f = 0; f < facets.size(); ++f) {
-    for (const Index i : facets.corners.row(f)) edges_at[i].push_back(f);
-  }
-  for (Index f = 0; f < facets.size(); ++f) {
-    const Index begin = facets.corners.offsets[f];
-    for (const int end : {0, 1}) {
-      const std::vector<Index>& others = edges_at[facets.corners.values[begin + end]];
-      const bool goes_on = std::any_of(others.begin(), others.end(), [&](Index other) {
-        return other != f && continues(facets, f, other);
-      });
-      if (goes_on) continue;
-      facets.shares[begin + end] -= end_correction;
-      facets.shares[begin + 1 - end] += end_correction;
-    }
   }
 }
 

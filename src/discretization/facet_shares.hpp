@@ -23,12 +23,4 @@ namespace perilink {
 void balance_shares(Facets& facets, std::span<const double> positions,
                     std::span<const Index> part_of, std::span<const double> modulus);
 
-/// Edges in two dimensions: where a straight piece of the surface or of an interface ends, moves a twelfth of
-/// the last edge from the corner to the next particle. Equal shares are the trapezoidal rule, whose error sits
-/// at the ends of a straight piece (ds^2/12 times the slope there) and cancels only against that of other
-/// corners. With the end correction (Gregory's, of the first order) every corner balances by itself, and no
-/// bonds along the sides have to carry what it lacks to the next one. Edges that end on both sides, as those
-/// of curved outlines do, keep equal shares.
-void correct_ends(Facets& facets);
-
 }  // namespace perilink
