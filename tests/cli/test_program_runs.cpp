@@ -150,7 +150,7 @@ TEST_P(ElasticBars, StretchByForceTimesLengthOverStiffness) {
   std::vector<double> displacement;
   std::vector<double> spacing;
   for (const double wanted : {bar.coarse, bar.fine}) {
-    write_text(work() / "bar.toml", tension_bar_case(bar.pattern, wanted));
+    write_text(work() / "bar.toml", tension_bar_case(bar.pattern, wanted, "none"));
     const ProcessEnd end = run({"run", "bar.toml", "--force"});
     ASSERT_EQ(end.exit_status, 0) << end.err;
     EXPECT_THAT(end.out, testing::HasSubstr("elastic equilibrium"));
@@ -164,6 +164,14 @@ TEST_P(ElasticBars, StretchByForceTimesLengthOverStiffness) {
   EXPECT_GT(displacement[1], expected);
   const double slope = (displacement[0] - displacement[1]) / (spacing[0] - spacing[1]);
   EXPECT_NEAR(displacement[1] - slope * spacing[1], expected, 0.1 * expected);
+}
+
+/// Uniform tension is a patch test: calibrated bars stretch by F l / (E A) at any spacing.
+TEST_P(ElasticBars, StretchExactlyWhereBondsAreCalibrated) {
+  write_text(work() / "bar.toml", tension_bar_case(GetParam().pattern, 0.25, "calibrated"));
+  const ProcessEnd end = run({"run", "bar.toml", "--force"});
+  ASSERT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_NEAR(summary("results/bar")["peak_displacement"].get<double>(), 2.0 * 4.0 / 100.0, 1e-10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Patterns, ElasticBars,

@@ -169,12 +169,14 @@ type = "elastic"
 
 /// A bar of 1 by 1 by 4 in tension by 2 along y; its modulus is 100. Rollers and one corner line
 /// hold it so that it may contract.
-inline std::string tension_bar_case(const std::string& pattern, double spacing) {
+inline std::string tension_bar_case(const std::string& pattern, double spacing,
+                                    const std::string& surface) {
   return fmt::format(R"([body]
 problem = "three_dimensional"
 pattern = "{}"
 spacing = {}
 horizon_ratio = 2
+surface = "{}"
 
 [[regions]]
 name = "bar"
@@ -230,7 +232,7 @@ force = [0, 2, 0]
 [analysis]
 type = "elastic"
 )",
-                     pattern, spacing);
+                     pattern, spacing, surface);
 }
 
 }  // namespace perilink::test
