@@ -194,12 +194,17 @@ void Correction::energy() {
   std::vector<double> wanted = wanted_moduli(nullptr);
   if (on_lattice()) {
     // Moduli of the lattice's own family, so that nothing changes inside.
-    const BulkFamily family = bulk_family(body_.lattice, input_.horizon);
+    double sum = 0.0;
+    for (const Vector3& x : bulk_family(body_.lattice, input_.horizon).offsets) {
+      sum += std::hypot(x[0], x[1], x[2]);
+    }
+    std::vector<double> micromoduli;
+    for (const SolidMaterial& m : input_.materials) {
+      micromoduli.push_back(moduli_of(body_, input_, m).micromodulus);
+    }
     for (Index i = 0; i < network_.particles.size(); ++i) {
-      const double c = moduli_of(body_, input_, input_.materials[material(i)]).micromodulus;
-      double sum = 0.0;
-      for (const Vector3& x : family.offsets) sum += std::hypot(x[0], x[1], x[2]);
-      wanted[i] = 0.5 * c * sum * body_.lattice.cell_volume * network_.particles.volumes[i];
+      wanted[i] = 0.5 * micromoduli[material(i)] * sum * body_.lattice.cell_volume *
+                  network_.particles.volumes[i];
     }
   }
   scale_to(wanted);

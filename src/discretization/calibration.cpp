@@ -303,9 +303,12 @@ void Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& rep
   moments.tolerance = coarse_tolerance;
   if (passes > 0) moments.preconditioner = Preconditioner::aggregates;
   for (int pass = 0; pass < std::max(passes, 1); ++pass) {
-    factor_.reset();  // moduli and moments change the coefficients
-    if (passes > 0) report.iterations += improve(moduli_equations(), moduli, factor_);
-    factor_.reset();
+    // Moduli and moments change the coefficients.
+    if (passes > 0 || !stiffness_.bending.empty()) factor_.reset();
+    if (passes > 0) {
+      report.iterations += improve(moduli_equations(), moduli, factor_);
+      factor_.reset();
+    }
     if (!stiffness_.bending.empty()) {
       report.iterations += improve(force_equations(true), moments, factor_);
       factor_.reset();
@@ -324,8 +327,7 @@ bool Calibration::hollow() const {
   std::vector<Index> kept_minus_lost(static_cast<std::size_t>(input_.particles.size()), 0);
   for (Index b = 0; b < input_.bonds.size(); ++b) {
     const Index vote = stiffness_.axial[b] > 0.0 ? 1 : -1;
-    kept_minus_lost[input_.bonds.first[b]] += vote;
-    kept_minus_lost[input_.bonds.second[b]] += vote;
+    for (const Index i : {input_.bonds.first[b], input_.bonds.second[b]}) kept_minus_lost[i] += vote;
   }
   return std::any_of(kept_minus_lost.begin(), kept_minus_lost.end(), [](Index n) { return n < 0; });
 }
@@ -357,8 +359,7 @@ CalibrationReport Calibration::run() {
   forces.preconditioner = dim_ == 2              ? Preconditioner::factor
                           : input_.free.empty() ? Preconditioner::aggregates
                                                 : Preconditioner::blocks_then_factor;
-  // Corners of solids may have no solution within the bounds. Finding out takes few digits.
-  const bool cautious = dim_ == 3;
+  const bool cautious = dim_ == 3;  // corners may have no solution: finding out takes few digits
   LeastChangeOptions attempt = forces;
   if (cautious) attempt.tolerance = coarse_tolerance;
   solve(attempt, report);
