@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
+#include <exception>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/event_engine.hpp"
@@ -12,12 +13,13 @@
 #include "base/timer.hpp"
 #include "benchmarks/cholmod_reference.hpp"
 #include "problems/block.hpp"
+#include "problems/surface_option.hpp"
 
 using namespace perilink;
 using namespace perilink::verification;
 
 /// Time per broken bond of every route, in one run, on the refined tension block.
-///   break_time [--threads N] [columns ...]
+///   break_time [--surface calibrated|none] [--threads N] [columns ...]
 namespace {
 
 /// Read bandwidth of one thread over an array much larger than the caches [bytes/s]: the best of a
@@ -104,8 +106,8 @@ void time_factorization(const Model& model, int repeats, RouteTime& result) {
   result.solve = solve[solve.size() / 2];
 }
 
-void benchmark(int columns, int threads, double bandwidth) {
-  const Model model = make_block(columns);
+void benchmark(int columns, const std::string& surface, int threads, double bandwidth) {
+  const Model model = make_block(columns, surface);
   const Index n = model.unknowns.count;
   const int events = n < 20000 ? 400 : n < 100000 ? 100 : 30;
   const int repeats = n < 20000 ? 25 : n < 100000 ? 7 : 3;
@@ -141,19 +143,25 @@ void benchmark(int columns, int threads, double bandwidth) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  const std::string surface = take_surface_option(arguments);
   int threads = 1;
   std::vector<int> sizes;
-  for (int k = 1; k < argc; ++k) {
-    if (std::strcmp(argv[k], "--threads") == 0 && k + 1 < argc) {
-      threads = std::atoi(argv[++k]);
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    if (arguments[k] == "--threads" && k + 1 < arguments.size()) {
+      threads = std::atoi(arguments[++k].c_str());
     } else {
-      sizes.push_back(std::atoi(argv[k]));
+      sizes.push_back(std::atoi(arguments[k].c_str()));
     }
   }
   if (sizes.empty()) sizes = {columns_5k, columns_50k, columns_300k};
   const double bandwidth = read_bandwidth();
-  fmt::print("{} thread(s); one thread reads {:.1f} GB/s\n", threads, bandwidth / 1e9);
-  for (const int columns : sizes) benchmark(columns, threads, bandwidth);
+  fmt::print("surface = \"{}\", {} thread(s); one thread reads {:.1f} GB/s\n", surface, threads,
+             bandwidth / 1e9);
+  for (const int columns : sizes) benchmark(columns, surface, threads, bandwidth);
   return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "break_time: {}\n", error.what());
+  return 1;
 }

@@ -7,14 +7,14 @@
 
 namespace perilink::verification {
 
-std::string block_case(int columns) {
+std::string block_case(int columns, const std::string& surface) {
   return fmt::format(R"(title = "Refined tension block, {0} columns"
 units = "kip, in"
 [body]
 problem = "plane_stress"
 thickness = 1.0
 pattern = "hexagonal"
-surface = "none"
+surface = "{1}"
 columns = {0}
 horizon_ratio = 3.0
 [[regions]]
@@ -54,10 +54,12 @@ force = [0, 100]
 [analysis]
 rigid_body_modes = "pin"
 )",
-                     columns);
+                     columns, surface);
 }
 
-Model make_block(int columns) { return build_model(parse_case(block_case(columns), "block")); }
+Model make_block(int columns, const std::string& surface) {
+  return build_model(parse_case(block_case(columns, surface), "block"));
+}
 
 BlockRun run_block(const Model& model, FactorRoute route, Index broken_bonds, int threads) {
   DamageOptions options;

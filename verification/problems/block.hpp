@@ -9,12 +9,13 @@
 /// \file
 /// The refined tension block that studies and benchmarks share: the plain concrete block of Gerstle,
 /// Sau & Silling (2005), Fig. 9 (100 in by 200 in between two unbreakable caps of 50 in, weak patch in
-/// the middle), on a conforming hexagonal lattice with a horizon of three spacings.
+/// the middle), on a conforming hexagonal lattice with a horizon of three spacings; calibrated bonds or
+/// those of the infinite body (`surface` of the case).
 
 namespace perilink::verification {
 
-/// The case file of the block with so many particles across its width.
-std::string block_case(int columns);
+/// The case file of the block with so many particles across its width and bonds "calibrated" or "none".
+std::string block_case(int columns, const std::string& surface);
 
 /// Columns that give about 5 000, 50 000, 300 000 and 1 000 000 unknowns.
 inline constexpr int columns_5k = 27;
@@ -22,7 +23,7 @@ inline constexpr int columns_50k = 85;
 inline constexpr int columns_300k = 209;
 inline constexpr int columns_1m = 381;
 
-Model make_block(int columns);
+Model make_block(int columns, const std::string& surface = "calibrated");
 
 /// Keeps the rows of a history in memory.
 class RowRecorder final : public StepObserver {

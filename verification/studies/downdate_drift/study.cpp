@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <exception>
 #include <string>
+#include <vector>
 
 #include "assembly/rigid_modes.hpp"
 #include "drift.hpp"
 #include "problems/block.hpp"
 #include "problems/result.hpp"
+#include "problems/surface_option.hpp"
 
 using namespace perilink;
 using namespace perilink::verification;
@@ -14,8 +17,8 @@ namespace {
 
 /// Runs the smallest block to its end and counts the parts of the body before and after the element
 /// at which the analysis says that it separated.
-bool collapse_is_separation() {
-  const Model model = make_block(columns_5k);
+bool collapse_is_separation(const std::string& surface) {
+  const Model model = make_block(columns_5k, surface);
   const BlockRun run = run_block(model, FactorRoute::in_place, 1000000);
   Network network = model.network;
   const std::vector<std::uint8_t> held(model.unknowns.number.size(), 0);
@@ -30,12 +33,8 @@ bool collapse_is_separation() {
   return run.result.ending == Ending::collapsed;
 }
 
-}  // namespace
-
-/// How accurate are factor and displacement after 20 000 downdates, and the rest of a body from which a
-/// part was cut?
-int main() {
-  const Model model = make_block(columns_50k);
+bool run_study(const std::string& surface) {
+  const Model model = make_block(columns_50k, surface);
   std::string table;
   bool good = true;
   fmt::print("{} unknowns, {} bonds\n", model.unknowns.count, model.network.num_elements());
@@ -58,7 +57,19 @@ int main() {
     table += row;
     good = good && d.error < 1e-12;
   }
-  write_result(PERILINK_STUDY_DIR, table);
-  good = collapse_is_separation() && good;
-  return good ? 0 : 1;
+  write_result(PERILINK_STUDY_DIR, table, result_file(surface));
+  return collapse_is_separation(surface) && good;
+}
+
+}  // namespace
+
+/// How accurate are factor and displacement after 20 000 downdates, and the rest of a body from which a
+/// part was cut?
+/// downdate_drift [--surface calibrated|none]
+int main(int argc, char** argv) try {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  return run_study(take_surface_option(arguments)) ? 0 : 1;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "downdate_drift: {}\n", error.what());
+  return 1;
 }

@@ -7,12 +7,10 @@
 
 namespace perilink::verification {
 
-Agreement compare_routes(int columns, FactorRoute other, Index events, Index other_events) {
-  const Model model = make_block(columns);
+Agreement compare_routes(const Model& model, FactorRoute other, Index events, Index other_events) {
   const BlockRun ours = run_block(model, FactorRoute::in_place, events);
   const BlockRun reference = run_block(model, other, other_events);
   Agreement agreement;
-  agreement.columns = columns;
   agreement.unknowns = model.unknowns.count;
   agreement.events = ours.result.broken_bonds;
   agreement.ending = to_string(ours.result.ending);

@@ -6,7 +6,6 @@ namespace perilink::verification {
 
 /// How far two routes agree event by event.
 struct Agreement {
-  int columns = 0;
   Index unknowns = 0;
   Index events = 0;             ///< of the in-place run
   std::string ending;           ///< of the in-place run
@@ -20,8 +19,8 @@ struct Agreement {
   double other_seconds = 0.0;
 };
 
-/// Runs the block in place for `events` events (or to collapse) and by the other route for
+/// Runs a model in place for `events` events (or to collapse) and by the other route for
 /// `other_events`.
-Agreement compare_routes(int columns, FactorRoute other, Index events, Index other_events);
+Agreement compare_routes(const Model& model, FactorRoute other, Index events, Index other_events);
 
 }  // namespace perilink::verification

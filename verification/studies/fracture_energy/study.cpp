@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <string>
+#include <vector>
 
 #include "problems/block.hpp"
 #include "problems/result.hpp"
+#include "problems/surface_option.hpp"
 
 namespace {
 
@@ -23,10 +26,7 @@ double run_until_a_thousandth_of_peak(const Model& model, const BlockRun& whole)
   return whole.result.energy_error;
 }
 
-}  // namespace
-
-/// Does the tension block dissipate G_F per area of its crack, whatever the spacing?
-int main() {
+bool run_study(const std::string& surface) {
   // 30 in of the 100 in run through the weak patch, whose G_F is 5 % lower.
   const double area_energy = 70.0 * 0.001 + 30.0 * 0.00095;  // [kip in], 1 in thick
   std::string table =
@@ -35,7 +35,7 @@ int main() {
   fmt::print("{}", table);
   bool good = true;
   for (const int columns : {21, 41, 81}) {
-    const Model model = make_block(columns);
+    const Model model = make_block(columns, surface);
     const BlockRun run = run_block(model, FactorRoute::in_place, 1000000, 2);
     const double early = run_until_a_thousandth_of_peak(model, run);
     double mean = 0.0, square = 0.0;
@@ -59,6 +59,18 @@ int main() {
     table += line;
     good = good && early < 1e-9;
   }
-  write_result(PERILINK_STUDY_DIR, table);
-  return good ? 0 : 1;
+  write_result(PERILINK_STUDY_DIR, table, result_file(surface));
+  return good;
+}
+
+}  // namespace
+
+/// Does the tension block dissipate G_F per area of its crack, whatever the spacing?
+/// fracture_energy [--surface calibrated|none]
+int main(int argc, char** argv) try {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  return run_study(take_surface_option(arguments)) ? 0 : 1;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "fracture_energy: {}\n", error.what());
+  return 1;
 }
