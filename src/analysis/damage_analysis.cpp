@@ -45,6 +45,7 @@ class Run {
         state_(network, *engine_) {
     const LoadWork work = engine_->load_work();
     initial_work_ = work.forces + work.supports;
+    compliance_ = work.forces - work.supports;
     if (!(initial_work_ > 0.0)) throw SolverError("the loads do no work on the body");
     if (!std::isfinite(initial_work_)) throw SolverError("the elastic solution is not finite");
     result_.initial_stiffness = reference_.driven
@@ -73,6 +74,7 @@ class Run {
   }
   void record(double load_factor, const LoadWork& work, Index element);
   void check();
+  double expected_residual() const;
   void record_separated(double load_factor, const LoadWork& work);
   bool pass(const Event& event);
   bool stop_rule_met();
@@ -91,6 +93,8 @@ class Run {
   PathEnergy energy_;
   Timer timer_;
   double initial_work_ = 0.0;
+  double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...
+  double checked_compliance_ = 0.0;  ///< ... when the residual was last measured
   double stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
   int events_ = 0;
   int rows_below_ = 0;  ///< successive rows below the load fraction of the stop rule
@@ -106,6 +110,14 @@ void Run::check() {
   row_.residual = equilibrium.residual;
   stored_by_elements_ = equilibrium.stored_energy;
   result_.largest_residual = std::max(result_.largest_residual, equilibrium.residual);
+  checked_compliance_ = compliance_;
+}
+
+/// The residual grows in proportion to the displacements, which forces make without bound as a body comes
+/// apart (driven displacements do not: their compliance is negative).
+double Run::expected_residual() const {
+  if (!(checked_compliance_ > 0.0)) return row_.residual;
+  return row_.residual * std::max(1.0, compliance_ / checked_compliance_);
 }
 
 void Run::record(double load_factor, const LoadWork& work, Index element) {
@@ -162,8 +174,9 @@ bool Run::pass(const Event& event) {
   ++(is_bar ? yield_events_ : broken_bonds_);
   energy_.add_event(outcome);
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // of the body before the event
+  compliance_ += outcome.compliance_growth;
   const bool near_separation =
-      outcome.pivot < 1e-3 || row_.residual > options_.engine.residual_tolerance;
+      outcome.pivot < 1e-3 || expected_residual() > options_.engine.residual_tolerance;
   if (++events_ % options_.check_interval == 0 || near_separation) check();
   if (is_bar && engine_->secants()[event.element] < exhausted_secant) {
     end(Ending::collapsed,
