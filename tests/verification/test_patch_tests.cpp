@@ -1,6 +1,5 @@
 // The linear patch test with calibrated bonds: uniform strains are equilibria, under tractions and under
-// prescribed displacements of the surface, on lattices and on meshes with holes, curves and re-entrant
-// corners.
+// prescribed displacements of the surface. The bodies of the study of the same name that take seconds.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,97 +7,102 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
-#include "analysis/elastic_analysis.hpp"
-#include "app/configure.hpp"
-#include "assembly/internal_force.hpp"
-#include "io/case_file.hpp"
+#include "patch.hpp"
 
-namespace perilink {
+namespace perilink::verification {
+
+/// How GoogleTest names a body.
+void PrintTo(const PatchBody& body, std::ostream* out) { *out << body.name; }
+
 namespace {
 
-struct PatchBody {
-  std::string name;
-  std::string keys;  ///< of [body]
-  int dim = 2;
-  std::string group = {};  ///< of meshes: the solid
-};
-
-std::ostream& operator<<(std::ostream& out, const PatchBody& body) { return out << body.name; }
-
-/// E = 1; lattices fill a box of 1.5 by 1 (by 1).
-Model model_of(const PatchBody& body, const std::string& loading) {
-  const std::string region =
-      !body.group.empty() ? fmt::format("group = \"{}\"\n", body.group)
-                          : fmt::format("x = [0, 1.5]\ny = [0, 1]\n{}", body.dim == 3 ? "z = [0, 1]\n" : "");
-  return build_model(parse_case(
-      fmt::format("[body]\n{}\n[[regions]]\nname = \"solid\"\n{}[[materials]]\nregion = \"solid\"\n"
-                  "youngs_modulus = 1\nfracture_energy = \"infinite\"\n{}"
-                  "[analysis]\ntype = \"elastic\"\nrigid_body_modes = \"pin\"\n",
-                  body.keys, region, loading),
-      std::string(PERILINK_SOURCE_DIR) + "/meshes/patch.toml"));
+std::vector<PatchBody> quick_bodies() {
+  std::vector<PatchBody> bodies = patch_bodies();
+  std::erase_if(bodies, [](const PatchBody& body) {
+    return body.name.find("block") != std::string::npos;  // tetrahedra with edges: tens of seconds
+  });
+  return bodies;
 }
+
+PatchBody body_named(const std::string& name) {
+  const std::vector<PatchBody> bodies = patch_bodies();
+  return *std::find_if(bodies.begin(), bodies.end(),
+                       [&](const PatchBody& body) { return body.name == name; });
+}
+
+/// Largest error of the displacements of micropolar bodies in uniform strains: a few hundredths, as their
+/// moments are balanced only softly (docs/theory/calibration.md, section 3; the study's table).
+constexpr double soft_moments = 0.03;
 
 class Patch : public testing::TestWithParam<PatchBody> {};
 
-/// Pressure 1 all around: the stress is -1, the strain -(lambda dim + 2 mu)^-1 in all directions. What is
-/// left on a particle, over the mean pull of a facet's corner. Calibration leaves 1e-10; the rest is
-/// round-off of the sums.
-TEST_P(Patch, PressureAllAroundIsBalanced) {
-  const PatchBody& body = GetParam();
-  const Model model = model_of(body, "[[tractions]]\nregion = \"surface\"\npressure = 1\n");
-  ASSERT_TRUE(model.network.calibration.has_value());
-  const double nu = body.dim == 3 ? 0.25 : 1.0 / 3.0;
-  const double strain = body.dim == 3 ? -(1.0 - 2.0 * nu) : -(1.0 - nu);
-  std::vector<double> motion = model.network.particles.positions;
-  for (double& x : motion) x *= strain;
-  const std::vector<double> intact(static_cast<std::size_t>(model.network.num_elements()), 1.0);
-  const std::vector<double> forces = internal_force(model.network, intact, motion).forces;
-  double largest = 0.0, pull = 0.0;
-  for (std::size_t k = 0; k < forces.size(); ++k) {
-    largest = std::max(largest, std::abs(forces[k] - model.loads.forces[k]));
-    pull = std::max(pull, std::abs(model.loads.forces[k]));
-  }
-  EXPECT_LT(largest, 1e-9 * pull);
+TEST_P(Patch, UniformStrainsAreEquilibria) {
+  const PatchResult result = run_patch(GetParam());
+  EXPECT_LT(result.residual.force, patch_acceptance);
+  const double bar = GetParam().micropolar ? soft_moments : patch_acceptance;
+  EXPECT_LT(result.traction_error, bar);
+  EXPECT_LT(result.displacement_error, bar);
 }
 
-/// A strain with all components prescribed on the surface: the inside follows.
-TEST_P(Patch, DisplacementsOfTheSurfaceReachTheInside) {
-  const PatchBody& body = GetParam();
-  const bool space = body.dim == 3;
-  const Model model = model_of(
-      body, fmt::format("[[displacements]]\nregion = \"surface\"\nx = \"0.01*x + 0.004*y{}\"\n"
-                        "y = \"0.002*x - 0.007*y\"\n{}",
-                        space ? " - 0.003*z" : "", space ? "z = \"0.001*x + 0.002*y + 0.005*z\"\n" : ""));
-  const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
-  for (Index i = 0; i < model.network.particles.size(); ++i) {
-    const auto x = model.network.particles.position(i);
-    const double z = space ? x[2] : 0.0;
-    const double exact[3] = {0.01 * x[0] + 0.004 * x[1] - 0.003 * z, 0.002 * x[0] - 0.007 * x[1],
-                             0.001 * x[0] + 0.002 * x[1] + 0.005 * z};
-    for (int a = 0; a < body.dim; ++a) {
-      ASSERT_NEAR(elastic.displacement[i * body.dim + a], exact[a], 1e-10) << "particle " << i;
-    }
+INSTANTIATE_TEST_SUITE_P(Bodies, Patch, testing::ValuesIn(quick_bodies()),
+                         [](const auto& tested) { return tested.param.name; });
+
+/// Loads of a case are to round-off those that the study computes from the stress.
+void expect_loads(const PatchBody& body, const std::string& loading,
+                  Gradient (*stress_of)(const Model&)) {
+  const Model model = patch_model(body, loading);
+  const Loads expected = surface_loads(model, stress_of(model));
+  double pull = 0.0;
+  for (const double f : expected.forces) pull = std::max(pull, std::abs(f));
+  ASSERT_GT(pull, 0.0);
+  for (std::size_t k = 0; k < expected.forces.size(); ++k) {
+    ASSERT_NEAR(model.loads.forces[k], expected.forces[k], 1e-13 * pull) << "component " << k;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Bodies, Patch,
-    testing::Values(
-        PatchBody{"rectangular_2", "spacing = 0.05\nhorizon_ratio = 2"},
-        PatchBody{"rectangular_3", "spacing = 0.05\nhorizon_ratio = 3"},
-        PatchBody{"rectangular_4", "spacing = 0.05\nhorizon_ratio = 4"},
-        PatchBody{"hexagonal_2", "pattern = \"hexagonal\"\nspacing = 0.05\nhorizon_ratio = 2"},
-        PatchBody{"hexagonal_3", "pattern = \"hexagonal\"\nspacing = 0.05\nhorizon_ratio = 3"},
-        PatchBody{"cubic", "problem = \"three_dimensional\"\nspacing = 0.125\nhorizon_ratio = 2", 3},
-        PatchBody{"face_centred",
-                  "problem = \"three_dimensional\"\npattern = \"face_centred\"\nspacing = 0.15\n"
-                  "horizon_ratio = 2",
-                  3},
-        PatchBody{"plate_with_hole", "mesh = \"plate_with_hole.msh\"\nhorizon_ratio = 3", 2, "plate"},
-        PatchBody{"disc", "mesh = \"disc.msh\"\nhorizon_ratio = 3", 2, "disc"},
-        PatchBody{"l_shape", "mesh = \"l_shape.msh\"\nhorizon_ratio = 3", 2, "body"}),
-    [](const auto& tested) { return tested.param.name; });
+/// The case names neither lambda nor mu: plane stress, nu = 1/3 and E = 1 in closed form.
+Gradient plane_stress_of_case(const Model&) {
+  const Gradient g = patch_gradient(2);
+  const double c = 1.0 / (1.0 - 1.0 / 9.0), nu = 1.0 / 3.0;
+  const double shear = 0.5 / (1.0 + nu) * (g[0][1] + g[1][0]);
+  return {{c * (g[0][0] + nu * g[1][1]), shear}, {shear, c * (g[1][1] + nu * g[0][0])}};
+}
+
+/// A [[tractions]] entry for each side: `where` is the region's keys, n its outward normal.
+std::string side(const std::string& name, const std::string& where, double nx, double ny) {
+  const Gradient s = plane_stress_of_case({});
+  return fmt::format(
+      "[[regions]]\nname = \"{0}\"\n{1}\n[[tractions]]\nregion = \"{0}\"\ntraction = [{2:.17g}, {3:.17g}]\n",
+      name, where, s[0][0] * nx + s[0][1] * ny, s[1][0] * nx + s[1][1] * ny);
+}
+
+TEST(PatchLoads, TractionsOnTheSidesOfABoxAreThoseOfTheStress) {
+  expect_loads(body_named("rectangular_3"),
+               side("left", "x = [0, 0]\ny = [0, 1]", -1, 0) +
+                   side("right", "x = [1.5, 1.5]\ny = [0, 1]", 1, 0) +
+                   side("bottom", "x = [0, 1.5]\ny = [0, 0]", 0, -1) +
+                   side("top", "x = [0, 1.5]\ny = [1, 1]", 0, 1),
+               plane_stress_of_case);
+}
+
+TEST(PatchLoads, TractionsOnTheGroupsOfAMeshAreThoseOfTheStress) {
+  expect_loads(body_named("l_shape"),
+               side("a", "group = \"left\"", -1, 0) + side("b", "group = \"right\"", 1, 0) +
+                   side("c", "group = \"inner right\"", 1, 0) + side("d", "group = \"bottom\"", 0, -1) +
+                   side("e", "group = \"top\"", 0, 1) + side("f", "group = \"inner top\"", 0, 1),
+               plane_stress_of_case);
+}
+
+TEST(PatchLoads, PressureAllAroundIsAnIsotropicStress) {
+  for (const char* name : {"hexagonal_3", "disc", "plate_with_hole"}) {
+    expect_loads(body_named(name), "[[tractions]]\nregion = \"surface\"\npressure = 1\n",
+                 [](const Model&) { return Gradient{{-1, 0}, {0, -1}}; });
+  }
+  expect_loads(body_named("cylinder"), "[[tractions]]\nregion = \"surface\"\npressure = 1\n",
+               [](const Model&) { return Gradient{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}; });
+}
 
 }  // namespace
-}  // namespace perilink
+}  // namespace perilink::verification
