@@ -43,8 +43,8 @@ void for_moduli(int dim, bool symmetric, Function f) {
 
 void ForceRows::axial(double length, std::span<const double> n, double* row) const {
   for_third_order(dim, [&](int a, int b, int c) { *row++ = length * n[a] * n[b] * n[c]; });
-  if (!bending) return;
-  for (int k = third_order(); k < count(); ++k) *row++ = 0.0;
+  for (int k = third_order(); k < balance(); ++k) *row++ = 0.0;
+  if (dilatation) *row = 0.5 * length * length;
 }
 
 void ForceRows::shear(double length, std::span<const double> n, double* row) const {
@@ -55,6 +55,7 @@ void ForceRows::shear(double length, std::span<const double> n, double* row) con
     for (int b = a + 1; b < dim; ++b) *row++ = square * n[a] * n[b];
   }
   for (int a = 0; a + 1 < dim; ++a) *row++ = 0.5 * square * (n[a] * n[a] - n[a + 1] * n[a + 1]);
+  if (dilatation) *row = 0.0;
 }
 
 void ForceRows::right(const Vector3& lambda_area, const Vector3& mu_area, double* row) const {
@@ -62,8 +63,9 @@ void ForceRows::right(const Vector3& lambda_area, const Vector3& mu_area, double
     *row++ = -(delta(a, b) * lambda_area[c] + delta(a, c) * lambda_area[b] +
                delta(b, c) * lambda_area[a]);
   });
-  if (!bending) return;
-  for (int a = 0; a < dim; ++a) *row++ = -2.0 * (mu_area[a] - lambda_area[a]);
+  if (bending) {
+    for (int a = 0; a < dim; ++a) *row++ = -2.0 * (mu_area[a] - lambda_area[a]);
+  }
   for (int k = odd(); k < count(); ++k) *row++ = 0.0;
 }
 
@@ -114,6 +116,29 @@ std::vector<double> boundary_forces(const ForceRows& equations, const Facets& fa
   std::vector<double> right(num_particles * rows);
   for (Index i = 0; i < num_particles; ++i) equations.right(lambda[i], mu[i], right.data() + i * rows);
   return right;
+}
+
+std::vector<double> forces_out_of_balance(const ForceRows& equations, const Facets& facets,
+                                          std::span<const LameConstants> materials,
+                                          const Bonds& bonds, std::span<const double> axial,
+                                          std::span<const double> bending, Index num_particles) {
+  std::vector<double> rest = boundary_forces(equations, facets, materials, num_particles);
+  const std::size_t rows = static_cast<std::size_t>(equations.count());
+  std::vector<double> row(rows);
+  for (Index b = 0; b < bonds.size(); ++b) {
+    double* first = rest.data() + bonds.first[b] * rows;
+    double* second = rest.data() + bonds.second[b] * rows;
+    for (const bool bends : {false, true}) {
+      if (bends && bending.empty()) break;
+      equations.fill(bonds.lengths[b], bonds.direction(b), bends, row.data());
+      const double k = bends ? bending[b] : axial[b];
+      for (std::size_t r = 0; r < rows; ++r) {
+        first[r] -= k * row[r];
+        second[r] -= static_cast<int>(r) < equations.odd() ? -k * row[r] : k * row[r];
+      }
+    }
+  }
+  return rest;
 }
 
 }  // namespace perilink

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "discretization/bonds.hpp"
 #include "discretization/facets.hpp"
 
 /// \file
@@ -28,18 +29,27 @@ struct LameConstants {
 ///   sum k_bending xi n = -2 (mu - lambda) A,   sum k_bending xi^2 (nn - I/dim) = 0,
 /// A the area vector of the particle. Without bending only the first equation is left, with
 /// lambda = mu. The first two act on both ends with opposite signs.
+///
+/// With `dilatation` a last row holds the energy of a uniform dilatation, eps = identity: half of that of the
+/// bonds belongs to the particle,
+///   1/2 sum k_axial xi^2 = V (dim^2 lambda + 2 dim mu).
 struct ForceRows {
   int dim;
-  bool bending;  ///< bonds that carry moments
+  bool bending;             ///< bonds that carry moments
+  bool dilatation = false;
 
   int third_order() const { return dim == 2 ? 4 : 10; }
   int odd() const { return third_order() + (bending ? dim : 0); }
-  int count() const { return odd() + (bending ? (dim == 2 ? 2 : 5) : 0); }
+  int balance() const { return odd() + (bending ? (dim == 2 ? 2 : 5) : 0); }  ///< forces, moments
+  int count() const { return balance() + (dilatation ? 1 : 0); }
 
   void axial(double length, std::span<const double> direction, double* row) const;
   void shear(double length, std::span<const double> direction, double* row) const;
+  void fill(double length, std::span<const double> direction, bool bending_part, double* row) const {
+    bending_part ? shear(length, direction, row) : axial(length, direction, row);
+  }
   /// Right side of a particle from its area vector times the constants of each material:
-  /// sum lambda A and sum mu A, in and out of the facets [force].
+  /// sum lambda A and sum mu A, in and out of the facets [force]. Zero in the row of the dilatation.
   void right(const Vector3& lambda_area, const Vector3& mu_area, double* row) const;
 };
 
@@ -59,10 +69,22 @@ struct ModuliRows {
   void right(double volume, const LameConstants& constants, double* row) const;
 };
 
+/// Right side of the row of the dilatation: what a particle of this volume has [force length].
+inline double dilatation_modulus(int dim, double volume, const LameConstants& constants) {
+  return volume * (dim * dim * constants.lambda + 2.0 * dim * constants.mu);
+}
+
 /// Right sides of the force equations of all particles, whose facets have these materials on their
 /// sides. \return shape (particles, rows) [force]
 std::vector<double> boundary_forces(const ForceRows& equations, const Facets& facets,
                                     std::span<const LameConstants> materials,
                                     Index num_particles);
+
+/// What bonds of these stiffnesses (`bending` empty: none) leave out of balance.
+/// \return shape (particles, rows) [force]
+std::vector<double> forces_out_of_balance(const ForceRows& equations, const Facets& facets,
+                                          std::span<const LameConstants> materials,
+                                          const Bonds& bonds, std::span<const double> axial,
+                                          std::span<const double> bending, Index num_particles);
 
 }  // namespace perilink

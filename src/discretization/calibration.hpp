@@ -22,7 +22,7 @@ struct CalibrationInput {
   const Bonds& bonds;          ///< between them
   std::vector<LameConstants> materials;  ///< by Particles::material and Facets
   /// Bonds whose stiffness may change, the others are right as they are (interior of a lattice). Empty:
-  /// all may, and the moduli of the single particles are made right as well (irregular clouds).
+  /// all may, and the energies of dilatation are made right as well (irregular clouds).
   std::vector<std::uint8_t> free;
 };
 
@@ -35,7 +35,6 @@ struct BondStiffness {
 struct CalibrationOptions {
   double least_weight = 0.02;  ///< relative to the start
   double tolerance = 1e-12;    ///< root mean square of the forces out of balance (see below)
-  int moduli_passes = 2;       ///< of irregular clouds
 };
 
 /// What was reached. Forces out of balance are those on a particle at a uniform strain of one, divided by

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <utility>
 
+#include "discretization/variable_parts.hpp"
+
 namespace perilink {
 namespace {
 
@@ -22,7 +24,7 @@ constexpr double tiny = 1e-12;
 }  // namespace
 
 CoarseSpace::CoarseSpace(const PointEquations& equations, const std::vector<double>& active,
-                         double ridge, Boxes boxes)
+                         const std::vector<double>& shifts, Boxes boxes)
     : dim_(equations.dim), rows_(equations.rows) {
   if (boxes == Boxes::of_many_points) {
     functions_ = 1 + dim_;
@@ -30,7 +32,7 @@ CoarseSpace::CoarseSpace(const PointEquations& equations, const std::vector<doub
   } else {
     put_points_in_boxes_of_their_own(equations);
   }
-  assemble(equations, active, ridge);
+  assemble(equations, active, shifts);
 }
 
 void CoarseSpace::put_points_in_boxes_of_their_own(const PointEquations& equations) {
@@ -73,7 +75,7 @@ void CoarseSpace::number_boxes(const PointEquations& equations) {
 }
 
 void CoarseSpace::assemble(const PointEquations& equations, const std::vector<double>& active,
-                           double ridge) {
+                           const std::vector<double>& shifts) {
   const int width = rows_ * functions_;
   std::map<std::pair<Index, Index>, Eigen::MatrixXd> blocks;
   const auto block = [&](Index a, Index b) -> Eigen::MatrixXd& {
@@ -81,42 +83,39 @@ void CoarseSpace::assemble(const PointEquations& equations, const std::vector<do
     if (found.size() == 0) found = Eigen::MatrixXd::Zero(width, width);
     return found;
   };
-  Eigen::VectorXd at_first(width), at_second(width);
-  const auto fill = [&](Index v, Index p, bool second, Eigen::VectorXd& vector) {
-    for (int r = 0; r < rows_; ++r) {
-      const double sign = second && r < equations.odd ? -1.0 : 1.0;
-      const double value = sign * equations.coefficients[static_cast<std::size_t>(v) * rows_ + r] *
-                           equations.scale[static_cast<std::size_t>(p) * rows_ + r];
-      for (int f = 0; f < functions_; ++f) {
-        vector[r * functions_ + f] = value * values_[static_cast<std::size_t>(p) * functions_ + f];
-      }
-    }
-  };
+  ColumnBlocks<Eigen::VectorXd> column;
+  column.blocks.fill(Eigen::VectorXd::Zero(width));
   for (Index v = 0; v < equations.num_variables(); ++v) {
     if (active[v] == 0.0) continue;
-    const Index p = equations.first[v], q = equations.second[v];
-    fill(v, p, false, at_first);
-    fill(v, q, true, at_second);
-    if (box_of_[p] == box_of_[q]) {
-      at_first += at_second;
-      block(box_of_[p], box_of_[p]).noalias() += at_first * at_first.transpose();
-      continue;
-    }
-    block(box_of_[p], box_of_[p]).noalias() += at_first * at_first.transpose();
-    block(box_of_[q], box_of_[q]).noalias() += at_second * at_second.transpose();
-    if (box_of_[p] > box_of_[q]) {
-      block(box_of_[p], box_of_[q]).noalias() += at_first * at_second.transpose();
-    } else {
-      block(box_of_[q], box_of_[p]).noalias() += at_second * at_first.transpose();
+    column.count = 0;
+    const double* a = equations.coefficients.data() + static_cast<std::size_t>(v) * rows_;
+    for_each_part(equations, v, [&](Index p, int from, int to, double sign) {
+      Eigen::VectorXd& part = column.of(box_of_[p]);
+      for (int r = from; r < to; ++r) {
+        const double value = sign * a[r] * equations.scale[static_cast<std::size_t>(p) * rows_ + r];
+        for (int f = 0; f < functions_; ++f) {
+          part[r * functions_ + f] += value * values_[static_cast<std::size_t>(p) * functions_ + f];
+        }
+      }
+    });
+    for (int k = 0; k < column.count; ++k) {
+      for (int l = 0; l < column.count; ++l) {
+        if (column.keys[k] < column.keys[l]) continue;
+        block(column.keys[k], column.keys[l]).noalias() +=
+            column.blocks[k] * column.blocks[l].transpose();
+      }
     }
   }
   const double points_in_box = static_cast<double>(box_of_.size()) / num_boxes_;
-  // The ridge of the fine system, and a little more where constants and rigid modes have no stiffness.
+  // The shifts of the fine system, and a little more where constants and rigid modes have no stiffness.
   std::vector<Eigen::Triplet<double>> entries;
   for (auto& [place, matrix] : blocks) {
     if (place.first == place.second) {
-      const double floor = tiny * matrix.trace() / width + ridge * points_in_box;
-      for (int k = 0; k < width; ++k) matrix(k, k) += matrix(k, k) > 0.0 ? floor : 1.0;
+      const double floor = tiny * matrix.trace() / width;
+      for (int k = 0; k < width; ++k) {
+        const double shift = floor + shifts[k / functions_] * points_in_box;
+        matrix(k, k) += matrix(k, k) > 0.0 ? shift : 1.0;
+      }
     }
     for (int c = 0; c < width; ++c) {
       for (int r = 0; r < width; ++r) {

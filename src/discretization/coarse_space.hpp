@@ -17,8 +17,9 @@ class CoarseSpace {
  public:
   enum class Boxes { of_many_points, of_single_points };
   /// \param active  1 for the variables that the system holds, else 0
-  /// \param ridge   added to the diagonal of the fine system
-  CoarseSpace(const PointEquations& equations, const std::vector<double>& active, double ridge,
+  /// \param shifts  added to the diagonal of the fine system, one for each row
+  CoarseSpace(const PointEquations& equations, const std::vector<double>& active,
+             const std::vector<double>& shifts,
               Boxes boxes);
 
   /// Adds P (P' S P)^-1 P' residual to `result`, both of shape (points, rows).
@@ -27,7 +28,8 @@ class CoarseSpace {
  private:
   void number_boxes(const PointEquations& equations);
   void put_points_in_boxes_of_their_own(const PointEquations& equations);
-  void assemble(const PointEquations& equations, const std::vector<double>& active, double ridge);
+  void assemble(const PointEquations& equations, const std::vector<double>& active,
+                const std::vector<double>& shifts);
   void factorize(const std::vector<Eigen::Triplet<double>>& entries);  // of the lower triangle
 
   int dim_, rows_;

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "discretization/coarse_space.hpp"
+#include "discretization/variable_parts.hpp"
 
 namespace perilink {
 namespace {
@@ -42,11 +43,12 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 
 double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
 
-template <int Rows>
+template <int Rows, int Odd, bool Grouped>
 class DualNewton {
  public:
   using Vector = std::vector<double>;  // shape (points, Rows)
   using Block = Eigen::Matrix<double, Rows, Rows>;
+  static constexpr int own = Grouped ? Rows - 1 : Rows;  // rows that hold at each point
 
   DualNewton(const PointEquations& equations, const LeastChangeOptions& options,
              std::unique_ptr<CoarseSpace>& coarse)
@@ -64,6 +66,8 @@ class DualNewton {
   LeastChange solve();
 
  private:
+  template <class Values>
+  auto& last_row(Values& values, Index point) const;
   void apply_transpose(const Vector& y, std::vector<double>& result);
   void apply(const std::vector<double>& w, Vector& result) const;
   double choose_weights(const Vector& y);
@@ -74,7 +78,7 @@ class DualNewton {
   void build_blocks();
   void build_factor();
   void prepare(bool settled, int last_iterations);
-  double shift() const { return options_.ridge + (by_factor_ ? factor_proximity : proximity); }
+  std::vector<double> shifts() const;
   double search_line(const Vector& residual, const Vector& direction, Vector& y);
   void report(const Vector& y, const Vector& residual, LeastChange& result) const;
 
@@ -90,46 +94,54 @@ class DualNewton {
   bool by_factor_;
 };
 
+/// Where the last row of a point's variables counts.
+template <int Rows, int Odd, bool Grouped>
+template <class Values>
+auto& DualNewton<Rows, Odd, Grouped>::last_row(Values& values, Index point) const {
+  return values[static_cast<std::size_t>(equations_.group[point]) * Rows + own];
+}
+
 /// result_v = a_v . (s y at the first end -+ s y at the second).
-template <int Rows>
-void DualNewton<Rows>::apply_transpose(const Vector& y, std::vector<double>& result) {
+template <int Rows, int Odd, bool Grouped>
+void DualNewton<Rows, Odd, Grouped>::apply_transpose(const Vector& y, std::vector<double>& result) {
   for (std::size_t k = 0; k < size_; ++k) scaled_[k] = y[k] * equations_.scale[k];
-  const int odd = equations_.odd;
   for (std::size_t v = 0; v < result.size(); ++v) {
     const double* a = equations_.coefficients.data() + v * Rows;
     const double* p = scaled_.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
     const double* q = scaled_.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
     double sum = 0.0;
-    if (odd == Rows) {
-      for (int r = 0; r < Rows; ++r) sum += a[r] * (p[r] - q[r]);
-    } else {
-      for (int r = 0; r < Rows; ++r) sum += a[r] * (p[r] + (r < odd ? -q[r] : q[r]));
-    }
+    for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
+    for (int r = Odd; r < own; ++r) sum += a[r] * (p[r] + q[r]);
+    if constexpr (Grouped) sum += a[own] * (last_row(scaled_, equations_.first[v]) +
+                                            last_row(scaled_, equations_.second[v]));
     result[v] = sum;
   }
 }
 
-template <int Rows>
-void DualNewton<Rows>::apply(const std::vector<double>& w, Vector& result) const {
+template <int Rows, int Odd, bool Grouped>
+void DualNewton<Rows, Odd, Grouped>::apply(const std::vector<double>& w, Vector& result) const {
   result.assign(size_, 0.0);
-  const int odd = equations_.odd;
   for (std::size_t v = 0; v < w.size(); ++v) {
     const double* a = equations_.coefficients.data() + v * Rows;
     double* p = result.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
     double* q = result.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
     const double weight = w[v];
-    for (int r = 0; r < Rows; ++r) {
+    for (int r = 0; r < own; ++r) {
       const double term = a[r] * weight;
       p[r] += term;
-      q[r] += r < odd ? -term : term;
+      q[r] += r < Odd ? -term : term;
+    }
+    if constexpr (Grouped) {
+      last_row(result, equations_.first[v]) += a[own] * weight;
+      last_row(result, equations_.second[v]) += a[own] * weight;
     }
   }
   for (std::size_t k = 0; k < size_; ++k) result[k] *= equations_.scale[k];
 }
 
 /// Weights of a dual vector, and the part of the dual function that they make.
-template <int Rows>
-double DualNewton<Rows>::choose_weights(const Vector& y) {
+template <int Rows, int Odd, bool Grouped>
+double DualNewton<Rows, Odd, Grouped>::choose_weights(const Vector& y) {
   apply_transpose(y, elongation_);
   double charge = 0.0;
   for (std::size_t v = 0; v < weights_.size(); ++v) {
@@ -141,63 +153,78 @@ double DualNewton<Rows>::choose_weights(const Vector& y) {
   return charge;
 }
 
-template <int Rows>
-double DualNewton<Rows>::dual(const Vector& y) {
+template <int Rows, int Odd, bool Grouped>
+double DualNewton<Rows, Odd, Grouped>::dual(const Vector& y) {
   double value = -choose_weights(y);
   for (std::size_t k = 0; k < size_; ++k) {
-    value += y[k] * (equations_.right[k] * equations_.scale[k] - 0.5 * options_.ridge * y[k]);
+    const double ridge = equations_.ridge_of(k % Rows);
+    value += y[k] * (equations_.right[k] * equations_.scale[k] - 0.5 * ridge * y[k]);
   }
   return value;
 }
 
 /// Gradient of the dual function, with the weights that choose_weights() left.
-template <int Rows>
-void DualNewton<Rows>::measure(const Vector& y, Vector& residual) {
+template <int Rows, int Odd, bool Grouped>
+void DualNewton<Rows, Odd, Grouped>::measure(const Vector& y, Vector& residual) {
   apply(weights_, residual);
   for (std::size_t k = 0; k < size_; ++k) {
-    residual[k] = equations_.right[k] * equations_.scale[k] - residual[k] - options_.ridge * y[k];
+    residual[k] = equations_.right[k] * equations_.scale[k] - residual[k] -
+                  equations_.ridge_of(k % Rows) * y[k];
   }
 }
 
-template <int Rows>
-void DualNewton<Rows>::build_blocks() {
+template <int Rows, int Odd, bool Grouped>
+void DualNewton<Rows, Odd, Grouped>::build_blocks() {
   const Index points = equations_.num_points();
   inverse_blocks_.assign(static_cast<std::size_t>(points), Block::Zero());
-  using Column = Eigen::Matrix<double, Rows, 1>;
+  ColumnBlocks<Eigen::Matrix<double, Rows, 1>> column;
   for (std::size_t v = 0; v < active_.size(); ++v) {
     if (active_[v] == 0.0) continue;
-    const Column a = Eigen::Map<const Column>(equations_.coefficients.data() + v * Rows);
-    for (const bool second : {false, true}) {
-      const Index p = second ? equations_.second[v] : equations_.first[v];
-      Column row = a.cwiseProduct(Eigen::Map<const Column>(equations_.scale.data() +
-                                                           static_cast<std::size_t>(p) * Rows));
-      if (second) row.head(equations_.odd) *= -1.0;
-      inverse_blocks_[p].noalias() += row * row.transpose();
+    column.count = 0;
+    const double* a = equations_.coefficients.data() + v * Rows;
+    for_each_part(equations_, static_cast<Index>(v), [&](Index p, int from, int to, double sign) {
+      const double* scale = equations_.scale.data() + static_cast<std::size_t>(p) * Rows;
+      auto& part = column.of(p);
+      for (int r = from; r < to; ++r) part[r] += sign * a[r] * scale[r];
+    });
+    for (int k = 0; k < column.count; ++k) {
+      inverse_blocks_[column.keys[k]].noalias() += column.blocks[k] * column.blocks[k].transpose();
     }
   }
+  const std::vector<double> shift = shifts();
   for (Block& block : inverse_blocks_) {
     // What no variable between the bounds acts on keeps the identity.
-    const double floor = shift() + 1e-11 * block.trace();
-    for (int r = 0; r < Rows; ++r) block(r, r) += block(r, r) > 0.0 ? floor : 1.0;
+    const double floor = 1e-11 * block.trace();
+    for (int r = 0; r < Rows; ++r) block(r, r) += block(r, r) > 0.0 ? floor + shift[r] : 1.0;
     block = block.llt().solve(Block::Identity()).eval();
   }
   if (options_.preconditioner == Preconditioner::aggregates && points >= smallest_coarse_problem) {
-    coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shift(),
+    coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shifts(),
                                             CoarseSpace::Boxes::of_many_points);
   }
 }
 
-template <int Rows>
-void DualNewton<Rows>::build_factor() {
+/// Ridge and proximity of each row.
+template <int Rows, int Odd, bool Grouped>
+std::vector<double> DualNewton<Rows, Odd, Grouped>::shifts() const {
+  std::vector<double> result;
+  for (std::size_t r = 0; r < Rows; ++r) {
+    result.push_back(equations_.ridge_of(r) + (by_factor_ ? factor_proximity : proximity));
+  }
+  return result;
+}
+
+template <int Rows, int Odd, bool Grouped>
+void DualNewton<Rows, Odd, Grouped>::build_factor() {
   by_factor_ = true;
   inverse_blocks_.clear();
-  coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shift(),
+  coarse_ = std::make_unique<CoarseSpace>(equations_, active_, shifts(),
                                           CoarseSpace::Boxes::of_single_points);
 }
 
 /// The factor of an earlier pattern serves until it needs too many iterations.
-template <int Rows>
-void DualNewton<Rows>::prepare(bool settled, int last_iterations) {
+template <int Rows, int Odd, bool Grouped>
+void DualNewton<Rows, Odd, Grouped>::prepare(bool settled, int last_iterations) {
   if (!by_factor_) {
     if (!settled) build_blocks();
   } else if (!coarse_ || last_iterations > stale_iterations) {
@@ -205,8 +232,8 @@ void DualNewton<Rows>::prepare(bool settled, int last_iterations) {
   }
 }
 
-template <int Rows>
-void DualNewton<Rows>::precondition(const Vector& residual, Vector& result) const {
+template <int Rows, int Odd, bool Grouped>
+void DualNewton<Rows, Odd, Grouped>::precondition(const Vector& residual, Vector& result) const {
   using Column = Eigen::Matrix<double, Rows, 1>;
   if (by_factor_) std::fill(result.begin(), result.end(), 0.0);
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
@@ -218,10 +245,10 @@ void DualNewton<Rows>::precondition(const Vector& residual, Vector& result) cons
 
 /// Conjugate gradients on (A D A' + ridge + proximity) direction = residual.
 /// \return iterations
-template <int Rows>
-int DualNewton<Rows>::newton_direction(const Vector& residual, double reduction,
+template <int Rows, int Odd, bool Grouped>
+int DualNewton<Rows, Odd, Grouped>::newton_direction(const Vector& residual, double reduction,
                                        Vector& direction) {
-  const double shift = this->shift();
+  const std::vector<double> shift = shifts();
   Vector r = residual, z(size_), q(size_);
   std::vector<double> stretch(active_.size());
   direction.assign(size_, 0.0);
@@ -236,7 +263,7 @@ int DualNewton<Rows>::newton_direction(const Vector& residual, double reduction,
     apply_transpose(p, stretch);
     for (std::size_t v = 0; v < stretch.size(); ++v) stretch[v] *= active_[v];
     apply(stretch, q);
-    for (std::size_t k = 0; k < size_; ++k) q[k] += shift * p[k];
+    for (std::size_t k = 0; k < size_; ++k) q[k] += shift[k % Rows] * p[k];
     const double step = rz / dot(p, q);
     for (std::size_t k = 0; k < size_; ++k) {
       direction[k] += step * p[k];
@@ -251,8 +278,8 @@ int DualNewton<Rows>::newton_direction(const Vector& residual, double reduction,
 }
 
 /// Halves the step until the concave dual function grows. \return length of the step
-template <int Rows>
-double DualNewton<Rows>::search_line(const Vector& residual, const Vector& direction, Vector& y) {
+template <int Rows, int Odd, bool Grouped>
+double DualNewton<Rows, Odd, Grouped>::search_line(const Vector& residual, const Vector& direction, Vector& y) {
   const double before = dual(y);
   const double slope = dot(residual, direction);
   Vector trial(size_);
@@ -266,8 +293,8 @@ double DualNewton<Rows>::search_line(const Vector& residual, const Vector& direc
   return step;
 }
 
-template <int Rows>
-LeastChange DualNewton<Rows>::solve() {
+template <int Rows, int Odd, bool Grouped>
+LeastChange DualNewton<Rows, Odd, Grouped>::solve() {
   LeastChange result;
   Vector y(size_, 0.0), residual, direction(size_);
   const double target =
@@ -286,13 +313,14 @@ LeastChange DualNewton<Rows>::solve() {
     prepare(settled, last);
     pattern = active_;
     // The first steps only find out which weights are at their bounds.
-    const double reduction = step == 0 ? 1e-2 : settled ? 0.3 * target / size : 1e-3;
-    last = newton_direction(residual, std::max(reduction, 1e-12), direction);
+    const double coarse = step == 0 ? 1e-2 : settled ? 0.0 : 1e-3;
+    const double reduction = std::max({coarse, 0.3 * target / size, 1e-12});
+    last = newton_direction(residual, reduction, direction);
     result.iterations += last;
     if (!by_factor_ && options_.preconditioner == Preconditioner::blocks_then_factor &&
         last == patience) {
       build_factor();
-      last = newton_direction(residual, std::max(reduction, 1e-12), direction);
+      last = newton_direction(residual, reduction, direction);
       result.iterations += last;
     }
     search_line(residual, direction, y);
@@ -303,14 +331,14 @@ LeastChange DualNewton<Rows>::solve() {
   return result;
 }
 
-template <int Rows>
-void DualNewton<Rows>::report(const Vector& y, const Vector& residual, LeastChange& result) const {
+template <int Rows, int Odd, bool Grouped>
+void DualNewton<Rows, Odd, Grouped>::report(const Vector& y, const Vector& residual, LeastChange& result) const {
   result.weights = weights_;
   for (std::size_t v = 0; v < weights_.size(); ++v) {
     result.at_lower += weights_[v] <= equations_.lower[v];
   }
   for (std::size_t k = 0; k < size_; ++k) {
-    const double rest = std::abs(residual[k] + options_.ridge * y[k]);
+    const double rest = std::abs(residual[k] + equations_.ridge_of(k % Rows) * y[k]);
     if (rest <= result.residual) continue;
     result.residual = rest;
     result.worst_point = static_cast<Index>(k / Rows);
@@ -321,27 +349,25 @@ void DualNewton<Rows>::report(const Vector& y, const Vector& residual, LeastChan
 
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
                          std::unique_ptr<CoarseSpace>& factor) {
-  switch (equations.rows) {
-    case 4:
-      return DualNewton<4>(equations, options, factor).solve();
-    case 5:
-      return DualNewton<5>(equations, options, factor).solve();
-    case 6:
-      return DualNewton<6>(equations, options, factor).solve();
-    case 8:
-      return DualNewton<8>(equations, options, factor).solve();
-    case 10:
-      return DualNewton<10>(equations, options, factor).solve();
-    case 15:
-      return DualNewton<15>(equations, options, factor).solve();
-    case 18:
-      return DualNewton<18>(equations, options, factor).solve();
-    case 21:
-      return DualNewton<21>(equations, options, factor).solve();
-    default:
-      throw std::invalid_argument(std::to_string(equations.rows) +
-                                  " equations per point are not built in");
-  }
+  const auto are = [&](int rows, int odd, bool grouped) {
+    return equations.rows == rows && equations.odd == odd && equations.group.empty() != grouped;
+  };
+  // Moduli of a family of bonds without and with moments in two and three dimensions.
+  if (are(5, 0, false)) return DualNewton<5, 0, false>(equations, options, factor).solve();
+  if (are(6, 0, false)) return DualNewton<6, 0, false>(equations, options, factor).solve();
+  if (are(15, 0, false)) return DualNewton<15, 0, false>(equations, options, factor).solve();
+  if (are(21, 0, false)) return DualNewton<21, 0, false>(equations, options, factor).solve();
+  // Their forces, and with them energies.
+  if (are(4, 4, false)) return DualNewton<4, 4, false>(equations, options, factor).solve();
+  if (are(5, 4, true)) return DualNewton<5, 4, true>(equations, options, factor).solve();
+  if (are(8, 6, false)) return DualNewton<8, 6, false>(equations, options, factor).solve();
+  if (are(9, 6, true)) return DualNewton<9, 6, true>(equations, options, factor).solve();
+  if (are(10, 10, false)) return DualNewton<10, 10, false>(equations, options, factor).solve();
+  if (are(11, 10, true)) return DualNewton<11, 10, true>(equations, options, factor).solve();
+  if (are(18, 13, false)) return DualNewton<18, 13, false>(equations, options, factor).solve();
+  if (are(19, 13, true)) return DualNewton<19, 13, true>(equations, options, factor).solve();
+  throw std::invalid_argument(std::to_string(equations.rows) + " equations per point, " +
+                              std::to_string(equations.odd) + " of them odd, are not built in");
 }
 
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options) {

@@ -19,20 +19,27 @@ namespace perilink {
 ///     = r_p,
 ///
 /// with the sign - in the first `odd` rows (forces, that act against each other at the two ends) and
-/// + in the others (moments, moduli).
+/// + in the others (moments, moduli). The last row may hold for groups of points instead.
 struct PointEquations {
   int dim = 2;
   int rows = 0;
   int odd = 0;
   std::vector<Index> first, second;  ///< points of each variable
+  std::vector<Index> group;          ///< of each point: the point at which the last row of its variables
+                                     ///< counts, summed over the group; empty: at the point itself
   std::vector<double> coefficients;  ///< a_v, shape (variables, rows)
   std::vector<double> lower;         ///< least weight of each variable
   std::vector<double> right;         ///< r_p, shape (points, rows)
   std::vector<double> scale;         ///< of the equations, shape (points, rows): times r they are of
                                      ///< order one; 0 switches an equation off
+  std::vector<double> ridge;         ///< of each row, empty: none. 0: equations hold exactly; > 0: their
+                                     ///< squared residuals are charged 1 / ridge against the squared
+                                     ///< changes of the weights
   std::vector<double> positions;     ///< of the points, shape (points, dim) [length]
 
   Index num_variables() const { return static_cast<Index>(first.size()); }
+  int own_rows() const { return group.empty() ? rows : rows - 1; }
+  double ridge_of(std::size_t row) const { return ridge.empty() ? 0.0 : ridge[row]; }
   Index num_points() const {
     return static_cast<Index>(right.size() / static_cast<std::size_t>(rows));
   }
@@ -49,8 +56,6 @@ enum class Preconditioner {
 /// How to solve them.
 struct LeastChangeOptions {
   double upper = 100.0;       ///< largest weight
-  double ridge = 0.0;         ///< 0: equations hold exactly; > 0: their squared residuals are charged
-                              ///< 1 / ridge against the squared changes of the weights
   double tolerance = 1e-12;   ///< of the norm of the scaled residual, per root of the number of points
   int iterations = 20000;     ///< of conjugate gradients, in all
   Preconditioner preconditioner = Preconditioner::blocks;
@@ -74,7 +79,7 @@ struct LeastChange {
 /// with A w(y) + ridge y = r, whose linear systems A D A' (D: the weights between the bounds) conjugate
 /// gradients solve. Where the equations contradict each other or the bounds, the steps, which are those
 /// of the method of multipliers, lead to the least squared residual.
-/// \throws std::invalid_argument for numbers of rows that are not built in
+/// \throws std::invalid_argument for numbers of rows, odd ones and groups that are not built in
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);
 
 /// The same, where `factor` is that of equations of the same points and about these coefficients, or none.

@@ -52,6 +52,20 @@ TEST(BondEquations, RightSideIsTheStressOnTheArea) {
   }
 }
 
+/// A dilatation stretches bonds and turns none; a body of volume V stores (9 lambda + 6 mu) V / 2 in space.
+TEST(BondEquations, LastRowHoldsTheEnergyOfADilatation) {
+  for (const bool bending : {false, true}) {
+    const ForceRows rows{3, bending, true};
+    ASSERT_EQ(rows.count(), rows.balance() + 1);
+    std::vector<double> axial(static_cast<std::size_t>(rows.count())), shear(axial.size());
+    rows.axial(2.0, std::array<double, 3>{0.6, 0.0, 0.8}, axial.data());
+    if (bending) rows.shear(2.0, std::array<double, 3>{0.6, 0.0, 0.8}, shear.data());
+    EXPECT_DOUBLE_EQ(axial.back(), 2.0);
+    EXPECT_EQ(shear.back(), 0.0);
+  }
+  EXPECT_DOUBLE_EQ(dilatation_modulus(3, 0.5, {2.0, 1.0}), 12.0);
+}
+
 TEST(BondEquations, CountTheIndependentComponents) {
   EXPECT_EQ((ForceRows{2, false}).count(), 4);
   EXPECT_EQ((ForceRows{3, false}).count(), 10);

@@ -115,6 +115,37 @@ INSTANTIATE_TEST_SUITE_P(
         BodyCase{"moments_in_space", box(Pattern::cubic, 0.2, {1, 1, 1}), 2.5, 0.0, true}),
     [](const auto& given) { return std::string(given.param.name); });
 
+/// The energy of a dilatation is soft, and moves a little with the exact forces afterwards: root mean square 3.2 %
+/// off at the start, 0.6 % after (6.2 % with forces alone). In sum the forces make it exact.
+TEST(Calibration, OfIrregularBodiesLeavesParticlesTheirEnergy) {
+  Problem problem = make_problem(box(Pattern::rectangular, 0.05, {1, 1, 0}), 3.0, 0.5, false);
+  const Particles& particles = problem.body.particles;
+  const auto spread = [&] {
+    std::vector<double> energy(static_cast<std::size_t>(particles.size()), 0.0);
+    double sum = 0.0, square = 0.0, volume = 0.0;
+    for (Index b = 0; b < problem.bonds.size(); ++b) {
+      const double half = 0.5 * problem.stiffness.axial[b] * std::pow(problem.bonds.lengths[b], 2);
+      energy[problem.bonds.first[b]] += half;
+      energy[problem.bonds.second[b]] += half;
+    }
+    Index inside = 0;
+    for (Index i = 0; i < particles.size(); ++i) {
+      sum += energy[i];
+      volume += particles.volumes[i];
+      const auto x = particles.position(i);
+      if (std::min({x[0], 1.0 - x[0], x[1], 1.0 - x[1]}) < 0.2) continue;
+      square += std::pow(energy[i] / (8.0 * particles.volumes[i]) - 1.0, 2);
+      ++inside;
+    }
+    return std::pair(std::sqrt(square / inside), sum / (8.0 * volume) - 1.0);
+  };
+  const double before = spread().first;
+  calibrate(problem);
+  const auto [after, whole] = spread();
+  EXPECT_LT(after, 0.3 * before);
+  EXPECT_NEAR(whole, 0.0, 1e-10);
+}
+
 /// The floor stands in the way at the corners of a cube only: bonds along the diagonals of the corner
 /// particles pull out of three faces at once and vanish.
 TEST(Calibration, DropsTheDiagonalsAtTheCornersOfACube) {
