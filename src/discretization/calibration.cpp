@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "discretization/calibration_report.hpp"
 #include "discretization/coarse_space.hpp"
 #include "discretization/facet_shares.hpp"
 #include "discretization/least_change.hpp"
@@ -19,12 +20,11 @@ constexpr double met = 1e-7;
 
 /// Where a bond may fall to zero, it is on its way there below this weight.
 constexpr double vanishing = 1e-3;
-
 /// Zeros stay where they bring the forces out of balance down to this part.
 constexpr double worth_dropping = 0.1;
 
-/// In irregular clouds the energies of dilatation are soft equations: they are charged a hundred thirds of the
-/// changes. Few digits are enough; what the exact forces move afterwards is more. In space the forces beside
+/// In irregular clouds the energies of dilatation are soft equations: squares weigh 1 / ridge against those of
+/// the changes. Few digits are enough; what the exact forces move afterwards is more. In space the forces beside
 /// them are a little soft too: at edges and corners positive weights often cannot do both.
 constexpr double dilatation_ridge = 0.03;
 constexpr double forces_ridge_in_space = 1e-4;
@@ -34,8 +34,7 @@ constexpr double settling_tolerance = 0.01;
 constexpr double moments_ridge = 1e-4;
 
 /// Intermediate passes need no more digits; what they leave is no contradiction.
-constexpr double coarse_tolerance = 1e-6;
-constexpr double coarsely_met = 1e-4;
+constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
 
 class Calibration {
  public:
@@ -56,7 +55,8 @@ class Calibration {
   bool solve(const LeastChangeOptions& forces, CalibrationReport& report);
   bool allow_zero(double limit);
   bool hollow() const;
-  void restore(const LeastChangeOptions& forces, CalibrationReport& report);
+  void restore();
+  bool attempt(const LeastChangeOptions& forces, CalibrationReport& report);
   void drop_vanishing();
   bool is_free(Index b) const { return input_.free.empty() || input_.free[b] != 0; }
   void choose_points();
@@ -76,7 +76,7 @@ class Calibration {
   Facets& facets_;
   BondStiffness& stiffness_;
   BondStiffness start_;        // zero for bonds that were dropped
-  const BondStiffness given_;
+  const BondStiffness given_;  // all of them
   int dim_;
   ForceRows forces_;
   std::vector<Index> point_of_;     // of each particle, no_index where no free bond ends
@@ -87,6 +87,7 @@ class Calibration {
   std::vector<std::uint8_t> may_vanish_;  // bonds without a lower bound
   std::vector<double> modulus_;      // 1/2 sum k xi^2 of each particle at the start
   std::vector<double> length_;       // mean xi of each particle
+  bool energies_ = false;            // of dilatation take part
   std::unique_ptr<CoarseSpace> factor_;  // of the force equations
 };
 
@@ -202,17 +203,19 @@ PointEquations Calibration::settling_equations() const {
 }
 
 void Calibration::gather_dilatations(PointEquations& equations) const {
-  const std::vector<Index> head =
-      surface_columns(input_.bonds, facets_, input_.particles.size());
+  const std::vector<Index> head = surface_columns(input_.bonds, facets_, input_.particles);
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   for (const Index i : particle_of_) {
-    const Index group = point_of_[head[i]];
+    const Index group = point_of_[head[i] == no_index ? i : head[i]];
     equations.group.push_back(group);
     equations.right[(group + 1) * rows - 1] +=
         dilatation_modulus(dim_, input_.particles.volumes[i],
                            input_.materials[input_.particles.material[i]]);
   }
   scale_last_rows(equations);
+  for (std::size_t p = 0; p < particle_of_.size(); ++p) {
+    if (head[particle_of_[p]] == no_index) equations.scale[(p + 1) * rows - 1] = 0.0;
+  }
 }
 
 /// \return iterations
@@ -225,26 +228,7 @@ int Calibration::improve(const PointEquations& equations, const LeastChangeOptio
 }
 
 void Calibration::report_balance(CalibrationReport& report) const {
-  const std::vector<double> rest = out_of_balance();
-  const std::size_t rows = static_cast<std::size_t>(forces_.count());
-  report.residual_after = report.moment_after = 0.0;
-  report.unmet = 0;
-  for (Index i = 0; i < input_.particles.size(); ++i) {
-    if (modulus_[i] == 0.0) continue;
-    double largest = 0.0;
-    for (std::size_t r = 0; r < rows; ++r) {
-      const double size = std::abs(rest[i * rows + r]) / modulus_[i];
-      if (static_cast<int>(r) < forces_.odd()) {
-        largest = std::max(largest, size * length_[i]);
-      } else {
-        report.moment_after = std::max(report.moment_after, size);
-      }
-    }
-    report.unmet += largest > met;
-    if (largest <= report.residual_after) continue;
-    report.residual_after = largest;
-    report.worst_particle = i;
-  }
+  report_forces(forces_, out_of_balance(), modulus_, length_, met, report);
 }
 
 /// Takes the lower bound from the bonds of particles that are out of balance by more than the limit.
@@ -295,13 +279,15 @@ void Calibration::settle(const PointEquations& equations, double tolerance, Cali
   factor_.reset();
 }
 
-/// The forces, exactly. Where too many positive weights do not exist the search for them runs away; then what was
-/// settled stays. \return whether it did not
+/// The forces, exactly. Where no positive weights balance many particles the search diverges; then the settled
+/// stiffnesses are kept. \return whether forces are nearer to balance now
 bool Calibration::balance(const LeastChangeOptions& options, CalibrationReport& report) {
+  report_balance(report);
+  const double before = report.residual_after;
   const BondStiffness settled = stiffness_;
   report.iterations += improve(force_equations(forces_, false), options);
   report_balance(report);
-  if (report.residual_after <= report.residual_before) return true;
+  if (report.residual_after <= std::max(met, before)) return true;
   stiffness_ = settled;
   report_balance(report);
   return false;
@@ -309,14 +295,10 @@ bool Calibration::balance(const LeastChangeOptions& options, CalibrationReport& 
 
 bool Calibration::solve(const LeastChangeOptions& forces, CalibrationReport& report) {
   stiffness_ = start_;
-  const bool cloud = input_.free.empty();
-  // In space energies and moments get in each other's way: displacements in uniform strain are then off by
-  // 7 % instead of 2 (tetrahedra of a cylinder, verification/studies/patch_tests).
-  const bool energies = cloud && (dim_ == 2 || stiffness_.bending.empty());
-  if (energies) settle(settling_equations(), settling_tolerance, report);
+  if (energies_) settle(settling_equations(), settling_tolerance, report);
   if (stiffness_.bending.empty()) return balance(forces, report);
-  // Energies have unsettled the moments of clouds: twice.
-  for (int pass = 0; pass < (cloud ? 2 : 1); ++pass) {
+  // Exact forces unsettle the moments of clouds: twice.
+  for (int pass = 0; pass < (input_.free.empty() ? 2 : 1); ++pass) {
     settle(force_equations(forces_, true), coarse_tolerance, report);
     if (!balance(forces, report)) return false;
   }
@@ -333,13 +315,33 @@ bool Calibration::hollow() const {
   return std::any_of(kept_minus_lost.begin(), kept_minus_lost.end(), [](Index n) { return n < 0; });
 }
 
-/// Where zeros do not help (too few neighbours all over) every bond keeps something to carry.
-void Calibration::restore(const LeastChangeOptions& forces, CalibrationReport& report) {
+/// Back to all bonds and their lower bounds.
+void Calibration::restore() {
   start_ = given_;
   variables_[0] = free_bonds_;
   if (!stiffness_.bending.empty()) variables_[1] = free_bonds_;
   std::fill(may_vanish_.begin(), may_vanish_.end(), 0);
-  solve(forces, report);
+}
+
+/// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours all over)
+/// every bond keeps something to carry. \return whether the exact forces led anywhere
+bool Calibration::attempt(const LeastChangeOptions& forces, CalibrationReport& report) {
+  const bool cautious = dim_ == 3;  // corners may have no solution: finding out takes few digits
+  LeastChangeOptions coarse = forces;
+  if (cautious) coarse.tolerance = coarse_tolerance;
+  if (!solve(coarse, report)) return false;
+  const double floored = report.residual_after;
+  if (allow_zero(cautious ? coarsely_met : met)) {
+    solve(coarse, report);
+    drop_vanishing();
+    solve(forces, report);
+    if (report.residual_after <= worth_dropping * floored && !hollow()) return true;
+    restore();
+    solve(forces, report);
+  } else if (cautious) {
+    balance(forces, report);
+  }
+  return true;
 }
 
 CalibrationReport Calibration::run() {
@@ -359,18 +361,17 @@ CalibrationReport Calibration::run() {
   forces.preconditioner = dim_ == 2              ? Preconditioner::factor
                           : input_.free.empty() ? Preconditioner::aggregates
                                                 : Preconditioner::blocks_then_factor;
-  const bool cautious = dim_ == 3;  // corners may have no solution: finding out takes few digits
-  LeastChangeOptions attempt = forces;
-  if (cautious) attempt.tolerance = coarse_tolerance;
-  if (solve(attempt, report)) {
-    const double floored = report.residual_after;
-    if (allow_zero(cautious ? coarsely_met : met)) {
-      solve(attempt, report);
-      drop_vanishing();
-      solve(forces, report);
-      if (report.residual_after > worth_dropping * floored || hollow()) restore(forces, report);
-    } else if (cautious) {
-      balance(forces, report);
+  // In space energies and moments get in each other's way (verification/studies/patch_tests).
+  energies_ = input_.free.empty() && (dim_ == 2 || stiffness_.bending.empty());
+  if (!attempt(forces, report) && energies_) {
+    const BondStiffness settled = stiffness_;
+    const double reached = report.residual_after;
+    energies_ = false;
+    attempt(forces, report);
+    if (report.residual_after > reached) {
+      restore();
+      stiffness_ = settled;
+      report_balance(report);
     }
   }
   for (const Index b : free_bonds_) {

@@ -22,7 +22,8 @@ struct CalibrationInput {
   const Bonds& bonds;          ///< between them
   std::vector<LameConstants> materials;  ///< by Particles::material and Facets
   /// Bonds whose stiffness may change, the others are right as they are (interior of a lattice). Empty:
-  /// all may, and the energies of dilatation are made right as well (irregular clouds).
+  /// all may, and the energies of dilatation are made right as well, softly (irregular clouds; not of micropolar
+  /// ones in space).
   std::vector<std::uint8_t> free;
 };
 
@@ -59,7 +60,8 @@ struct CalibrationReport {
 /// positive bounds) such that every particle is in balance in every uniform strain; see
 /// docs/theory/calibration.md. Shifts the shares of facets a little where no stiffness could do it
 /// (balance_shares). Where the bounds stand in the way (a corner of a cube: bonds along its diagonal pull
-/// out of all three faces at once) the bonds there may fall to zero.
+/// out of all three faces at once) the bonds there may fall to zero. Where many particles cannot be balanced
+/// forces stay as near to it as soft equations lead; the report says how near.
 CalibrationReport calibrate_bonds(const CalibrationInput& input, const CalibrationOptions& options,
                                   Facets& facets, BondStiffness& stiffness);
 

@@ -83,6 +83,7 @@ void CoarseSpace::assemble(const PointEquations& equations, const std::vector<do
     if (found.size() == 0) found = Eigen::MatrixXd::Zero(width, width);
     return found;
   };
+  for (Index box = 0; box < num_boxes_; ++box) block(box, box);  // also of those without variables
   ColumnBlocks<Eigen::VectorXd> column;
   column.blocks.fill(Eigen::VectorXd::Zero(width));
   for (Index v = 0; v < equations.num_variables(); ++v) {

@@ -365,7 +365,6 @@ LeastChange least_change(const PointEquations& equations, const LeastChangeOptio
   if (are(10, 10, false)) return DualNewton<10, 10, false>(equations, options, factor).solve();
   if (are(11, 10, true)) return DualNewton<11, 10, true>(equations, options, factor).solve();
   if (are(18, 13, false)) return DualNewton<18, 13, false>(equations, options, factor).solve();
-  if (are(19, 13, true)) return DualNewton<19, 13, true>(equations, options, factor).solve();
   throw std::invalid_argument(std::to_string(equations.rows) + " equations per point, " +
                               std::to_string(equations.odd) + " of them odd, are not built in");
 }

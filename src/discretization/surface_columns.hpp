@@ -5,12 +5,14 @@
 #include "base/types.hpp"
 #include "discretization/bonds.hpp"
 #include "discretization/facets.hpp"
+#include "discretization/particles.hpp"
 
 namespace perilink {
 
-/// Columns of particles under the surface: particles bonded to particles of facets belong to the nearest of
-/// these, the others and those of facets to themselves.
-/// \return head of the column of each particle
-std::vector<Index> surface_columns(const Bonds& bonds, const Facets& facets, Index num_particles);
+/// Columns of particles under the surface: particles bonded to particles of the surface of the same material belong
+/// to the nearest of these, the others to themselves. Particles where materials meet belong nowhere.
+/// \return head of the column of each particle, no_index: none
+std::vector<Index> surface_columns(const Bonds& bonds, const Facets& facets,
+                                   const Particles& particles);
 
 }  // namespace perilink
