@@ -1,6 +1,6 @@
 // How cracks grow with each option for surfaces: peak load, energy per area, path, stray breaks.
 //
-//   cracks [DIRECTORY]    writes result.csv and four pictures there, default: where it is run
+//   cracks [DIRECTORY]    writes result.csv and five pictures there, default: where it is run
 //
 // Exit status 1 when something misses its acceptance. About three minutes.
 
