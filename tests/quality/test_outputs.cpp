@@ -1,0 +1,180 @@
+// The user's page of results names every file, column, field and key that a run writes.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/plot.hpp"
+#include "io/csv.hpp"
+#include "io/vtu.hpp"
+#include "quality/source_tree.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink::quality {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* square = R"([[regions]]
+name = "square"
+x = [0, 1]
+y = [0, 1]
+
+[[regions]]
+name = "left side"
+x = [0, 0]
+y = [0, 1]
+
+[[regions]]
+name = "right side"
+x = [1, 1]
+y = [0, 1]
+
+[[materials]]
+region = "square"
+youngs_modulus = 100
+poissons_ratio = 0.2
+fracture_energy = 0.001
+
+[[supports]]
+region = "left side"
+fix = ["x", "y"]
+
+[[displacements]]
+region = "right side"
+x = 0.04
+)";
+
+/// Between them these write everything: micropolar bonds that break beside a bar, elastic ones and
+/// linear elements.
+const std::vector<std::string> heads = {
+    R"([body]
+spacing = 0.25
+horizon_ratio = 2
+model = "micropolar"
+
+[stop]
+broken_bonds = 3
+
+[[rebar]]
+from = [0, 0.5]
+to = [1, 0.5]
+youngs_modulus = 1000
+area = 0.01
+)",
+    R"([body]
+spacing = 0.25
+horizon_ratio = 2
+model = "micropolar"
+
+[analysis]
+type = "elastic"
+)",
+    R"([body]
+spacing = 0.25
+method = "linear_elements"
+
+[analysis]
+type = "elastic"
+)"};
+
+std::string page() {
+  std::string text;
+  for (const std::string& line : read_lines(project_root() / "docs/outputs.md")) text += line + "\n";
+  return text;
+}
+
+/// The part of the page below a heading, down to the next one.
+std::string section(const std::string& heading) {
+  const std::string text = page();
+  const std::size_t begin = text.find("\n## " + heading);
+  return begin == std::string::npos ? "" : text.substr(begin, text.find("\n## ", begin + 1) - begin);
+}
+
+void expect_named(const std::string& text, const std::string& name, const std::string& what) {
+  EXPECT_NE(text.find("`" + name + "`"), std::string::npos)
+      << "docs/outputs.md does not name the " << what << " `" << name << "`";
+}
+
+void expect_keys(const std::string& text, const nlohmann::json& object) {
+  for (const auto& [key, value] : object.items()) {
+    expect_named(text, key, "key of summary.json");
+    if (value.is_object()) expect_keys(text, value);
+  }
+}
+
+void expect_fields(const std::string& text, const fs::path& file) {
+  const VtuGrid grid = read_vtu(file.string());
+  EXPECT_FALSE(grid.point_data.empty());
+  for (const VtuArray& array : grid.point_data) expect_named(text, array.name, "field of points");
+  for (const VtuArray& array : grid.cell_data) expect_named(text, array.name, "field of cells");
+  for (const auto& [name, value] : grid.field_data) expect_named(text, name, "datum of a file");
+}
+
+class Outputs : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    const fs::path input = work_ / "case.toml";
+    std::ofstream(input) << GetParam() << square;
+    RunOptions run;
+    run.case_path = input.string();
+    run.directory = results().string();
+    run.quiet = true;
+    run.threads = 1;
+    ASSERT_EQ(run_case(run), exit_done);
+    PlotOptions plot;
+    plot.directory = results().string();
+    testing::internal::CaptureStdout();
+    plot_results(plot);
+    testing::internal::GetCapturedStdout();
+  }
+  fs::path results() const { return work_ / "results"; }
+
+  test::TemporaryDirectory work_;
+};
+
+TEST_P(Outputs, EveryFileIsDocumented) {
+  const std::string text = page();
+  for (const auto& entry : fs::directory_iterator(results())) {
+    std::string name = entry.path().filename().string();
+    if (name.ends_with(".vtu")) name = "fields_000010.vtu";
+    if (name.starts_with("fields_") && name.ends_with(".svg")) name = "fields_10.svg";
+    expect_named(text, name, "file");
+  }
+}
+
+TEST_P(Outputs, EveryColumnIsDocumented) {
+  for (const std::string& column : read_csv((results() / "history.csv").string()).columns) {
+    expect_named(section("history.csv"), column, "column of history.csv");
+  }
+  for (const std::string& column : read_csv((results() / "timing.csv").string()).columns) {
+    expect_named(page(), column, "column of timing.csv");
+  }
+}
+
+TEST_P(Outputs, EveryFieldIsDocumented) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(results())) {
+    if (entry.path().extension() != ".vtu") continue;
+    ++files;
+    expect_fields(section("Fields"), entry.path());
+  }
+  EXPECT_GT(files, 0);
+}
+
+TEST_P(Outputs, EveryKeyOfTheSummaryIsDocumented) {
+  std::ifstream file(results() / "summary.json");
+  const nlohmann::json summary = nlohmann::json::parse(file);
+  EXPECT_GT(summary.size(), 20u);
+  expect_keys(section("summary.json"), summary);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Outputs, testing::ValuesIn(heads));
+
+}  // namespace
+}  // namespace perilink::quality
