@@ -7,16 +7,15 @@
 
 namespace perilink::verification {
 
-std::string block_case(int columns, const std::string& surface) {
-  return fmt::format(R"(title = "Refined tension block, {0} columns"
+std::string block_case(const BlockLattice& lattice) {
+  const Vector3 &low = block_weak_patch.lower, &high = block_weak_patch.upper;
+  return fmt::format(R"(title = "{title}"
 units = "kip, in"
 [body]
 problem = "plane_stress"
 thickness = 1.0
-pattern = "hexagonal"
-surface = "{1}"
-columns = {0}
-horizon_ratio = 3.0
+surface = "{surface}"
+{layout}
 [[regions]]
 name = "specimen"
 x = [0, 100]
@@ -24,19 +23,19 @@ y = [0, 200]
 [[regions]]
 name = "lower cap"
 x = [0, 100]
-y = [-50, 0]
+y = [{bottom}, 0]
 [[regions]]
 name = "upper cap"
 x = [0, 100]
-y = [200, 250]
+y = [200, {top}]
 [[regions]]
 name = "weak patch"
-x = [35, 65]
-y = [85, 115]
+x = [{left}, {right}]
+y = [{below}, {above}]
 [[materials]]
 region = "specimen"
 youngs_modulus = 3604.0
-fracture_energy = 0.001
+fracture_energy = {fracture_energy}
 [[materials]]
 regions = ["lower cap", "upper cap"]
 youngs_modulus = 3604.0
@@ -44,7 +43,7 @@ fracture_energy = "infinite"
 [[materials]]
 region = "weak patch"
 youngs_modulus = 3604.0
-fracture_energy = 0.00095
+fracture_energy = {weak_fracture_energy}
 [[loads]]
 region = "lower cap"
 force = [0, -100]
@@ -54,7 +53,19 @@ force = [0, 100]
 [analysis]
 rigid_body_modes = "pin"
 )",
-                     columns, surface);
+                     fmt::arg("title", lattice.title), fmt::arg("surface", lattice.surface),
+                     fmt::arg("layout", lattice.layout), fmt::arg("bottom", -50 + lattice.inset),
+                     fmt::arg("top", 250 - lattice.inset), fmt::arg("left", low[0]),
+                     fmt::arg("right", high[0]), fmt::arg("below", low[1]),
+                     fmt::arg("above", high[1]), fmt::arg("fracture_energy", block_fracture_energy),
+                     fmt::arg("weak_fracture_energy", block_weak_fracture_energy));
+}
+
+std::string block_case(int columns, const std::string& surface) {
+  return block_case(
+      {fmt::format("Refined tension block, {} columns", columns),
+       fmt::format("pattern = \"hexagonal\"\ncolumns = {}\nhorizon_ratio = 3.0", columns),
+       surface});
 }
 
 Model make_block(int columns, const std::string& surface) {

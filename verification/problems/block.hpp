@@ -5,16 +5,32 @@
 
 #include "analysis/damage_analysis.hpp"
 #include "app/configure.hpp"
+#include "discretization/region.hpp"
 
 /// \file
-/// The refined tension block that studies and benchmarks share: the plain concrete block of Gerstle,
-/// Sau & Silling (2005), Fig. 9 (100 in by 200 in between two unbreakable caps of 50 in, weak patch in
-/// the middle), on a conforming hexagonal lattice with a horizon of three spacings; calibrated bonds or
-/// those of the infinite body (`surface` of the case).
+/// The tension block that studies and benchmarks share: the plain concrete block of Gerstle, Sau &
+/// Silling (2005), Fig. 9: 100 in by 200 in between two unbreakable caps of 50 in, weak patch in
+/// the middle.
 
 namespace perilink::verification {
 
-/// The case file of the block with so many particles across its width and bonds "calibrated" or "none".
+inline constexpr double block_fracture_energy = 0.001;             ///< [kip/in]
+inline constexpr double block_weak_fracture_energy = 0.00095;      ///< of the weak patch [kip/in]
+inline constexpr Box block_weak_patch{{35, 85, 0}, {65, 115, 0}};  ///< [in]
+
+/// What the cases of the block do not share.
+struct BlockLattice {
+  std::string title;
+  std::string layout;   ///< lines of [body]: pattern, number of columns or spacing, horizon
+  std::string surface;  ///< "calibrated", "ghost" or "none"
+  double inset = 0.0;   ///< of the regions of the caps from the ends of the block [in]
+};
+
+/// The case file of the block.
+std::string block_case(const BlockLattice& lattice);
+
+/// The refined block: a conforming hexagonal lattice with so many particles across the width and a
+/// horizon of three spacings; bonds "calibrated" or "none".
 std::string block_case(int columns, const std::string& surface);
 
 /// Columns that give about 5 000, 50 000, 300 000 and 1 000 000 unknowns.
@@ -23,6 +39,7 @@ inline constexpr int columns_50k = 85;
 inline constexpr int columns_300k = 209;
 inline constexpr int columns_1m = 381;
 
+/// The model of the refined block.
 Model make_block(int columns, const std::string& surface = "calibrated");
 
 /// Keeps the rows of a history in memory.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/case_words.hpp"
+#include "problems/block.hpp"
 
 namespace perilink::verification {
 namespace {
@@ -14,56 +15,24 @@ std::string region(const std::string& name, double left, double right, double lo
                      low, high);
 }
 
-std::string heading(const std::string& title, const std::string& units, double thickness,
-                    double spacing, int horizon_ratio, Surface surface) {
-  return fmt::format(
-      "title = \"{}\"\nunits = \"{}\"\n[body]\nproblem = \"plane_stress\"\nthickness = {}\n"
-      "spacing = {}\nhorizon_ratio = {}\nsurface = \"{}\"\n",
-      title, units, thickness, spacing, horizon_ratio, surface_word(surface));
-}
-
 /// Rows of Peri2D's grid begin on the lower face; they are half a spacing inside where the rows'
 /// cells are to fill the height of the body.
 double inset(double spacing, Surface surface) {
   return surface == Surface::ghost ? 0.5 * spacing : 0.0;
 }
 
-/// The block of Gerstle, Sau & Silling (2005), Fig. 9.
 Specimen make_block_in_tension(double spacing, int horizon_ratio, Surface surface) {
-  const double e = 3604.0, g = 0.001, weak = 0.00095, in = inset(spacing, surface);
   Specimen block;
   block.name = "block";
   block.along = 0;
   block.ligament = {0.0, 100.0};
   block.inside = {50.0, 160.0};
-  block.fracture_energy = g;
-  block.weak = Box{{35, 85, 0}, {65, 115, 0}};
-  block.weak_fracture_energy = weak;
-  block.text = heading("Block in tension", "kip, in", 1.0, spacing, horizon_ratio, surface) +
-               region("specimen", 0, 100, 0, 200) + region("lower cap", 0, 100, -50 + in, 0) +
-               region("upper cap", 0, 100, 200, 250 - in) + region("weak patch", 35, 65, 85, 115) +
-               fmt::format(R"([[materials]]
-region = "specimen"
-youngs_modulus = {0}
-fracture_energy = {1}
-[[materials]]
-regions = ["lower cap", "upper cap"]
-youngs_modulus = {0}
-fracture_energy = "infinite"
-[[materials]]
-region = "weak patch"
-youngs_modulus = {0}
-fracture_energy = {2}
-[[loads]]
-region = "lower cap"
-force = [0, -100]
-[[loads]]
-region = "upper cap"
-force = [0, 100]
-[analysis]
-rigid_body_modes = "pin"
-)",
-                           e, g, weak);
+  block.fracture_energy = block_fracture_energy;
+  block.weak = block_weak_patch;
+  block.weak_fracture_energy = block_weak_fracture_energy;
+  block.text = block_case({"Block in tension",
+                           fmt::format("spacing = {}\nhorizon_ratio = {}", spacing, horizon_ratio),
+                           surface_word(surface), inset(spacing, surface)});
   return block;
 }
 
@@ -72,6 +41,14 @@ constexpr double beam_fracture_energy = 0.1;                                    
 constexpr double beam_height = 96.0, beam_length = 432.0, beam_thickness = 50.0;  // [mm]
 constexpr double middle = 0.5 * beam_length;
 constexpr double overhang = 0.5 * (beam_length - 4.0 * beam_height);
+
+std::string beam_heading(const std::string& title, double spacing, int horizon_ratio,
+                         Surface surface) {
+  return fmt::format(
+      "title = \"{}\"\nunits = \"N, mm\"\n[body]\nproblem = \"plane_stress\"\nthickness = {}\n"
+      "spacing = {}\nhorizon_ratio = {}\nsurface = \"{}\"\n",
+      title, beam_thickness, spacing, horizon_ratio, surface_word(surface));
+}
 
 /// Pads that do not break, one particle wide supports, and the load on one or two particles.
 std::string beam_loading(double h, double load_fraction) {
@@ -128,8 +105,7 @@ Specimen make_notched_beam(double h, int horizon_ratio, Surface surface) {
   const double depth = 32.0, half = 4.0, in = inset(h, surface), top = beam_height - in;
   Specimen beam = make_beam("notched beam", depth);
   beam.corners = {{middle - half, depth}, {middle + half, depth}};
-  beam.text = heading("Notched beam in three-point bending", "N, mm", beam_thickness, h,
-                      horizon_ratio, surface) +
+  beam.text = beam_heading("Notched beam in three-point bending", h, horizon_ratio, surface) +
               region("left", 0, middle - half, in, top) +
               region("right", middle + half, beam_length, in, top) +
               region("ligament", middle - half, middle + half, depth, top) +
@@ -144,8 +120,7 @@ Specimen make_notched_beam(double h, int horizon_ratio, Surface surface) {
 Specimen make_cracked_beam(double h, int horizon_ratio, Surface surface) {
   const double in = inset(h, surface), aside = 0.5 * h - in, tip = 0.5 * beam_height - aside;
   Specimen beam = make_beam("cracked beam", tip);
-  beam.text = heading("Cracked beam in three-point bending", "N, mm", beam_thickness, h,
-                      horizon_ratio, surface) +
+  beam.text = beam_heading("Cracked beam in three-point bending", h, horizon_ratio, surface) +
               region("beam", 0, beam_length, in, beam_height - in) + concrete(R"("beam")") +
               beam_loading(h, 0.2) + crack_line(middle - aside, tip);
   beam.griffith_load =
