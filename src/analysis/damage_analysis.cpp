@@ -13,8 +13,8 @@
 namespace perilink {
 namespace {
 
-/// A bar whose secant fell below this has stretched to a hundred times its yield strain: it no longer
-/// limits anything, the bars and the body form a plastic mechanism.
+/// A bar whose secant fell below this has stretched to a hundred times its yield strain: it no
+/// longer limits anything, the bars and the body form a plastic mechanism.
 constexpr double exhausted_secant = 1e-2;
 
 /// A driven body whose stiffness fell below this fraction has separated.
@@ -113,8 +113,8 @@ void Run::check() {
   checked_compliance_ = compliance_;
 }
 
-/// The residual grows in proportion to the displacements, which forces make without bound as a body comes
-/// apart (driven displacements do not: their compliance is negative).
+/// The residual grows in proportion to the displacements, which forces make without bound as a body
+/// comes apart (driven displacements do not: their compliance is negative).
 double Run::expected_residual() const {
   if (!(checked_compliance_ > 0.0)) return row_.residual;
   return row_.residual * std::max(1.0, compliance_ / checked_compliance_);
@@ -231,8 +231,9 @@ DamageResult Run::by_events() {
 }
 
 /// At prescribed load factors: the worst element fails, and the next, until none exceeds its limit.
-/// Of the stop rules only the number of broken bonds and the signal are looked at within a step; the
-/// others ask for equilibrium at its end. A run that ends within a step reports the last equilibrium at the load that it can bear.
+/// Of the stop rules only the number of broken bonds and the signal are looked at within a step;
+/// the others ask for equilibrium at its end. A run that ends within a step reports the last
+/// equilibrium at the load that it can bear.
 DamageResult Run::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
@@ -240,7 +241,8 @@ DamageResult Run::by_steps() {
     Index last = no_index;
     while (event.element != no_index && event.load_factor <= load_factor) {
       energy_.advance(load_factor, engine_->load_work());
-      const bool enough = options_.stop.broken_bonds && broken_bonds_ >= *options_.stop.broken_bonds;
+      const bool enough =
+          options_.stop.broken_bonds && broken_bonds_ >= *options_.stop.broken_bonds;
       if (observer_.stop_requested() || enough) {
         if (enough) {
           end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));

@@ -20,7 +20,9 @@ LimitSearch::LimitSearch(const Network& network) : dim_(network.dim()) {
     first_.push_back(network.bonds.first[e] * dim_);
     second_.push_back(network.bonds.second[e] * dim_);
     const std::span<const double> n = network.bonds.direction(e);
-    for (int a = 0; a < dim_; ++a) gradient_[a].push_back(n[a] / (network.bonds.lengths[e] * limit));
+    for (int a = 0; a < dim_; ++a) {
+      gradient_[a].push_back(n[a] / (network.bonds.lengths[e] * limit));
+    }
   }
   block_largest_.resize((elements_.size() + block_size - 1) / block_size);
 }
@@ -62,7 +64,9 @@ LimitSearch::Hit LimitSearch::find_in(const double* u, double tolerance, int thr
     const Index end = std::min<Index>((b + 1) * block_size, static_cast<Index>(elements_.size()));
     for (Index k = b * block_size; k < end; ++k) {
       double ratio = 0.0;
-      for (int a = 0; a < Dim; ++a) ratio += gradient_[a][k] * (u[second_[k] + a] - u[first_[k] + a]);
+      for (int a = 0; a < Dim; ++a) {
+        ratio += gradient_[a][k] * (u[second_[k] + a] - u[first_[k] + a]);
+      }
       // The sum above may be rounded otherwise than in the vector loop: the tolerance covers both.
       if (ratio >= threshold * (1.0 - 1e-14)) return {elements_[k], ratio};
     }

@@ -42,7 +42,8 @@ void decouple(Removal& removal, std::span<const double> compliance) {
     for (int k = 0; k < removal.x[m].size; ++k) {
       const Index row = removal.x[m].rows[k];
       const auto end = rows.rows.begin() + rows.size;
-      const auto place = static_cast<int>(std::find(rows.rows.begin(), end, row) - rows.rows.begin());
+      const auto place =
+          static_cast<int>(std::find(rows.rows.begin(), end, row) - rows.rows.begin());
       if (place == rows.size) rows.rows[rows.size++] = row;
       old(place, m) = removal.x[m].values[k];
     }

@@ -12,8 +12,8 @@
 namespace perilink {
 namespace {
 
-/// Where even a fresh factor leaves more than this of the load out of balance, no figure that follows
-/// would mean anything.
+/// Where even a fresh factor leaves more than this of the load out of balance, no figure that
+/// follows would mean anything.
 constexpr double hopeless_residual = 1e-3;
 
 }  // namespace
@@ -71,9 +71,9 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
   refine(residual);
 }
 
-/// Under forces alone an event needs the displacements of elements that can fail, and no others: the
-/// backward pass then leaves out the parts of the body where nothing can. f'u follows the events by
-/// its growth. Driven bodies need the reactions at every event and keep all.
+/// Under forces alone an event needs the displacements of elements that can fail, and no others:
+/// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
+/// events by its growth. Driven bodies need the reactions at every event and keep all.
 void SingleEventEngine::choose_current_unknowns() {
   if (!driven_elements_.empty()) return;
   std::vector<std::uint8_t> wanted(solution_.size(), 0);
@@ -196,8 +196,8 @@ double SingleEventEngine::refined_pivot(const SparseVector& x) {
   return 1.0 - removed;
 }
 
-/// Pivot of a removal, prepared in the factor; where it is small, from a factor and a solution that can
-/// be trusted.
+/// Pivot of a removal, prepared in the factor; where it is small, from a factor and a solution that
+/// can be trusted.
 double SingleEventEngine::pivot_of(const Change& change) {
   if (change.x.size == 0) return 1.0;
   double pivot = factor_->prepare_downdate(change.x);
@@ -376,11 +376,12 @@ int SingleEventEngine::cut(std::span<const Index> elements) {
       springs += cut_frame(element);
       continue;
     }
-    const Change change =
-        make_change(element, network_.stiffness[element] * secants_[element]);
+    const Change change = make_change(element, network_.stiffness[element] * secants_[element]);
     double pivot = pivot_of(change);
     for (int tries = 0; pivot < mechanism_pivot; ++tries) {
-      if (tries == most) throw SolverError("a part that comes loose cannot be held by ground springs");
+      if (tries == most) {
+        throw SolverError("a part that comes loose cannot be held by ground springs");
+      }
       const double force =
           std::abs(change.extension) * std::sqrt(network_.stiffness[element] * secants_[element]);
       if (force > 1e-6 * load_norm_) {

@@ -146,7 +146,8 @@ void add_surface_load(const Particles& particles, const Facets& facets,
       const Vector3 t = load({x.data(), static_cast<std::size_t>(dim)}, normal);
       for (std::size_t c = 0; c < corners.size(); ++c) {
         for (int a = 0; a < dim; ++a) {
-          loads.forces[corners[c] * width + a] += area * point.weight * (point.shape[c] + shift(c)) * t[a];
+          loads.forces[corners[c] * width + a] +=
+              area * point.weight * (point.shape[c] + shift(c)) * t[a];
         }
       }
     }

@@ -76,7 +76,8 @@ std::vector<double> frame_energies(const Network& network, std::span<const doubl
   std::vector<double> energies(static_cast<std::size_t>(network.num_elements()), 0.0);
   for (Index e = 0; e < network.num_elements(); ++e) {
     const Modes modes = frame_modes<Dim>(network, e);
-    const double* first = motion.data() + static_cast<std::size_t>(network.bonds.first[e]) * Modes::width;
+    const double* first =
+        motion.data() + static_cast<std::size_t>(network.bonds.first[e]) * Modes::width;
     const double* second =
         motion.data() + static_cast<std::size_t>(network.bonds.second[e]) * Modes::width;
     for (int m = 0; m < Modes::count; ++m) {

@@ -22,7 +22,8 @@ LatticeFamilies::LatticeFamilies(const Body& body, const NetworkInput& input)
         stiffness.bending.push_back(12.0 * moduli.bending_modulus * share / (length * length));
       }
     }
-    make_isotropic(lattice_.dim, family_.offsets, volume, lame_constants(input, material), stiffness);
+    make_isotropic(lattice_.dim, family_.offsets, volume, lame_constants(input, material),
+                   stiffness);
     double modulus = 0.0;
     for (std::size_t k = 0; k < family_.offsets.size(); ++k) {
       const Vector3& x = family_.offsets[k];

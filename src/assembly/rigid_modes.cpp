@@ -40,9 +40,9 @@ class UnionFind {
   std::vector<Index> parent_;
 };
 
-/// Components of the motion of one particle in the rigid-body modes of a fragment: translations, then
-/// rotations about its centroid, scaled to about one at its rim. A particle's own rotation counts as
-/// the displacement that it means at the rim. Unused entries are zero.
+/// Components of the motion of one particle in the rigid-body modes of a fragment: translations,
+/// then rotations about its centroid, scaled to about one at its rim. A particle's own rotation
+/// counts as the displacement that it means at the rim. Unused entries are zero.
 class RigidModes {
  public:
   RigidModes(const Network& network, const std::vector<std::uint8_t>& rotating,

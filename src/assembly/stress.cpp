@@ -8,8 +8,9 @@
 namespace perilink {
 namespace {
 
-/// Pivots of the normal equations, scaled to bonds of length one, below this fraction of the largest
-/// mean that the neighbours do not settle the polynomial: those of regular families are above 1e-3.
+/// Pivots of the normal equations, scaled to bonds of length one, below this fraction of the
+/// largest mean that the neighbours do not settle the polynomial: those of regular families are
+/// above 1e-3.
 constexpr double smallest_pivot = 1e-7;
 
 /// Solid particles of the same material that are bonded to a particle, and theirs; ascending.

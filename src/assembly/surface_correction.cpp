@@ -110,9 +110,10 @@ void Correction::scale_to(const std::vector<double>& wanted) {
   }
 }
 
-/// Bonds with an end that lacks neighbours, or has some of another material. In three dimensions and in
-/// micropolar bodies the particles bonded to such ends count as well: few neighbours leave the equations of
-/// a thinner layer nearly singular, and those of forces and moments along a side without positive weights.
+/// Bonds with an end that lacks neighbours, or has some of another material. In three dimensions
+/// and in micropolar bodies the particles bonded to such ends count as well: few neighbours leave
+/// the equations of a thinner layer nearly singular, and those of forces and moments along a side
+/// without positive weights.
 std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families) const {
   std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
   const Bonds& bonds = network_.bonds;
@@ -139,9 +140,9 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
   return free;
 }
 
-/// Energy that the bonds across a unit area of crack hold at unit stretch, twice: on a lattice from the
-/// families of both materials; on a cloud from the bonds of its particles, the mean over those that are
-/// bonded to none on a facet. Zero where there is no such particle.
+/// Energy that the bonds across a unit area of crack hold at unit stretch, twice: on a lattice from
+/// the families of both materials; on a cloud from the bonds of its particles, the mean over those
+/// that are bonded to none on a facet. Zero where there is no such particle.
 double Correction::fracture_sum(const LatticeFamilies* families, Index a, Index b) const {
   if (families) {
     std::vector<double> stiffness(families->offsets().size());
@@ -160,7 +161,9 @@ double Correction::fracture_sum(const LatticeFamilies* families, Index a, Index 
   }
   double moments = 0.0, volume = 0.0;
   for (Index i = 0; i < network_.particles.size(); ++i) {
-    if (inside[i] && (material(i) == a || material(i) == b)) volume += network_.particles.volumes[i];
+    if (inside[i] && (material(i) == a || material(i) == b)) {
+      volume += network_.particles.volumes[i];
+    }
   }
   for (Index e = 0; e < network_.bonds.size(); ++e) {
     const double moment = network_.stiffness[e] * std::pow(network_.bonds.lengths[e], 3);

@@ -40,7 +40,8 @@ Piece polygon_piece(const Crack& crack, Index number) {
   Vector3 area{};  // Newell's normal: right for every plane polygon
   double size = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
-    const Vector3 part = cross(minus(corners[k], corners[0]), minus(corners[(k + 1) % count], corners[0]));
+    const Vector3 part =
+        cross(minus(corners[k], corners[0]), minus(corners[(k + 1) % count], corners[0]));
     for (int axis = 0; axis < 3; ++axis) area[axis] += part[axis];
     size = std::max(size, norm(minus(corners[k], corners[0])));
   }

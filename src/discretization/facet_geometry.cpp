@@ -49,8 +49,9 @@ FacetGeometry facet_geometry(const Particles& particles, const Facets& facets, I
   std::copy(area.begin(), area.end(), geometry.normal.begin());
   const double length = norm(geometry.normal);
   for (double& component : geometry.normal) component /= length;
-  geometry.size = std::max({norm(minus(geometry.b, geometry.a)), norm(minus(geometry.c, geometry.b)),
-                            norm(minus(geometry.a, geometry.c))});
+  geometry.size =
+      std::max({norm(minus(geometry.b, geometry.a)), norm(minus(geometry.c, geometry.b)),
+                norm(minus(geometry.a, geometry.c))});
   return geometry;
 }
 

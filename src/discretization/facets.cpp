@@ -21,13 +21,15 @@ struct Side {
 
 Vector3 point(std::span<const double> positions, int dim, Index i) {
   Vector3 x{};
-  for (int axis = 0; axis < dim; ++axis) x[axis] = positions[static_cast<std::size_t>(i) * dim + axis];
+  for (int axis = 0; axis < dim; ++axis) {
+    x[axis] = positions[static_cast<std::size_t>(i) * dim + axis];
+  }
   return x;
 }
 
 /// Area vector of the side opposite to `apex`, pointing away from it.
-Vector3 area_vector_of(std::span<const double> positions, int dim, const std::array<Index, 3>& corners,
-                       Index apex, double thickness) {
+Vector3 area_vector_of(std::span<const double> positions, int dim,
+                       const std::array<Index, 3>& corners, Index apex, double thickness) {
   const Vector3 a = point(positions, dim, corners[0]);
   const Vector3 b = point(positions, dim, corners[1]);
   const Vector3 p = point(positions, dim, apex);
@@ -102,7 +104,8 @@ Facets facets_of(const Simplices& cells, std::span<const double> positions, doub
     std::size_t end = k + 1;
     while (end < sides.size() && sides[end].corners == sides[k].corners) ++end;
     if (end - k > 2) throw std::invalid_argument("more than two cells of the mesh share a side");
-    const std::span<const Index> corners(sides[k].corners.data(), static_cast<std::size_t>(cells.dim));
+    const std::span<const Index> corners(sides[k].corners.data(),
+                                         static_cast<std::size_t>(cells.dim));
     if (end - k == 1) {
       facets.append(corners, sides[k].area_vector, sides[k].material, no_index);
     } else if (sides[k].material != sides[k + 1].material) {

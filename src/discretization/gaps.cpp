@@ -16,7 +16,8 @@ struct CellRange {
 CellRange cells_at(const std::vector<double>& cuts, double x, double tolerance) {
   const auto lower = std::lower_bound(cuts.begin(), cuts.end(), x - tolerance);
   const auto upper = std::upper_bound(cuts.begin(), cuts.end(), x + tolerance);
-  return {static_cast<Index>(lower - cuts.begin()) - 1, static_cast<Index>(upper - cuts.begin()) - 1};
+  return {static_cast<Index>(lower - cuts.begin()) - 1,
+          static_cast<Index>(upper - cuts.begin()) - 1};
 }
 
 /// Whether a cell of the union holds the point or touches it.

@@ -26,8 +26,8 @@ int dimension_of(Pattern pattern) {
   return pattern == Pattern::rectangular || pattern == Pattern::hexagonal ? 2 : 3;
 }
 
-/// Steps that divide the extent evenly and come nearest to the wanted distance; on demand an even number
-/// of them.
+/// Steps that divide the extent evenly and come nearest to the wanted distance; on demand an even
+/// number of them.
 double even_step(const Box& bounds, int axis, double wanted, bool even_number = false) {
   const double extent = bounds.upper[axis] - bounds.lower[axis];
   if (even_number) return extent / (2.0 * std::max(1.0, std::round(0.5 * extent / wanted)));
@@ -41,8 +41,9 @@ Lattice conforming_lattice(const LatticeInput& input, const Box& bounds, double 
   lattice.pattern = input.pattern;
   lattice.surface = input.surface;
   lattice.dim = dimension_of(input.pattern);
-  // Calibrated bonds need a particle with an equal-sided neighbourhood at the corners of the body: of a
-  // face-centred lattice one at all, of a hexagonal one none on the right angle of half a triangle.
+  // Calibrated bonds need a particle with an equal-sided neighbourhood at the corners of the body:
+  // of a face-centred lattice one at all, of a hexagonal one none on the right angle of half a
+  // triangle.
   const bool even_number = input.surface == Surface::calibrated;
   if (input.pattern == Pattern::face_centred) {
     const double half_cube = spacing / std::numbers::sqrt2;

@@ -72,7 +72,9 @@ class Grid {
     for (Index k = 0; k <= layers; ++k) {
       for (Index j = 0; j <= steps_[1]; ++j) {
         for (Index i = 0; i <= steps_[0]; ++i) {
-          if (is_particle({i, j, k}) && touches_solid(i, j, k)) particles_[slot({i, j, k})] = count++;
+          if (is_particle({i, j, k}) && touches_solid(i, j, k)) {
+            particles_[slot({i, j, k})] = count++;
+          }
         }
       }
     }

@@ -46,7 +46,9 @@ std::vector<Index> number_particles(const Mesh& mesh, std::span<const Index> mat
   const int width = mesh.dim + 1;
   for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
     if (material[cell] == no_index) continue;
-    for (int k = 0; k < width; ++k) particle[mesh.cells[static_cast<std::size_t>(cell) * width + k]] = 0;
+    for (int k = 0; k < width; ++k) {
+      particle[mesh.cells[static_cast<std::size_t>(cell) * width + k]] = 0;
+    }
   }
   Index count = 0;
   for (Index& number : particle) {
@@ -156,13 +158,14 @@ struct Numbering {
 
 /// Facets of the surface that a group of facets names. Those between cells are not on the surface,
 /// and those of cells that were left out are not in the body.
-std::vector<Index> facets_of_facets(const Mesh& mesh, const MeshGroup& group, const CellFaces& faces,
-                                    const Numbering& numbering) {
+std::vector<Index> facets_of_facets(const Mesh& mesh, const MeshGroup& group,
+                                    const CellFaces& faces, const Numbering& numbering) {
   std::vector<Index> found;
   std::vector<Index> corners(static_cast<std::size_t>(mesh.dim));
   for (const Index element : group.elements) {
     for (int k = 0; k < mesh.dim; ++k) {
-      corners[k] = numbering.particle[mesh.facets[static_cast<std::size_t>(element) * mesh.dim + k]];
+      corners[k] =
+          numbering.particle[mesh.facets[static_cast<std::size_t>(element) * mesh.dim + k]];
     }
     const bool known = std::find(corners.begin(), corners.end(), no_index) == corners.end();
     const Index face = known ? find_face(faces, corners) : no_index;
@@ -194,7 +197,9 @@ Group body_group(const Mesh& mesh, const MeshGroup& group, const CellFaces& face
   Group result;
   result.name = group.name;
   for (const Index point : group.points) {
-    if (numbering.particle[point] != no_index) result.particles.push_back(numbering.particle[point]);
+    if (numbering.particle[point] != no_index) {
+      result.particles.push_back(numbering.particle[point]);
+    }
   }
   if (group.dim == mesh.dim) result.facets = facets_of_cells(group, faces, numbering, num_cells);
   if (group.dim == mesh.dim - 1) result.facets = facets_of_facets(mesh, group, faces, numbering);

@@ -60,8 +60,8 @@ void refuse_unjoined_parts(const Particles& particles, const Facets& facets) {
         const Vector3 x = point_of(particles.positions, dim, i);
         if (!lies_on(facet, x)) continue;
         throw std::invalid_argument(fmt::format(
-            "the vertex at ({:.6g}) lies on the side of a cell without being its corner: parts of the "
-            "mesh touch and are not joined",
+            "the vertex at ({:.6g}) lies on the side of a cell without being its corner: parts of "
+            "the mesh touch and are not joined",
             fmt::join(x.begin(), x.begin() + dim, ", ")));
       }
     }

@@ -78,7 +78,9 @@ std::string place_of(const Side& side, int dim, std::span<const double> position
 
 Vector3 point_of(std::span<const double> positions, int dim, Index i) {
   Vector3 x{};
-  for (int axis = 0; axis < dim; ++axis) x[axis] = positions[static_cast<std::size_t>(i) * dim + axis];
+  for (int axis = 0; axis < dim; ++axis) {
+    x[axis] = positions[static_cast<std::size_t>(i) * dim + axis];
+  }
   return x;
 }
 
@@ -97,10 +99,10 @@ CellFaces find_faces(const Simplices& cells, std::span<const double> positions) 
     }
     const bool inner = end - begin == 2;
     if (inner && first.odd == sides[begin + 1].odd) {
-      throw std::invalid_argument(
-          fmt::format("the cells on both sides of the {} at {} overlap: the mesh is folded there, or "
-                      "holds a cell twice",
-                      name, place_of(first, cells.dim, positions)));
+      throw std::invalid_argument(fmt::format(
+          "the cells on both sides of the {} at {} overlap: the mesh is folded there, or "
+          "holds a cell twice",
+          name, place_of(first, cells.dim, positions)));
     }
     faces.corners.insert(faces.corners.end(), first.key.begin(), first.key.begin() + cells.dim);
     faces.cells.push_back({first.cell, inner ? sides[begin + 1].cell : no_index});

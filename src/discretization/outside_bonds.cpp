@@ -86,11 +86,13 @@ class Passage {
     std::size_t begin = 0;
     while (begin < meetings_.size()) {
       std::size_t end = begin + 1;
-      while (end < meetings_.size() && meetings_[end].fraction - meetings_[begin].fraction <= same) {
+      while (end < meetings_.size() &&
+             meetings_[end].fraction - meetings_[begin].fraction <= same) {
         ++end;
       }
       std::size_t last = end;
-      while (last < meetings_.size() && meetings_[last].fraction - meetings_[end].fraction <= same) {
+      while (last < meetings_.size() &&
+             meetings_[last].fraction - meetings_[end].fraction <= same) {
         ++last;
       }
       if (last > end && piece_leaves(begin, end, last, allowed)) return true;

@@ -13,8 +13,8 @@
 namespace perilink {
 namespace {
 
-/// OpenBLAS splits sums by its number of threads, which would make results depend on it: one thread.
-/// Other BLAS libraries lack the function; the reference BLAS has one thread anyway.
+/// OpenBLAS splits sums by its number of threads, which would make results depend on it: one
+/// thread. Other BLAS libraries lack the function; the reference BLAS has one thread anyway.
 void use_one_blas_thread() {
   using SetThreads = void (*)(int);
   if (auto* set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) {
@@ -22,9 +22,9 @@ void use_one_blas_thread() {
   }
 }
 
-/// Debian's CHOLMOD asks OpenMP for four threads in small copying loops, whatever the machine has; on
-/// fewer processors they wait for each other longer than they work. No region is parallel while this
-/// lives.
+/// Debian's CHOLMOD asks OpenMP for four threads in small copying loops, whatever the machine has;
+/// on fewer processors they wait for each other longer than they work. No region is parallel while
+/// this lives.
 class SerialOpenMp {
  public:
   SerialOpenMp() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }

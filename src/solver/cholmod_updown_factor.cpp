@@ -28,7 +28,9 @@ void CholmodUpdownFactor::refactorize(const SparseMatrix& matrix) {
   factor_.reset();
   factor_ = CholmodFactorPtr(cholmod_copy_factor(symbolic_.get(), session_.get()),
                              CholmodFactorDeleter{session_.get()});
-  if (!factor_) throw SolverError("out of memory while copying the analysis of the stiffness matrix");
+  if (!factor_) {
+    throw SolverError("out of memory while copying the analysis of the stiffness matrix");
+  }
   factorize_numerically(session_, matrix, factor_.get());
   // CHOLMOD would do this at the first downdate; doing it here keeps it out of the events.
   if (!cholmod_change_factor(CHOLMOD_REAL, false, false, false, true, factor_.get(),

@@ -65,7 +65,9 @@ void InPlaceFactor::adopt_pattern() {
   for (Index s = 0; s < count; ++s) {
     const Index rows = ints(factor_->pi)[s + 1] - ints(factor_->pi)[s];
     const Index columns = ints(factor_->super)[s + 1] - ints(factor_->super)[s];
-    if (rows > columns) parent_[s] = supernode_of_[ints(factor_->s)[ints(factor_->pi)[s] + columns]];
+    if (rows > columns) {
+      parent_[s] = supernode_of_[ints(factor_->s)[ints(factor_->pi)[s] + columns]];
+    }
   }
   vector_.assign(size_, 0.0);
   p_.assign(size_, 0.0);
@@ -350,8 +352,8 @@ void InPlaceFactor::update(const SparseVector& x, std::span<const double> /*solu
   change_path(permute(x, position_), 1.0);
 }
 
-/// Trapezoids of the supernodes that the backward pass of the last event computed, those of the path
-/// once more for the forward elimination.
+/// Trapezoids of the supernodes that the backward pass of the last event computed, those of the
+/// path once more for the forward elimination.
 double InPlaceFactor::bytes_read_by_event() const {
   double numbers = 0.0;
   for (Index s = 0; s < static_cast<Index>(parent_.size()); ++s) {

@@ -74,7 +74,9 @@ std::vector<Index> order_by_particles(const SparseMatrix& lower, std::span<const
   if (count > 1 && !graph.values.empty()) {
     const int status = METIS_NodeND(&count, graph.offsets.data(), graph.values.data(), nullptr,
                                     options, order.data(), position.data());
-    if (status != METIS_OK) throw SolverError("METIS could not order the particles (out of memory?)");
+    if (status != METIS_OK) {
+      throw SolverError("METIS could not order the particles (out of memory?)");
+    }
   } else {
     for (idx_t node = 0; node < count; ++node) order[node] = node;
   }

@@ -48,7 +48,9 @@ class Program : public testing::Test {
 
 TEST_F(Program, HelpNamesEveryCommandAndOption) {
   const std::map<std::string, std::vector<std::string>> expected = {
-      {"", {"--help", "--version", "run", "converge", "check", "plot", "Exit status", "docs/case_file.md"}},
+      {"",
+       {"--help", "--version", "run", "converge", "check", "plot", "Exit status",
+        "docs/case_file.md"}},
       {"run", {"case", "--out", "--threads", "--quiet", "--force", "Exit status"}},
       {"converge", {"study", "--out", "--threads", "--quiet", "--force", "docs/studies.md"}},
       {"check", {"case", "Exit status"}},

@@ -1,5 +1,5 @@
-// Feeds arbitrary bytes to the reader of gmsh's meshes and what it accepts to make_mesh_body(). They
-// may refuse it with their own errors and nothing else.
+// Feeds arbitrary bytes to the reader of gmsh's meshes and what it accepts to make_mesh_body().
+// They may refuse it with their own errors and nothing else.
 
 #include <cstddef>
 #include <cstdint>

@@ -140,7 +140,8 @@ std::vector<BlockCase> cases() {
     result.push_back({{"cubic", Pattern::cubic, Surface::none}, driven, false, 4});
     result.push_back({{"cubic", Pattern::cubic, Surface::none}, driven, false, 3, 0.1, true});
     for (const bool bar : {false, true}) {
-      result.push_back({{"hexagonal", Pattern::hexagonal, Surface::none}, driven, bar, 8, 0.1, true});
+      result.push_back(
+          {{"hexagonal", Pattern::hexagonal, Surface::none}, driven, bar, 8, 0.1, true});
     }
     result.push_back(
         {{"rectangular_ghost", Pattern::rectangular, Surface::ghost}, driven, true, 8, 0.1, true});

@@ -9,7 +9,8 @@
 #include "io/case_file.hpp"
 
 /// \file
-/// What holds for every way to load a body: forces, driven displacements, both together, yielding bars.
+/// What holds for every way to load a body: forces, driven displacements, both together, yielding
+/// bars.
 
 namespace perilink {
 namespace {
@@ -211,7 +212,8 @@ TEST(DrivenRotation, NeedsTheMomentThatMakesIt) {
   const Model moved = column(held + fmt::format(
                                         "[[displacements]]\nregion = \"corner\"\nrotation = {}\n",
                                         angle));
-  const ElasticResult by_angle = run_elastic_analysis(moved.network, moved.unknowns, moved.loads, 1);
+  const ElasticResult by_angle =
+      run_elastic_analysis(moved.network, moved.unknowns, moved.loads, 1);
   EXPECT_TRUE(moved.reference.driven);
   EXPECT_EQ(moved.reference.value, angle);
   // Two solutions of systems with condition numbers near 1e3.

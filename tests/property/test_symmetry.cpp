@@ -8,8 +8,8 @@
 #include "io/case_file.hpp"
 
 /// \file
-/// Planes of symmetry of calibrated bodies: the bonds there pull as those of a body that ends there, and the
-/// reactions of the plane stand for the other half.
+/// Planes of symmetry of calibrated bodies: the bonds there pull as those of a body that ends
+/// there, and the reactions of the plane stand for the other half.
 
 namespace perilink {
 namespace {
@@ -28,15 +28,16 @@ Model symmetric_bar(const SymmetricBody& tested) {
   const bool space = tested.dim == 3;
   const std::string depth = space ? "z = [0, 1]\n" : "";
   return build_model(parse_case(
-      fmt::format("[body]\nsurface = \"calibrated\"\n{}\n[[regions]]\nname = \"bar\"\nx = [0, 1]\ny = [0, 1]\n{}"
-                  "[[regions]]\nname = \"top\"\nx = [0, 1]\ny = [1, 1]\n{}"
-                  "[[materials]]\nregion = \"bar\"\nyoungs_modulus = 30\npoissons_ratio = {}\n"
-                  "fracture_energy = \"infinite\"\n[[symmetry]]\naxis = \"x\"\nat = 0\n"
-                  "[[symmetry]]\naxis = \"y\"\nat = 0\n{}"
-                  "[[tractions]]\nregion = \"top\"\ntraction = {}\n[analysis]\ntype = \"elastic\"\n",
-                  tested.body, depth, depth, tested.nu,
-                  space ? "[[symmetry]]\naxis = \"z\"\nat = 0\n" : "",
-                  space ? "[0, 3, 0]" : "[0, 3]"),
+      fmt::format(
+          "[body]\nsurface = \"calibrated\"\n{}\n"
+          "[[regions]]\nname = \"bar\"\nx = [0, 1]\ny = [0, 1]\n{}"
+          "[[regions]]\nname = \"top\"\nx = [0, 1]\ny = [1, 1]\n{}"
+          "[[materials]]\nregion = \"bar\"\nyoungs_modulus = 30\npoissons_ratio = {}\n"
+          "fracture_energy = \"infinite\"\n[[symmetry]]\naxis = \"x\"\nat = 0\n"
+          "[[symmetry]]\naxis = \"y\"\nat = 0\n{}"
+          "[[tractions]]\nregion = \"top\"\ntraction = {}\n[analysis]\ntype = \"elastic\"\n",
+          tested.body, depth, depth, tested.nu, space ? "[[symmetry]]\naxis = \"z\"\nat = 0\n" : "",
+          space ? "[0, 3, 0]" : "[0, 3]"),
       "symmetric.toml"));
 }
 
@@ -48,9 +49,9 @@ TEST_P(Symmetry, PlanesHoldUniformTension) {
   const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
   const double nu = tested.nu == "0.3333333333333333" ? 1.0 / 3.0 : std::stod(tested.nu);
   const int width = model.network.width();
-  // The bar of the patch tests of calibrated bonds; the moments of micropolar ones are soft equations and
-  // turn the particles of the surface a little (docs/theory/calibration.md), measured at a corner of this
-  // coarse body: 6.5e-4 of 0.1.
+  // The bar of the patch tests of calibrated bonds; the moments of micropolar ones are soft
+  // equations and turn the particles of the surface a little (docs/theory/calibration.md), measured
+  // at a corner of this coarse body: 6.5e-4 of 0.1.
   const double bar = model.network.carries_moments() ? 1e-3 : 1e-8;
   for (Index i = 0; i < model.network.particles.size(); ++i) {
     const std::span<const double> x = model.network.particles.position(i);

@@ -85,7 +85,9 @@ type = "elastic"
 
 std::string page() {
   std::string text;
-  for (const std::string& line : read_lines(project_root() / "docs/outputs.md")) text += line + "\n";
+  for (const std::string& line : read_lines(project_root() / "docs/outputs.md")) {
+    text += line + "\n";
+  }
   return text;
 }
 
@@ -93,7 +95,8 @@ std::string page() {
 std::string section(const std::string& heading) {
   const std::string text = page();
   const std::size_t begin = text.find("\n## " + heading);
-  return begin == std::string::npos ? "" : text.substr(begin, text.find("\n## ", begin + 1) - begin);
+  return begin == std::string::npos ? ""
+                                    : text.substr(begin, text.find("\n## ", begin + 1) - begin);
 }
 
 void expect_named(const std::string& text, const std::string& name, const std::string& what) {

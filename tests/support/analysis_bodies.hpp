@@ -131,8 +131,9 @@ inline std::vector<Index> bonds_of_row(const Network& network, double y) {
   std::vector<Index> row;
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (std::abs(network.bonds.direction(e)[0]) < 0.5) continue;
-    if (std::abs(network.particles.position(network.bonds.second[e])[1] - y) < 1e-9)
+    if (std::abs(network.particles.position(network.bonds.second[e])[1] - y) < 1e-9) {
       row.push_back(e);
+    }
   }
   return row;
 }
@@ -148,7 +149,8 @@ struct BlockCase {
 };
 
 inline std::string to_string(const BlockCase& block) {
-  return (block.micropolar ? "micropolar_" : "") + block.lattice.name + (block.driven ? "_driven" : "_pulled") + (block.bar ? "_bar" : "");
+  return (block.micropolar ? "micropolar_" : "") + block.lattice.name +
+         (block.driven ? "_driven" : "_pulled") + (block.bar ? "_bar" : "");
 }
 
 inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
@@ -263,8 +265,9 @@ inline double stretch(const Network& network, std::span<const double> displaceme
   const double length = network.bonds.lengths[e];
   double extension = 0.0;
   for (int a = 0; a < dim; ++a) {
-    extension += network.bonds.direction(e)[a] * (displacement[network.bonds.second[e] * width + a] -
-                                                  displacement[network.bonds.first[e] * width + a]);
+    extension +=
+        network.bonds.direction(e)[a] * (displacement[network.bonds.second[e] * width + a] -
+                                         displacement[network.bonds.first[e] * width + a]);
   }
   if (!network.carries_moments()) return extension / length;
   const double equivalent =

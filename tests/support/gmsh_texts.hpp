@@ -7,8 +7,8 @@
 
 namespace perilink::test {
 
-/// The square [0, 2] x [0, 2] of four triangles around a point off its centre. The right half of the
-/// edges carries no group. Tags have gaps, and the group "lower" is met with a negative tag.
+/// The square [0, 2] x [0, 2] of four triangles around a point off its centre. The right half of
+/// the edges carries no group. Tags have gaps, and the group "lower" is met with a negative tag.
 inline const char* const square_mesh = R"($MeshFormat
 4.1 0 8
 $EndMeshFormat
@@ -60,8 +60,8 @@ $Elements
 $EndElements
 )";
 
-/// Two tetrahedra on both sides of the triangle x + y + z = 1, of two groups; the triangle itself is
-/// the group "between" and the faces z = 0 of the first the group "floor".
+/// Two tetrahedra on both sides of the triangle x + y + z = 1, of two groups; the triangle itself
+/// is the group "between" and the faces z = 0 of the first the group "floor".
 inline const char* const tetrahedra_mesh = R"($MeshFormat
 4.1 0 8
 $EndMeshFormat

@@ -119,8 +119,8 @@ broken_bonds = {}
 }
 
 /// A strip of 2 by 1 whose ends are driven apart by 0.04 while it contracts freely: the strain is
-/// 0.02. Its modulus is 100, so it should store 100 * 0.02^2 / 2 * 2 = 0.04. Its ends are lines, on which
-/// a ghost lattice has no particle.
+/// 0.02. Its modulus is 100, so it should store 100 * 0.02^2 / 2 * 2 = 0.04. Its ends are lines, on
+/// which a ghost lattice has no particle.
 inline constexpr const char* tension_strip_case = R"([body]
 surface = "none"
 spacing = 0.25

@@ -22,7 +22,9 @@ inline Mesh box_mesh(int dim, int count) {
   const int layers = dim == 3 ? count : 0;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> shift(-0.1, 0.1);
-  const auto number = [count](int i, int j, int k) { return i + (count + 1) * (j + (count + 1) * k); };
+  const auto number = [count](int i, int j, int k) {
+    return i + (count + 1) * (j + (count + 1) * k);
+  };
   for (int k = 0; k <= layers; ++k) {
     for (int j = 0; j <= count; ++j) {
       for (int i = 0; i <= count; ++i) {

@@ -9,8 +9,8 @@
 #include "solver/factor.hpp"
 
 /// \file
-/// Small symmetric positive definite matrices with the structure of a bond network, made without any
-/// module but the solver: a square lattice of particles with springs to all neighbours within a
+/// Small symmetric positive definite matrices with the structure of a bond network, made without
+/// any module but the solver: a square lattice of particles with springs to all neighbours within a
 /// radius, and a spring from every particle to ground.
 
 namespace perilink::test {

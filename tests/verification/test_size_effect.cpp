@@ -28,9 +28,11 @@ TEST(SizeEffect, ClosedFormsAreTheIntegralsOverDirections) {
     const Problem problem = row[0] == 2.0 ? Problem::plane_stress : Problem::three_dimensional;
     // A horizon that is not one, so that its powers count.
     const MicropolarModuli moduli = continuum_micropolar(problem, {1.0, row[1]}, 0.7, 1.0);
-    const auto found = entries(layer_moduli(problem, layer_stiffness(problem, moduli, 0.7, row[2])));
+    const auto found =
+        entries(layer_moduli(problem, layer_stiffness(problem, moduli, 0.7, row[2])));
     for (std::size_t k = 0; k < found.size(); ++k) {
-      EXPECT_NEAR(found[k], row[3 + k], 6e-7) << row[0] << "D, nu " << row[1] << ", depth " << row[2];
+      EXPECT_NEAR(found[k], row[3 + k], 6e-7)
+          << row[0] << "D, nu " << row[1] << ", depth " << row[2];
     }
   }
 }
@@ -68,10 +70,11 @@ TEST_P(Families, BondsGiveTheModuliOfTheClosedForm) {
 
 INSTANTIATE_TEST_SUITE_P(
     Lattices, Families,
-    testing::Values(FamilyCase{"space",
-                               {Problem::three_dimensional, 40, {0, 10, 20, 30, 40}, {0.0, 0.2, 0.25}}},
-                    FamilyCase{"plane",
-                               {Problem::plane_stress, 240, {0, 60, 120, 180, 240}, {0.0, 0.22, 0.3}}}),
+    testing::Values(
+        FamilyCase{"space",
+                   {Problem::three_dimensional, 40, {0, 10, 20, 30, 40}, {0.0, 0.2, 0.25}}},
+        FamilyCase{"plane",
+                   {Problem::plane_stress, 240, {0, 60, 120, 180, 240}, {0.0, 0.22, 0.3}}}),
     [](const auto& test) { return std::string(test.param.name); });
 
 /// Families are looked at one by one; here they are those of a whole body of build_network().
@@ -116,8 +119,8 @@ TEST(SizeEffect, PlatesLoseWhatTheirSurfacesTakeAway) {
   }
 }
 
-/// A bar of the program is as soft as its families say. They are strained uniformly, which can only be
-/// stiffer.
+/// A bar of the program is as soft as its families say. They are strained uniformly, which can only
+/// be stiffer.
 TEST(SizeEffect, NarrowBarsAreSofter) {
   double narrower = 0.0;
   for (const int width : {1, 2, 3}) {

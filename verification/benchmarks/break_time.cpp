@@ -81,8 +81,8 @@ RouteTime time_events(const Model& model, FactorRoute route, int events, int thr
   return result;
 }
 
-/// One numerical factorisation with CHOLMOD's supernodal code and one solve: what an event costs that
-/// starts from the changed matrix.
+/// One numerical factorisation with CHOLMOD's supernodal code and one solve: what an event costs
+/// that starts from the changed matrix.
 void time_factorization(const Model& model, int repeats, RouteTime& result) {
   const std::vector<double> intact(static_cast<std::size_t>(model.network.num_elements()), 1.0);
   const SparseMatrix matrix = assemble_stiffness(model.network, intact, model.unknowns);
@@ -121,8 +121,8 @@ void benchmark(int columns, const std::string& surface, int threads, double band
 
   const double anew = refactor.factorization + refactor.solve + ours.search;
   const double bound = ours.event_bytes / bandwidth;
-  fmt::print("\n{} columns, {} unknowns, {} elements; medians of {} events, {} factorisations\n", columns,
-             n, model.network.num_elements(), ours.elements.size(), repeats);
+  fmt::print("\n{} columns, {} unknowns, {} elements; medians of {} events, {} factorisations\n",
+             columns, n, model.network.num_elements(), ours.elements.size(), repeats);
   fmt::print("  {:<44} {:>10} {:>8}\n", "route", "ms/break", "ratio");
   auto row = [&](const char* name, double seconds) {
     fmt::print("  {:<44} {:>10.3f} {:>8.1f}\n", name, 1e3 * seconds, seconds / ours.total());
@@ -134,10 +134,13 @@ void benchmark(int columns, const std::string& surface, int threads, double band
   row("  of it search", ours.search);
   row("  of it downdate and displacement", ours.apply);
   row("bound: L that it reads / measured bandwidth", bound);
-  fmt::print("  L in place {:.1f} MB, of which an event reads {:.1f} MB; simplicial {:.1f} MB; factorisation {:.1f} ms, solve {:.2f} ms "
-             "(simplicial {:.2f} ms, after a conversion of {:.0f} ms); peak memory so far {:.2f} GB\n",
-             ours.bytes / 1e6, ours.event_bytes / 1e6, updown.bytes / 1e6, 1e3 * refactor.factorization,
-             1e3 * refactor.solve, 1e3 * cholmod.solve, 1e3 * cholmod.conversion, peak_memory_bytes() / 1e9);
+  fmt::print(
+      "  L in place {:.1f} MB, of which an event reads {:.1f} MB; simplicial {:.1f} MB; "
+      "factorisation {:.1f} ms, solve {:.2f} ms (simplicial {:.2f} ms, after a conversion of "
+      "{:.0f} ms); peak memory so far {:.2f} GB\n",
+      ours.bytes / 1e6, ours.event_bytes / 1e6, updown.bytes / 1e6, 1e3 * refactor.factorization,
+      1e3 * refactor.solve, 1e3 * cholmod.solve, 1e3 * cholmod.conversion,
+      peak_memory_bytes() / 1e9);
   std::fflush(stdout);
 }
 

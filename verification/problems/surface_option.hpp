@@ -7,8 +7,8 @@
 
 namespace perilink::verification {
 
-/// Takes `--surface calibrated` or `--surface none` out of a program's arguments: the bonds of the block
-/// that a study breaks. \return calibrated where the arguments say nothing
+/// Takes `--surface calibrated` or `--surface none` out of a program's arguments: the bonds of the
+/// block that a study breaks. \return calibrated where the arguments say nothing
 inline std::string take_surface_option(std::vector<std::string>& arguments) {
   const auto option = std::find(arguments.begin(), arguments.end(), "--surface");
   if (option == arguments.end()) return "calibrated";

@@ -20,7 +20,8 @@ void expect_isotropic(const LatticeFamilies& families, const LameConstants& cons
     for (std::size_t k = 0; k < families.offsets().size(); ++k) {
       const Vector3& x = families.offsets()[k];
       const double xi2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-      const double stretch = (x[0] * x[0] * e[0] + x[1] * x[1] * e[1] + 2.0 * x[0] * x[1] * e[2]) / xi2;
+      const double stretch =
+          (x[0] * x[0] * e[0] + x[1] * x[1] * e[1] + 2.0 * x[0] * x[1] * e[2]) / xi2;
       energy += 0.25 * families.stiffness(0).axial[k] * xi2 * stretch * stretch;
     }
     const double trace = e[0] + e[1];

@@ -91,7 +91,8 @@ TEST_P(EveryLattice, CalibratedBondsPassThePatchTest) {
   for (int a = 0; a < dim; ++a) trace += strain[a][a];
   for (Index f = 0; f < network.facets.size(); ++f) {
     const auto area = network.facets.area_vector(f);
-    for (Index k = network.facets.corners.offsets[f]; k < network.facets.corners.offsets[f + 1]; ++k) {
+    for (Index k = network.facets.corners.offsets[f]; k < network.facets.corners.offsets[f + 1];
+         ++k) {
       for (int a = 0; a < dim; ++a) {
         double traction = c.lambda * trace * area[a];
         for (int b = 0; b < dim; ++b) traction += 2.0 * c.mu * strain[a][b] * area[b];

@@ -20,8 +20,8 @@ Particles grid(int dim) {
   return make_body(input).particles;
 }
 
-bool is_cut(const Particles& particles, const Bonds& bonds, const CutBonds& cut, const Vector3& from,
-            const Vector3& to) {
+bool is_cut(const Particles& particles, const Bonds& bonds, const CutBonds& cut,
+            const Vector3& from, const Vector3& to) {
   for (Index b = 0; b < bonds.size(); ++b) {
     const auto x = particles.position(bonds.first[b]), y = particles.position(bonds.second[b]);
     bool forth = true, back = true;
@@ -135,7 +135,8 @@ TEST(Cracks, RefuseWhatIsNoCrack) {
   EXPECT_THROW(check_crack({{{0, 0, 0}, {0, 0, 0}}}, 2), std::invalid_argument);
   EXPECT_THROW(check_crack({{{0, 0, 0}}}, 2), std::invalid_argument);
   EXPECT_THROW(check_crack({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}, 3), std::invalid_argument);
-  EXPECT_THROW(check_crack({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.1}, {0, 1, 0}}}, 3), std::invalid_argument);
+  EXPECT_THROW(check_crack({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.1}, {0, 1, 0}}}, 3),
+               std::invalid_argument);
   EXPECT_THROW(check_crack({{{0, 0, 0}, {1, 0, 0}, {0.2, 0.2, 0}, {0, 1, 0}}}, 3),
                std::invalid_argument);
   EXPECT_NO_THROW(check_crack({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, 3));

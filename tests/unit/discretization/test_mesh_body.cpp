@@ -215,7 +215,8 @@ TEST(MeshBody, RefusesFacesOfThreeCells) {
 
 TEST(MeshBody, RefusesFoldsAndCellsTwice) {
   Mesh mesh = square();
-  mesh.positions[6] = 0.9;  // the second triangle lies on the same side of the diagonal as the first
+  // The second triangle lies on the same side of the diagonal as the first.
+  mesh.positions[6] = 0.9;
   mesh.positions[7] = 0.1;
   EXPECT_THAT(refusal(mesh), HasSubstr("overlap"));
   mesh = square();
@@ -238,7 +239,8 @@ TEST(MeshBody, RefusesPartsThatOnlyTouch) {
 
   Mesh tetrahedra;  // the second one stands on a face of the first, with corners of its own
   tetrahedra.dim = 3;
-  tetrahedra.positions = {0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2, 0.1, 0.1, 0, 1, 0.1, 0, 0.1, 1, 0, 0, 0, -1};
+  tetrahedra.positions = {0,   0,   0, 2, 0,   0, 0,   2, 0, 0, 0, 2,
+                          0.1, 0.1, 0, 1, 0.1, 0, 0.1, 1, 0, 0, 0, -1};
   tetrahedra.cells = {0, 1, 2, 3, 4, 5, 6, 7};
   EXPECT_THAT(refusal(tetrahedra), HasSubstr("the vertex at (0.1, 0.1, 0)"));
 }

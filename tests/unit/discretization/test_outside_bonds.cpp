@@ -52,7 +52,8 @@ double excursion(const Body& body, const Vector3& from, const Vector3& to) {
       const auto corner = [&](int k) { return point_of(body.particles.positions, 2, corners[k]); };
       inside = true;
       for (int k = 0; k < 3; ++k) {
-        inside = inside && cross(minus(corner((k + 1) % 3), corner(k)), minus(x, corner(k)))[2] > -1e-12;
+        inside =
+            inside && cross(minus(corner((k + 1) % 3), corner(k)), minus(x, corner(k)))[2] > -1e-12;
       }
     }
     if (inside) continue;
@@ -78,10 +79,11 @@ TEST(OutsideBonds, ConvexBodiesKeepAllBonds) {
 
 TEST(OutsideBonds, AgreeWithALookAtEveryCell) {
   // An L and a square with a square hole, their inner sides a little uneven.
-  for (const auto& wanted : {std::function([](const Vector3& x) { return x[0] < 0.5 || x[1] < 0.5; }),
-                             std::function([](const Vector3& x) {
-                               return std::max(std::abs(x[0] - 0.5), std::abs(x[1] - 0.5)) > 0.2;
-                             })}) {
+  for (const auto& wanted :
+       {std::function([](const Vector3& x) { return x[0] < 0.5 || x[1] < 0.5; }),
+        std::function([](const Vector3& x) {
+          return std::max(std::abs(x[0] - 0.5), std::abs(x[1] - 0.5)) > 0.2;
+        })}) {
     const Body body = carved(2, 10, wanted);
     const double spacing = body.lattice.spacing;
     const Bonds all = make_bonds(body.particles, 3.0 * spacing);
@@ -98,7 +100,8 @@ TEST(OutsideBonds, AgreeWithALookAtEveryCell) {
       if (way > 0.8 * allowed_excursion && way < 1.25 * allowed_excursion) continue;
       ++judged;
       removed += way > allowed_excursion;
-      EXPECT_EQ(is_kept, way < allowed_excursion) << all.first[b] << " " << all.second[b] << " " << way;
+      EXPECT_EQ(is_kept, way < allowed_excursion)
+          << all.first[b] << " " << all.second[b] << " " << way;
     }
     EXPECT_GT(removed, 10);
     EXPECT_GT(judged, 1000);
@@ -151,7 +154,8 @@ TEST(OutsideBonds, SidesOfAFineHoleKeepTheirChords) {
   for (const double radius : {1.0, 1.0 + 2.0 * std::numbers::pi / n}) {
     for (int i = 0; i < n; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / n;
-      mesh.positions.insert(mesh.positions.end(), {radius * std::cos(angle), radius * std::sin(angle)});
+      mesh.positions.insert(mesh.positions.end(),
+                            {radius * std::cos(angle), radius * std::sin(angle)});
     }
   }
   for (int i = 0; i < n; ++i) {
@@ -190,7 +194,8 @@ TEST(OutsideBonds, NoBondCrossesTheVoidOfAHollowCube) {
     for (int station = 1; station < 20; ++station) {
       const Vector3 x = between(from, to, station / 20.0);
       // The flanks of the void are moved by a tenth of a step; what lies deeper is outside.
-      const double inward = std::max({std::abs(x[0] - 0.5), std::abs(x[1] - 0.5), std::abs(x[2] - 0.5)});
+      const double inward =
+          std::max({std::abs(x[0] - 0.5), std::abs(x[1] - 0.5), std::abs(x[2] - 0.5)});
       EXPECT_GT(inward, 1.0 / 6.0 - 0.1 / 6.0 - allowed_excursion * body.lattice.spacing);
     }
   }

@@ -9,8 +9,8 @@
 namespace perilink {
 namespace {
 
-/// Under the side of a square of a horizon of two spacings columns are two particles deep; deeper ones
-/// stand alone.
+/// Under the side of a square of a horizon of two spacings columns are two particles deep; deeper
+/// ones stand alone.
 TEST(SurfaceColumns, HangFromTheNearestParticleOfTheSurface) {
   LatticeInput input;
   input.spacing = 0.1;

@@ -14,8 +14,8 @@ using test::make_spring_lattice;
 using test::random_vector;
 using test::relative_difference;
 
-/// Condition numbers here stay below 1e5, so solutions agree to 1e-10 (1e5 times round-off, with two
-/// digits of margin).
+/// Condition numbers here stay below 1e5, so solutions agree to 1e-10 (1e5 times round-off, with
+/// two digits of margin).
 constexpr double tolerance = 1e-10;
 
 std::vector<double> dense_solution(const Eigen::MatrixXd& matrix, const std::vector<double>& rhs) {

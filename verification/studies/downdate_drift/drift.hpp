@@ -14,9 +14,9 @@ struct Drift {
   double factor_error = 0.0;   ///< |K^-1 f - fresh| / |fresh| with the downdated factor
 };
 
-/// Removes bonds of the model drawn at random (fixed seed; a bond whose pivot is below 1/100 stays, so
-/// that nothing comes loose) through the in-place factor, without refinement or refactorisation, and
-/// measures every `interval` downdates.
+/// Removes bonds of the model drawn at random (fixed seed; a bond whose pivot is below 1/100 stays,
+/// so that nothing comes loose) through the in-place factor, without refinement or refactorisation,
+/// and measures every `interval` downdates.
 std::vector<Drift> measure_drift(const Model& model, int downdates, int interval);
 
 /// What cutting a part out of the body does to the rest.

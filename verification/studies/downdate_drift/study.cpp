@@ -22,13 +22,16 @@ bool collapse_is_separation(const std::string& surface) {
   const BlockRun run = run_block(model, FactorRoute::in_place, 1000000);
   Network network = model.network;
   const std::vector<std::uint8_t> held(model.unknowns.number.size(), 0);
-  for (std::size_t k = 0; k + 1 < run.rows.size(); ++k) network.stiffness[run.rows[k].element] = 0.0;
+  for (std::size_t k = 0; k + 1 < run.rows.size(); ++k) {
+    network.stiffness[run.rows[k].element] = 0.0;
+  }
   const std::size_t before = find_fragments(network, held).size();
   network.stiffness[run.rows.back().element] = 0.0;
   const std::size_t after = find_fragments(network, held).size();
-  fmt::print("collapse of the 5k block: ended {} after {} broken bonds; parts that bonds connect: {} "
-             "before the last bond, {} after it\n",
-             to_string(run.result.ending), run.result.broken_bonds, before, after);
+  fmt::print(
+      "collapse of the 5k block: ended {} after {} broken bonds; parts that bonds connect: {} "
+      "before the last bond, {} after it\n",
+      to_string(run.result.ending), run.result.broken_bonds, before, after);
   fmt::print("  {}\n", run.result.reason);
   return run.result.ending == Ending::collapsed;
 }
@@ -63,8 +66,8 @@ bool run_study(const std::string& surface) {
 
 }  // namespace
 
-/// How accurate are factor and displacement after 20 000 downdates, and the rest of a body from which a
-/// part was cut?
+/// How accurate are factor and displacement after 20 000 downdates, and the rest of a body from
+/// which a part was cut?
 /// downdate_drift [--surface calibrated|none]
 int main(int argc, char** argv) try {
   std::vector<std::string> arguments(argv + 1, argv + argc);

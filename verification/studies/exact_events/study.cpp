@@ -20,7 +20,8 @@ bool run_sizes(const std::string& surface, bool quick) {
     int columns;
     Index events, reference_events;
   };
-  const Size sizes[] = {{columns_5k, 1000, 1000}, {columns_50k, 1000, 500}, {columns_300k, 1000, 40}};
+  const Size sizes[] = {
+      {columns_5k, 1000, 1000}, {columns_50k, 1000, 500}, {columns_300k, 1000, 40}};
   std::string table =
       "columns,unknowns,events,ending,compared,mismatches,load_factor_difference,energy_error,"
       "largest_residual,factorizations,seconds,reference_seconds\n";
@@ -46,8 +47,8 @@ bool run_sizes(const std::string& surface, bool quick) {
 }  // namespace
 }  // namespace perilink::verification
 
-/// Is every event of the downdated factor the event that a run breaks which factorises anew each time?
-/// exact_events [--surface calibrated|none] [--quick]: quick is the smallest size only.
+/// Is every event of the downdated factor the event that a run breaks which factorises anew each
+/// time? exact_events [--surface calibrated|none] [--quick]: quick is the smallest size only.
 int main(int argc, char** argv) try {
   using namespace perilink::verification;
   std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -16,8 +16,8 @@ namespace {
 using namespace perilink;
 using namespace perilink::verification;
 
-/// The energy error of all rows up to the one whose load first falls below a thousandth of the peak:
-/// from there on the compliance grows by orders of magnitude within a few bonds.
+/// The energy error of all rows up to the one whose load first falls below a thousandth of the
+/// peak: from there on the compliance grows by orders of magnitude within a few bonds.
 double run_until_a_thousandth_of_peak(const Model& model, const BlockRun& whole) {
   for (const StepRecord& row : whole.rows) {
     if (row.load > 1e-3 * whole.result.peak_load) continue;

@@ -27,7 +27,8 @@ void write_nodes(fmt::ostream& file, const Particles& particles) {
   file.print("*NODE, NSET=ALL\n");
   for (Index i = 0; i < particles.size(); ++i) {
     const auto x = particles.position(i);
-    file.print("{},{},{},{}\n", i + 1, number(x[0]), number(x[1]), number(x.size() == 3 ? x[2] : 0.0));
+    file.print("{},{},{},{}\n", i + 1, number(x[0]), number(x[1]),
+               number(x.size() == 3 ? x[2] : 0.0));
   }
 }
 
@@ -101,7 +102,8 @@ std::vector<double> read_displacement(const fs::path& path, const Particles& par
     ++found;
   }
   if (found != particles.size()) {
-    throw std::runtime_error(fmt::format("CalculiX gave {} displacements of {}", found, particles.size()));
+    throw std::runtime_error(
+        fmt::format("CalculiX gave {} displacements of {}", found, particles.size()));
   }
   return displacement;
 }
@@ -110,7 +112,8 @@ std::vector<double> read_displacement(const fs::path& path, const Particles& par
 
 CalculixMesh simplices_for_calculix(const Model& model) {
   const Simplices& cells = model.elements.value().cells;
-  return {cells.dim == 2 ? "CPS3" : "C3D4", static_cast<std::size_t>(cells.dim) + 1, cells.vertices};
+  return {cells.dim == 2 ? "CPS3" : "C3D4", static_cast<std::size_t>(cells.dim) + 1,
+          cells.vertices};
 }
 
 CalculixMesh boxes_for_calculix(const Model& model) {
@@ -120,7 +123,8 @@ CalculixMesh boxes_for_calculix(const Model& model) {
   for (Index i = 0; i < particles.size(); ++i) {
     std::array<long, 3> place{};
     for (int a = 0; a < dim; ++a) {
-      place[a] = std::lround((particles.position(i)[a] - particles.position(0)[a]) / model.lattice.step[a]);
+      place[a] = std::lround((particles.position(i)[a] - particles.position(0)[a]) /
+                             model.lattice.step[a]);
     }
     at[place] = i;
   }
@@ -134,7 +138,9 @@ CalculixMesh boxes_for_calculix(const Model& model) {
           at.find({place[0] + corners[c][0], place[1] + corners[c][1], place[2] + corners[c][2]});
       if (found != at.end()) cell.push_back(found->second);
     }
-    if (cell.size() == mesh.width) mesh.particles.insert(mesh.particles.end(), cell.begin(), cell.end());
+    if (cell.size() == mesh.width) {
+      mesh.particles.insert(mesh.particles.end(), cell.begin(), cell.end());
+    }
   }
   return mesh;
 }

@@ -76,8 +76,8 @@ void replace_all(std::string& text, const std::string& word, double value) {
   }
 }
 
-/// Particles of a ghost lattice stand in the middle of their cells: the column at the left end gets the closed
-/// form at its place, that at the right end the shear stress as forces per volume.
+/// Particles of a ghost lattice stand in the middle of their cells: the column at the left end gets
+/// the closed form at its place, that at the right end the shear stress as forces per volume.
 void run_ghosts(const fs::path& work, Comparison& comparison) {
   std::ifstream file(here / "cantilever_ghost.toml");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -97,14 +97,14 @@ void run_ghosts(const fs::path& work, Comparison& comparison) {
 }
 
 /// \param boxes  instead of the triangles or tetrahedra of the linear elements
-StudyMember run_calculix_member(const fs::path& work, const StudyFile& study, const TomlValue& value,
-                                bool boxes) {
+StudyMember run_calculix_member(const fs::path& work, const StudyFile& study,
+                                const TomlValue& value, bool boxes) {
   StudyMember member;
   member.refinement = value;
   member.method = "calculix";
   try {
-    const CaseFile input =
-        read_case_file(study.case_path, {body_key("method", std::string("linear_elements")), value});
+    const CaseFile input = read_case_file(
+        study.case_path, {body_key("method", std::string("linear_elements")), value});
     const Model model = build_model(input);
     const CalculixMesh mesh = boxes ? boxes_for_calculix(model) : simplices_for_calculix(model);
     const MaterialSection& material = input.materials.front();
@@ -115,7 +115,8 @@ StudyMember run_calculix_member(const fs::path& work, const StudyFile& study, co
                        input.body.thickness);
       if (k > 0 && run.seconds.total() >= member.seconds.total()) continue;
       member.seconds = run.seconds;
-      member.values = {field_error(study.errors.front(), model.network.particles, run.displacement)};
+      member.values = {
+          field_error(study.errors.front(), model.network.particles, run.displacement)};
     }
     member.spacing = model.lattice.spacing;
     member.particles = model.network.particles.size();
@@ -130,8 +131,9 @@ void run_calculix_series(const fs::path& work, Comparison& comparison, bool latt
   const int dim = static_cast<int>(comparison.study.errors.front().displacement.size());
   for (const bool boxes : {false, true}) {
     if (boxes && !lattice) break;
-    const StudySeries series = {
-        fmt::format("CalculiX, {}", dim == 2 ? (boxes ? "CPS4" : "CPS3") : (boxes ? "C3D8" : "C3D4")), {}};
+    const StudySeries series = {fmt::format("CalculiX, {}", dim == 2 ? (boxes ? "CPS4" : "CPS3")
+                                                                     : (boxes ? "C3D8" : "C3D4")),
+                                {}};
     for (const TomlValue& value : comparison.study.vary.values) {
       keep(comparison, series, run_calculix_member(work, comparison.study, value, boxes));
     }
@@ -191,9 +193,10 @@ std::string growth(const fs::path& work) {
       const StudyMember member =
           run_member(study, {"", {body_key("horizon_ratio", ratio)}}, refinement, 1);
       if (member.failed()) throw std::runtime_error(member.failure);
-      const std::string row = fmt::format(
-          "{},{},{},{:.3g},{:.3g},{:.2f}\n", name, ratio, member.unknowns, member.seconds.calibration,
-          member.seconds.factorization, member.seconds.calibration / member.seconds.factorization);
+      const std::string row =
+          fmt::format("{},{},{},{:.3g},{:.3g},{:.2f}\n", name, ratio, member.unknowns,
+                      member.seconds.calibration, member.seconds.factorization,
+                      member.seconds.calibration / member.seconds.factorization);
       fmt::print("{}", row);
       std::fflush(stdout);
       table += row;
@@ -216,10 +219,10 @@ void write_text(const fs::path& path, const std::string& text) {
 
 }  // namespace
 
-/// What does an error cost? Bonds with every surface option, linear elements and CalculiX on the same
-/// particles, one thread. Without arguments everything is run and the files beside this one are written;
-/// `growth` runs only the growth of the calibration, a number only so many refinements of the
-/// comparison, which are not kept.
+/// What does an error cost? Bonds with every surface option, linear elements and CalculiX on the
+/// same particles, one thread. Without arguments everything is run and the files beside this one
+/// are written; `growth` runs only the growth of the calibration, a number only so many refinements
+/// of the comparison, which are not kept.
 int main(int argc, char** argv) {
   omp_set_num_threads(1);
   const std::string what = argc > 1 ? argv[1] : "";

@@ -16,7 +16,9 @@ constexpr double youngs_modulus = 30.0;
 constexpr double stress = 0.03;
 
 /// Between the gauge and either end the disturbance by the load decays.
-double length_of(const BarInput& bar) { return gauge_length + 2.0 * std::ceil(2.0 * bar.width + 2.0); }
+double length_of(const BarInput& bar) {
+  return gauge_length + 2.0 * std::ceil(2.0 * bar.width + 2.0);
+}
 
 std::string case_of(const BarInput& bar) {
   const char* surface = bar.surface == Surface::calibrated ? "calibrated" : "none";

@@ -12,8 +12,8 @@ struct BarInput {
   Surface surface = Surface::none;  ///< none or calibrated
 };
 
-/// Apparent Young's modulus over that of the material: mean stress over the mean strain of a piece in the
-/// middle, far from the loads.
+/// Apparent Young's modulus over that of the material: mean stress over the mean strain of a piece
+/// in the middle, far from the loads.
 double apparent_modulus(const BarInput& input);
 
 }  // namespace perilink::verification

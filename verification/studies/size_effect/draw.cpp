@@ -11,7 +11,8 @@ namespace perilink::verification {
 namespace {
 
 constexpr const char* text_style = "font-family=\"sans-serif\" font-size=\"13\" fill=\"#333\"";
-constexpr std::array<const char*, 5> colors = {"#c1440e", "#2f5d9b", "#3d7d3a", "#7a4b9b", "#a07800"};
+constexpr std::array<const char*, 5> colors = {"#c1440e", "#2f5d9b", "#3d7d3a", "#7a4b9b",
+                                               "#a07800"};
 
 struct Panel {
   const char* label;
@@ -87,7 +88,8 @@ Svg draw_bars(const std::vector<BarRow>& rows) {
     if (!std::isnan(row.calibrated)) {
       svg.circle({at.x, y.map(row.calibrated)}, 4.0, "fill=\"#2f5d9b\"");
     }
-    svg.circle({at.x, y.map(row.uncorrected)}, 4.0, "fill=\"none\" stroke=\"#c1440e\" stroke-width=\"1.5\"");
+    svg.circle({at.x, y.map(row.uncorrected)}, 4.0,
+               "fill=\"none\" stroke=\"#c1440e\" stroke-width=\"1.5\"");
   }
   svg.path(exact, "fill=\"none\" stroke=\"#c1440e\" stroke-width=\"1.2\"");
   svg.circle({100, 409}, 4.0, "fill=\"none\" stroke=\"#c1440e\" stroke-width=\"1.5\"");

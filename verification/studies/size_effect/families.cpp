@@ -28,7 +28,8 @@ Network make_star(const Particles& all, std::span<const double> center, double v
   return star;
 }
 
-/// k = c V V / xi and 12 d V V / xi^3, as build_network() has them (the test of this study compares).
+/// k = c V V / xi and 12 d V V / xi^3, as build_network() has them (the test of this study
+/// compares).
 void set_constants(const MicropolarModuli& moduli, Network& star) {
   star.stiffness.clear();
   star.bending.clear();
@@ -56,7 +57,8 @@ LayerStiffness stiffness_of(const Network& star) {
   return stiffness;
 }
 
-LayerStiffness combine(double a, const LayerStiffness& first, double b, const LayerStiffness& second) {
+LayerStiffness combine(double a, const LayerStiffness& first, double b,
+                       const LayerStiffness& second) {
   return {a * first.c11 + b * second.c11, a * first.c12 + b * second.c12,
           a * first.c22 + b * second.c22, a * first.c23 + b * second.c23};
 }

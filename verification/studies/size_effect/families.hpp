@@ -6,7 +6,8 @@
 #include "half_space.hpp"
 
 /// \file
-/// What the program's own bonds give to particles near a plane surface. Horizon and Young's modulus are 1.
+/// What the program's own bonds give to particles near a plane surface. Horizon and Young's modulus
+/// are 1.
 
 namespace perilink::verification {
 
@@ -18,8 +19,9 @@ struct FamilyInput {
   std::vector<double> poissons_ratios;
 };
 
-/// Particles of the half-space x > 0, those of the program's conforming lattice with a row on the surface;
-/// two horizons and three spacings deep, one horizon and one spacing to either side of y = z = 0.
+/// Particles of the half-space x > 0, those of the program's conforming lattice with a row on the
+/// surface; two horizons and three spacings deep, one horizon and one spacing to either side of
+/// y = z = 0.
 Body half_space_body(Problem problem, int horizon_ratio);
 
 /// Constants of its bonds: micropolar, those of the lattice.
@@ -29,14 +31,14 @@ NetworkInput half_space_constants(Problem problem, double poissons_ratio);
 /// \param strain  normal strains along the axes
 std::vector<double> homogeneous_motion(const Network& network, const Vector3& strain);
 
-/// Stiffness in which the particles of the column y = z = 0 store the energy that they own, half of that of
-/// their bonds; by row and Poisson's ratio. Only bonds of these particles are made, so that horizons of
-/// dozens of spacings are possible.
+/// Stiffness in which the particles of the column y = z = 0 store the energy that they own, half of
+/// that of their bonds; by row and Poisson's ratio. Only bonds of these particles are made, so that
+/// horizons of dozens of spacings are possible.
 std::vector<std::vector<LayerStiffness>> family_stiffness(const FamilyInput& input);
 
-/// Mean over a plate between two surfaces, of the particles' own stiffness: what each surface takes away
-/// adds up, since no bond is cut by both. A uniform strain along the plate stores this energy, so that
-/// no plate of these bonds can be stiffer.
+/// Mean over a plate between two surfaces, of the particles' own stiffness: what each surface takes
+/// away adds up, since no bond is cut by both. A uniform strain along the plate stores this energy,
+/// so that no plate of these bonds can be stiffer.
 /// \param rows  width of the plate [spacings]
 LayerStiffness plate_of_families(Problem problem, int horizon_ratio, int rows,
                                  double poissons_ratio);

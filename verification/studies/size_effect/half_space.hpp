@@ -5,10 +5,10 @@
 #include "material/micropolar.hpp"
 
 /// \file
-/// Elastic size effect of Gerstle, Sau & Aguilera (2007), section 5: a particle at the depth a below a
-/// plane surface has lost the bonds that would cross it. In a homogeneous strain, particles not rotated,
-/// it stores the energy of a solid that is softer, most of all along the normal of the surface.
-/// Axis 1 is that normal; 2, and 3 in three dimensions, lie in the surface.
+/// Elastic size effect of Gerstle, Sau & Aguilera (2007), section 5: a particle at the depth a
+/// below a plane surface has lost the bonds that would cross it. In a homogeneous strain, particles
+/// not rotated, it stores the energy of a solid that is softer, most of all along the normal of the
+/// surface. Axis 1 is that normal; 2, and 3 in three dimensions, lie in the surface.
 
 namespace perilink::verification {
 
@@ -36,8 +36,8 @@ LayerModuli layer_moduli(Problem problem, const LayerStiffness& stiffness);
 LayerStiffness layer_stiffness(Problem problem, const MicropolarModuli& moduli, double horizon,
                                double depth);
 
-/// Mean of the closed form over a plate of a width between two surfaces: what each surface takes away
-/// is taken away once, since no bond is cut by both.
+/// Mean of the closed form over a plate of a width between two surfaces: what each surface takes
+/// away is taken away once, since no bond is cut by both.
 /// \param width  [horizons]
 LayerStiffness plate_stiffness(Problem problem, const MicropolarModuli& moduli, double horizon,
                                double width);

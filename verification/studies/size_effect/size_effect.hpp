@@ -8,8 +8,8 @@
 
 namespace perilink::verification {
 
-/// Largest difference of E1/E, E2/E, nu12 and nu23 (nu21) between bonds and closed form that counts as
-/// agreement.
+/// Largest difference of E1/E, E2/E, nu12 and nu23 (nu21) between bonds and closed form that counts
+/// as agreement.
 inline constexpr double acceptance = 1e-3;
 
 /// Moduli of one particle, from its bonds and from the closed form.
@@ -26,7 +26,8 @@ std::array<double, 4> differences(const FamilyRow& row);
 /// Largest absolute difference of each.
 std::array<double, 4> largest_differences(const std::vector<FamilyRow>& rows);
 
-/// Particles of the given rows against the closed form, with the constants of the infinite body there.
+/// Particles of the given rows against the closed form, with the constants of the infinite body
+/// there.
 std::vector<FamilyRow> compare_families(const FamilyInput& input);
 
 /// Apparent Young's modulus over the material's of a bar in plane stress.
@@ -36,15 +37,16 @@ struct BarRow {
   double uncorrected = 0.0;  ///< of the program, surface = "none"
   double families = 0.0;     ///< bound on it: the same bonds in a uniform strain
   double exact = 0.0;        ///< mean of the closed form over the width
-  double calibrated = 0.0;   ///< of the program, surface = "calibrated"; not a number: not asked for
+  double calibrated = 0.0;  ///< of the program, surface = "calibrated"; not a number: not asked for
 };
 
-/// The bar must be softer than the bound, by no more than this share: strains across it are not uniform.
+/// The bar must be softer than the bound, by no more than this share: strains across it are not
+/// uniform.
 inline constexpr double largest_relaxation = 0.0025;
 /// Largest difference of the uncorrected bar from the closed form at a horizon of 12 spacings.
 inline constexpr double bar_acceptance = 0.01;
-/// Calibrated bars: their forces are in balance to round-off, their moments are soft equations and turn
-/// particles at the surface a little (docs/theory/calibration.md); measured: up to 8.1e-6.
+/// Calibrated bars: their forces are in balance to round-off, their moments are soft equations and
+/// turn particles at the surface a little (docs/theory/calibration.md); measured: up to 8.1e-6.
 inline constexpr double calibrated_acceptance = 2e-5;
 
 BarRow compare_bar(int width, int horizon_ratio, double poissons_ratio, bool calibrated);

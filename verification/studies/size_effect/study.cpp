@@ -44,8 +44,9 @@ std::vector<FamilyRow> run_series(const Series& series, CsvWriter& table, bool& 
     const double dimension = dimension_as_number(series.problem);
     table.write_row({dimension, static_cast<double>(ratio), largest[0], largest[1], largest[2],
                      largest[3]});
-    fmt::print("{:.0f}D, horizon {:3d} spacings: E1/E {:.1e}  E2/E {:.1e}  nu12 {:.1e}  nu2 {:.1e}\n",
-               dimension, ratio, largest[0], largest[1], largest[2], largest[3]);
+    fmt::print(
+        "{:.0f}D, horizon {:3d} spacings: E1/E {:.1e}  E2/E {:.1e}  nu12 {:.1e}  nu2 {:.1e}\n",
+        dimension, ratio, largest[0], largest[1], largest[2], largest[3]);
   }
   const auto finest = largest_differences(rows);
   good = good && *std::max_element(finest.begin(), finest.end()) <= acceptance;
@@ -64,13 +65,14 @@ void write_families(const std::vector<FamilyRow>& rows, double dimension, CsvWri
 
 bool run_families(const std::string& directory) {
   bool good = true;
-  CsvWriter table(directory + "/result.csv",
-                  {"dimension", "horizon_ratio", "e1_error", "e2_error", "nu12_error", "nu2_error"});
+  CsvWriter table(directory + "/result.csv", {"dimension", "horizon_ratio", "e1_error", "e2_error",
+                                              "nu12_error", "nu2_error"});
   CsvWriter families(directory + "/families.csv",
                      {"dimension", "poissons_ratio", "depth", "e1", "e2", "nu12", "nu2", "e1_exact",
                       "e2_exact", "nu12_exact", "nu2_exact"});
   const Series space{Problem::three_dimensional, {0.0, 0.1, 0.2, 0.22, 0.25}, {5, 10, 20, 40, 60}};
-  const Series plane{Problem::plane_stress, {0.0, 0.1, 0.2, 0.22, 0.25, 0.3}, {5, 10, 20, 40, 80, 160, 320}};
+  const Series plane{
+      Problem::plane_stress, {0.0, 0.1, 0.2, 0.22, 0.25, 0.3}, {5, 10, 20, 40, 80, 160, 320}};
   for (const Series& series : {space, plane}) {
     const auto rows = run_series(series, table, good);
     write_families(rows, dimension_as_number(series.problem), families);
