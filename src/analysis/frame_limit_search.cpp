@@ -29,7 +29,7 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
     const double limit = network.critical_stretch[e];
     if (!std::isfinite(limit)) continue;
     const double length = network.bonds.lengths[e];
-    const double share = network.bending[e] / network.stiffness[e];
+    const double share = network.ratio_of_bending(e);
     Bond bond{network.bonds.first[e] * network.width(),
               network.bonds.second[e] * network.width(),
               {},

@@ -20,6 +20,10 @@ struct Network {
   /// Intact bending stiffness 12 d V_i V_j / xi^3 of micropolar bonds [force/length], per element;
   /// empty where no bond carries a moment.
   std::vector<double> bending;
+  /// The k_b / k with which shear and bending of calibrated bonds count in their equivalent stretch,
+  /// that of the uncalibrated bond (docs/theory/micropolar.md, section 5) [-], per element; empty:
+  /// bending over stiffness of the bond itself.
+  std::vector<double> bending_ratio;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
   /// Stiffness of elastic supports between the components of particles and the ground
@@ -38,6 +42,9 @@ struct Network {
   /// moments, rotations: (u, v) or (u, v, theta) in two dimensions, (u, v, w) or
   /// (u, v, w, theta_x, theta_y, theta_z) in three.
   int width() const { return bending.empty() ? dim() : dim() == 2 ? 3 : 6; }
+  double ratio_of_bending(Index element) const {
+    return bending_ratio.empty() ? bending[element] / stiffness[element] : bending_ratio[element];
+  }
   bool carries_moments() const { return !bending.empty(); }
   Index num_elements() const { return bonds.size(); }
   bool is_segment(Index element) const { return element >= first_segment; }

@@ -230,14 +230,16 @@ Network build_network(const Body& body, const NetworkInput& input) {
     network.cut_by_crack = cut.count;
   }
   add_bars(body, input, constants, network);
-  if (network.carries_moments()) network.bending.resize(network.stiffness.size(), 0.0);
+  for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
+    if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
+  }
   return network;
 }
 
 void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
   keep_bonds(network.particles, network.bonds, keep);
   for (std::vector<double>* values :
-       {&network.stiffness, &network.bending, &network.critical_stretch}) {
+       {&network.stiffness, &network.bending, &network.bending_ratio, &network.critical_stretch}) {
     std::size_t next = 0;
     for (std::size_t e = 0; e < values->size(); ++e) {
       if (keep[e]) (*values)[next++] = (*values)[e];

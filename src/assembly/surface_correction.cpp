@@ -5,10 +5,10 @@
 #include <numbers>
 #include <optional>
 
+#include "assembly/bond_strength.hpp"
 #include "assembly/lattice_families.hpp"
 #include "base/timer.hpp"
 #include "discretization/calibration.hpp"
-#include "material/critical_stretch.hpp"
 
 namespace perilink {
 namespace {
@@ -50,8 +50,6 @@ class Correction {
   std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
   void scale_to(const std::vector<double>& wanted);
   std::vector<std::uint8_t> free_bonds(const LatticeFamilies& families) const;
-  void update_critical_stretches(const LatticeFamilies* families);
-  double fracture_sum(const LatticeFamilies* families, Index a, Index b) const;
 
   const Body& body_;
   const NetworkInput& input_;
@@ -140,59 +138,6 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
   return free;
 }
 
-/// Energy that the bonds across a unit area of crack hold at unit stretch, twice: on a lattice from
-/// the families of both materials; on a cloud from the bonds of its particles, the mean over those
-/// that are bonded to none on a facet. Zero where there is no such particle.
-double Correction::fracture_sum(const LatticeFamilies* families, Index a, Index b) const {
-  if (families) {
-    std::vector<double> stiffness(families->offsets().size());
-    for (std::size_t k = 0; k < stiffness.size(); ++k) {
-      stiffness[k] = 0.5 * (families->stiffness(a).axial[k] + families->stiffness(b).axial[k]);
-    }
-    return fracture_sum_of_family(input_.problem, families->offsets(), stiffness,
-                                  body_.lattice.cell_volume);
-  }
-  std::vector<std::uint8_t> inside(static_cast<std::size_t>(network_.particles.size()), 1);
-  std::vector<std::uint8_t> on_facet(inside.size(), 0);
-  for (const Index i : body_.facets.corners.values) on_facet[i] = 1;
-  for (Index e = 0; e < network_.bonds.size(); ++e) {
-    const Index i = network_.bonds.first[e], j = network_.bonds.second[e];
-    if (on_facet[i] || on_facet[j]) inside[i] = inside[j] = 0;
-  }
-  double moments = 0.0, volume = 0.0;
-  for (Index i = 0; i < network_.particles.size(); ++i) {
-    if (inside[i] && (material(i) == a || material(i) == b)) {
-      volume += network_.particles.volumes[i];
-    }
-  }
-  for (Index e = 0; e < network_.bonds.size(); ++e) {
-    const double moment = network_.stiffness[e] * std::pow(network_.bonds.lengths[e], 3);
-    for (const Index i : {network_.bonds.first[e], network_.bonds.second[e]}) {
-      if (inside[i] && (material(i) == a || material(i) == b)) moments += 0.5 * moment;
-    }
-  }
-  return volume > 0.0 ? mean_cosine(input_.problem) * moments / volume : 0.0;
-}
-
-void Correction::update_critical_stretches(const LatticeFamilies* families) {
-  const std::size_t count = input_.materials.size();
-  std::vector<double> stretch(count * count);
-  for (std::size_t a = 0; a < count; ++a) {
-    for (std::size_t b = 0; b < count; ++b) {
-      const double energy =
-          0.5 * (input_.materials[a].fracture_energy + input_.materials[b].fracture_energy);
-      const double sum = fracture_sum(families, static_cast<Index>(a), static_cast<Index>(b));
-      // Bodies without an inside keep the continuum's stretch.
-      stretch[a * count + b] = sum > 0.0 ? lattice_critical_stretch(energy, sum) : 0.0;
-    }
-  }
-  for (Index e = 0; e < network_.bonds.size(); ++e) {
-    const double found = stretch[material(network_.bonds.first[e]) * count +
-                                 material(network_.bonds.second[e])];
-    if (found > 0.0) network_.critical_stretch[e] = found;
-  }
-}
-
 void Correction::energy() {
   std::vector<double> wanted = wanted_moduli(nullptr);
   if (on_lattice()) {
@@ -235,6 +180,8 @@ void Correction::calibrate() {
   for (const SolidMaterial& m : input_.materials) {
     calibration.materials.push_back(lame_constants(input_, m));
   }
+  // What single bonds lose or gain from here on is no measure of their strength.
+  network_.bending_ratio = own_bending_ratios(network_);
   BondStiffness stiffness{network_.stiffness, network_.bending};
   network_.calibration = calibrate_bonds(calibration, {}, network_.facets, stiffness);
   network_.stiffness = std::move(stiffness.axial);
@@ -244,7 +191,11 @@ void Correction::calibrate() {
     for (const double k : network_.stiffness) keep.push_back(k > 0.0);
     keep_elements(network_, keep);
   }
-  if (input_.critical_stretch == Constants::lattice || !family) update_critical_stretches(family);
+  if (!family) {
+    set_strength_of_cloud(input_, network_);
+  } else if (input_.critical_stretch == Constants::lattice) {
+    set_critical_stretches(input_, *family, body_.lattice.cell_volume, network_);
+  }
   network_.calibration->seconds = timer.seconds();
 }
 

@@ -4,11 +4,13 @@
 
 #include <Eigen/Dense>
 
+#include "analysis/frame_limit_search.hpp"
 #include "assembly/element_vector.hpp"
 #include "assembly/fields.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/rigid_modes.hpp"
 #include "assembly/stiffness.hpp"
+#include "support/clouds.hpp"
 #include "support/micropolar_networks.hpp"
 #include "support/textbook_beams.hpp"
 
@@ -289,6 +291,37 @@ TEST(MicropolarBulk, HasYoungsModulusAndPoissonsRatio) {
     EXPECT_NEAR(C11 - C12 * C12 / C22, 30.0, 1e-11);
     EXPECT_NEAR(C22, C11, 1e-11);
     EXPECT_NEAR(C66, 15.0 / (1.0 + nu), 1e-11);
+  }
+}
+
+/// In a homogeneous strain the bonds of a calibrated body break by their direction and length, not by
+/// what the calibration made of them: the order of breaking is that of
+/// s^2 + b (g / xi)^2 / xi^2 with s = n.eps n, g / xi = t.eps n and one b for the whole body.
+TEST(MicropolarCloud, BreaksByTheStrainAlone) {
+  const Network network = build_network(make_cloud(1, 10), micropolar_cloud_input(10));
+  ASSERT_LT(network.calibration->smallest_weight, 0.5);
+  const double b = network.ratio_of_bending(0) * std::pow(network.bonds.lengths[0], 2);
+  const auto measure = [&](Index e, double exx, double eyy, double exy) {
+    const auto n = network.bonds.direction(e);
+    const double s = exx * n[0] * n[0] + eyy * n[1] * n[1] + 2.0 * exy * n[0] * n[1];
+    const double g = (eyy - exx) * n[0] * n[1] + exy * (n[0] * n[0] - n[1] * n[1]);
+    return s > 0.0 ? std::sqrt(s * s + b * std::pow(g / network.bonds.lengths[e], 2)) : 0.0;
+  };
+  for (const auto& [exx, eyy, exy] : {std::array{1.0, -0.2, 0.0}, {1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) {
+    const auto motion = linear_motion(network, {{{exx, exy, 0}, {exy, eyy, 0}, {0, 0, 0}}});
+    FrameLimitSearch search(network);
+    std::vector<double> found, expected;
+    for (Index e = 0; e < network.num_elements(); ++e) {
+      const BreakSearch::Hit hit = search.find(motion, 0.0, 1);
+      if (hit.element == no_index) break;
+      found.push_back(hit.ratio * network.critical_stretch[hit.element]);
+      expected.push_back(measure(hit.element, exx, eyy, exy));
+      search.remove(hit.element);
+    }
+    EXPECT_GT(found.size(), 0.3 * network.num_elements());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_NEAR(found[k], expected[k], round_off * expected.front());
+    }
   }
 }
 

@@ -98,6 +98,19 @@ TEST(FrameLimitSearch, BondsBreakInTensionOnly) {
   EXPECT_NEAR(hit.ratio, 1e3 * std::sqrt(1e-6 + 1.5 * 0.04 + 1.5 * 0.04 / 12.0), 1e-10);
 }
 
+/// What a calibration left of a bond's stiffness does not decide how shear and bending count.
+TEST(FrameLimitSearch, BendingOfCalibratedBondsCountsByItsOwnRatio) {
+  Network network = single_frame(2, {1.0, 0.0}, 0.02 * 2.0, 1.7 * 3.0);
+  network.bending_ratio = {1.5};
+  const std::vector<double> u = {0, 0, 0.1, 1e-3, 0.2, -0.1};
+  const double expected = 1e3 * std::sqrt(1e-6 + 1.5 * 0.04 + 1.5 * 0.04 / 12.0);
+  EXPECT_NEAR(FrameLimitSearch(network).find(u, 0.0, 1).ratio, expected, 1e-10);
+  network.bending_ratio.clear();
+  const double own = 1.5 * 1.7 / 0.02;
+  EXPECT_NEAR(FrameLimitSearch(network).find(u, 0.0, 1).ratio,
+              1e3 * std::sqrt(1e-6 + own * 0.04 + own * 0.04 / 12.0), 1e-10);
+}
+
 /// Of bonds that symmetry makes equal the lowest breaks, whatever round-off says.
 TEST(FrameLimitSearch, TiesGoToTheLowestElement) {
   Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
