@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/block_search.hpp"
 #include "analysis/limit_search.hpp"
 
 namespace perilink {
 namespace {
 
-constexpr Index block_size = 512;
 /// Fewer blocks than this are searched faster by one thread.
 constexpr Index smallest_parallel_search = 100;
 
@@ -41,7 +41,7 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
     elements_.push_back(e);
     bonds_.push_back(bond);
   }
-  block_largest_.resize((elements_.size() + block_size - 1) / block_size);
+  block_largest_.resize(num_search_blocks(elements_.size()));
 }
 
 template <int Dim>
@@ -83,32 +83,17 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const 
 
 template <int Dim>
 FrameLimitSearch::Hit FrameLimitSearch::find_in(const double* u, double tolerance, int threads) {
-  const Index blocks = static_cast<Index>(block_largest_.size());
-  const auto end_of = [&](Index block) {
-    return std::min<Index>((block + 1) * block_size, static_cast<Index>(bonds_.size()));
-  };
-#pragma omp parallel for schedule(static) num_threads(threads) \
-    if (threads > 1 && blocks > smallest_parallel_search)
-  for (Index b = 0; b < blocks; ++b) {
+  const auto value_at = [&](Index k) { return squared_ratio<Dim>(bonds_[k], u); };
+  const auto largest_in = [&](Index begin, Index end) {
     double largest = 0.0;
-    for (Index k = b * block_size; k < end_of(b); ++k) {
-      largest = std::max(largest, squared_ratio<Dim>(bonds_[k], u));
-    }
-    block_largest_[b] = largest;
-  }
-  double largest = 0.0;
-  for (const double value : block_largest_) largest = std::max(largest, value);
-  if (largest <= 0.0) return {};
-  // The two passes may be rounded differently: a little below the tolerance.
-  const double threshold = largest * (1.0 - tolerance) * (1.0 - tolerance) * (1.0 - 1e-14);
-  for (Index b = 0; b < blocks; ++b) {
-    if (block_largest_[b] < threshold) continue;
-    for (Index k = b * block_size; k < end_of(b); ++k) {
-      const double square = squared_ratio<Dim>(bonds_[k], u);
-      if (square >= threshold) return {elements_[k], std::sqrt(square)};
-    }
-  }
-  return {};
+    for (Index k = begin; k < end; ++k) largest = std::max(largest, value_at(k));
+    return largest;
+  };
+  const BlockHit hit = find_first_largest(
+      static_cast<Index>(elements_.size()), block_largest_, (1.0 - tolerance) * (1.0 - tolerance),
+      threads, smallest_parallel_search, largest_in, value_at);
+  if (hit.position == no_index) return {};
+  return {elements_[hit.position], std::sqrt(hit.value)};
 }
 
 FrameLimitSearch::Hit FrameLimitSearch::find(std::span<const double> displacement, double tolerance,

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/block_search.hpp"
+
 namespace perilink {
 namespace {
 
-constexpr Index block_size = 512;
 /// Fewer blocks than this are searched faster by one thread.
 constexpr Index smallest_parallel_search = 400;
 
@@ -24,13 +25,11 @@ LimitSearch::LimitSearch(const Network& network) : dim_(network.dim()) {
       gradient_[a].push_back(n[a] / (network.bonds.lengths[e] * limit));
     }
   }
-  block_largest_.resize((elements_.size() + block_size - 1) / block_size);
+  block_largest_.resize(num_search_blocks(elements_.size()));
 }
 
 template <int Dim>
-double LimitSearch::largest_in_block(const double* u, Index block) const {
-  const Index begin = block * block_size;
-  const Index end = std::min<Index>(begin + block_size, static_cast<Index>(elements_.size()));
+double LimitSearch::largest_between(const double* u, Index begin, Index end) const {
   const Index* first = first_.data();
   const Index* second = second_.data();
   const double* gx = gradient_[0].data();
@@ -50,28 +49,17 @@ double LimitSearch::largest_in_block(const double* u, Index block) const {
 
 template <int Dim>
 LimitSearch::Hit LimitSearch::find_in(const double* u, double tolerance, int threads) {
-  const Index blocks = static_cast<Index>(block_largest_.size());
-#pragma omp parallel for schedule(static) num_threads(threads) \
-    if (threads > 1 && blocks > smallest_parallel_search)
-  for (Index b = 0; b < blocks; ++b) block_largest_[b] = largest_in_block<Dim>(u, b);
-
-  double largest = 0.0;
-  for (const double value : block_largest_) largest = std::max(largest, value);
-  if (largest <= 0.0) return {};
-  const double threshold = largest * (1.0 - tolerance);
-  for (Index b = 0; b < blocks; ++b) {
-    if (block_largest_[b] < threshold) continue;
-    const Index end = std::min<Index>((b + 1) * block_size, static_cast<Index>(elements_.size()));
-    for (Index k = b * block_size; k < end; ++k) {
-      double ratio = 0.0;
-      for (int a = 0; a < Dim; ++a) {
-        ratio += gradient_[a][k] * (u[second_[k] + a] - u[first_[k] + a]);
-      }
-      // The sum above may be rounded otherwise than in the vector loop: the tolerance covers both.
-      if (ratio >= threshold * (1.0 - 1e-14)) return {elements_[k], ratio};
-    }
-  }
-  return {};
+  const auto ratio_at = [&](Index k) {
+    double ratio = 0.0;
+    for (int a = 0; a < Dim; ++a) ratio += gradient_[a][k] * (u[second_[k] + a] - u[first_[k] + a]);
+    return ratio;
+  };
+  const BlockHit hit = find_first_largest(
+      static_cast<Index>(elements_.size()), block_largest_, 1.0 - tolerance, threads,
+      smallest_parallel_search,
+      [&](Index begin, Index end) { return largest_between<Dim>(u, begin, end); }, ratio_at);
+  if (hit.position == no_index) return {};
+  return {elements_[hit.position], hit.value};
 }
 
 LimitSearch::Hit LimitSearch::find(std::span<const double> displacement, double tolerance,

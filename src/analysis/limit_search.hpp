@@ -23,7 +23,7 @@ class LimitSearch final : public BreakSearch {
   template <int Dim>
   Hit find_in(const double* displacement, double tolerance, int threads);
   template <int Dim>
-  double largest_in_block(const double* displacement, Index block) const;
+  double largest_between(const double* displacement, Index begin, Index end) const;
 
   int dim_;
   std::vector<Index> elements_;
