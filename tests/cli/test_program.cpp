@@ -194,12 +194,29 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   const ProcessEnd end = run({"check", "small.toml"});
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part : {"[body]", "particles          336", "bonds              2345",
-                           "unknowns           669", "memory", "each broken bond"}) {
+                           "unknowns           669", "memory", "set-up", "each broken bond",
+                           "to 30 broken bonds"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
   EXPECT_EQ(names(), std::set<std::string>{"small.toml"});
   write_case("again.toml", end.out);  // what it prints is a case with comments
   EXPECT_EQ(run({"check", "again.toml"}).exit_status, 0);
+}
+
+TEST_F(Program, CheckTellsWhatTheCalibrationReachedAndTook) {
+  write_case("block.toml", hexagonal_case(9, 5));
+  const ProcessEnd end = run({"check", "block.toml"});
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_THAT(end.out, testing::ContainsRegex("calibration        [0-9]+ bonds, forces out of balance"));
+  EXPECT_THAT(end.out, testing::ContainsRegex("set-up .*, of it calibration [0-9.e-]+ s"));
+}
+
+TEST_F(Program, CheckOfAnElasticCaseSpeaksOfNoBreaks) {
+  write_case("strip.toml", tension_strip_case);
+  const ProcessEnd end = run({"check", "strip.toml"});
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_THAT(end.out, testing::ContainsRegex("run                about [0-9.e-]+ s\n"));
+  EXPECT_THAT(end.out, testing::Not(HasSubstr("each broken bond")));
 }
 
 TEST_F(Program, PlotDrawsWhatAResultHolds) {
