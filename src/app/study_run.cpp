@@ -42,6 +42,30 @@ class StudyObserver final : public StepObserver {
   const Model& model_;
 };
 
+/// Refuses refinements that no member could have.
+void check_refinement(const VarySection& vary, const BodySection& body) {
+  const bool of_lattice = vary.refinement == "spacing" || vary.refinement == "columns";
+  if (of_lattice && body.mesh) {
+    throw InputError(vary.where, "is given, but the body of the case is a mesh, whose particles are its vertices",
+                     is_geometry(*body.mesh)
+                         ? "refine with `mesh_size`: sizes of the cells of the geometry"
+                         : "refine with `mesh`, a list of meshes, or name a geometry as the case's `mesh` "
+                           "and refine with `mesh_size`");
+  }
+  if (of_lattice) return;
+  if (!body.mesh) {
+    throw InputError(vary.where, "is given, but the body of the case is a lattice",
+                     "refine with `spacing` or `columns`, or give `mesh` in [body] of the case");
+  }
+  if (vary.refinement == "mesh_size" && !is_geometry(*body.mesh)) {
+    throw InputError(vary.where,
+                     fmt::format("is given, but the body of the case, {}, is meshed already",
+                                 perilink::quoted(*body.mesh)),
+                     "refine with `mesh`, a list of meshes, or name a geometry (.geo, .step, .stp, .brep) as "
+                     "the case's `mesh`");
+  }
+}
+
 /// What run_model leaves of one repeat.
 struct Repeat {
   CaseFile input;
@@ -195,6 +219,7 @@ std::vector<StudySeries> study_series(const StudyFile& study) {
 }
 
 void check_study(const StudyFile& study, const CaseFile& input) {
+  check_refinement(study.vary, input.body);
   const int dim = dimension_of(input.body);
   for (const ErrorSection& error : study.errors) {
     if (!error.gauge.empty() && gauge_number(input, error.gauge) == input.gauges.size()) {

@@ -88,6 +88,7 @@ void read_refinement(const CaseTable& table, VarySection& vary, const StudyFile&
   vary.refinement = *std::find_if(keys.begin(), keys.end(),
                                   [&](const std::string& key) { return table.has(key); });
   const std::string& key = vary.refinement;
+  vary.where = {study.path, table.value(key)->line, "vary." + key};
   if (key == "columns") {
     for (const int value : distinct(table, key, *table.integers(key, 2, most_columns))) {
       vary.values.push_back(body_key(key, value));

@@ -19,6 +19,7 @@ namespace perilink {
 /// [vary]: the case is run for every combination. An empty list leaves the case's own value.
 struct VarySection {
   std::string refinement;         ///< key of [body] that refines: spacing, columns, mesh, mesh_size
+  SourceLocation where;           ///< of that key
   std::vector<TomlValue> values;  ///< of that key, numbers, integers or texts
   std::vector<double> horizon_ratio;
   std::vector<std::string> surface;

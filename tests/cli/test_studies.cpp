@@ -173,6 +173,18 @@ TEST_F(Study, BadStudiesAreRefusedBeforeAnythingIsWritten) {
   }
 }
 
+TEST_F(Study, ASpacingOfAMeshIsRefusedOnceBeforeWorkBegins) {
+  std::string meshed = tension_strip_case;
+  meshed.replace(meshed.find("spacing = 0.25"), std::string("spacing = 0.25").size(),
+                 "mesh = \"plate.geo\"");
+  write_text(work() / "bar.toml", meshed);
+  const ProcessEnd end = converge(vary + energy, {"--out", "r"});
+  EXPECT_EQ(end.exit_status, 2);
+  EXPECT_THAT(end.err, HasSubstr("study.toml:4: vary.spacing: is given, but the body of the case is a mesh"));
+  EXPECT_THAT(end.err, HasSubstr("refine with `mesh_size`"));
+  EXPECT_FALSE(fs::exists(work() / "r"));
+}
+
 TEST_F(Study, AnEarlierResultIsRefusedAndForcedOnRequest) {
   ASSERT_EQ(converge(vary + energy, {"--quiet"}).exit_status, 0);
   const ProcessEnd refused = converge(vary + energy, {"--quiet"});

@@ -166,6 +166,31 @@ TEST_F(StudyRun, ErrorsThatTheCaseCannotHaveAreRefused) {
       check_study(study(energy + "1\n"), read_case_file((directory_ / "strip.toml").string())));
 }
 
+TEST_F(StudyRun, RefinementsThatTheBodyCannotHaveAreRefusedOnce) {
+  const StudyFile finer = study(energy + "1\n");
+  CaseFile input = read_case_file(finer.case_path);
+  const auto expect = [&](const StudyFile& file, const std::string& says) {
+    try {
+      check_study(file, input);
+      ADD_FAILURE() << "accepted; expected " << says;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.where().file, "study.toml");
+      EXPECT_EQ(error.where().line, 3);
+      EXPECT_EQ(error.where().key, "vary." + file.vary.refinement);
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+    }
+  };
+  const StudyFile sizes = study_of("mesh_size = [2, 1]\n", energy + "1\n");
+  expect(sizes, "refine with `spacing`");
+  expect(study_of("mesh = [\"a.msh\", \"b.msh\"]\n", energy + "1\n"), "the case is a lattice");
+  input.body.mesh = "plate.msh";
+  expect(study_of("columns = [2, 4]\n", energy + "1\n"), "refine with `mesh`, a list of meshes");
+  expect(sizes, "\"plate.msh\", is meshed already");
+  input.body.mesh = "plate.geo";
+  expect(study_of("spacing = [2, 1]\n", energy + "1\n"), "refine with `mesh_size`");
+  EXPECT_NO_THROW(check_study(sizes, input));
+}
+
 /// Members of one series with values 1 + 3 h^2, in the wrong order and with a failed one.
 std::vector<StudyMember> parabola(const std::vector<double>& spacings) {
   std::vector<StudyMember> members;
