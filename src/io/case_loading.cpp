@@ -20,8 +20,8 @@ std::string need_region(const CaseTable& table, const std::string& use) {
 Vector3 read_moment(const CaseTable& table, const BodySection& body) {
   if (!table.has("moment")) return {};
   if (body.model != "micropolar") {
-    table.refuse("moment", "is given, but the particles of a bond-based body do not rotate",
-                 "apply a couple of forces, or set model = \"micropolar\" in [body]");
+    table.refuse("moment", "is given, but " + why_nothing_rotates(body),
+                 "apply a couple of forces, or " + what_rotates(body));
   }
   if (dimension_of(body) == 2) return {0.0, 0.0, *table.number("moment")};
   return *table.vector("moment", 3);

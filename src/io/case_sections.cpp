@@ -26,8 +26,7 @@ void refuse_rotations(const CaseTable& table, const BodySection& body) {
   for (const char* key : {"rotation", "rx", "ry", "rz"}) {
     if (!table.has(key)) continue;
     if (body.model != "micropolar") {
-      table.refuse(key, "is given, but the particles of a bond-based body do not rotate",
-                   "delete it, or set model = \"micropolar\" in [body]");
+      table.refuse(key, "is given, but " + why_nothing_rotates(body), "delete it, or " + what_rotates(body));
     }
     if (flat == (std::string_view(key) == "rotation")) continue;
     table.refuse(key, fmt::format("is no rotation of a body in {} dimensions", flat ? "two" : "three"),
@@ -47,9 +46,8 @@ std::size_t find_held_component(const CaseTable& table, const BodySection& body,
     const bool turns = dim == 3 || axis == 2;
     if (!turns || name != rotation_name(dim, axis)) continue;
     if (body.model != "micropolar") {
-      table.refuse("fix", fmt::format("names {}, but the particles of a bond-based body do not rotate",
-                                      quoted(name)),
-                   "delete it, or set model = \"micropolar\" in [body]");
+      table.refuse("fix", fmt::format("names {}, but {}", quoted(name), why_nothing_rotates(body)),
+                   "delete it, or " + what_rotates(body));
     }
     return 3 + axis;
   }
@@ -64,6 +62,17 @@ std::string need_region(const CaseTable& table, const std::string& use) {
 }
 
 }  // namespace
+
+std::string why_nothing_rotates(const BodySection& body) {
+  return body.method == "linear_elements" ? "the corners of linear elements do not rotate"
+                                          : "the particles of a bond-based body do not rotate";
+}
+
+std::string what_rotates(const BodySection& body) {
+  return body.method == "linear_elements"
+             ? "set model = \"micropolar\" in [body] instead of method = \"linear_elements\""
+             : "set model = \"micropolar\" in [body]";
+}
 
 Region read_region(const CaseTable& table, int dim) {
   Region region;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "io/case_file.hpp"
 #include "io/case_table.hpp"
@@ -13,6 +14,11 @@ namespace perilink {
 
 /// 2 or 3.
 int dimension_of(const BodySection& body);
+
+/// Why particles have no rotations where the body is not micropolar, and what would give them some: parts of
+/// refusals.
+std::string why_nothing_rotates(const BodySection& body);
+std::string what_rotates(const BodySection& body);
 
 BodySection read_body(const CaseTable& table);
 Region read_region(const CaseTable& table, int dim);

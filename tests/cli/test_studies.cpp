@@ -138,7 +138,7 @@ TEST_F(Study, AMemberThatFailsDoesNotStopTheOthers) {
 
 TEST_F(Study, WhereAllMembersFailTheStatusAndTheFirstReasonSaySo) {
   const ProcessEnd end =
-      converge("case = \"bar.toml\"\n[vary]\nmesh = [\"a.msh\", \"b.msh\"]\n" + energy);
+      converge("case = \"bar.toml\"\n[vary]\nspacing = [2, 1]\n" + energy);  // the horizon is 0.6
   EXPECT_EQ(end.exit_status, 2);
   EXPECT_THAT(end.err, HasSubstr("every member of the study failed"));
   EXPECT_THAT(end.err, HasSubstr("body."));

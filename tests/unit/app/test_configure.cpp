@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -267,6 +268,25 @@ TEST(Configure, BodiesThatCannotBreakAreRefusedInADamageAnalysis) {
   CaseFile barred = barred_case();  // its bar can yield
   barred.materials[0].fracture_energy = INFINITY;
   EXPECT_NO_THROW(build_model(barred));
+}
+
+TEST(Configure, WhatCalibrationDoesNotChangeIsRefusedBeforeIt) {
+  CaseFile input = prism_case();
+  input.body.horizon_ratio = 1.0;  // six neighbours: no calibration can make them isotropic
+  expect_refused(input, "body.horizon_ratio", "use two to four spacings");
+  CaseFile free = input;
+  free.supports.clear();
+  expect_refused(free, "analysis", "6 of the 6 rigid-body modes of the body are free");
+  CaseFile unbreakable = input;
+  unbreakable.materials[0].fracture_energy = std::numeric_limits<double>::infinity();
+  expect_refused(unbreakable, "materials[1].fracture_energy", "nothing can break");
+  CaseFile measured = input;
+  GaugeSection far;
+  far.name = "far";
+  far.at = Vector3{9.0, 9.0, 9.0};
+  far.axis = 0;
+  measured.gauges.push_back(far);
+  expect_refused(measured, "gauges[1].at", "nearest particle");
 }
 
 TEST(Configure, DamageOptionsFollowTheCase) {
