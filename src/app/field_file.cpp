@@ -94,6 +94,7 @@ VtuGrid make_field_grid(const Network& network, const StepState& state, const St
       {"damage", 1, damage_index(network, families, state.secants)},
       {"region", 1, as_doubles(network.particles.material)},
       {"kind", 1, as_doubles(network.particles.kind)},
+      {"volume", 1, network.particles.volumes},
       {"strain_energy_density", 1,
        strain_energy_density(network, families, state.secants, motion)},
       {"principal_strain", 3,
@@ -142,6 +143,7 @@ VtuGrid make_element_grid(const LinearElements& elements, const Particles& parti
       {"damage", 1, std::vector<double>(particles.volumes.size(), 0.0)},
       {"region", 1, as_doubles(particles.material)},
       {"kind", 1, as_doubles(particles.kind)},
+      {"volume", 1, particles.volumes},
       {"strain_energy_density", 1, averaged_at_particles(elements, densities, 1)},
       {"principal_strain", 3, padded_to_three(principal_values(mean_strains, dim), dim)},
   };

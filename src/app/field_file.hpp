@@ -17,8 +17,7 @@ enum class FieldElement { particle = 0, broken_bond = 1, rebar_segment = 2, cell
 /// particle, then a line for each broken bond in the order of breaking, then a line for each bar
 /// segment. Fields:
 ///   points  displacement, damage, region (number of the material, -1 none), kind (0 solid, 1
-///   ghost,
-///           2 rebar), strain_energy_density, principal_strain (largest first); with
+///           ghost, 2 rebar), volume, strain_energy_density, principal_strain (largest first); with
 ///           micropolar bonds rotation (one number in two dimensions, three in three)
 ///   cells   element (FieldElement), broken_at (which break of the run it was, from 1; 0: none)
 ///   file    step, broken_bonds, load_factor, load, dimension, spacing

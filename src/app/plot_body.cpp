@@ -40,6 +40,30 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
   }
 }
 
+/// Square and cubic lattices have one size. Others fill the plane with hexagons of the particles' volumes, space
+/// with cubes. Files without volumes have nothing but the spacing.
+std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
+  std::vector<double> sizes(body.positions.size(), body.spacing);
+  const VtuArray* volumes = grid.find_point_data("volume");
+  if (volumes == nullptr || volumes->values.size() != sizes.size() || on_square_lattice(body)) {
+    return sizes;
+  }
+  const double thickness = grid.field("thickness", 1.0);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double volume = volumes->values[i];
+    if (!(volume > 0.0)) continue;
+    sizes[i] = body.dim == 2 ? std::sqrt(volume / thickness * 2.0 / std::numbers::sqrt3)
+                             : std::cbrt(volume);
+  }
+  return sizes;
+}
+
+/// Von Mises' equivalent of xx, yy, zz, xy, yz, xz.
+double von_mises(const double* s) {
+  const double normal = std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
+  return std::sqrt(0.5 * normal + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
 double length(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
 
 }  // namespace
@@ -57,6 +81,12 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
   body.damage = point_values("damage", 1);
   for (const double kind : point_values("kind", 1)) body.kind.push_back(static_cast<int>(kind));
   read_lines(grid, values_of(grid.find_cell_data("element"), "element", 1, path), body);
+  body.sizes = particle_sizes(grid, body);
+  if (const VtuArray* stress = grid.find_point_data("stress"); stress && stress->components == 6) {
+    for (std::size_t i = 0; i < body.positions.size(); ++i) {
+      body.stress.push_back(von_mises(stress->values.data() + 6 * i));
+    }
+  }
   return body;
 }
 
@@ -96,9 +126,11 @@ bool on_square_lattice(const PlotBody& body) {
     if (body.kind[i] != 0) continue;
     if (first == no_index) first = i;
     ++solid;
-    const double x = (body.positions[i][0] - body.positions[first][0]) / body.spacing;
-    const double y = (body.positions[i][1] - body.positions[first][1]) / body.spacing;
-    if (near_whole(x) && near_whole(y)) ++fitting;
+    bool fits = true;
+    for (int a = 0; a < body.dim; ++a) {
+      fits = fits && near_whole((body.positions[i][a] - body.positions[first][a]) / body.spacing);
+    }
+    fitting += fits;
   }
   return fitting > 0.95 * solid;
 }

@@ -23,6 +23,9 @@ struct PlotBody {
   std::vector<Vector3> positions;      ///< reference [length]
   std::vector<Vector3> displacements;  ///< [length]
   std::vector<double> damage;
+  std::vector<double> sizes;   ///< about the distance to the nearest particles [length]; less at surfaces,
+                               ///< where particles have half a cell or less
+  std::vector<double> stress;  ///< von Mises [force/length^2]; of elastic analyses, else empty
   std::vector<int> kind;  ///< 0 solid, 1 ghost, 2 rebar
   std::vector<Ends> broken_bonds;
   std::vector<Ends> segments;
@@ -42,7 +45,7 @@ double automatic_scale(const PlotBody& body);
 /// Deformed positions, with displacements times `scale`.
 std::vector<Vector3> deformed_positions(const PlotBody& body, double scale);
 
-/// Whether the solid particles stand on a rectangular lattice of the spacing along the axes.
+/// Whether the solid particles stand on a square or cubic lattice of the spacing along the axes.
 bool on_square_lattice(const PlotBody& body);
 
 /// Orthographic view of points: (right, up, toward the viewer). Two-dimensional bodies as they are,

@@ -29,40 +29,65 @@ struct Scene {
   const PlotBody& body;
   const std::vector<Vector3>& seen;  ///< deformed, projected
   const BodyPage& page;
-  bool square = false;  ///< square lattice
+  const ColorBar& colors;
+  bool square = false;  ///< square lattice in the plane
 
   double spacing_px() const { return body.spacing * page.pixels; }
+  double size_px(Index i) const { return body.sizes[i] * page.pixels; }
   SvgPoint at(Index i) const { return page.at(seen[i]); }
   /// Shade 0 is undamaged.
   int shade(Index i) const {
-    if (!(body.damage[i] > 0.0)) return 0;
-    return 1 + std::clamp(static_cast<int>(body.damage[i] * shades), 0, shades - 1);
+    if (body.stress.empty() && !(body.damage[i] > 0.0)) return 0;
+    const double value = body.stress.empty() ? body.damage[i] : body.stress[i] / colors.high;
+    return 1 + std::clamp(static_cast<int>(value * shades), 0, shades - 1);
   }
 };
+
+/// Stresses from zero to the largest; of a body without any the bar is as good as that of another.
+ColorBar color_bar(const PlotBody& body, const PlotLabels& labels) {
+  ColorBar bar;
+  if (body.stress.empty()) return bar;
+  const bool known = !labels.force.empty() && !labels.length.empty();
+  bar.label = with_unit("von Mises stress", known ? labels.force + "/" + labels.length + "²" : "");
+  const double largest = *std::max_element(body.stress.begin(), body.stress.end());
+  if (largest > 0.0) bar.high = largest;
+  return bar;
+}
 
 std::string shade_color(int shade) {
   return shade == 0 ? undamaged_color : damage_color((shade - 0.5) / shades);
 }
 
-/// Cells of one shade are one path, of squares or of dots drawn by the round cap of the stroke.
-/// They overlap a little where they are small, or the page would show through as a moiré pattern.
-void draw_cells(Svg& svg, const Scene& scene) {
-  const bool fine = scene.spacing_px() < 7.0;
-  const double size = scene.spacing_px() * (scene.square ? (fine ? 1.1 : 0.94) : fine ? 1.18 : 1.0);
+/// Cells of one shade are one path. They overlap a little where they are small, or the page would show through
+/// as a moiré pattern.
+void draw_squares(Svg& svg, const Scene& scene) {
+  const double size = scene.spacing_px() * (scene.spacing_px() < 7.0 ? 1.1 : 0.94);
   std::map<int, SvgPath> cells;  // light ones first, so that the damaged ones stay visible
   for (Index i = 0; i < scene.body.size(); ++i) {
-    if (scene.body.kind[i] != 0) continue;
-    SvgPath& path = cells[scene.shade(i)];
-    if (scene.square) {
-      path.square(scene.at(i), size);
-    } else {
-      path.dot(scene.at(i));
-    }
+    if (scene.body.kind[i] == 0) cells[scene.shade(i)].square(scene.at(i), size);
   }
-  svg.open_group(scene.square ? std::string("stroke=\"none\"")
-                              : "fill=\"none\" stroke-linecap=\"round\" " + stroke_width(size));
+  svg.open_group("stroke=\"none\"");
   for (const auto& [shade, path] : cells) {
-    svg.path(path, fmt::format("{}=\"{}\"", scene.square ? "fill" : "stroke", shade_color(shade)));
+    svg.path(path, fmt::format("fill=\"{}\"", shade_color(shade)));
+  }
+  svg.close_group();
+}
+
+/// The same off the square lattice: dots, drawn by the round caps of strokes, each as wide as its particle, in
+/// steps of a quarter of a pixel.
+void draw_dots(Svg& svg, const Scene& scene) {
+  constexpr double step = 0.25;
+  std::map<std::pair<int, long>, SvgPath> dots;
+  for (Index i = 0; i < scene.body.size(); ++i) {
+    if (scene.body.kind[i] != 0) continue;
+    const double size = scene.size_px(i) * (scene.size_px(i) < 7.0 ? 1.18 : 1.0);
+    const long steps = std::max(1L, std::lround(size / step));
+    dots[{scene.shade(i), steps}].dot(scene.at(i));
+  }
+  svg.open_group("fill=\"none\" stroke-linecap=\"round\"");
+  for (const auto& [look, path] : dots) {
+    svg.path(path, fmt::format("stroke=\"{}\" {}", shade_color(look.first),
+                               stroke_width(step * static_cast<double>(look.second))));
   }
   svg.close_group();
 }
@@ -82,9 +107,11 @@ void draw_balls(Svg& svg, const Scene& scene) {
   };
   std::unordered_map<long, double> front;
   for (const Index i : order) front[place(i)] = scene.seen[i][2];
-  const double size = 1.1 * scene.spacing_px();
+  // Particles of meshes that can be seen have half of a cell or less.
+  const double wide = on_square_lattice(scene.body) ? 1.1 : 1.4;
   svg.open_group("fill=\"none\" stroke-linecap=\"round\"");
   for (const Index i : order) {
+    const double size = wide * scene.size_px(i);
     if (scene.seen[i][2] < front[place(i)] - 1.5 * scene.body.spacing) continue;
     SvgPath dot;
     dot.dot(scene.at(i));
@@ -98,8 +125,7 @@ void draw_balls(Svg& svg, const Scene& scene) {
 /// A broken bond between nearest neighbours shows as the face between their cells, once on either
 /// side: closed cracks become one line, open ones two. Longer bonds would only hide the crack.
 void draw_crack_faces(Svg& svg, const Scene& scene) {
-  const double nearest = 1.2 * scene.body.spacing;
-  const double face = (scene.square ? 1.0 : 0.62) * scene.spacing_px();
+  const double nearest = scene.square ? 1.2 : 1.5;  // sizes are those of halved cells at surfaces
   SvgPath path;
   for (const auto& [i, j] : scene.body.broken_bonds) {
     const Vector3& from = scene.body.positions[i];
@@ -107,7 +133,9 @@ void draw_crack_faces(Svg& svg, const Scene& scene) {
     const double dx = to[0] - from[0];
     const double dy = to[1] - from[1];
     const double length = std::hypot(dx, dy);
-    if (!(length > 0.0) || length > nearest) continue;
+    const double size = std::max(scene.body.sizes[i], scene.body.sizes[j]);
+    if (!(length > 0.0) || length > nearest * size) continue;
+    const double face = (scene.square ? 1.0 : 0.62) * size * scene.page.pixels;
     const SvgPoint half_face{0.5 * face * dy / length, 0.5 * face * dx / length};
     for (const auto& [end, side] : {std::pair{i, 0.5}, std::pair{j, -0.5}}) {
       if (scene.body.is_loose(end)) continue;
@@ -167,7 +195,11 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
   if (scene.body.dim == 3) {
     draw_balls(svg, scene);  // bonds would shine through from the far side
   } else {
-    draw_cells(svg, scene);
+    if (scene.square) {
+      draw_squares(svg, scene);
+    } else {
+      draw_dots(svg, scene);
+    }
     draw_bond_hairlines(svg, scene);
     draw_crack_faces(svg, scene);
     if (!scene.body.broken_bonds.empty()) {
@@ -190,9 +222,13 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
   return key;
 }
 
-std::string caption_text(const FieldsCaption& caption, const PlotLabels& labels, double scale) {
-  return fmt::format("{} broken bond{} · load factor {} · load {} · displacements × {}",
-                     caption.broken_bonds, caption.broken_bonds == 1 ? "" : "s",
+std::string caption_text(const FieldsCaption& caption, const PlotBody& body,
+                         const PlotLabels& labels, double scale) {
+  const std::string broken = body.stress.empty()
+                                 ? fmt::format("{} broken bond{} · ", caption.broken_bonds,
+                                               caption.broken_bonds == 1 ? "" : "s")
+                                 : "";
+  return fmt::format("{}load factor {} · load {} · displacements × {}", broken,
                      short_number(caption.load_factor),
                      in_unit(short_number(caption.load), labels.force), short_number(scale));
 }
@@ -205,14 +241,15 @@ Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLa
   std::vector<Vector3> seen = deformed_positions(body, scale);
   for (Vector3& point : seen) point = view(point, body.dim);
   const BodyPage page = make_page(body, seen);
-  const Scene scene{body, seen, page, body.dim == 2 && on_square_lattice(body)};
+  const ColorBar colors = color_bar(body, labels);
+  const Scene scene{body, seen, page, colors, body.dim == 2 && on_square_lattice(body)};
 
   Svg svg(page.width, page.height);
   svg.clip_rect("body", {page.left, page.top}, page.right - page.left, page.bottom - page.top);
   svg.open_group("clip-path=\"url(#body)\"");
   const std::vector<KeyEntry> key = draw_body(svg, scene);
   svg.close_group();
-  draw_page(svg, page, body.dim, labels, caption_text(caption, labels, scale), key);
+  draw_page(svg, page, body.dim, labels, caption_text(caption, body, labels, scale), colors, key);
   return svg;
 }
 

@@ -36,7 +36,7 @@ void draw_headings(Svg& svg, const BodyPage& page, const std::string& title,
            fmt::format("font-size=\"{:.1f}\" fill=\"#444\"", fitting(caption, 13.5)));
 }
 
-void draw_color_bar(Svg& svg, const BodyPage& page) {
+void draw_color_bar(Svg& svg, const BodyPage& page, const ColorBar& colors) {
   constexpr int shades = 50;
   const double height = std::clamp(page.bottom - page.top, 120.0, 260.0);
   const double x = page.right + 24.0;
@@ -48,14 +48,17 @@ void draw_color_bar(Svg& svg, const BodyPage& page) {
              fmt::format("fill=\"{}\"", damage_color((k + 0.5) / shades)));
   }
   svg.rect({x, y}, 14.0, height, "fill=\"none\" stroke=\"#444\" stroke-width=\"0.8\"");
-  for (int tenths = 0; tenths <= 10; tenths += height > 160.0 ? 2 : 5) {
-    const double at = y + height * (1.0 - tenths / 10.0);
+  const Ticks ticks = nice_ticks(colors.low, colors.high, height > 160.0 ? 6 : 3);
+  const int exponent = common_exponent(colors.low, colors.high);
+  for (const double value : ticks.values) {
+    const double at = y + height * (colors.high - value) / (colors.high - colors.low);
     svg.line({x + 14, at}, {x + 18, at}, "stroke=\"#444\"");
-    svg.text({x + 22, at + 4.5}, tick_label(tenths / 10.0, 0.1, 0), "start", small_style);
+    svg.text({x + 22, at + 4.5}, tick_label(value, ticks.step, exponent), "start", small_style);
   }
+  svg.text({x, y - 8}, exponent_text(exponent), "start", small_style);
   const SvgPoint label{x + 62.0, y + height / 2};
   svg.open_group(fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", label.x, label.y));
-  svg.text(label, "damage index", "middle", "font-size=\"14\" fill=\"#222\"");
+  svg.text(label, colors.label, "middle", "font-size=\"14\" fill=\"#222\"");
   svg.close_group();
 }
 
@@ -125,7 +128,7 @@ BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen) {
 }
 
 void draw_page(Svg& svg, const BodyPage& page, int dim, const PlotLabels& labels,
-               const std::string& caption, const std::vector<KeyEntry>& key) {
+               const std::string& caption, const ColorBar& colors, const std::vector<KeyEntry>& key) {
   draw_headings(svg, page, labels.title, caption);
   if (dim == 2) {
     const double wide = (page.right - page.left) / page.pixels;
@@ -134,7 +137,7 @@ void draw_page(Svg& svg, const BodyPage& page, int dim, const PlotLabels& labels
               {page.low[1], page.low[1] + tall, page.bottom, page.top},
               with_unit("x", labels.length), with_unit("y", labels.length), Grid::none);
   }
-  draw_color_bar(svg, page);
+  draw_color_bar(svg, page, colors);
   draw_scale_bar(svg, page, labels.length);
   draw_key(svg, page, key);
 }

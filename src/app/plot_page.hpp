@@ -34,8 +34,15 @@ struct KeyEntry {
   bool dot = false;  ///< the sample is a dot, not a line
 };
 
+/// What the colours of the particles mean.
+struct ColorBar {
+  std::string label = "damage index";
+  double low = 0.0;
+  double high = 1.0;
+};
+
 /// Title, line of numbers, axes (two-dimensional bodies), scale bar, colour bar and key.
 void draw_page(Svg& svg, const BodyPage& page, int dim, const PlotLabels& labels,
-               const std::string& caption, const std::vector<KeyEntry>& key);
+               const std::string& caption, const ColorBar& colors, const std::vector<KeyEntry>& key);
 
 }  // namespace perilink

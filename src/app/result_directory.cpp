@@ -32,7 +32,7 @@ fs::path default_result_directory(const std::string& case_path) {
   return fs::path("results") / fs::path(case_path).stem();
 }
 
-void prepare_result_directory(const fs::path& directory, bool force) {
+std::vector<fs::path> refuse_old_results(const fs::path& directory, bool force) {
   std::error_code error;
   if (fs::exists(directory, error) && !fs::is_directory(directory, error)) {
     throw FileError(fmt::format("{}: exists and is not a directory", directory.string()));
@@ -49,6 +49,12 @@ void prepare_result_directory(const fs::path& directory, bool force) {
         "  choose another directory with --out DIR, or overwrite them with --force",
         directory.string(), old.front().filename().string()));
   }
+  return old;
+}
+
+void prepare_result_directory(const fs::path& directory, bool force) {
+  std::error_code error;
+  const std::vector<fs::path> old = refuse_old_results(directory, force);
   for (const fs::path& file : old) {
     if (!fs::remove(file, error)) {
       throw FileError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));

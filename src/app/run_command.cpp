@@ -62,10 +62,11 @@ int run_case(const RunOptions& options) {
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   omp_set_num_threads(threads);
   const CaseFile input = read_case_file(options.case_path);
-  const Model model = build_model(input);
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
   refuse_own_case(directory, options.case_path);
+  refuse_old_results(directory, options.force);  // at once: the model may take minutes
+  const Model model = build_model(input);
   prepare_result_directory(directory, options.force);
   catch_stop_signals();
   write_resolved_case(directory, seen_from(input, directory));

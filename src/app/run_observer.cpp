@@ -71,6 +71,7 @@ VtuGrid RunObserver::make_grid(const StepRecord& record, StateSource& source) {
                                          source.state().displacement, record, model_.lattice.spacing)
                      : make_field_grid(network, source.state(), record, broken_, families_,
                                        model_.lattice.spacing);
+  if (network.dim() == 2) grid.field_data.push_back({"thickness", input_.body.thickness});
   if (input_.analysis.type == "elastic") {
     const std::vector<double> displacement = translations(network, source.state().displacement);
     grid.point_data.push_back(

@@ -163,6 +163,16 @@ TEST_F(Program, AnEarlierResultIsRefusedByteForByteAndForcedOnRequest) {
   EXPECT_EQ(after.at("r/history.csv"), before.at("r/history.csv"));
 }
 
+TEST_F(Program, AnEarlierResultIsRefusedBeforeTheModelIsBuilt) {
+  std::string bad = small_ghost_case;
+  bad.replace(bad.find("horizon = 31.45"), std::string("horizon = 31.45").size(), "horizon = 0.5");
+  write_case("bad.toml", bad);  // only the model sees that no particle has a neighbour
+  EXPECT_THAT(run({"run", "bad.toml", "--out", "r"}).err, HasSubstr("body.horizon"));
+  fs::create_directories(work() / "r");
+  write_text(work() / "r/history.csv", "old");
+  EXPECT_THAT(run({"run", "bad.toml", "--out", "r"}).err, HasSubstr("--force"));
+}
+
 TEST_F(Program, AForcedRunOfABadCaseKeepsTheEarlierResult) {
   write_case("small.toml", small_ghost_case);
   ASSERT_EQ(run({"run", "small.toml", "--out", "r"}).exit_status, 0);

@@ -93,6 +93,7 @@ TEST_F(FieldFile, ShowsTheRotationsOfMicropolarBodies) {
 }
 
 TEST_F(FieldFile, SaysWhatTheParticlesAre) {
+  EXPECT_EQ(grid_.find_point_data("volume")->values, network_.particles.volumes);
   EXPECT_EQ(grid_.points.size(), 18u);
   EXPECT_EQ(grid_.points[9], 1.0);
   EXPECT_EQ(grid_.points[11], 0.0);

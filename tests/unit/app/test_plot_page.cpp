@@ -36,7 +36,7 @@ TEST(BodyPage, FrameNamesAxesUnitsAndKey) {
   const PlotBody body = read_body(test::make_cracked_field({}, false), "");
   const BodyPage page = make_page(body, body.positions);
   Svg svg(page.width, page.height);
-  draw_page(svg, page, 2, {"Plate", "kip", "in"}, "4 broken bonds",
+  draw_page(svg, page, 2, {"Plate", "kip", "in"}, "4 broken bonds", {},
             {{"crack face", "stroke=\"#000\""}, {"ghost", "stroke=\"#999\"", true}});
   for (const char* text : {"Plate", "4 broken bonds", ">x (in)<", ">y (in)<", ">10 in<",
                            "damage index", "crack face", "ghost"}) {
