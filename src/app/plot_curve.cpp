@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "app/plot_axes.hpp"
 
@@ -60,25 +63,74 @@ SvgPath make_path(const Frame& frame, std::span<const CurvePoint> points) {
   return path;
 }
 
-void mark_peak(Svg& svg, const Frame& frame, const StepRecord& peak, const PlotLabels& labels) {
-  const SvgPoint at = frame.at({peak.displacement, peak.load});
-  svg.circle(at, 4.5, "fill=\"#fff\" stroke=\"#b3202a\" stroke-width=\"2\"");
-  const std::string text =
-      fmt::format("peak {} at {}", in_unit(short_number(peak.load), labels.force),
-                  in_unit(short_number(peak.displacement), labels.length));
-  const bool left_half = at.x < (frame.x.pixel_low + frame.x.pixel_high) / 2;
-  const bool downward = peak.load < 0.0;
-  svg.text({at.x + (left_half ? 10.0 : -10.0), at.y + (downward ? 20.0 : -8.0)}, text,
-           left_half ? "start" : "end",
+/// Rectangle of the page [px].
+struct Area {
+  SvgPoint corner;  ///< upper left
+  double width = 0.0, height = 0.0;
+
+  bool holds(SvgPoint at) const {
+    return at.x >= corner.x && at.x <= corner.x + width && at.y >= corner.y &&
+           at.y <= corner.y + height;
+  }
+  bool meets(const Area& other) const {
+    return corner.x < other.corner.x + other.width && other.corner.x < corner.x + width &&
+           corner.y < other.corner.y + other.height && other.corner.y < corner.y + height;
+  }
+};
+
+/// What stands beside the peak.
+struct PeakLabel {
+  std::string text;
+  SvgPoint peak, at;
+  bool left_half = true;  ///< of the picture; the text runs to the right then
+
+  Area area() const {
+    // Letters are about 0.56 of their size wide.
+    const double width = 0.56 * 14.0 * static_cast<double>(text.size());
+    return {{left_half ? at.x : at.x - width, at.y - 14.0}, width, 20.0};
+  }
+};
+
+PeakLabel label_of(const Frame& frame, const StepRecord& peak, const PlotLabels& labels) {
+  PeakLabel label;
+  label.text = fmt::format("peak {} at {}", in_unit(short_number(peak.load), labels.force),
+                           in_unit(short_number(peak.displacement), labels.length));
+  label.peak = frame.at({peak.displacement, peak.load});
+  label.left_half = label.peak.x < (frame.x.pixel_low + frame.x.pixel_high) / 2;
+  label.at = {label.peak.x + (label.left_half ? 10.0 : -10.0),
+              label.peak.y + (peak.load < 0.0 ? 20.0 : -8.0)};
+  return label;
+}
+
+void mark_peak(Svg& svg, const PeakLabel& label) {
+  svg.circle(label.peak, 4.5, "fill=\"#fff\" stroke=\"#b3202a\" stroke-width=\"2\"");
+  svg.text(label.at, label.text, label.left_half ? "start" : "end",
            "font-size=\"14\" fill=\"#b3202a\" stroke=\"#fff\" stroke-width=\"4\" "
            "paint-order=\"stroke\"");
 }
 
-/// In the corner of the right side that the peak leaves free.
-void draw_legend(Svg& svg, const Frame& frame, bool at_bottom) {
-  const double x = frame.x.pixel_high - 212.0;
-  const double y = at_bottom ? frame.y.pixel_low - 44.0 : frame.y.pixel_high + 16.0;
-  svg.rect({x - 10, y - 14}, 222.0, 48.0, "fill=\"#fff\"");
+/// The corner of the frame where the legend meets neither the label nor, as far as that is possible, the curve.
+Area legend_area(const Frame& frame, const PeakLabel& label, std::span<const CurvePoint> curve) {
+  constexpr double width = 222.0, height = 48.0, margin = 2.0;
+  const double right = frame.x.pixel_high - width, left = frame.x.pixel_low + margin;
+  const double top = frame.y.pixel_high + margin, bottom = frame.y.pixel_low - height - margin;
+  Area best;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const SvgPoint corner : {SvgPoint{right, top}, {right, bottom}, {left, top}, {left, bottom}}) {
+    const Area area{corner, width, height};
+    std::size_t hidden = area.meets(label.area()) ? curve.size() + 1 : 0;
+    for (const CurvePoint& point : curve) hidden += area.holds(frame.at(point));
+    if (hidden >= least) continue;
+    least = hidden;
+    best = area;
+  }
+  return best;
+}
+
+void draw_legend(Svg& svg, const Area& area) {
+  const double x = area.corner.x + 10.0;
+  const double y = area.corner.y + 14.0;
+  svg.rect(area.corner, area.width, area.height, "fill=\"#fff\"");
   SvgPath smooth, events;
   smooth.move_to({x, y});
   smooth.line_to({x + 30, y});
@@ -148,7 +200,7 @@ Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels
   std::vector<CurvePoint> events;
   events.reserve(records.size());
   for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
-  const StepRecord& peak = records[peak_row(records)];
+  const PeakLabel label = label_of(frame, records[peak_row(records)], labels);
   if (records.size() > events_for_envelope) {
     // Where events snap back far the mean of a window can lie beyond all of them.
     svg.clip_rect("frame", {frame.x.pixel_low, frame.y.pixel_high},
@@ -158,12 +210,11 @@ Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels
     const std::size_t window = envelope_window(records.size());
     svg.path(make_path(frame, smooth_envelope(records, window)), envelope_style);
     svg.close_group();
-    const bool peak_on_right = peak.displacement > 0.5 * (frame.x.low + frame.x.high);
-    draw_legend(svg, frame, (peak.load < 0.0) != peak_on_right);
+    draw_legend(svg, legend_area(frame, label, events));
   } else {
     svg.path(make_path(frame, events), few_events_style);
   }
-  mark_peak(svg, frame, peak, labels);
+  mark_peak(svg, label);
   return svg;
 }
 

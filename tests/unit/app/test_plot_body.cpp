@@ -36,6 +36,35 @@ TEST(PlotBody, NamesTheArrayThatIsMissing) {
   EXPECT_THROW(read_body(grid, "plate.vtu"), FileError);
 }
 
+TEST(PlotBody, SizesAreThoseOfTheVolumesOffTheSquareLattice) {
+  VtuGrid grid = make_cracked_field({.hexagonal = true}, false);
+  const std::size_t count = grid.points.size() / 3;
+  EXPECT_EQ(read_body(grid, "").sizes, std::vector<double>(count, 2.0)) << "a file without volumes";
+  // A hexagon of the area sqrt(3)/2 h^2 has neighbours at h = 2; the first particle has a quarter of it.
+  grid.field_data.push_back({"thickness", 0.5});
+  grid.point_data.push_back({"volume", 1, std::vector<double>(count, 0.5 * std::sqrt(0.75) * 4.0)});
+  grid.point_data.back().values[0] *= 0.25;
+  const PlotBody body = read_body(grid, "");
+  EXPECT_NEAR(body.sizes[0], 1.0, 1e-12);
+  EXPECT_NEAR(body.sizes[1], 2.0, 1e-12);
+  VtuGrid square = make_cracked_field({}, false);
+  square.point_data.push_back({"volume", 1, std::vector<double>(count, 0.1)});
+  EXPECT_EQ(read_body(square, "").sizes, std::vector<double>(count, 2.0));
+}
+
+TEST(PlotBody, StressIsThatOfVonMises) {
+  VtuGrid grid = make_cracked_field({.nx = 3, .ny = 1}, false);
+  EXPECT_TRUE(read_body(grid, "").stress.empty());
+  // Tension 5 along y; pressure 7; shear 2 in one plane: sqrt(3) times as much.
+  grid.point_data.push_back(
+      {"stress", 6, {0, 5, 0, 0, 0, 0, -7, -7, -7, 0, 0, 0, 0, 0, 0, 0, 2, 0}});
+  const std::vector<double> stress = read_body(grid, "").stress;
+  ASSERT_EQ(stress.size(), 3u);
+  EXPECT_DOUBLE_EQ(stress[0], 5.0);
+  EXPECT_DOUBLE_EQ(stress[1], 0.0);
+  EXPECT_DOUBLE_EQ(stress[2], 2.0 * std::sqrt(3.0));
+}
+
 TEST(PlotBody, AutomaticScaleShowsAboutATwelfthOfTheSize) {
   PlotBody body = read_body(make_cracked_field({}, false), "");
   const double size = 24 * 2.0;

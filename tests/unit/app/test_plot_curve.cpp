@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <pugixml.hpp>
+#include <string>
 #include <random>
 
 namespace perilink {
@@ -94,6 +96,40 @@ TEST(LoadDisplacement, ManyEventsGetAnEnvelopeAndASmallFile) {
   EXPECT_NE(svg.find("envelope"), std::string::npos);
   EXPECT_LT(svg.size(), 2'000'000u);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+/// Triangular path of 400 rows from nothing over a peak at `middle` to nothing.
+std::vector<StepRecord> tent(double middle) {
+  std::vector<StepRecord> records(400);
+  for (int k = 0; k < 400; ++k) {
+    const double x = (k + 1) / 400.0;
+    records[k].displacement = x;
+    records[k].load = x < middle ? x / middle : (1.0 - x) / (1.0 - middle);
+    records[k].load_factor = records[k].load;
+  }
+  return records;
+}
+
+TEST(LoadDisplacement, TheLegendLeavesTheLabelOfThePeakFree) {
+  for (const double middle : {0.1, 0.3, 0.48, 0.52, 0.7, 0.9}) {
+    pugi::xml_document document;
+    const std::string svg = draw_load_displacement(tent(middle), {"Tent", "kip", "in"}).str();
+    ASSERT_TRUE(document.load_string(svg.c_str()));
+    const auto text = [&](const char* part) {
+      const std::string path = "//text[contains(., '" + std::string(part) + "')]";
+      return document.select_node(path.c_str()).node();
+    };
+    const pugi::xml_node peak = text("peak"), legend = text("envelope");
+    ASSERT_TRUE(peak && legend);
+    const double width = 0.56 * 14.0 * std::string(peak.child_value()).size();
+    const bool leftward = std::string(peak.attribute("text-anchor").value()) == "end";
+    const double left = peak.attribute("x").as_double() - (leftward ? width : 0.0);
+    const double x = legend.attribute("x").as_double() - 50.0;  // the sample stands before the text
+    const double y = legend.attribute("y").as_double() - 18.0;
+    const double at = peak.attribute("y").as_double();
+    const bool apart = left + width < x || left > x + 222.0 || at < y || at - 14.0 > y + 48.0;
+    EXPECT_TRUE(apart) << "peak at " << middle;
+  }
 }
 
 TEST(LoadDisplacement, EmptyHistoryIsAnEmptyFrame) {

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <pugixml.hpp>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "support/cracked_field.hpp"
 
@@ -26,6 +29,43 @@ TEST(PlotFields, ShowsCracksBarsAndGhosts) {
                            "ghost", "displacements × 5000"}) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   }
+}
+
+TEST(PlotFields, ElasticBodiesAreColouredByStress) {
+  VtuGrid grid = test::make_cracked_field({.nx = 4, .ny = 1}, false);
+  std::vector<double> stress(4 * 6, 0.0);
+  for (int i = 0; i < 4; ++i) stress[6 * i] = 10.0 * i;
+  grid.point_data.push_back({"stress", 6, stress});
+  const std::string svg =
+      draw_fields(read_body(grid, ""), {0, 1.0, 12.345}, {"Bar", "kip", "in"}, 1.0).str();
+  EXPECT_NE(svg.find("von Mises stress (kip/in²)"), std::string::npos);
+  EXPECT_NE(svg.find(">30<"), std::string::npos) << "the bar ends at the largest stress";
+  EXPECT_EQ(svg.find("damage"), std::string::npos);
+  EXPECT_EQ(svg.find("broken bonds"), std::string::npos);
+  EXPECT_EQ(svg.find("#d8dade"), std::string::npos) << "the grey of undamaged particles";
+  std::fill(stress.begin(), stress.end(), 0.0);
+  grid.point_data.back().values = stress;
+  EXPECT_EQ(draw_fields(read_body(grid, ""), {0, 1.0, 0.0}, {}, 1.0).str().find("nan"),
+            std::string::npos);
+}
+
+TEST(PlotFields, DotsAreAsWideAsTheirParticles) {
+  VtuGrid grid = test::make_cracked_field({.nx = 4, .ny = 4, .hexagonal = true}, false);
+  std::vector<double> volumes(16, std::sqrt(0.75) * 4.0);
+  volumes[5] *= 0.25;
+  grid.point_data.push_back({"volume", 1, volumes});
+  const std::string svg =
+      draw_fields(read_body(grid, ""), {4, 1.0, 1.0}, {}, 1.0).str();
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(svg.c_str()));
+  std::set<double> widths;
+  for (const pugi::xpath_node dots :
+       document.select_nodes("//g[@stroke-linecap='round']/path[@stroke-width]")) {
+    widths.insert(dots.node().attribute("stroke-width").as_double());
+  }
+  ASSERT_EQ(widths.size(), 2u);
+  // Widths are rounded to a quarter of a pixel.
+  EXPECT_NEAR(*widths.rbegin(), 2.0 * *widths.begin(), 0.5);
 }
 
 TEST(PlotFields, TakesTheScaleThatIsGiven) {
