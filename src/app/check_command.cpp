@@ -27,10 +27,10 @@ struct ExpectedCost {
   double broken_bond = 0.0;    ///< [s]
 };
 
-/// Passes through the factor per break. A micropolar bond leaves with three modes in the plane and six in
-/// space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240 unknowns) and 3.5
-/// times (7 938 unknowns) the time of a truss per byte of the factor were measured, which itself has
-/// two or four times the numbers.
+/// Passes through the factor per break. A micropolar bond leaves with three modes in the plane and
+/// six in space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240
+/// unknowns) and 3.5 times (7 938 unknowns) the time of a truss per byte of the factor were
+/// measured, which itself has two or four times the numbers.
 double passes_per_break(const Network& network) {
   if (!network.carries_moments()) return 1.0;
   return network.dim() == 2 ? 1.5 : 3.5;
@@ -151,9 +151,8 @@ int check_case(const std::string& case_path) {
   const double set_up = timer.seconds();
   const Network& network = model.network;
   const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
-  const FactorStatistics factor =
-      estimate_factor(assemble_stiffness(network, intact, model.unknowns),
-                      particle_of_unknown(model.unknowns));
+  const FactorStatistics factor = estimate_factor(
+      assemble_stiffness(network, intact, model.unknowns), particle_of_unknown(model.unknowns));
 
   fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
   print_sizes(model);

@@ -21,8 +21,8 @@ int run_case(const RunOptions& options);
 /// perilink converge: runs a study of a case; the options name the study in place of the case.
 int converge(const RunOptions& options);
 
-/// perilink check: validates a case, builds its model with calibrated bonds, and prints what a run is and
-/// will cost; writes no file and solves nothing.
+/// perilink check: validates a case, builds its model with calibrated bonds, and prints what a run
+/// is and will cost; writes no file and solves nothing.
 int check_case(const std::string& case_path);
 
 }  // namespace perilink

@@ -58,9 +58,9 @@ double horizon_of(const BodySection& body, double spacing) {
   return horizon_of_level(body.pattern, *body.horizon_level) * spacing;
 }
 
-/// A lattice that ends on the boundary is stretched a little along its rows or across them. A horizon
-/// given in spacings means the neighbours of the unstretched lattice, so it grows with the longest
-/// stretch; otherwise a whole shell of neighbours would drop out.
+/// A lattice that ends on the boundary is stretched a little along its rows or across them. A
+/// horizon given in spacings means the neighbours of the unstretched lattice, so it grows with the
+/// longest stretch; otherwise a whole shell of neighbours would drop out.
 double horizon_on_lattice(const BodySection& body, const Lattice& lattice) {
   if (body.horizon) return *body.horizon;
   Vector3 ideal{lattice.spacing, lattice.spacing, lattice.spacing};
@@ -82,10 +82,10 @@ void refuse_too_many_particles(const CaseFile& input, const Box& box, double spa
   double count = 1.0;
   for (int a = 0; a < dim; ++a) count *= std::max(1.0, (box.upper[a] - box.lower[a]) / spacing);
   if (count <= most_particles) return;
-  throw InputError(input.where(input.body.spacing ? "body.spacing" : "body.columns"),
-                   fmt::format("gives about {:.1e} particles", count),
-                   fmt::format("at most {:.0e} are possible: choose a coarser spacing",
-                               most_particles));
+  throw InputError(
+      input.where(input.body.spacing ? "body.spacing" : "body.columns"),
+      fmt::format("gives about {:.1e} particles", count),
+      fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_particles));
 }
 
 void refuse_short_horizon(const CaseFile& input, double horizon, double spacing) {
@@ -171,10 +171,11 @@ void refuse_bars_outside(const CaseFile& input, const Body& body) {
         nearest = std::min(nearest, square);
       }
       if (std::sqrt(nearest) <= body.lattice.spacing) continue;
-      throw InputError(input.where(item_key("rebar", k, end)),
-                       fmt::format("the end ({}) of the bar lies outside the body",
-                                   fmt::join(point.begin(), point.begin() + body.particles.dim, ", ")),
-                       "move it to within one spacing of a particle");
+      throw InputError(
+          input.where(item_key("rebar", k, end)),
+          fmt::format("the end ({}) of the bar lies outside the body",
+                      fmt::join(point.begin(), point.begin() + body.particles.dim, ", ")),
+          "move it to within one spacing of a particle");
     }
   }
 }
@@ -231,8 +232,8 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
     for (const std::string& name : material.regions) {
       if (!input.body.mesh) network.solid.push_back(region_named(input, name).box);
     }
-    network.materials.push_back({material.youngs_modulus, material.fracture_energy,
-                                 material.poissons_ratio.value_or(0.0)});
+    network.materials.push_back(
+        {material.youngs_modulus, material.fracture_energy, material.poissons_ratio.value_or(0.0)});
   }
   for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
   for (const RebarSection& bar : input.rebar) {
@@ -268,13 +269,16 @@ Network build_case_network(const CaseFile& input, const Body& body, const Networ
   }
 }
 
-/// The calibration of clouds and of bodies in space can take minutes. What it does not change (regions, loads,
-/// whether the body is held, gauges) is looked at before, on the same bonds with the continuum's stiffness, which
-/// cost a hundredth of it. On lattices in the plane it is quicker than the factorisation.
+/// The calibration of clouds, of bodies in space and of micropolar bonds can take minutes. What it
+/// does not change (regions, loads, whether the body is held, gauges) is looked at before, on the
+/// same bonds with the continuum's stiffness, which cost a hundredth of it. Trusses on lattices in
+/// the plane are calibrated in less time than their matrix is factorised.
 void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkInput network,
                                const Model& model) {
   if (body.lattice.surface != Surface::calibrated) return;
-  if (body.lattice.pattern != Pattern::irregular && body.particles.dim == 2) return;
+  const bool quick = body.lattice.pattern != Pattern::irregular && body.particles.dim == 2 &&
+                     network.model == BondModel::bond_based;
+  if (quick) return;
   Body plain = body;
   plain.lattice.surface = Surface::none;
   network.micromodulus = network.critical_stretch = Constants::continuum;
@@ -324,7 +328,7 @@ Model build_model(const CaseFile& input) {
   for (const MaterialSection& material : input.materials) {
     model.hooke.push_back(
         hooke_constants(model.problem, material.youngs_modulus,
-                       material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
+                        material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
   }
   return model;
 }

@@ -95,8 +95,7 @@ VtuGrid make_field_grid(const Network& network, const StepState& state, const St
       {"region", 1, as_doubles(network.particles.material)},
       {"kind", 1, as_doubles(network.particles.kind)},
       {"volume", 1, network.particles.volumes},
-      {"strain_energy_density", 1,
-       strain_energy_density(network, families, state.secants, motion)},
+      {"strain_energy_density", 1, strain_energy_density(network, families, state.secants, motion)},
       {"principal_strain", 3,
        padded_to_three(principal_strains(network, families, state.secants, displacement), dim)},
   };

@@ -28,8 +28,8 @@ VtuGrid make_field_grid(const Network& network, const StepState& state, const St
                         std::span<const Index> broken_elements_in_order, const Csr& families,
                         double spacing);
 
-/// The state of linear elements. Cells: a vertex for each particle, then the triangles or tetrahedra.
-/// Fields as above; particles have the mean of the cells around them, and cells further
+/// The state of linear elements. Cells: a vertex for each particle, then the triangles or
+/// tetrahedra. Fields as above; particles have the mean of the cells around them, and cells further
 ///   strain_energy_density, principal_strain and principal_stress (largest first; in the plane or in
 ///   space; zero for vertices)
 /// \param displacement  at load factor 1, shape (particles, dim) [length]

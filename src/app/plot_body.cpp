@@ -40,8 +40,8 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
   }
 }
 
-/// Square and cubic lattices have one size. Others fill the plane with hexagons of the particles' volumes, space
-/// with cubes. Files without volumes have nothing but the spacing.
+/// Square and cubic lattices have one size. Others fill the plane with hexagons of the particles'
+/// volumes, space with cubes. Files without volumes have nothing but the spacing.
 std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
   std::vector<double> sizes(body.positions.size(), body.spacing);
   const VtuArray* volumes = grid.find_point_data("volume");
@@ -60,7 +60,8 @@ std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
 
 /// Von Mises' equivalent of xx, yy, zz, xy, yz, xz.
 double von_mises(const double* s) {
-  const double normal = std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
+  const double normal =
+      std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
   return std::sqrt(0.5 * normal + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 

@@ -23,10 +23,11 @@ struct PlotBody {
   std::vector<Vector3> positions;      ///< reference [length]
   std::vector<Vector3> displacements;  ///< [length]
   std::vector<double> damage;
-  std::vector<double> sizes;   ///< about the distance to the nearest particles [length]; less at surfaces,
-                               ///< where particles have half a cell or less
+  /// About the distance to the nearest particles [length]; less at surfaces, where particles have
+  /// half a cell or less.
+  std::vector<double> sizes;
   std::vector<double> stress;  ///< von Mises [force/length^2]; of elastic analyses, else empty
-  std::vector<int> kind;  ///< 0 solid, 1 ghost, 2 rebar
+  std::vector<int> kind;       ///< 0 solid, 1 ghost, 2 rebar
   std::vector<Ends> broken_bonds;
   std::vector<Ends> segments;
 

@@ -109,14 +109,16 @@ void mark_peak(Svg& svg, const PeakLabel& label) {
            "paint-order=\"stroke\"");
 }
 
-/// The corner of the frame where the legend meets neither the label nor, as far as that is possible, the curve.
+/// The corner of the frame where the legend meets neither the label nor, as far as that is
+/// possible, the curve.
 Area legend_area(const Frame& frame, const PeakLabel& label, std::span<const CurvePoint> curve) {
   constexpr double width = 222.0, height = 48.0, margin = 2.0;
   const double right = frame.x.pixel_high - width, left = frame.x.pixel_low + margin;
   const double top = frame.y.pixel_high + margin, bottom = frame.y.pixel_low - height - margin;
   Area best;
   std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (const SvgPoint corner : {SvgPoint{right, top}, {right, bottom}, {left, top}, {left, bottom}}) {
+  for (const SvgPoint corner :
+       {SvgPoint{right, top}, {right, bottom}, {left, top}, {left, bottom}}) {
     const Area area{corner, width, height};
     std::size_t hidden = area.meets(label.area()) ? curve.size() + 1 : 0;
     for (const CurvePoint& point : curve) hidden += area.holds(frame.at(point));

@@ -58,8 +58,8 @@ std::string shade_color(int shade) {
   return shade == 0 ? undamaged_color : damage_color((shade - 0.5) / shades);
 }
 
-/// Cells of one shade are one path. They overlap a little where they are small, or the page would show through
-/// as a moiré pattern.
+/// Cells of one shade are one path. They overlap a little where they are small, or the page would
+/// show through as a moiré pattern.
 void draw_squares(Svg& svg, const Scene& scene) {
   const double size = scene.spacing_px() * (scene.spacing_px() < 7.0 ? 1.1 : 0.94);
   std::map<int, SvgPath> cells;  // light ones first, so that the damaged ones stay visible
@@ -73,8 +73,8 @@ void draw_squares(Svg& svg, const Scene& scene) {
   svg.close_group();
 }
 
-/// The same off the square lattice: dots, drawn by the round caps of strokes, each as wide as its particle, in
-/// steps of a quarter of a pixel.
+/// The same off the square lattice: dots, drawn by the round caps of strokes, each as wide as its
+/// particle, in steps of a quarter of a pixel.
 void draw_dots(Svg& svg, const Scene& scene) {
   constexpr double step = 0.25;
   std::map<std::pair<int, long>, SvgPath> dots;

@@ -15,8 +15,8 @@ struct FieldsCaption {
   double load = 0.0;
 };
 
-/// The deformed body: particles coloured by damage, or by the von Mises stress where the file has stresses
-/// (elastic analyses), the faces of cracks, bars, ghosts.
+/// The deformed body: particles coloured by damage, or by the von Mises stress where the file has
+/// stresses (elastic analyses), the faces of cracks, bars, ghosts.
 /// \param scale  factor on the displacements; 0: automatic
 Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLabels& labels,
                 double scale);

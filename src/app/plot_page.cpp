@@ -128,7 +128,8 @@ BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen) {
 }
 
 void draw_page(Svg& svg, const BodyPage& page, int dim, const PlotLabels& labels,
-               const std::string& caption, const ColorBar& colors, const std::vector<KeyEntry>& key) {
+               const std::string& caption, const ColorBar& colors,
+               const std::vector<KeyEntry>& key) {
   draw_headings(svg, page, labels.title, caption);
   if (dim == 2) {
     const double wide = (page.right - page.left) / page.pixels;

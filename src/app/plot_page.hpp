@@ -43,6 +43,7 @@ struct ColorBar {
 
 /// Title, line of numbers, axes (two-dimensional bodies), scale bar, colour bar and key.
 void draw_page(Svg& svg, const BodyPage& page, int dim, const PlotLabels& labels,
-               const std::string& caption, const ColorBar& colors, const std::vector<KeyEntry>& key);
+               const std::string& caption, const ColorBar& colors,
+               const std::vector<KeyEntry>& key);
 
 }  // namespace perilink

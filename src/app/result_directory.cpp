@@ -15,8 +15,8 @@ namespace {
 /// Whether a run of this program writes a file of this name.
 bool is_result_file(const std::string& name) {
   constexpr std::array<std::string_view, 9> names = {
-      "case.toml",  "history.csv", "timing.csv",            "summary.json", "fields.pvd",
-      "log.txt",    "study.toml",  "load_displacement.svg", "table.csv"};
+      "case.toml",  "history.csv",           "timing.csv", "summary.json", "fields.pvd", "log.txt",
+      "study.toml", "load_displacement.svg", "table.csv"};
   for (const std::string_view known : names) {
     if (name == known) return true;
   }
@@ -44,10 +44,10 @@ std::vector<fs::path> refuse_old_results(const fs::path& directory, bool force) 
     }
   }
   if (!old.empty() && !force) {
-    throw FileError(fmt::format(
-        "{}: holds the results of an earlier run (found {})\n"
-        "  choose another directory with --out DIR, or overwrite them with --force",
-        directory.string(), old.front().filename().string()));
+    throw FileError(
+        fmt::format("{}: holds the results of an earlier run (found {})\n"
+                    "  choose another directory with --out DIR, or overwrite them with --force",
+                    directory.string(), old.front().filename().string()));
   }
   return old;
 }

@@ -25,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::shared_ptr<spdlog::logger> open_log(const fs::path& directory) {
-  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>((directory / "log.txt").string(),
-                                                                  true);
+  auto sink =
+      std::make_shared<spdlog::sinks::basic_file_sink_st>((directory / "log.txt").string(), true);
   auto log = std::make_shared<spdlog::logger>("perilink", sink);
   log->flush_on(spdlog::level::info);
   return log;
@@ -36,16 +36,19 @@ void write_resolved_case(const fs::path& directory, const CaseFile& input) {
   std::ofstream file(directory / "case.toml");
   file << write_case(input);
   file.close();
-  if (!file) throw FileError(fmt::format("{}: cannot be written", (directory / "case.toml").string()));
+  if (!file)
+    throw FileError(fmt::format("{}: cannot be written", (directory / "case.toml").string()));
 }
 
-/// The resolved case is written to DIR/case.toml; it must not take the place of the user's own file.
+/// The resolved case is written to DIR/case.toml; it must not take the place of the user's own
+/// file.
 void refuse_own_case(const fs::path& directory, const std::string& case_path) {
   std::error_code error;
   if (!fs::equivalent(directory / "case.toml", case_path, error) || error) return;
-  throw FileError(fmt::format("{}: the results would overwrite this case with its resolved form\n"
-                              "  choose another directory with --out DIR",
-                              case_path));
+  throw FileError(
+      fmt::format("{}: the results would overwrite this case with its resolved form\n"
+                  "  choose another directory with --out DIR",
+                  case_path));
 }
 
 int exit_status_of(Ending ending) {
@@ -72,8 +75,7 @@ int run_case(const RunOptions& options) {
   write_resolved_case(directory, seen_from(input, directory));
   const auto log = open_log(directory);
   log->info("{} : {} particles, {}, {} unknowns, {} threads", input.path,
-            model.network.particles.size(), elements_text(model), model.unknowns.count,
-            threads);
+            model.network.particles.size(), elements_text(model), model.unknowns.count, threads);
   for (const std::string& note : model.notes) log->info("note: {}", note);
 
   PhaseSeconds seconds;

@@ -20,8 +20,8 @@ std::optional<Index> last_broken_bonds(const CaseFile& input) {
 
 }  // namespace
 
-RunObserver::RunObserver(const CaseFile& input, const Model& model,
-                         std::filesystem::path directory, bool quiet)
+RunObserver::RunObserver(const CaseFile& input, const Model& model, std::filesystem::path directory,
+                         bool quiet)
     : input_(input),
       model_(model),
       directory_(std::move(directory)),
@@ -66,11 +66,11 @@ VtuGrid RunObserver::make_grid(const StepRecord& record, StateSource& source) {
   if (families_.rows() == 0) {
     families_ = bonds_of_particles(network.bonds, network.particles.size());
   }
-  VtuGrid grid = model_.elements
-                     ? make_element_grid(*model_.elements, network.particles,
-                                         source.state().displacement, record, model_.lattice.spacing)
-                     : make_field_grid(network, source.state(), record, broken_, families_,
-                                       model_.lattice.spacing);
+  VtuGrid grid = model_.elements ? make_element_grid(*model_.elements, network.particles,
+                                                     source.state().displacement, record,
+                                                     model_.lattice.spacing)
+                                 : make_field_grid(network, source.state(), record, broken_,
+                                                   families_, model_.lattice.spacing);
   if (network.dim() == 2) grid.field_data.push_back({"thickness", input_.body.thickness});
   if (input_.analysis.type == "elastic") {
     const std::vector<double> displacement = translations(network, source.state().displacement);

@@ -46,11 +46,13 @@ class StudyObserver final : public StepObserver {
 void check_refinement(const VarySection& vary, const BodySection& body) {
   const bool of_lattice = vary.refinement == "spacing" || vary.refinement == "columns";
   if (of_lattice && body.mesh) {
-    throw InputError(vary.where, "is given, but the body of the case is a mesh, whose particles are its vertices",
-                     is_geometry(*body.mesh)
-                         ? "refine with `mesh_size`: sizes of the cells of the geometry"
-                         : "refine with `mesh`, a list of meshes, or name a geometry as the case's `mesh` "
-                           "and refine with `mesh_size`");
+    throw InputError(
+        vary.where,
+        "is given, but the body of the case is a mesh, whose particles are its vertices",
+        is_geometry(*body.mesh)
+            ? "refine with `mesh_size`: sizes of the cells of the geometry"
+            : "refine with `mesh`, a list of meshes, or name a geometry as the case's `mesh` "
+              "and refine with `mesh_size`");
   }
   if (of_lattice) return;
   if (!body.mesh) {
@@ -58,11 +60,12 @@ void check_refinement(const VarySection& vary, const BodySection& body) {
                      "refine with `spacing` or `columns`, or give `mesh` in [body] of the case");
   }
   if (vary.refinement == "mesh_size" && !is_geometry(*body.mesh)) {
-    throw InputError(vary.where,
-                     fmt::format("is given, but the body of the case, {}, is meshed already",
-                                 perilink::quoted(*body.mesh)),
-                     "refine with `mesh`, a list of meshes, or name a geometry (.geo, .step, .stp, .brep) as "
-                     "the case's `mesh`");
+    throw InputError(
+        vary.where,
+        fmt::format("is given, but the body of the case, {}, is meshed already",
+                    perilink::quoted(*body.mesh)),
+        "refine with `mesh`, a list of meshes, or name a geometry (.geo, .step, .stp, .brep) as "
+        "the case's `mesh`");
   }
 }
 

@@ -48,8 +48,9 @@ struct StudyMember {
 /// Every combination once: linear elements have neither horizon nor surface.
 std::vector<StudySeries> study_series(const StudyFile& study);
 
-/// Refuses what the case cannot have: a refinement of its lattice where the body is a mesh and the other way
-/// round, errors of components of a displacement that it lacks, a displacement field of a damage analysis.
+/// Refuses what the case cannot have: a refinement of its lattice where the body is a mesh and the
+/// other way round, errors of components of a displacement that it lacks, a displacement field of a
+/// damage analysis.
 /// \throws InputError at the study's key
 void check_study(const StudyFile& study, const CaseFile& input);
 

@@ -26,10 +26,12 @@ void refuse_rotations(const CaseTable& table, const BodySection& body) {
   for (const char* key : {"rotation", "rx", "ry", "rz"}) {
     if (!table.has(key)) continue;
     if (body.model != "micropolar") {
-      table.refuse(key, "is given, but " + why_nothing_rotates(body), "delete it, or " + what_rotates(body));
+      table.refuse(key, "is given, but " + why_nothing_rotates(body),
+                   "delete it, or " + what_rotates(body));
     }
     if (flat == (std::string_view(key) == "rotation")) continue;
-    table.refuse(key, fmt::format("is no rotation of a body in {} dimensions", flat ? "two" : "three"),
+    table.refuse(key,
+                 fmt::format("is no rotation of a body in {} dimensions", flat ? "two" : "three"),
                  flat ? "Allowed: rotation" : "Allowed: rx, ry, rz");
   }
 }
@@ -164,12 +166,13 @@ CrackSection read_crack(const CaseTable& table, int dim) {
                           : "give the `corners` of a plane polygon");
   }
   CrackSection crack;
-  crack.points = table.need(
-      key, table.vectors(key, dim),
-      dim == 2 ? "the points of a line: [[0, 1], [2, 1]]" : "the corners of a plane convex polygon");
+  crack.points = table.need(key, table.vectors(key, dim),
+                            dim == 2 ? "the points of a line: [[0, 1], [2, 1]]"
+                                     : "the corners of a plane convex polygon");
   if (crack.points.size() < static_cast<std::size_t>(dim)) {
-    table.refuse(key, fmt::format("has {}", crack.points.size()),
-                 dim == 2 ? "a crack needs two points or more" : "a crack needs three corners or more");
+    table.refuse(
+        key, fmt::format("has {}", crack.points.size()),
+        dim == 2 ? "a crack needs two points or more" : "a crack needs three corners or more");
   }
   return crack;
 }
@@ -216,9 +219,10 @@ AnalysisSection read_analysis(const CaseTable& table) {
   }
   if (factors.empty()) table.refuse("load_factors", "is empty", "give one number for each step");
   if (std::any_of(factors.begin(), factors.end(), [](double factor) { return factor < 0.0; })) {
-    table.refuse("load_factors", "holds a negative load factor",
-                 "turn the signs of the loads and displacements instead: bonds are searched for breaks "
-                 "under a growing load");
+    table.refuse(
+        "load_factors", "holds a negative load factor",
+        "turn the signs of the loads and displacements instead: bonds are searched for breaks "
+        "under a growing load");
   }
   if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 0.0; })) {
     table.refuse("load_factors", "holds only zeros, so no step loads the body",

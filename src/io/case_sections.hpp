@@ -15,8 +15,8 @@ namespace perilink {
 /// 2 or 3.
 int dimension_of(const BodySection& body);
 
-/// Why particles have no rotations where the body is not micropolar, and what would give them some: parts of
-/// refusals.
+/// Why particles have no rotations where the body is not micropolar, and what would give them some:
+/// parts of refusals.
 std::string why_nothing_rotates(const BodySection& body);
 std::string what_rotates(const BodySection& body);
 

@@ -203,9 +203,9 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   write_case("small.toml", small_ghost_case);
   const ProcessEnd end = run({"check", "small.toml"});
   EXPECT_EQ(end.exit_status, 0) << end.err;
-  for (const char* part : {"[body]", "particles          336", "bonds              2345",
-                           "unknowns           669", "memory", "set-up", "each broken bond",
-                           "to 30 broken bonds"}) {
+  for (const char* part :
+       {"[body]", "particles          336", "bonds              2345", "unknowns           669",
+        "memory", "set-up", "each broken bond", "to 30 broken bonds"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
   EXPECT_EQ(names(), std::set<std::string>{"small.toml"});
@@ -217,7 +217,8 @@ TEST_F(Program, CheckTellsWhatTheCalibrationReachedAndTook) {
   write_case("block.toml", hexagonal_case(9, 5));
   const ProcessEnd end = run({"check", "block.toml"});
   EXPECT_EQ(end.exit_status, 0) << end.err;
-  EXPECT_THAT(end.out, testing::ContainsRegex("calibration        [0-9]+ bonds, forces out of balance"));
+  EXPECT_THAT(end.out,
+              testing::ContainsRegex("calibration        [0-9]+ bonds, forces out of balance"));
   EXPECT_THAT(end.out, testing::ContainsRegex("set-up .*, of it calibration [0-9.e-]+ s"));
 }
 

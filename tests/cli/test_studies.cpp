@@ -180,7 +180,9 @@ TEST_F(Study, ASpacingOfAMeshIsRefusedOnceBeforeWorkBegins) {
   write_text(work() / "bar.toml", meshed);
   const ProcessEnd end = converge(vary + energy, {"--out", "r"});
   EXPECT_EQ(end.exit_status, 2);
-  EXPECT_THAT(end.err, HasSubstr("study.toml:4: vary.spacing: is given, but the body of the case is a mesh"));
+  EXPECT_THAT(
+      end.err,
+      HasSubstr("study.toml:4: vary.spacing: is given, but the body of the case is a mesh"));
   EXPECT_THAT(end.err, HasSubstr("refine with `mesh_size`"));
   EXPECT_FALSE(fs::exists(work() / "r"));
 }

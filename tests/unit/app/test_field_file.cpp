@@ -108,7 +108,8 @@ TEST_F(FieldFile, SaysWhatTheParticlesAre) {
 }
 
 TEST_F(FieldFile, IsAGoodFile) {
-  const std::string path = testing::TempDir() + "perilink_field_" + std::to_string(::getpid()) + ".vtu";
+  const std::string path =
+      testing::TempDir() + "perilink_field_" + std::to_string(::getpid()) + ".vtu";
   write_vtu(path, grid_);
   EXPECT_EQ(read_vtu(path).connectivity, grid_.connectivity);
   std::remove(path.c_str());

@@ -40,7 +40,8 @@ TEST(PlotBody, SizesAreThoseOfTheVolumesOffTheSquareLattice) {
   VtuGrid grid = make_cracked_field({.hexagonal = true}, false);
   const std::size_t count = grid.points.size() / 3;
   EXPECT_EQ(read_body(grid, "").sizes, std::vector<double>(count, 2.0)) << "a file without volumes";
-  // A hexagon of the area sqrt(3)/2 h^2 has neighbours at h = 2; the first particle has a quarter of it.
+  // A hexagon of the area sqrt(3)/2 h^2 has neighbours at h = 2; the first particle has a quarter
+  // of it.
   grid.field_data.push_back({"thickness", 0.5});
   grid.point_data.push_back({"volume", 1, std::vector<double>(count, 0.5 * std::sqrt(0.75) * 4.0)});
   grid.point_data.back().values[0] *= 0.25;

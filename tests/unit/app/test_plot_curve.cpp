@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <pugixml.hpp>
-#include <string>
 #include <random>
+#include <string>
 
 namespace perilink {
 namespace {

@@ -54,8 +54,7 @@ TEST(PlotFields, DotsAreAsWideAsTheirParticles) {
   std::vector<double> volumes(16, std::sqrt(0.75) * 4.0);
   volumes[5] *= 0.25;
   grid.point_data.push_back({"volume", 1, volumes});
-  const std::string svg =
-      draw_fields(read_body(grid, ""), {4, 1.0, 1.0}, {}, 1.0).str();
+  const std::string svg = draw_fields(read_body(grid, ""), {4, 1.0, 1.0}, {}, 1.0).str();
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(svg.c_str()));
   std::set<double> widths;

@@ -135,7 +135,8 @@ TEST_F(StudyRun, GaugesAreValues) {
   const StudyMember member =
       run_member(file, study_series(file).front(), body_key("spacing", 10.0), 1);
   ASSERT_TRUE(member.failure.empty()) << member.failure;
-  const CaseFile input = read_case_file(file.case_path, {body_key("spacing", 10.0), body_key("horizon_ratio", 2.0)});
+  const CaseFile input =
+      read_case_file(file.case_path, {body_key("spacing", 10.0), body_key("horizon_ratio", 2.0)});
   const Model model = build_model(input);
   const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
   // The load acts on the region in proportion to the volumes, so its work is that of the mean.
