@@ -48,8 +48,7 @@ int main(int argc, char** argv) {
 
   std::string checked_case;
   CLI::App* check_command = app.add_subcommand(
-      "check",
-      "Validate a case, build and calibrate its bonds; print its sizes, expected memory and time");
+      "check", "Validate a case, calibrate its bonds; print its sizes, expected memory and time");
   check_command->add_option("case", checked_case, "Case file (.toml)")->required();
 
   PlotOptions plot;

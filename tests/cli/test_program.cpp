@@ -164,13 +164,14 @@ TEST_F(Program, AnEarlierResultIsRefusedByteForByteAndForcedOnRequest) {
 }
 
 TEST_F(Program, AnEarlierResultIsRefusedBeforeTheModelIsBuilt) {
-  std::string bad = small_ghost_case;
-  bad.replace(bad.find("horizon = 31.45"), std::string("horizon = 31.45").size(), "horizon = 0.5");
-  write_case("bad.toml", bad);  // only the model sees that no particle has a neighbour
-  EXPECT_THAT(run({"run", "bad.toml", "--out", "r"}).err, HasSubstr("body.horizon"));
+  std::string loose = small_ghost_case;
+  loose.replace(loose.find("\"pin\""), 5,
+                "\"refuse\"");  // what holds the body only the model knows
+  write_case("loose.toml", loose);
+  EXPECT_THAT(run({"run", "loose.toml", "--out", "r"}).err, HasSubstr("rigid-body modes"));
   fs::create_directories(work() / "r");
   write_text(work() / "r/history.csv", "old");
-  EXPECT_THAT(run({"run", "bad.toml", "--out", "r"}).err, HasSubstr("--force"));
+  EXPECT_THAT(run({"run", "loose.toml", "--out", "r"}).err, HasSubstr("--force"));
 }
 
 TEST_F(Program, AForcedRunOfABadCaseKeepsTheEarlierResult) {

@@ -121,7 +121,7 @@ TEST(LoadDisplacement, TheLegendLeavesTheLabelOfThePeakFree) {
     };
     const pugi::xml_node peak = text("peak"), legend = text("envelope");
     ASSERT_TRUE(peak && legend);
-    const double width = 0.56 * 14.0 * std::string(peak.child_value()).size();
+    const double width = 0.56 * 14.0 * static_cast<double>(std::string(peak.child_value()).size());
     const bool leftward = std::string(peak.attribute("text-anchor").value()) == "end";
     const double left = peak.attribute("x").as_double() - (leftward ? width : 0.0);
     const double x = legend.attribute("x").as_double() - 50.0;  // the sample stands before the text
