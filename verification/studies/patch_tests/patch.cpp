@@ -184,9 +184,10 @@ PatchResidual patch_residual(const Model& model) {
         internal_force(network, intact, uniform_motion(network, strain)).forces;
     for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= loads.forces[k];
     for (Index i = 0; i < particles.size(); ++i) {
-      pull = std::max(pull, norm(&loads.forces[i * width], dim));
-      force[i] = std::max(force[i], norm(&rest[i * width], dim));
-      result.moment = std::max(result.moment, norm(&rest[i * width + dim], width - dim));
+      pull = std::max(pull, norm(loads.forces.data() + i * width, dim));
+      force[i] = std::max(force[i], norm(rest.data() + i * width, dim));
+      result.moment =
+          std::max(result.moment, norm(rest.data() + i * width + dim, width - dim));
     }
   }
   for (double& f : force) f /= pull;
