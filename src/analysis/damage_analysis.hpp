@@ -37,8 +37,9 @@ struct DamageResult {
   double peak_displacement = 0.0;   ///< displacement at the peak load
   double initial_stiffness = 0.0;   ///< load / displacement of the intact body
   double largest_residual = 0.0;
-  double energy_error = 0.0;  ///< largest |work - stored - dissipated| / work of all rows, the stored
-                              ///< energy summed over the elements wherever the residual was measured
+  /// Largest |work - stored - dissipated| / work of all rows, the stored energy summed over the
+  /// elements wherever the residual was measured.
+  double energy_error = 0.0;
   FactorStatistics factor;
 };
 

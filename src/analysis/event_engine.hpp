@@ -61,7 +61,8 @@ class EventEngine {
   /// Present stiffness of every element as a fraction of the intact one.
   virtual std::span<const double> secants() const = 0;
 
-  /// Measures the residual; above the tolerance refines the displacement once, then factorises anew.
+  /// Measures the residual; above the tolerance refines the displacement once, then factorises
+  /// anew.
   virtual Equilibrium check_equilibrium() = 0;
 
   /// Numerical factorisations so far.

@@ -10,8 +10,8 @@ namespace perilink {
 
 /// Search among bonds that only stretch. Holds only the bonds that can still break,
 /// in the order of their numbers, with everything that does not change folded into one vector per
-/// bond: ratio = g . (u_second - u_first), g = n / (xi s_c), so that a bond breaks at the load factor
-/// 1 / ratio. One pass costs about one nanosecond per bond.
+/// bond: ratio = g . (u_second - u_first), g = n / (xi s_c), so that a bond breaks at the load
+/// factor 1 / ratio. One pass costs about one nanosecond per bond.
 class LimitSearch final : public BreakSearch {
  public:
   explicit LimitSearch(const Network& network);

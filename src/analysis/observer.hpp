@@ -9,15 +9,16 @@
 namespace perilink {
 
 /// One row of the history: equilibrium of the network as it stands, at the load factor at which its
-/// next element fails (or at the end of a load step). The last row of a driven body that came apart shows
-/// it without resistance, `element` = no_index. Energies follow the path drawn through the rows.
+/// next element fails (or at the end of a load step). The last row of a driven body that came apart
+/// shows it without resistance, `element` = no_index. Energies follow the path drawn through the
+/// rows.
 struct StepRecord {
   Index step = 0;
   Index broken_bonds = 0;         ///< in this equilibrium
   Index yield_events = 0;         ///< of bars, so far
   double load_factor = 0.0;
   double load = 0.0;              ///< load factor times the reference load [force]
-  double displacement = 0.0;      ///< work-conjugate to `load`: twice the strain energy over it [length]
+  double displacement = 0.0;      ///< work-conjugate to `load`: twice the energy over it [length]
   double strain_energy = 0.0;     ///< [force length]
   double dissipated_energy = 0.0; ///< sum of lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2
   double external_work = 0.0;     ///< trapezoids under the path of loads and displacements
@@ -58,8 +59,8 @@ class StateSource {
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
-  /// After every row. `source` gives the network in that equilibrium when asked, since displacements
-  /// of the whole body may cost a solve.
+  /// After every row. `source` gives the network in that equilibrium when asked, since
+  /// displacements of the whole body may cost a solve.
   virtual void on_step(const StepRecord& record, StateSource& source) = 0;
   /// Once, at the end: the last equilibrium (before the body separated, if it did).
   virtual void on_end(const StepRecord& /*last*/, StateSource& /*source*/) {}

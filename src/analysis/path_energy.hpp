@@ -5,9 +5,9 @@
 namespace perilink {
 
 /// Energies along the path drawn by straight lines through the rows of a history. Between two rows
-/// with load factors lambda_k and lambda_(k+1) the loads do the work of trapezoids; the event between
-/// them dissipates lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2, C the compliance f'u - R'd at load
-/// factor 1, and work = stored + dissipated holds exactly.
+/// with load factors lambda_k and lambda_(k+1) the loads do the work of trapezoids; the event
+/// between them dissipates lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2, C the compliance f'u - R'd at
+/// load factor 1, and work = stored + dissipated holds exactly.
 class PathEnergy {
  public:
   /// Moves along the path to the next row.

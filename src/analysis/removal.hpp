@@ -16,7 +16,9 @@ struct Removal {
   std::array<double, capacity> prescribed{};  ///< what prescribed motions add to x'u
   std::array<double, capacity> pivot{};       ///< 1 - x' K^-1 x, ascending; set by decouple()
 
-  std::span<const SparseVector> vectors() const { return {x.data(), static_cast<std::size_t>(rank)}; }
+  std::span<const SparseVector> vectors() const {
+    return {x.data(), static_cast<std::size_t>(rank)};
+  }
   std::span<const double> load_changes() const {
     return {prescribed.data(), static_cast<std::size_t>(rank)};
   }
@@ -31,10 +33,10 @@ struct Removal {
 Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
                      double fraction);
 
-/// Turns the modes into combinations that do not interact, x_a' K^-1 x_b = 0, and sets their pivots:
-/// with C = x_a' K^-1 x_b and I - C = V diag(pivot) V', the new vectors are X V and X X' stays. The
-/// removal leaves K positive definite exactly when all pivots are positive; det(K - X X') / det(K) is
-/// their product.
+/// Turns the modes into combinations that do not interact, x_a' K^-1 x_b = 0, and sets their
+/// pivots: with C = x_a' K^-1 x_b and I - C = V diag(pivot) V', the new vectors are X V and X X'
+/// stays. The removal leaves K positive definite exactly when all pivots are positive; det(K - X
+/// X') / det(K) is their product.
 /// \param compliance  C, shape (rank, rank)
 void decouple(Removal& removal, std::span<const double> compliance);
 

@@ -19,8 +19,8 @@ std::vector<double> damage_index(const Network& network, const Csr& families,
 /// \param motion  shape (particles, width)
 std::vector<double> translations(const Network& network, std::span<const double> motion);
 
-/// Rotations of the particles [-]: one column in two dimensions, three in three; empty where no bond
-/// carries a moment.
+/// Rotations of the particles [-]: one column in two dimensions, three in three; empty where no
+/// bond carries a moment.
 std::vector<double> rotations(const Network& network, std::span<const double> motion);
 
 /// Half of the energy of the bonds of each particle per volume [force/length^2].

@@ -11,11 +11,12 @@
 
 namespace perilink {
 
-/// Isotropic stiffness of the bonds inside a lattice, for each material, by the vector between their
-/// ends.
+/// Isotropic stiffness of the bonds inside a lattice, for each material, by the vector between
+/// their ends.
 class LatticeFamilies {
  public:
-  /// \throws std::invalid_argument where the horizon holds too few neighbours for an isotropic solid
+  /// \throws std::invalid_argument where the horizon holds too few neighbours for an isotropic
+  ///     solid
   LatticeFamilies(const Body& body, const NetworkInput& input);
 
   Index size() const { return static_cast<Index>(family_.offsets.size()); }

@@ -11,8 +11,8 @@
 
 namespace perilink {
 
-/// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds of the
-/// solid first, then ties between bars and solid, then the segments of the bars.
+/// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds
+/// of the solid first, then ties between bars and solid, then the segments of the bars.
 struct Network {
   Particles particles;
   Bonds bonds;

@@ -17,8 +17,8 @@ struct Fragment {
 };
 
 /// Connected parts of the network (elements of zero stiffness do not connect) with the number of
-/// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of particles
-/// that no bond turns hold nothing.
+/// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of
+/// particles that no bond turns hold nothing.
 std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held);
 
 /// Sums of the applied loads.

@@ -22,17 +22,17 @@ struct StressInput {
   const Csr& families;                        ///< bonds of each particle (bonds_of_particles)
   Problem problem = Problem::plane_stress;
   std::span<const HookeConstants> materials;   ///< that the particles' material numbers
-  bool second_neighbors = false;  ///< also those of the neighbours: for the edges of elements, which
-                                  ///< are too few
+  /// Also those of the neighbours: for the edges of elements, which are too few.
+  bool second_neighbors = false;
 };
 
-/// Hooke's law for the displacement gradient at a particle. The gradient is that of the polynomial of
-/// second degree through the particle's own displacement that fits those of its neighbours of the same
-/// material best, each weighted with 1/distance^2: exact for quadratic fields, at the surface too, so
-/// that the error falls with the square of the horizon. Where the neighbours do not settle a quadratic
-/// field a linear one is fitted, and where they do not settle that the stress is zero.
-/// In plane strain zz = lambda (e_xx + e_yy). Forces between bonds play no part: in a homogeneous
-/// strain their virial is this stress, elsewhere it averages over the horizon.
+/// Hooke's law for the displacement gradient at a particle. The gradient is that of the polynomial
+/// of second degree through the particle's own displacement that fits those of its neighbours of
+/// the same material best, each weighted with 1/distance^2: exact for quadratic fields, at the
+/// surface too, so that the error falls with the square of the horizon. Where the neighbours do not
+/// settle a quadratic field a linear one is fitted, and where they do not settle that the stress is
+/// zero. In plane strain zz = lambda (e_xx + e_yy). Forces between bonds play no part: in a
+/// homogeneous strain their virial is this stress, elsewhere it averages over the horizon.
 /// \param displacement  shape (particles, dim)
 Stress stress_at(const StressInput& input, std::span<const double> displacement, Index particle);
 

@@ -8,8 +8,8 @@
 
 namespace perilink {
 
-/// Which displacements and rotations are unknown and what the others are (the map T of the design: identity rows
-/// for free particles, values for supported and driven ones).
+/// Which displacements and rotations are unknown and what the others are (the map T of the design:
+/// identity rows for free particles, values for supported and driven ones).
 struct Unknowns {
   int width = 2;  ///< components of the motion of a particle, Network::width()
   Index count = 0;
@@ -33,8 +33,8 @@ struct Loads {
 Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
                          std::vector<double> prescribed);
 
-/// Particles that a bond with bending stiffness ends at; the rotations of the others mean nothing and
-/// must not be unknown. Empty where no bond carries a moment.
+/// Particles that a bond with bending stiffness ends at; the rotations of the others mean nothing
+/// and must not be unknown. Empty where no bond carries a moment.
 std::vector<std::uint8_t> rotating_particles(const Network& network);
 
 /// Marks the rotations of all particles that nothing turns as held, shape (particles, width).

@@ -13,8 +13,8 @@ std::string program_version();
 /// Abbreviated git commit, or "unknown" outside a git checkout.
 std::string program_commit();
 
-/// Everything that a bug report needs, one "name  value" line each: version, commit, compiler, build
-/// type and the libraries that were built in.
+/// Everything that a bug report needs, one "name  value" line each: version, commit, compiler,
+/// build type and the libraries that were built in.
 std::string build_summary();
 
 }  // namespace perilink

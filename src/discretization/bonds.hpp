@@ -42,8 +42,8 @@ Csr bonds_of_particles(const Bonds& bonds, Index num_particles);
 /// \return number of ghosts dropped
 Index remove_loose_ghosts(Particles& particles, Bonds& bonds);
 
-/// Number of the connected part of the body that each particle belongs to, from zero in the order of
-/// their first particles.
+/// Number of the connected part of the body that each particle belongs to, from zero in the order
+/// of their first particles.
 std::vector<Index> connected_parts(const Bonds& bonds, Index num_particles);
 
 }  // namespace perilink

@@ -26,8 +26,8 @@ struct CutBonds {
 };
 
 /// Refuses what is no crack.
-/// \throws std::invalid_argument  where a piece has no length, or corners are no convex polygon in a
-///         plane
+/// \throws std::invalid_argument  where a piece has no length, or corners are no convex polygon in
+///         a plane
 void check_crack(const Crack& crack, int dim);
 
 /// Finds the bonds that cross a crack, its ends and border included. A particle on a crack belongs

@@ -10,16 +10,18 @@
 namespace perilink {
 
 /// Pieces of the surface of a body and of the faces between its materials: edges in two dimensions,
-/// triangles or rectangles in three. Every corner takes a share of the area vector, the integral of its
-/// shape function times the normal; so the facets carry tractions to particles and say which forces a
-/// uniform strain needs at the boundary (bond calibration).
+/// triangles or rectangles in three. Every corner takes a share of the area vector, the integral of
+/// its shape function times the normal; so the facets carry tractions to particles and say which
+/// forces a uniform strain needs at the boundary (bond calibration).
 struct Facets {
   int dim = 2;
   Csr corners;                       ///< particles at the corners of each facet
-  std::vector<double> shares;        ///< of each corner, as corners.values; their sum is one per facet.
-                                     ///< Equal, until balance_shares() shifts them a little
-  std::vector<double> area_vectors;  ///< area times unit normal, shape (size, dim) [length^2]; in two
-                                     ///< dimensions the area is length times thickness
+  /// Of each corner, as corners.values; their sum is one per facet. Equal, until balance_shares()
+  /// shifts them a little.
+  std::vector<double> shares;
+  /// Area times unit normal, shape (size, dim) [length^2]; in two dimensions the area is length
+  /// times thickness.
+  std::vector<double> area_vectors;
   std::vector<Index> inside;         ///< material of the cell that the normal points out of
   std::vector<Index> outside;        ///< of the cell beyond; no_index: the surface of the body
 

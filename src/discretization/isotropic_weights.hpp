@@ -24,8 +24,8 @@ struct FamilyStiffness {
 void make_isotropic(int dim, std::span<const Vector3> offsets, double volume,
                     const LameConstants& constants, FamilyStiffness& stiffness);
 
-/// Part of a neighbour's cell that lies within the horizon, taken as falling linearly over one spacing
-/// around it: min(1, (delta + h/2 - xi) / h) (Hu, Ha & Bobaru 2010).
+/// Part of a neighbour's cell that lies within the horizon, taken as falling linearly over one
+/// spacing around it: min(1, (delta + h/2 - xi) / h) (Hu, Ha & Bobaru 2010).
 double partial_volume(double length, double horizon, double spacing);
 
 }  // namespace perilink

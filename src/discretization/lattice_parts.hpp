@@ -32,8 +32,8 @@ Particles fill_conforming_grid(const LatticeInput& input, const Lattice& lattice
 Particles fill_conforming_hexagonal(const LatticeInput& input, const Lattice& lattice,
                                     const Outline& outline, Simplices& triangles);
 
-/// Surface and material interfaces of a rectangular, cubic or face-centred lattice: faces of the cells
-/// of its grid (of a face-centred lattice half cubes, whose faces have two particles each).
+/// Surface and material interfaces of a rectangular, cubic or face-centred lattice: faces of the
+/// cells of its grid (of a face-centred lattice half cubes, whose faces have two particles each).
 Facets grid_facets(const LatticeInput& input, const Lattice& lattice, const Outline& outline);
 
 /// Peri2D's grid: solid particles, then ghosts.

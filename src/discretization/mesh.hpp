@@ -22,7 +22,7 @@ struct Mesh {
   int dim = 2;
   std::vector<double> positions;  ///< [length], shape (points, dim)
   std::vector<Index> cells;       ///< corners, shape (cells, dim + 1)
-  std::vector<Index> facets;      ///< edges (2D) or triangles (3D) of the groups, shape (facets, dim)
+  std::vector<Index> facets;      ///< edges or triangles of the groups, shape (facets, dim)
   std::vector<MeshGroup> groups;
 
   Index num_points() const { return static_cast<Index>(positions.size()) / dim; }

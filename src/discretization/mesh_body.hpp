@@ -19,9 +19,10 @@ std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> 
 ///   times the thickness, a quarter of the tetrahedra.
 /// - Material: where several meet the highest number.
 /// - Facets: of the surface, and of faces between materials with the lower material inside.
-/// - Groups: every named one; its particles, and the facets of the surface among its elements or, of
-///   a group of cells, among its cells' sides.
-/// - Lattice: irregular, spacing = mean length of the edges, cell volume = mean volume of a particle.
+/// - Groups: every named one; its particles, and the facets of the surface among its elements or,
+///   of a group of cells, among its cells' sides.
+/// - Lattice: irregular, spacing = mean length of the edges, cell volume = mean volume of a
+///   particle.
 /// \param material   of each cell; cells with no_index are left out
 /// \param thickness  of two-dimensional bodies [length]
 /// \throws std::invalid_argument where nothing is left, a cell has no volume, cells overlap, parts

@@ -26,8 +26,8 @@ double lattice_fracture_sum(Problem problem, std::span<const Vector3> offsets, d
 /// Mean of |cos| over all directions: 2/pi in two dimensions, 1/2 in three.
 double mean_cosine(Problem problem);
 
-/// The fracture sum of bonds whose stiffness does not follow from one micromodulus: the mean over all
-/// normals of Q(e) = sum over unordered neighbours of k xi^2 |xi . e| / V [force/length].
+/// The fracture sum of bonds whose stiffness does not follow from one micromodulus: the mean over
+/// all normals of Q(e) = sum over unordered neighbours of k xi^2 |xi . e| / V [force/length].
 /// \param stiffness  k of the bond to each neighbour [force/length]
 double fracture_sum_of_family(Problem problem, std::span<const Vector3> offsets,
                               std::span<const double> stiffness, double cell_volume);

@@ -8,8 +8,8 @@
 #include "solver/factor.hpp"
 
 /// \file
-/// What the routes share of CHOLMOD: its workspace, views of our matrices, and its status turned into
-/// our exceptions. Only files of this folder may include it.
+/// What the routes share of CHOLMOD: its workspace, views of our matrices, and its status turned
+/// into our exceptions. Only files of this folder may include it.
 
 namespace perilink {
 

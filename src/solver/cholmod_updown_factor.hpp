@@ -8,9 +8,9 @@
 namespace perilink {
 
 /// CHOLMOD's own simplicial update and downdate (Davis & Hager 1999, 2009): the reference that the
-/// tests hold the in-place factor against. The forward solution of the load is changed together with
-/// the factor (updown_solve); one backward substitution per event gives the displacement, so nothing
-/// here rests on the Sherman–Morrison formula.
+/// tests hold the in-place factor against. The forward solution of the load is changed together
+/// with the factor (updown_solve); one backward substitution per event gives the displacement, so
+/// nothing here rests on the Sherman–Morrison formula.
 class CholmodUpdownFactor final : public Factor {
  public:
   CholmodUpdownFactor();

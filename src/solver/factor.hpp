@@ -55,8 +55,8 @@ class Factor {
   /// Solves K u = f and follows this load through the downdates to come.
   virtual void follow_load(std::span<const double> load, std::span<double> solution) = 0;
 
-  /// Says which entries of the solution commit_downdate has to keep current, size n; the others may be
-  /// left as they are until follow_load is called again. A route may ignore it.
+  /// Says which entries of the solution commit_downdate has to keep current, size n; the others may
+  /// be left as they are until follow_load is called again. A route may ignore it.
   virtual void keep_current(std::span<const std::uint8_t> /*wanted*/) {}
 
   /// Looks at the removal of x x' and changes nothing: the pivot 1 - x' K^-1 x, which is
@@ -71,15 +71,16 @@ class Factor {
   /// `result`, shape (n, n). Changes nothing, but forgets what prepare_downdate prepared.
   virtual void compliance(std::span<const SparseVector> x, std::span<double> result);
 
-  /// K <- K - sum x x', f <- f + sum load_change x for vectors that do not interact: x_a' K^-1 x_b = 0
-  /// where a and b differ.
+  /// K <- K - sum x x', f <- f + sum load_change x for vectors that do not interact: x_a' K^-1
+  /// x_b = 0 where a and b differ.
   /// \param pivots    1 - x' K^-1 x of each, all positive
   /// \param solution  as in commit_downdate
   virtual void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                         std::span<const double> pivots, std::span<double> solution);
 
-  /// K <- K + x x' (a ground spring); the pattern of x must lie in that of the matrix. The load that is
-  /// followed grows by x (x'u), the force of the spring, so that its solution u stays where it is.
+  /// K <- K + x x' (a ground spring); the pattern of x must lie in that of the matrix. The load
+  /// that is followed grows by x (x'u), the force of the spring, so that its solution u stays where
+  /// it is.
   virtual void update(const SparseVector& x, std::span<const double> solution) = 0;
 
   /// Numerical factorisations so far.

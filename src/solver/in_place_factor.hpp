@@ -14,8 +14,8 @@ namespace perilink {
 ///
 /// Per event: the forward elimination of x runs along one path of the elimination tree only (the
 /// unknowns of a bond are mutually coupled, so one path holds them all); one backward pass gives
-/// K^-1 x, and with it the new solution (Sherman & Morrison), and changes the columns of the path as
-/// it comes by.
+/// K^-1 x, and with it the new solution (Sherman & Morrison), and changes the columns of the path
+/// as it comes by.
 class InPlaceFactor final : public Factor {
  public:
   explicit InPlaceFactor(int threads);

@@ -9,9 +9,9 @@
 namespace perilink {
 
 /// Fill-reducing order of the unknowns by nested dissection of the graph of the particles (METIS):
-/// permutation[k] is the unknown that is eliminated k-th. The unknowns of one particle stay together.
-/// Ordering particles instead of unknowns costs a quarter (2D) to a ninth (3D) of the time and gives
-/// the supernodes whole particles.
+/// permutation[k] is the unknown that is eliminated k-th. The unknowns of one particle stay
+/// together. Ordering particles instead of unknowns costs a quarter (2D) to a ninth (3D) of the
+/// time and gives the supernodes whole particles.
 std::vector<Index> order_by_particles(const SparseMatrix& lower, std::span<const Index> groups);
 
 }  // namespace perilink

@@ -3,11 +3,11 @@
 #include "base/types.hpp"
 
 /// \file
-/// Dense kernels on one supernode of a factor L D L'. A supernode is a trapezoid of `columns` columns
-/// and `rows` rows, column-major with leading dimension `rows`: unit lower triangle on top, D stored
-/// on the diagonal, whatever CHOLMOD left above the diagonal never read. `local` is the part of a
-/// vector that belongs to the supernode's rows. Each kernel reads L once, in order: they run at the
-/// speed of memory once the factor is larger than the caches.
+/// Dense kernels on one supernode of a factor L D L'. A supernode is a trapezoid of `columns`
+/// columns and `rows` rows, column-major with leading dimension `rows`: unit lower triangle on top,
+/// D stored on the diagonal, whatever CHOLMOD left above the diagonal never read. `local` is the
+/// part of a vector that belongs to the supernode's rows. Each kernel reads L once, in order: they
+/// run at the speed of memory once the factor is larger than the caches.
 
 namespace perilink::supernodal {
 
@@ -20,11 +20,12 @@ void forward(const double* block, Index rows, Index columns, Index start, double
 /// on return the columns hold the solution y1 = L11^-T (z1 - L21' y2).
 void backward(const double* block, Index rows, Index columns, double* local);
 
-/// Backward substitution as above with the old columns, and at the same time the rank-one change that
-/// turns them into the columns of L D L' - x x' (Gill, Golub, Murray & Saunders 1974, method C1):
-/// with p = L^-1 x known, column j becomes l_j + beta_j w_j, where w_j is x less its eliminations by
-/// columns up to j. Going down from the last column, w is won back from p: w_(j-1) = w_j + p_j l_j.
-/// One pass over the block does what three would. The diagonal is not touched.
+/// Backward substitution as above with the old columns, and at the same time the rank-one change
+/// that turns them into the columns of L D L' - x x' (Gill, Golub, Murray & Saunders 1974, method
+/// C1): with p = L^-1 x known, column j becomes l_j + beta_j w_j, where w_j is x less its
+/// eliminations by columns up to j. Going down from the last column, w is won back from p:
+/// w_(j-1) = w_j + p_j l_j. One pass over the block does what three would. The diagonal is not
+/// touched.
 /// \param p      p on the columns, size `columns`
 /// \param beta   beta on the columns, size `columns`
 /// \param local  as in backward()
