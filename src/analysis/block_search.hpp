@@ -20,9 +20,9 @@ struct BlockHit {
   double value = 0.0;
 };
 
-/// The largest positive value; of those above `share` of it the first. Two passes: the largest of every
-/// block, in parallel, then the first element among the blocks that reach the threshold. The answer
-/// does not depend on the number of threads.
+/// The largest positive value; of those above `share` of it the first. Two passes: the largest of
+/// every block, in parallel, then the first element among the blocks that reach the threshold. The
+/// answer does not depend on the number of threads.
 /// \param block_largest     work space, one per block
 /// \param fewest_parallel   blocks from which on several threads are faster than one
 /// \param largest_in        largest value in the positions [begin, end)

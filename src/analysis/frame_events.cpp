@@ -54,8 +54,8 @@ std::vector<double> SingleEventEngine::refined_compliance(const Removal& removal
   return compliance;
 }
 
-/// Decouples the modes of a removal; where a pivot is small, with a factor and a solution that can be
-/// trusted.
+/// Decouples the modes of a removal; where a pivot is small, with a factor and a solution that can
+/// be trusted.
 void SingleEventEngine::measure_pivots(Removal& removal) {
   const Removal modes = removal;
   std::vector<double> compliance(static_cast<std::size_t>(modes.rank * modes.rank));
@@ -72,8 +72,8 @@ void SingleEventEngine::measure_pivots(Removal& removal) {
   decouple(removal, refined_compliance(modes));
 }
 
-/// Before a bond goes that alone held an unloaded motion, as the rotation of a particle on which only
-/// ties are left, springs take hold of it.
+/// Before a bond goes that alone held an unloaded motion, as the rotation of a particle on which
+/// only ties are left, springs take hold of it.
 /// \param unloaded  energy, twice, up to which a motion counts as unloaded
 /// \return false when the motion carries load: a mechanism
 bool SingleEventEngine::hold_free_modes(Removal& removal, Index element, double unloaded,
@@ -82,7 +82,9 @@ bool SingleEventEngine::hold_free_modes(Removal& removal, Index element, double 
   const int most = removal.rank;
   for (int tries = 0; removal.rank > 0 && removal.pivot[0] < mechanism_pivot; ++tries) {
     if (energy_of_free_modes(removal, solution_) > unloaded) return false;
-    if (tries == most) throw SolverError("a part that comes loose cannot be held by ground springs");
+    if (tries == most) {
+      throw SolverError("a part that comes loose cannot be held by ground springs");
+    }
     keep_all_current();
     add_ground_spring(most_mobile_unknown(removal.x[0]));
     ++springs;

@@ -93,8 +93,8 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
           input.where(input.supports.empty() ? "analysis" : "supports[1]"),
           fmt::format("{} of the {} rigid-body modes of {} are free", fragment.free_modes, all,
                       fragments.size() == 1 ? "the body" : where),
-          "hold the body with [[supports]], [[symmetry]] or [[springs]], or, when the loads balance by themselves, set "
-          "analysis.rigid_body_modes = \"pin\"");
+          "hold the body with [[supports]], [[symmetry]] or [[springs]], or, when the loads "
+          "balance by themselves, set analysis.rigid_body_modes = \"pin\"");
     }
     if (fragment.free_modes != all) {
       throw InputError(input.where("analysis.rigid_body_modes"),
@@ -155,7 +155,8 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);
   hold_idle_rotations(model.network, prescription.held);
-  model.unknowns = number_unknowns(model.network.width(), prescription.held, std::move(prescription.value));
+  model.unknowns =
+      number_unknowns(model.network.width(), prescription.held, std::move(prescription.value));
 }
 
 }  // namespace perilink

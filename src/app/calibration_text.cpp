@@ -22,8 +22,8 @@ std::optional<std::string> calibration_shortfall(const Network& network) {
   if (!network.calibration || network.calibration->unmet == 0) return std::nullopt;
   const CalibrationReport& report = *network.calibration;
   return fmt::format(
-      "uniform strains leave {} particles out of balance, most (by {:.1e} of the force on a face of "
-      "its cell) the one at ({:.6g})",
+      "uniform strains leave {} particles out of balance, most (by {:.1e} of the force on a face "
+      "of its cell) the one at ({:.6g})",
       report.unmet, report.residual_after,
       fmt::join(network.particles.position(report.worst_particle), ", "));
 }

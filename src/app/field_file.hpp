@@ -30,8 +30,8 @@ VtuGrid make_field_grid(const Network& network, const StepState& state, const St
 
 /// The state of linear elements. Cells: a vertex for each particle, then the triangles or
 /// tetrahedra. Fields as above; particles have the mean of the cells around them, and cells further
-///   strain_energy_density, principal_strain and principal_stress (largest first; in the plane or in
-///   space; zero for vertices)
+///   strain_energy_density, principal_strain and principal_stress (largest first; in the plane or
+///   in space; zero for vertices)
 /// \param displacement  at load factor 1, shape (particles, dim) [length]
 VtuGrid make_element_grid(const LinearElements& elements, const Particles& particles,
                           std::span<const double> displacement, const StepRecord& record,

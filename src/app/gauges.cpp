@@ -20,12 +20,12 @@ Index particle_at(const CaseFile& input, const Model& model, const std::string& 
   const std::span<const double> at(point.data(), static_cast<std::size_t>(particles.dim));
   const NearestParticle nearest = nearest_particle(particles, at);
   if (nearest.distance <= model.lattice.spacing) return nearest.particle;
-  throw InputError(input.where(key),
-                   fmt::format("the point ({}) is {:.6g} from the nearest particle",
-                               fmt::join(at, ", "), nearest.distance),
-                   fmt::format("particles are {:.6g} apart; a point of a gauge must lie within that "
-                               "of one",
-                               model.lattice.spacing));
+  throw InputError(
+      input.where(key),
+      fmt::format("the point ({}) is {:.6g} from the nearest particle", fmt::join(at, ", "),
+                  nearest.distance),
+      fmt::format("particles are {:.6g} apart; a point of a gauge must lie within that of one",
+                  model.lattice.spacing));
 }
 
 /// Displacement of the second point relative to the first.
@@ -55,7 +55,8 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
     whole += particles.volumes[i];
   }
   if (gauge.terms.empty()) {
-    throw InputError(input.where(key), fmt::format("is \"{}\", which holds only bars", section.region),
+    throw InputError(input.where(key),
+                     fmt::format("is \"{}\", which holds only bars", section.region),
                      "name a region with particles of the solid");
   }
   for (Gauge::Term& term : gauge.terms) term.weight /= whole;

@@ -43,7 +43,8 @@ constexpr std::array columns = {
     column<&StepRecord::element>("element"),
 };
 
-std::vector<std::string> with(std::vector<std::string> names, const std::vector<std::string>& more) {
+std::vector<std::string> with(std::vector<std::string> names,
+                              const std::vector<std::string>& more) {
   names.insert(names.end(), more.begin(), more.end());
   return names;
 }

@@ -31,9 +31,10 @@ const MeshGroup* find_group(const Mesh& mesh, const std::string& name) {
 
 std::string suggest_group(const Mesh& mesh, const std::string& name) {
   if (mesh.groups.empty()) {
-    return fmt::format("the mesh has no physical group at all; write Physical {}(\"{}\") = {{...}}; "
-                       "in the geometry",
-                       mesh.dim == 2 ? "Surface" : "Volume", name);
+    return fmt::format(
+        "the mesh has no physical group at all; write Physical {}(\"{}\") = {{...}}; in the "
+        "geometry",
+        mesh.dim == 2 ? "Surface" : "Volume", name);
   }
   std::vector<std::string_view> names;
   for (const MeshGroup& group : mesh.groups) names.push_back(group.name);

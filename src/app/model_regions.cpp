@@ -105,11 +105,10 @@ std::vector<Index> particles_of_region(const CaseFile& input, const Model& model
     return particles.kind[i] == ParticleKind::solid;
   });
   if (!any_solid) {
-    throw InputError(input.where(key),
-                     fmt::format("no particle lies in the region \"{}\"", region),
-                     fmt::format("particles are {:.6g} apart; make the region larger or move it onto "
-                                 "the body",
-                                 model.lattice.spacing));
+    throw InputError(
+        input.where(key), fmt::format("no particle lies in the region \"{}\"", region),
+        fmt::format("particles are {:.6g} apart; make the region larger or move it onto the body",
+                    model.lattice.spacing));
   }
   return inside;
 }

@@ -22,9 +22,10 @@ Vector3 PositionField::at(std::span<const double> position) const {
   for (std::size_t k = 0; k < formulas_.size(); ++k) {
     values[k] = formulas_[k].at(position);
     if (std::isfinite(values[k])) continue;
-    throw InputError(input_.where(key_),
-                     fmt::format("is {} at the position ({})", values[k], fmt::join(position, ", ")),
-                     "write a formula that is finite wherever it is used");
+    throw InputError(
+        input_.where(key_),
+        fmt::format("is {} at the position ({})", values[k], fmt::join(position, ", ")),
+        "write a formula that is finite wherever it is used");
   }
   return values;
 }

@@ -7,8 +7,8 @@
 
 namespace perilink {
 
-/// Where a run stands, for people: a bar that is drawn over itself on a terminal, a plain line now and
-/// then elsewhere, nothing when quiet. Goes to standard error.
+/// Where a run stands, for people: a bar that is drawn over itself on a terminal, a plain line now
+/// and then elsewhere, nothing when quiet. Goes to standard error.
 class Progress {
  public:
   /// \param last_broken_bonds  number of broken bonds at which the run stops, if it is known

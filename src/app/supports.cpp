@@ -43,9 +43,9 @@ void prescribe(const CaseFile& input, const Model& model, Prescription& prescrip
       if (std::abs(value - before) <= same_value * largest) continue;
       throw InputError(
           input.where(key),
-          fmt::format("sets the {} of the particle at ({}) to {}, where another entry sets it to {}",
-                      name_of_component(model.network, component), fmt::join(x, ", "), value,
-                      before),
+          fmt::format(
+              "sets the {} of the particle at ({}) to {}, where another entry sets it to {}",
+              name_of_component(model.network, component), fmt::join(x, ", "), value, before),
           "let the regions of [[supports]], [[symmetry]] and [[displacements]] not overlap");
     }
     prescription.held[slot] = 1;

@@ -17,8 +17,8 @@ struct Prescription {
 /// \throws InputError  for regions without particles and entries that contradict each other
 Prescription collect_prescriptions(const CaseFile& input, const Model& model);
 
-/// Stiffness of the elastic supports of a case, Network::support_stiffness; empty: none. Facets share
-/// their area equally among their corners, a total is shared in proportion to the volumes.
+/// Stiffness of the elastic supports of a case, Network::support_stiffness; empty: none. Facets
+/// share their area equally among their corners, a total is shared in proportion to the volumes.
 /// \throws InputError  for regions that catch no particle or no facet
 std::vector<double> collect_springs(const CaseFile& input, const Model& model);
 

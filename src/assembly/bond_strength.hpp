@@ -13,8 +13,8 @@
 
 namespace perilink {
 
-/// k_b / k of every bond as it is, the Network::bending_ratio before a calibration [-]; empty where no
-/// bond carries a moment.
+/// k_b / k of every bond as it is, the Network::bending_ratio before a calibration [-]; empty where
+/// no bond carries a moment.
 std::vector<double> own_bending_ratios(const Network& network);
 
 /// Critical stretches from the families of a lattice, the mean over all directions of a crack.
@@ -24,8 +24,8 @@ void set_critical_stretches(const NetworkInput& input, const LatticeFamilies& fa
 
 /// Critical stretches of an irregular cloud, from the calibrated bonds of the particles that are
 /// bonded to none on a facet: G_F = s_c^2 / 2 times the mean of |cos| times sum k xi^3 / (2 V).
-/// Network::bending_ratio is multiplied by the mean of k_b / (ratio k) of these bonds, each with its
-/// xi^3, so that bonds that break in shear release as much as those that break in extension.
+/// Network::bending_ratio is multiplied by the mean of k_b / (ratio k) of these bonds, each with
+/// its xi^3, so that bonds that break in shear release as much as those that break in extension.
 /// Pairs of materials without such particles keep what they have.
 void set_strength_of_cloud(const NetworkInput& input, Network& network);
 

@@ -55,7 +55,8 @@ struct NetworkInput {
   std::vector<SolidMaterial> materials;  ///< by Particles::material
   std::vector<Box> solid;  ///< the body is the union of these; bonds that leave it are not made.
                            ///< Empty: every pair within the horizon is bonded
-  std::vector<Crack> cracks;  ///< there before the analysis begins; bonds and ties do not cross them
+  /// There before the analysis begins; bonds and ties do not cross them.
+  std::vector<Crack> cracks;
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< of each bar
 };
@@ -69,15 +70,15 @@ MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
 /// Lame's constants of a material in the body's kinematics; of bond-based solids lambda = mu.
 LameConstants lame_constants(const NetworkInput& input, const SolidMaterial& material);
 
-/// Bonds, bars and ties of a body with their constants, corrected near surfaces as the body's surface
-/// option asks (correct_surfaces).
+/// Bonds, bars and ties of a body with their constants, corrected near surfaces as the body's
+/// surface option asks (correct_surfaces).
 /// - Bond: k = c V_i V_j / xi with the mean c of its ends; a ghost's c is zero, hence half
 /// stiffness
 ///   (Gerstle, Sau & Silling 2005, section 4). It breaks at the critical stretch of the mean
 ///   fracture energy and mean micromodulus of its ends; a bond to a ghost at that of its solid end.
 ///   It cannot break where either end is unbreakable.
-/// - Micropolar bond: the same, and the bending stiffness 12 d V_i V_j / xi^3 with the mean d of its
-///   ends. Ties and segments carry no moments.
+/// - Micropolar bond: the same, and the bending stiffness 12 d V_i V_j / xi^3 with the mean d of
+///   its ends. Ties and segments carry no moments.
 /// - Tie: stiffness and critical stretch of a bond of its solid end, k = c V_i V / max(xi, spacing
 /// /
 ///   10), V the volume of a particle inside the lattice. Where bars share a node its ties are

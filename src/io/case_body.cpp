@@ -216,11 +216,12 @@ BodySection read_body(const CaseTable& table) {
   if (body.method == "linear_elements") refuse_keys_of_bonds(table);
   assign(body.model, table.choice("model", {"bond_based", "micropolar"}));
   if (table.has("torsion") && (dimension_of(body) == 2 || body.model != "micropolar")) {
-    table.refuse("torsion",
-                 fmt::format("is given, but {}", body.model == "micropolar"
-                                                     ? "bonds of a two-dimensional body do not twist"
-                                                     : "bonds of a bond-based solid do not twist"),
-                 "delete it; three-dimensional bodies with model = \"micropolar\" have it");
+    table.refuse(
+        "torsion",
+        fmt::format("is given, but {}", body.model == "micropolar"
+                                            ? "bonds of a two-dimensional body do not twist"
+                                            : "bonds of a bond-based solid do not twist"),
+        "delete it; three-dimensional bodies with model = \"micropolar\" have it");
   }
   assign(body.torsion, table.positive("torsion"));
   table.need_one_of({"columns", "spacing", "mesh"});
@@ -242,8 +243,9 @@ BodySection read_body(const CaseTable& table) {
 MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index) {
   MaterialSection material;
   material.name = table.text("name").value_or(fmt::format("material {}", index + 1));
-  if (material.name.empty())
+  if (material.name.empty()) {
     table.refuse("name", "is empty", "name the material, or delete the key");
+  }
   material.regions = read_material_regions(table);
   material.youngs_modulus =
       table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");

@@ -67,9 +67,10 @@ class Document {
 
  private:
   [[noreturn]] void refuse_missing(const std::string& header) const {
-    throw InputError({path_, 0, ""}, fmt::format("the case has no {}", header),
-                     "a case needs [body], [[regions]], [[materials]] and [[loads]], "
-                     "[[tractions]], [[point_loads]] or [[displacements]]; docs/case_file.md describes them");
+    throw InputError(
+        {path_, 0, ""}, fmt::format("the case has no {}", header),
+        "a case needs [body], [[regions]], [[materials]] and [[loads]], [[tractions]], "
+        "[[point_loads]] or [[displacements]]; docs/case_file.md describes them");
   }
 
   const TomlValue& root_;

@@ -15,8 +15,8 @@
 
 /// \file
 /// The case file as it stands in the TOML text: every value that can be wrong by itself has been
-/// checked; what is wrong only in the light of the body (empty regions, free rigid modes) is found in
-/// app/configure. docs/case_file.md is the user's page; the one home of every default is here.
+/// checked; what is wrong only in the light of the body (empty regions, free rigid modes) is found
+/// in app/configure. docs/case_file.md is the user's page; the one home of every default is here.
 
 namespace perilink {
 
@@ -42,8 +42,8 @@ struct BodySection {
   std::string critical_stretch = "lattice";  ///< lattice | continuum, of a mesh always continuum
 };
 
-/// [[materials]]: elastic constants and fracture energy of one or more regions. A later entry counts
-/// where regions overlap.
+/// [[materials]]: elastic constants and fracture energy of one or more regions. A later entry
+/// counts where regions overlap.
 struct MaterialSection {
   std::string name;  ///< "material 2" for the second one where the file gives none
   std::vector<std::string> regions;
@@ -124,7 +124,8 @@ struct GaugeSection {
   std::vector<Vector3> between;  ///< two points: displacement of the second relative to the first
   std::optional<Vector3> at;
   std::string region;            ///< mean over its particles
-  std::optional<int> axis;       ///< of the displacement; between two points else that from one to the other
+  /// Of the displacement; between two points else that from one to the other.
+  std::optional<int> axis;
   std::optional<std::array<int, 2>> stress;  ///< axes of a component of the stress, ascending
 };
 

@@ -50,7 +50,8 @@ GaugeSection read_gauge(const CaseTable& table, int dim) {
   assign(gauge.region, table.text("region"));
   if (table.has("between")) {
     if (table.has("stress")) {
-      table.refuse("stress", "is given beside `between`", "measure a stress `at` a point or in a `region`");
+      table.refuse("stress", "is given beside `between`",
+                   "measure a stress `at` a point or in a `region`");
     }
   } else {
     table.need_one_of({"axis", "stress"});

@@ -68,11 +68,11 @@ void check_groups(const CaseFile& input) {
   if (input.body.mesh) return;
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
     if (input.regions[i].group.empty()) continue;
-    throw InputError(input.where(item_key("regions", i, "group")),
-                     fmt::format("is {}, a physical group of a mesh, but the body has no mesh",
-                                 quoted(input.regions[i].group)),
-                     "give `mesh` in [body] instead of `spacing` or `columns`, or the intervals of a "
-                     "box here");
+    throw InputError(
+        input.where(item_key("regions", i, "group")),
+        fmt::format("is {}, a physical group of a mesh, but the body has no mesh",
+                    quoted(input.regions[i].group)),
+        "give `mesh` in [body] instead of `spacing` or `columns`, or the intervals of a box here");
   }
 }
 
@@ -91,10 +91,11 @@ void check_extent(const CaseFile& input, const std::string& key, const std::stri
     if (region.name != name || !region.group.empty()) continue;
     for (int axis = 0; axis < dimension_of(input.body); ++axis) {
       if (region.box.lower[axis] < region.box.upper[axis]) continue;
-      throw InputError(input.where(key),
-                       fmt::format("is {}, which has no extent along {}", quoted(name), "xyz"[axis]),
-                       "regions of materials need a lower end less than the upper one; lines and "
-                       "points are for supports, displacements and loads");
+      throw InputError(
+          input.where(key),
+          fmt::format("is {}, which has no extent along {}", quoted(name), "xyz"[axis]),
+          "regions of materials need a lower end less than the upper one; lines and points are for "
+          "supports, displacements and loads");
     }
   }
 }
@@ -164,8 +165,9 @@ void check_driven(const CaseFile& input) {
     for (const auto& value : section.value) driven = driven || (value && !value->is_zero());
   }
   if (driven) return;
-  throw InputError(input.where("loads"), "nothing loads the body",
-                   "add [[loads]], [[tractions]], [[point_loads]], or [[displacements]] that are not zero");
+  throw InputError(
+      input.where("loads"), "nothing loads the body",
+      "add [[loads]], [[tractions]], [[point_loads]], or [[displacements]] that are not zero");
 }
 
 void refuse_on_ghosts(const CaseFile& input, const std::string& key) {
@@ -173,8 +175,8 @@ void refuse_on_ghosts(const CaseFile& input, const std::string& key) {
   throw InputError(input.where(key),
                    "acts on the surface, but with surface = \"ghost\" the particles stand in the "
                    "middle of their cells and none on it",
-                   "share a total over a region ([[loads]].force, [[springs]].total), or set surface = \"none\" in "
-                   "[body]");
+                   "share a total over a region ([[loads]].force, [[springs]].total), or set "
+                   "surface = \"none\" in [body]");
 }
 
 void check_method(const CaseFile& input) {
@@ -193,7 +195,8 @@ void check_method(const CaseFile& input) {
                      "delete one of the two, or leave the crack out of the mesh");
   }
   if (!input.springs.empty()) {
-    throw InputError(where, "is \"linear_elements\", but the case has [[springs]], which only bonds know",
+    throw InputError(where,
+                     "is \"linear_elements\", but the case has [[springs]], which only bonds know",
                      "delete one of the two");
   }
 }

@@ -67,7 +67,8 @@ void check_keys(const Document& document, const TableSchema& schema, const TomlV
     const std::string& key = value.key;
     if (has_key(schema, key)) continue;
     throw InputError({document.path, value.line, join_path(table_path, key)},
-                     fmt::format("{} has no such key", header(schema)), suggest_key(document, schema, key));
+                     fmt::format("{} has no such key", header(schema)),
+                     suggest_key(document, schema, key));
   }
 }
 
@@ -75,7 +76,8 @@ void check_table(const Document& document, const TableSchema& schema, const Toml
   const std::string name(schema.name);
   if (!schema.list) {
     if (value.kind == TomlValue::Kind::array) {
-      throw InputError({document.path, value.line, name}, fmt::format("is a list of tables [[{}]]", name),
+      throw InputError({document.path, value.line, name},
+                       fmt::format("is a list of tables [[{}]]", name),
                        fmt::format("a {} has one; write {}", document.name, header(schema)));
     }
     check_keys(document, schema, value, name);
@@ -99,8 +101,8 @@ const std::vector<TableSchema>& case_schema() {
       {"body",
        false,
        {"problem", "method", "model", "torsion", "thickness", "mesh", "mesh_size", "pattern",
-        "surface", "columns", "spacing", "horizon", "horizon_level", "horizon_ratio", "micromodulus",
-        "critical_stretch"}},
+        "surface", "columns", "spacing", "horizon", "horizon_level", "horizon_ratio",
+        "micromodulus", "critical_stretch"}},
       {"regions", true, {"name", "group", "x", "y", "z"}},
       {"materials",
        true,

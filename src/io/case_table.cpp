@@ -219,10 +219,11 @@ Expression CaseTable::checked_expression(const std::string& key, const TomlValue
     if (expression.formula.empty()) throw std::invalid_argument("nothing at character 1");
     const Formula formula(expression, dim);
   } catch (const std::invalid_argument& error) {
-    refuse(key, fmt::format("holds the formula {}: {}", quoted(expression.formula), error.what()),
-           fmt::format("write a number, or a formula of {} with + - * / ^, pi, e and functions such "
-                       "as sqrt, sin, cos, exp, ln, abs, min and max",
-                       dim == 2 ? "x and y" : "x, y and z"));
+    refuse(
+        key, fmt::format("holds the formula {}: {}", quoted(expression.formula), error.what()),
+        fmt::format("write a number, or a formula of {} with + - * / ^, pi, e and functions such "
+                    "as sqrt, sin, cos, exp, ln, abs, min and max",
+                    dim == 2 ? "x and y" : "x, y and z"));
   }
   return expression;
 }
@@ -237,8 +238,10 @@ std::optional<ExpressionVector> CaseTable::expressions(const std::string& key, i
   const TomlValue* list = array(key, "numbers or formulas");
   if (list == nullptr) return std::nullopt;
   if (list->items.size() != static_cast<std::size_t>(dim)) {
-    refuse(key, fmt::format("has {} components, but the body has {} dimensions", list->items.size(), dim),
-           dim == 2 ? "write [x, y]" : "write [x, y, z]");
+    refuse(
+        key,
+        fmt::format("has {} components, but the body has {} dimensions", list->items.size(), dim),
+        dim == 2 ? "write [x, y]" : "write [x, y, z]");
   }
   ExpressionVector result;
   for (std::size_t k = 0; k < list->items.size(); ++k) {

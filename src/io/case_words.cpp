@@ -15,8 +15,9 @@ Enumeration find_word(const std::vector<std::string_view>& words, std::string_vi
 /// In letters of either case.
 bool ends_with(std::string_view path, std::string_view extension) {
   if (path.size() < extension.size()) return false;
-  return std::equal(extension.begin(), extension.end(), path.end() - extension.size(),
-                    [](char small, char c) { return small == (c >= 'A' && c <= 'Z' ? c + 32 : c); });
+  return std::equal(
+      extension.begin(), extension.end(), path.end() - extension.size(),
+      [](char small, char c) { return small == (c >= 'A' && c <= 'Z' ? c + 32 : c); });
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ Pattern pattern_of(std::string_view word);
 /// \param word  one of surface_words()
 Surface surface_of(std::string_view word);
 
-/// Whether the file of a mesh is a geometry that has to be meshed, by its name: .geo, .step, .stp or
-/// .brep in letters of either case.
+/// Whether the file of a mesh is a geometry that has to be meshed, by its name: .geo, .step, .stp
+/// or .brep in letters of either case.
 bool is_geometry(std::string_view path);
 
 /// Whether a geometry is a script of gmsh (.geo).

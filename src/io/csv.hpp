@@ -6,9 +6,9 @@
 
 namespace perilink {
 
-/// Comma-separated table that grows row by row. Numbers are written with the fewest digits that read
-/// back exactly, independent of the locale. Only whole rows reach the file, so that a killed run
-/// leaves a readable table: rows wait in memory until flush(), the destructor or 64 KiB.
+/// Comma-separated table that grows row by row. Numbers are written with the fewest digits that
+/// read back exactly, independent of the locale. Only whole rows reach the file, so that a killed
+/// run leaves a readable table: rows wait in memory until flush(), the destructor or 64 KiB.
 class CsvWriter {
  public:
   CsvWriter(const std::string& path, const std::vector<std::string>& columns);
@@ -35,8 +35,8 @@ struct CsvTable {
   int column(const std::string& name) const;
 };
 
-/// Reads a table of numbers with a header row; an empty field is not-a-number. A last row without its
-/// line end and with too few fields is what a killed writer left, and is dropped.
+/// Reads a table of numbers with a header row; an empty field is not-a-number. A last row without
+/// its line end and with too few fields is what a killed writer left, and is dropped.
 /// \throws FileError
 CsvTable read_csv(const std::string& path);
 

@@ -76,9 +76,10 @@ void check_dimension(const GmshSections& sections, const std::string& path, int 
   }
   if (cells) return;
   if (dim == 2) refuse(path, "holds no triangles", "mesh the surface: gmsh FILE.geo -2");
-  refuse(path, "holds no tetrahedra, but the body has three dimensions",
-         "mesh the volume: gmsh FILE.geo -3; or set problem = \"plane_stress\" in [body]. Where the "
-         "geometry has physical groups, the volume needs one too");
+  refuse(
+      path, "holds no tetrahedra, but the body has three dimensions",
+      "mesh the volume: gmsh FILE.geo -3; or set problem = \"plane_stress\" in [body]. Where the "
+      "geometry has physical groups, the volume needs one too");
 }
 
 void add_positions(const GmshSections& sections, const std::string& path, Mesh& mesh) {
@@ -124,7 +125,8 @@ std::vector<MeshGroup> named_once(std::map<GmshKey, MeshGroup>& groups, const st
   for (auto& [key, group] : groups) {
     sort_points(group.points);
     if (!seen.emplace(group.name, group.dim).second) {
-      refuse(path, fmt::format("has two physical groups with the name {}", perilink::quoted(group.name)),
+      refuse(path,
+             fmt::format("has two physical groups with the name {}", perilink::quoted(group.name)),
              "give every physical group a name of its own");
     }
     result.push_back(std::move(group));

@@ -8,8 +8,8 @@
 namespace perilink {
 
 /// Reads a mesh of gmsh's format 4.1, text or binary: triangles and lines in two dimensions,
-/// tetrahedra and triangles in three, with the physical groups of every dimension. A group without a
-/// name is called by its number. Cells of no group are kept, other elements of no group are not.
+/// tetrahedra and triangles in three, with the physical groups of every dimension. A group without
+/// a name is called by its number. Cells of no group are kept, other elements of no group are not.
 /// Groups are sorted by dimension and tag.
 /// \param dim  2 or 3
 /// \throws FileError   where the file cannot be read

@@ -29,10 +29,10 @@ namespace perilink {
 bool has_gmsh() { return false; }
 
 Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> /*size*/) {
-  throw FileError(
-      fmt::format("{}: is a geometry, and this program was built without gmsh to mesh it\n"
-                  "  mesh it by hand: gmsh -{} -format msh41 {}; or install libgmsh-dev and build again",
-                  path, dim, path));
+  throw FileError(fmt::format(
+      "{}: is a geometry, and this program was built without gmsh to mesh it\n"
+      "  mesh it by hand: gmsh -{} -format msh41 {}; or install libgmsh-dev and build again",
+      path, dim, path));
 }
 
 #else
@@ -52,9 +52,10 @@ struct Gmsh {
 Gmsh load_gmsh() {
   void* library = dlopen(PERILINK_GMSH_LIBRARY, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
-    throw FileError(fmt::format("gmsh's library cannot be loaded: {}\n  install it (libgmsh), or mesh "
-                                "the geometry by hand and name the .msh file",
-                                dlerror()));
+    throw FileError(
+        fmt::format("gmsh's library cannot be loaded: {}\n  install it (libgmsh), or mesh the "
+                    "geometry by hand and name the .msh file",
+                    dlerror()));
   }
   const auto find = [library](auto& function, const char* name) {
     void* address = dlsym(library, name);
@@ -72,7 +73,8 @@ Gmsh load_gmsh() {
 }
 
 /// gmshInitialize has gained an argument in gmsh 4.10.
-void initialize(void (*function)(int, char**, int, int*), std::vector<char*>& arguments, int& error) {
+void initialize(void (*function)(int, char**, int, int*), std::vector<char*>& arguments,
+                int& error) {
   function(static_cast<int>(arguments.size()), arguments.data(), 0, &error);
 }
 [[maybe_unused]] void initialize(void (*function)(int, char**, int, int, int*),
@@ -80,12 +82,15 @@ void initialize(void (*function)(int, char**, int, int*), std::vector<char*>& ar
   function(static_cast<int>(arguments.size()), arguments.data(), 0, 0, &error);
 }
 
-/// Calls gmsh; to be used once in a process, because gmsh keeps constants of one script for the next.
+/// Calls gmsh; to be used once in a process, because gmsh keeps constants of one script for the
+/// next.
 class Session {
  public:
   explicit Session(std::optional<double> script_size) {
     std::vector<std::string> words = {"perilink"};
-    if (script_size) words.insert(words.end(), {"-setnumber", "h", fmt::format("{}", *script_size)});
+    if (script_size) {
+      words.insert(words.end(), {"-setnumber", "h", fmt::format("{}", *script_size)});
+    }
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     initialize(gmsh_.initialize, arguments, error_);
@@ -210,9 +215,10 @@ void check_script(const std::string& path) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   static const std::regex constant(R"(DefineConstant\s*\[(?:[^\]]*[\s,])?h\s*=)");
   if (std::regex_search(text, constant)) return;
-  throw InputError({path, 0, ""}, "has no constant `h` for mesh_size to set",
-                   "write DefineConstant[ h = 0.1 ]; in it and use h as the size of points, or delete "
-                   "mesh_size");
+  throw InputError(
+      {path, 0, ""}, "has no constant `h` for mesh_size to set",
+      "write DefineConstant[ h = 0.1 ]; in it and use h as the size of points, or delete "
+      "mesh_size");
 }
 
 }  // namespace

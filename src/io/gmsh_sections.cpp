@@ -168,7 +168,9 @@ GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path)
   bool format_known = false;
   while (!file.at_end()) {
     std::string_view header = file.line();
-    while (!header.empty() && (header.back() == ' ' || header.back() == '\t')) header.remove_suffix(1);
+    while (!header.empty() && (header.back() == ' ' || header.back() == '\t')) {
+      header.remove_suffix(1);
+    }
     if (header.empty() || header[0] != '$') {
       file.refuse(format_known ? fmt::format("has {} where a section $... should begin",
                                              quoted(std::string(header)))
@@ -182,7 +184,8 @@ GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path)
     } else if (name == "Comments") {
       file.skip_to_end_of(name);
     } else if (!format_known) {
-      file.refuse(fmt::format("has {} before $MeshFormat", quoted(std::string(header))), save_as_41);
+      file.refuse(fmt::format("has {} before $MeshFormat", quoted(std::string(header))),
+                  save_as_41);
     } else {
       read_section(file, name, sections);
     }

@@ -28,8 +28,8 @@ struct GmshSections {
   std::vector<GmshBlock> blocks;
 };
 
-/// Reads the sections of a file. Element types other than points, lines, triangles and tetrahedra of
-/// first order are refused, and so are partitioned meshes; sections of results are passed over.
+/// Reads the sections of a file. Element types other than points, lines, triangles and tetrahedra
+/// of first order are refused, and so are partitioned meshes; sections of results are passed over.
 /// \param path  for messages
 /// \throws InputError
 GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path);

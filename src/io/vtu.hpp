@@ -6,8 +6,8 @@
 #include <vector>
 
 /// \file
-/// VTK unstructured grids (.vtu, XML, zlib-compressed inline binary) and their time series (.pvd), as
-/// ParaView opens them, and the reading back of files that this program wrote.
+/// VTK unstructured grids (.vtu, XML, zlib-compressed inline binary) and their time series (.pvd),
+/// as ParaView opens them, and the reading back of files that this program wrote.
 
 namespace perilink {
 
@@ -36,7 +36,8 @@ struct VtuGrid {
   double field(const std::string& name, double otherwise) const;
 };
 
-/// Writes to a temporary file beside `path` and renames it, so that a reader never sees half a file.
+/// Writes to a temporary file beside `path` and renames it, so that a reader never sees half a
+/// file.
 /// \throws FileError
 void write_vtu(const std::string& path, const VtuGrid& grid);
 

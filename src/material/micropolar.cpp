@@ -20,8 +20,8 @@ void require_ratio(double poissons_ratio, double largest) {
                               std::to_string(poissons_ratio));
 }
 
-/// What is left for bending; at the limit of Poisson's ratio it is zero but for round-off, and bonds
-/// with next to no bending stiffness would leave rotations without hold.
+/// What is left for bending; at the limit of Poisson's ratio it is zero but for round-off, and
+/// bonds with next to no bending stiffness would leave rotations without hold.
 double above_round_off(double rest, double youngs_modulus) {
   return rest > 1e-12 * youngs_modulus ? rest : 0.0;
 }

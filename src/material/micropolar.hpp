@@ -7,9 +7,9 @@
 
 /// \file
 /// Constants of micropolar bonds (Gerstle, Sau & Aguilera 2007): a bond between two particles is a
-/// frame element with the axial stiffness k = c V_i V_j / xi [force/length] and the bending stiffness
-/// 12 d V_i V_j / xi^3 [force/length]. Two constants give two elastic ones, E and nu, as long as d is
-/// not negative: nu up to that of bonds without bending.
+/// frame element with the axial stiffness k = c V_i V_j / xi [force/length] and the bending
+/// stiffness 12 d V_i V_j / xi^3 [force/length]. Two constants give two elastic ones, E and nu, as
+/// long as d is not negative: nu up to that of bonds without bending.
 
 namespace perilink {
 
@@ -32,8 +32,8 @@ struct ElasticConstants {
 /// three dimensions c = 6 E / (pi delta^4 (1 - 2 nu)),
 ///                  d = E (1 - 4 nu) / (4 pi delta^2 (1 + nu) (1 - 2 nu))
 /// (Gerstle, Sau & Aguilera 2007, Eqs. 15, 17 and 20).
-/// \throws std::invalid_argument for a Poisson's ratio at or below -1 or above that of bonds without
-///         bending (d would be negative: the bond would gain energy by bending)
+/// \throws std::invalid_argument for a Poisson's ratio at or below -1 or above that of bonds
+///         without bending (d would be negative: the bond would gain energy by bending)
 MicropolarModuli continuum_micropolar(Problem problem, const ElasticConstants& elastic,
                                       double horizon, double thickness);
 
@@ -46,10 +46,10 @@ ElasticConstants elastic_constants(Problem problem, const MicropolarModuli& modu
 double uniaxial_micromodulus(double youngs_modulus, double area, double horizon);
 
 /// Constants that give a particle inside the lattice the energies of the continuum in two strains:
-/// unit biaxial (hydrostatic) stretch, where bonds do not bend, settles c; unit pure shear along the
-/// lattice's axes, in three dimensions the Voigt mean of the shear modulus, settles d. With
-/// U1 = 1/4 sum xi, U2 = 1/4 sum xi cos^2(2 theta), U3 = 3 sum sin^2(2 theta) / xi over the neighbours
-/// and the volume V of a particle:
+/// unit biaxial (hydrostatic) stretch, where bonds do not bend, settles c; unit pure shear along
+/// the lattice's axes, in three dimensions the Voigt mean of the shear modulus, settles d. With
+/// U1 = 1/4 sum xi, U2 = 1/4 sum xi cos^2(2 theta), U3 = 3 sum sin^2(2 theta) / xi over the
+/// neighbours and the volume V of a particle:
 /// plane stress c V U1 = E / (1 - nu), c V U2 + d V U3 = E / (1 + nu);
 /// plane strain c V U1 = E / ((1 + nu) (1 - 2 nu)), the second line alike;
 /// three dimensions 2 c V U1 / 9 = K, 2 c V U1 / 15 + (3/5) d V sum 1/xi = G.
@@ -57,8 +57,8 @@ double uniaxial_micromodulus(double youngs_modulus, double area, double horizon)
 /// lattice_moduli().
 /// \param offsets      vectors to all neighbours [length]
 /// \param cell_volume  V [length^3]
-/// \throws std::invalid_argument for a Poisson's ratio at or below -1 or above the lattice's own, or
-///         where the neighbours cannot resist every strain
+/// \throws std::invalid_argument for a Poisson's ratio at or below -1 or above the lattice's own,
+///         or where the neighbours cannot resist every strain
 MicropolarModuli lattice_micropolar(Problem problem, std::span<const Vector3> offsets,
                                     double cell_volume, const ElasticConstants& elastic);
 

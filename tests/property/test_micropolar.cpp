@@ -82,8 +82,8 @@ TEST(OneFrame, BendsAlikeInEveryPlaneAndTwistsInSpace) {
   const Unknowns unknowns = number_unknowns(6, held, std::vector<double>(12, 0.0));
   const Eigen::MatrixXd stiffness = dense(network, {1.0}, unknowns);
   const Eigen::Vector3d n = Eigen::Vector3d(2.0, 3.0, 6.0) / L;
-  for (const Eigen::Vector3d& t :
-       {Eigen::Vector3d(3.0, -2.0, 0.0).normalized(), Eigen::Vector3d(6.0, 2.0, -3.0).normalized()}) {
+  for (const Eigen::Vector3d& t : {Eigen::Vector3d(3.0, -2.0, 0.0).normalized(),
+                                   Eigen::Vector3d(6.0, 2.0, -3.0).normalized()}) {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(6);
     load.head<3>() = P * t;
     const Eigen::VectorXd motion = stiffness.ldlt().solve(load);
@@ -176,7 +176,8 @@ TEST_P(MicropolarLattice, StiffnessIsTheSumOfTheElementVectors) {
     for (int m = 0; m < parts.count; ++m) {
       for (int a = 0; a < parts.x[m].size; ++a) {
         for (int b = 0; b < parts.x[m].size; ++b) {
-          sum(parts.x[m].rows[a], parts.x[m].rows[b]) += parts.x[m].values[a] * parts.x[m].values[b];
+          sum(parts.x[m].rows[a], parts.x[m].rows[b]) +=
+              parts.x[m].values[a] * parts.x[m].values[b];
         }
       }
     }
@@ -236,7 +237,8 @@ TEST_P(MicropolarLattice, OnlyRigidMotionsAreFree) {
   const Unknowns unknowns =
       number_unknowns(network_.width(), held, std::vector<double>(held.size(), 0.0));
   const Eigen::VectorXd pinned =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(network_, intact, unknowns)).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(network_, intact, unknowns))
+          .eigenvalues();
   EXPECT_GT(pinned[0], 1e-6 * scale_);
 }
 
@@ -285,7 +287,8 @@ TEST(MicropolarBulk, HasYoungsModulusAndPoissonsRatio) {
       for (int a = 0; a < 3; ++a) EXPECT_LT(std::abs(forces[3 * middle + a]), 1e-11);
       return strain_energy_density(network, families, intact, motion)[middle];
     };
-    const double C11 = 2.0 * energy(1, 0, 0), C22 = 2.0 * energy(0, 1, 0), C66 = 0.5 * energy(0, 0, 1);
+    const double C11 = 2.0 * energy(1, 0, 0), C22 = 2.0 * energy(0, 1, 0),
+                 C66 = 0.5 * energy(0, 0, 1);
     const double C12 = energy(1, 1, 0) - 0.5 * (C11 + C22);
     EXPECT_NEAR(C12 / C11, nu, 1e-12);
     EXPECT_NEAR(C11 - C12 * C12 / C22, 30.0, 1e-11);
@@ -294,8 +297,8 @@ TEST(MicropolarBulk, HasYoungsModulusAndPoissonsRatio) {
   }
 }
 
-/// In a homogeneous strain the bonds of a calibrated body break by their direction and length, not by
-/// what the calibration made of them: the order of breaking is that of
+/// In a homogeneous strain the bonds of a calibrated body break by their direction and length, not
+/// by what the calibration made of them: the order of breaking is that of
 /// s^2 + b (g / xi)^2 / xi^2 with s = n.eps n, g / xi = t.eps n and one b for the whole body.
 TEST(MicropolarCloud, BreaksByTheStrainAlone) {
   const Network network = build_network(make_cloud(1, 10), micropolar_cloud_input(10));
@@ -307,7 +310,8 @@ TEST(MicropolarCloud, BreaksByTheStrainAlone) {
     const double g = (eyy - exx) * n[0] * n[1] + exy * (n[0] * n[0] - n[1] * n[1]);
     return s > 0.0 ? std::sqrt(s * s + b * std::pow(g / network.bonds.lengths[e], 2)) : 0.0;
   };
-  for (const auto& [exx, eyy, exy] : {std::array{1.0, -0.2, 0.0}, {1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) {
+  for (const auto& [exx, eyy, exy] :
+       {std::array{1.0, -0.2, 0.0}, {1.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) {
     const auto motion = linear_motion(network, {{{exx, exy, 0}, {exy, eyy, 0}, {0, 0, 0}}});
     FrameLimitSearch search(network);
     std::vector<double> found, expected;

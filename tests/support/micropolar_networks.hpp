@@ -44,7 +44,8 @@ inline std::vector<double> linear_motion(const Network& network,
   const int dim = network.dim(), width = network.width();
   std::vector<double> motion;
   for (Index i = 0; i < network.particles.size(); ++i) {
-    motion.insert(motion.end(), displacement.begin() + i * dim, displacement.begin() + (i + 1) * dim);
+    motion.insert(motion.end(), displacement.begin() + i * dim,
+                  displacement.begin() + (i + 1) * dim);
     for (int k = dim == 2 ? 2 : 0; k < 3 && width > dim; ++k) {
       const int next = (k + 1) % 3, last = (k + 2) % 3;
       motion.push_back(0.5 * (gradient[last][next] - gradient[next][last]));

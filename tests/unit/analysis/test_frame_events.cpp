@@ -19,8 +19,8 @@ EngineOptions with_route(FactorRoute route) {
   return options;
 }
 
-/// Particle 0 at the origin with a micropolar bond (k = 1, kb = 2) to particle 1 at (0, 1) and trusses
-/// of stiffness 1 and 3 to particles 2 at (-1, 0) and 3 at (0, -1), all held.
+/// Particle 0 at the origin with a micropolar bond (k = 1, kb = 2) to particle 1 at (0, 1) and
+/// trusses of stiffness 1 and 3 to particles 2 at (-1, 0) and 3 at (0, -1), all held.
 AnalysisBody make_joint() {
   Network network;
   network.particles.dim = network.bonds.dim = 2;
@@ -42,9 +42,9 @@ AnalysisBody make_joint() {
   return body;
 }
 
-/// Only the bond turned the particle; without it the rotation is idle, not a mechanism. By hand, with
-/// theta = kb u / 2 / (kb / 3) from moment balance, the frame gives kb / 4 = 1/2 across: u = 1 / (1 +
-/// 1/2), v = -1 / (1 + 3); without it u = 1, v = -1/3.
+/// Only the bond turned the particle; without it the rotation is idle, not a mechanism. By hand,
+/// with theta = kb u / 2 / (kb / 3) from moment balance, the frame gives kb / 4 = 1/2 across: u = 1
+/// / (1 + 1/2), v = -1 / (1 + 3); without it u = 1, v = -1/3.
 TEST(FrameEvents, ABondThatAloneTurnedAParticleMayBreak) {
   const AnalysisBody body = make_joint();
   for (const FactorRoute route : routes) {
@@ -98,8 +98,9 @@ TEST(FrameEvents, TheLastBondOfALoadedPartLeavesAMechanism) {
   }
 }
 
-/// Two prescribed particles stretch (1), shear (0.5 - 0.2 / 2 = 0.4) and bend (0.2) the bond between
-/// them: nothing unknown is held by it, and all that it takes along is its share of the reactions.
+/// Two prescribed particles stretch (1), shear (0.5 - 0.2 / 2 = 0.4) and bend (0.2) the bond
+/// between them: nothing unknown is held by it, and all that it takes along is its share of the
+/// reactions.
 TEST(FrameEvents, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
   Network network = single_frame(2, {1.0, 0.0}, 1.0, 3.0);
   network.particles.positions.insert(network.particles.positions.end(), {0.0, 1.0});

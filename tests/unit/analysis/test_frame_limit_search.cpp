@@ -88,9 +88,11 @@ TEST(FrameLimitSearch, BondsBreakInTensionOnly) {
   const Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   FrameLimitSearch search(network);
   EXPECT_EQ(search.find(std::vector<double>{0, 0, 0.1, 0, 0.2, -0.1}, 0.0, 1).element, no_index);
-  EXPECT_EQ(search.find(std::vector<double>{0, 0, 0.1, -1e-3, 0.2, -0.1}, 0.0, 1).element, no_index);
+  EXPECT_EQ(search.find(std::vector<double>{0, 0, 0.1, -1e-3, 0.2, -0.1}, 0.0, 1).element,
+            no_index);
   // Round-off on a bond that keeps its length.
-  EXPECT_EQ(search.find(std::vector<double>{0, 0, 0.1, 1e-17, 0.2, -0.1}, 0.0, 1).element, no_index);
+  EXPECT_EQ(search.find(std::vector<double>{0, 0, 0.1, 1e-17, 0.2, -0.1}, 0.0, 1).element,
+            no_index);
   // s = 1e-3, g / xi = 0.2 - (0.1 - 0.1) / 2 = 0.2, dtheta = -0.2.
   const BreakSearch::Hit hit =
       search.find(std::vector<double>{0, 0, 0.1, 1e-3, 0.2, -0.1}, 0.0, 1);

@@ -13,7 +13,8 @@ namespace {
 
 class HistoryFileTest : public ::testing::Test {
  protected:
-  HistoryFileTest() : directory_(testing::TempDir() + "perilink_history_" + std::to_string(::getpid())) {
+  HistoryFileTest()
+      : directory_(testing::TempDir() + "perilink_history_" + std::to_string(::getpid())) {
     std::filesystem::create_directories(directory_);
   }
   ~HistoryFileTest() override { std::filesystem::remove_all(directory_); }

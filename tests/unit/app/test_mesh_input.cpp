@@ -108,12 +108,14 @@ TEST_F(MeshInput, RefusesWhatTheMeshLacks) {
   EXPECT_THAT(refusal("group = \"lower\"", "group = \"lover\""),
               AllOf(HasSubstr("regions[2].group: is \"lover\""), HasSubstr("did you mean `lower`?"),
                     HasSubstr("Allowed: corner, lower, lower and left, plate")));
-  EXPECT_THAT(refusal("group = \"plate\"", "group = \"lower\""),
-              AllOf(HasSubstr("materials[1]"), HasSubstr("a group of lines, which hold no material")));
+  EXPECT_THAT(
+      refusal("group = \"plate\"", "group = \"lower\""),
+      AllOf(HasSubstr("materials[1]"), HasSubstr("a group of lines, which hold no material")));
   EXPECT_THAT(refusal("horizon_ratio = 3", "horizon = 0.5"),
               HasSubstr("body.horizon: the horizon 0.5 is smaller than the spacing"));
-  EXPECT_THAT(refusal("mesh = \"body.msh\"", "mesh = \"body.msh\"\nproblem = \"three_dimensional\""),
-              HasSubstr("regions[3].z"));
+  EXPECT_THAT(
+      refusal("mesh = \"body.msh\"", "mesh = \"body.msh\"\nproblem = \"three_dimensional\""),
+      HasSubstr("regions[3].z"));
   EXPECT_THAT(refusal("body.msh", "nobody.msh"),
               AllOf(HasSubstr("body.mesh: "), HasSubstr("nobody.msh: cannot be opened")));
 }
@@ -124,7 +126,9 @@ TEST_F(MeshInput, SaysHowToMakeGroupsWhereThereAreNone) {
                                                           {"2 -3 4 2 1 2", "0 2 1 2"},
                                                           {"0 1 4 2 1 4", "0 0 2 1 4"},
                                                           {"0 1 5 2 11 12", "0 0 2 11 12"}};
-  for (const auto& [grouped, plain] : entities) text.replace(text.find(grouped), grouped.size(), plain);
+  for (const auto& [grouped, plain] : entities) {
+    text.replace(text.find(grouped), grouped.size(), plain);
+  }
   test::write_text(directory_ / "body.msh", text);
   EXPECT_THAT(refusal("", ""), HasSubstr("write Physical Surface(\"plate\") = {...};"));
 }

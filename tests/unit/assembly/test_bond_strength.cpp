@@ -131,7 +131,8 @@ TEST(BondStrength, WithoutAnInsideStaysThatOfTheInfiniteBody) {
 
 class LatticeStrength : public testing::TestWithParam<Pattern> {};
 
-/// Near the surface bonds break like those inside with the same vector, and those break as they are.
+/// Near the surface bonds break like those inside with the same vector, and those break as they
+/// are.
 TEST_P(LatticeStrength, IsThatOfTheInside) {
   const bool plane = is_plane(GetParam());
   const LatticeInput of_body = body_input({"", GetParam(), Surface::calibrated}, plane ? 14 : 10);

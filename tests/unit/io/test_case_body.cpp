@@ -79,13 +79,14 @@ TEST(CaseBody, AcceptsThePoissonsRatiosOfMicropolarBonds) {
 }
 
 TEST(CaseBody, LinearElementsNeedNoHorizonAndHaveAnyRatio) {
-  const std::string elements = replaced(std::string(small_case) + "[analysis]\ntype = \"elastic\"\n",
-                                        "horizon_ratio = 3", "method = \"linear_elements\"");
+  const std::string elements =
+      replaced(std::string(small_case) + "[analysis]\ntype = \"elastic\"\n", "horizon_ratio = 3",
+               "method = \"linear_elements\"");
   EXPECT_EQ(parse_case(elements, "").body.method, "linear_elements");
   EXPECT_EQ(parse_case(small_case, "").body.method, "bonds");
   for (const char* ratio : {"-0.999", "0", "0.4999"}) {
-    const std::string text =
-        replaced(elements, "youngs_modulus", "poissons_ratio = " + std::string(ratio) + "\nyoungs_modulus");
+    const std::string text = replaced(
+        elements, "youngs_modulus", "poissons_ratio = " + std::string(ratio) + "\nyoungs_modulus");
     EXPECT_EQ(message_of(text), "accepted") << ratio;
   }
 }

@@ -63,8 +63,8 @@ TEST(CaseFile, ReadsEveryKey) {
   EXPECT_THAT(input.materials[1].regions, ElementsAre("cap"));
   EXPECT_EQ(input.materials[1].fracture_energy, std::numeric_limits<double>::infinity());
   EXPECT_THAT(input.supports.at(0).fix, ElementsAre(true, false, true, false, false, false));
-  EXPECT_THAT(input.displacements.at(0).value, ElementsAre(0.1, std::nullopt, -1.0, std::nullopt, std::nullopt,
-                                                           std::nullopt));
+  EXPECT_THAT(input.displacements.at(0).value,
+              ElementsAre(0.1, std::nullopt, -1.0, std::nullopt, std::nullopt, std::nullopt));
   EXPECT_EQ(input.loads.at(0).body_force, ExpressionVector(Vector3{0.0, 0.0, -25.0}));
   EXPECT_EQ(input.loads.at(0).force, std::nullopt);
   EXPECT_EQ(input.loads.at(1).force, (Vector3{1.0, 2.0, 3.0}));

@@ -40,7 +40,8 @@ TEST(CaseGauges, RefuseWhatCannotBeMeasured) {
               HasSubstr("use letters, digits, _ and -"));
   EXPECT_THAT(message_of(with("name = \"a\"\naxis = \"x\"\n")),
               HasSubstr("none of `between`, `at` or `region`"));
-  EXPECT_THAT(message_of(with("name = \"a\"\nat = [0, 0]\n")), HasSubstr("none of `axis` or `stress`"));
+  EXPECT_THAT(message_of(with("name = \"a\"\nat = [0, 0]\n")),
+              HasSubstr("none of `axis` or `stress`"));
   EXPECT_THAT(message_of(with("name = \"a\"\nat = [0, 0]\naxis = \"z\"\n")),
               HasSubstr("Allowed: x, y"));
   EXPECT_THAT(message_of(with("name = \"a\"\nat = [0, 0]\nstress = \"yx\"\n")),

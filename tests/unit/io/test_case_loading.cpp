@@ -104,7 +104,8 @@ TEST(CaseLoading, ReadsPointLoadsSymmetryAndSprings) {
            "[[symmetry]]\naxis = \"x\"\nat = 0.0\n[[symmetry]]\naxis = \"y\"\nregion = \"block\"\n"
            "[[springs]]\nregion = \"surface\"\nstiffness = [0, 4]\n"
            "[[springs]]\nregion = \"block\"\ntotal = [1, 2]\n");
-  for (const CaseFile& input : {parse_case(text, ""), parse_case(write_case(parse_case(text, "")), "")}) {
+  for (const CaseFile& input :
+       {parse_case(text, ""), parse_case(write_case(parse_case(text, "")), "")}) {
     ASSERT_EQ(input.point_loads.size(), 1u);
     EXPECT_EQ(input.point_loads[0].at, (Vector3{0.5, 2.0, 0.0}));
     EXPECT_EQ(input.point_loads[0].force, (Vector3{0.0, -3.0, 0.0}));
@@ -124,7 +125,8 @@ TEST(CaseLoading, ReadsMomentsOfMicropolarBodies) {
       replaced(replaced(with("[[point_loads]]\nat = [0.5, 2]\nmoment = 7\n"), "columns = 11",
                         micropolar_body),
                "youngs_modulus = 30", "youngs_modulus = 30\npoissons_ratio = 0.2");
-  for (const CaseFile& input : {parse_case(text, ""), parse_case(write_case(parse_case(text, "")), "")}) {
+  for (const CaseFile& input :
+       {parse_case(text, ""), parse_case(write_case(parse_case(text, "")), "")}) {
     EXPECT_EQ(input.point_loads[0].moment, (Vector3{0.0, 0.0, 7.0}));
     EXPECT_EQ(input.point_loads[0].force, (Vector3{}));
   }
@@ -135,7 +137,8 @@ TEST(CaseLoading, ReadsDrivenRotations) {
       replaced(replaced(with("[[displacements]]\nregion = \"block\"\nrotation = \"0.1*x\"\n"),
                         "columns = 11", micropolar_body),
                "youngs_modulus = 30", "youngs_modulus = 30\npoissons_ratio = 0.2");
-  for (const CaseFile& input : {parse_case(flat, ""), parse_case(write_case(parse_case(flat, "")), "")}) {
+  for (const CaseFile& input :
+       {parse_case(flat, ""), parse_case(write_case(parse_case(flat, "")), "")}) {
     EXPECT_EQ(input.displacements[0].value[5]->formula, "0.1*x");
     EXPECT_FALSE(input.displacements[0].value[0]);
   }
@@ -163,10 +166,13 @@ TEST(CaseLoading, RefusesPointLoadsThatCannotBe) {
 }
 
 TEST(CaseLoading, RefusesPlanesOfSymmetryThatCannotBe) {
-  EXPECT_THAT(message_of(with("[[symmetry]]\nat = 0\n")), HasSubstr("the axis normal to the plane"));
-  EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"q\"\nat = 0\n")), HasSubstr("Allowed: x, y, z"));
+  EXPECT_THAT(message_of(with("[[symmetry]]\nat = 0\n")),
+              HasSubstr("the axis normal to the plane"));
+  EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"q\"\nat = 0\n")),
+              HasSubstr("Allowed: x, y, z"));
   EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"z\"\nat = 0\n")), HasSubstr("Allowed: x, y"));
-  EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"x\"\n")), HasSubstr("none of `at` or `region`"));
+  EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"x\"\n")),
+              HasSubstr("none of `at` or `region`"));
   EXPECT_THAT(message_of(with("[[symmetry]]\naxis = \"x\"\nregion = \"blok\"\n")),
               HasSubstr("did you mean `block`?"));
 }

@@ -25,7 +25,9 @@ TEST(CaseWords, SpellWhatTheyMean) {
 
 TEST(CaseWords, KnowGeometriesByTheirNames) {
   for (const char* name : {"a.geo", "b/c.STEP", "d.stp", "e.Brep"}) EXPECT_TRUE(is_geometry(name));
-  for (const char* name : {"a.msh", "geo", "step.", "a.geo.msh", ""}) EXPECT_FALSE(is_geometry(name));
+  for (const char* name : {"a.msh", "geo", "step.", "a.geo.msh", ""}) {
+    EXPECT_FALSE(is_geometry(name));
+  }
   EXPECT_TRUE(is_gmsh_script("a.GEO"));
   EXPECT_FALSE(is_gmsh_script("a.step"));
 }

@@ -15,7 +15,9 @@ namespace {
 
 class Csv : public ::testing::Test {
  protected:
-  Csv() : path_(testing::TempDir() + "perilink_" + std::to_string(::getpid()) + ".csv") { std::filesystem::remove(path_); }
+  Csv() : path_(testing::TempDir() + "perilink_" + std::to_string(::getpid()) + ".csv") {
+    std::filesystem::remove(path_);
+  }
   ~Csv() override { std::filesystem::remove(path_); }
 
   std::string text() const {

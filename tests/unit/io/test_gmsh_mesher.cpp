@@ -36,7 +36,9 @@ TEST(GmshMesher, MeshesScriptsWithTheSizeAskedFor) {
   const Mesh fine = mesh_geometry(meshes + "disc.geo", 2, 0.075);
   EXPECT_EQ(own.groups.size(), 3u);
   // Equilateral triangles of this side that fill the disc; gmsh's are up to a fifth smaller.
-  const auto ideal = [](double side) { return std::numbers::pi / (0.25 * std::sqrt(3.0) * side * side); };
+  const auto ideal = [](double side) {
+    return std::numbers::pi / (0.25 * std::sqrt(3.0) * side * side);
+  };
   EXPECT_NEAR(own.num_cells() / ideal(0.15), 1.0, 0.2) << "the script's own size";
   EXPECT_NEAR(fine.num_cells() / ideal(0.075), 1.0, 0.2);
   EXPECT_EQ(mesh_geometry(meshes + "disc.geo", 2, 0.075).positions, fine.positions);

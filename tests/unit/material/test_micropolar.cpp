@@ -38,8 +38,9 @@ std::vector<Vector3> cubic(double radius) {
 
 using Strain = std::array<Vector3, 3>;
 
-/// Energy per volume of a particle whose neighbours move with a homogeneous strain while no particle
-/// rotates: half of every bond's c xi s^2 / 2 + 6 d |eps n - s n|^2 / xi per product of volumes.
+/// Energy per volume of a particle whose neighbours move with a homogeneous strain while no
+/// particle rotates: half of every bond's c xi s^2 / 2 + 6 d |eps n - s n|^2 / xi per product of
+/// volumes.
 double energy_density(const std::vector<Vector3>& offsets, double volume,
                       const MicropolarModuli& moduli, const Strain& strain) {
   double energy = 0.0;
