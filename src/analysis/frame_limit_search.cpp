@@ -33,7 +33,8 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
     Bond bond{network.bonds.first[e] * network.width(),
               network.bonds.second[e] * network.width(),
               {},
-              0.5 * length,
+              network.inflection_of(e) * length,
+              (1.0 - network.inflection_of(e)) * length,
               share,
               share * length * length / 12.0,
               1.0 / (length * limit * length * limit)};
@@ -53,7 +54,7 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const 
   if constexpr (Dim == 2) {
     const double dx = j[0] - i[0], dy = j[1] - i[1];
     extension = n[0] * dx + n[1] * dy;
-    const double shear = n[0] * dy - n[1] * dx - bond.half_length * (i[2] + j[2]);
+    const double shear = n[0] * dy - n[1] * dx - (bond.first_arm * i[2] + bond.second_arm * j[2]);
     const double bend = j[2] - i[2];
     square = bond.bending_share * shear * shear + bond.rotation_share * bend * bend;
   } else {
@@ -65,10 +66,10 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const 
     double shear_square = 0.0, bend_square = 0.0;
     for (int a = 0; a < 3; ++a) {
       const int b = (a + 1) % 3, c = (a + 2) % 3;
-      // Across the bond: u_j - u_i less its axial part, plus xi/2 n x (theta_i + theta_j).
+      // Across the bond: u_j - u_i less its axial part, plus n x (the arms' rotations).
       const double shear = j[a] - i[a] - n[a] * extension +
-                           bond.half_length * (n[b] * (i[3 + c] + j[3 + c]) -
-                                               n[c] * (i[3 + b] + j[3 + b]));
+                           n[b] * (bond.first_arm * i[3 + c] + bond.second_arm * j[3 + c]) -
+                           n[c] * (bond.first_arm * i[3 + b] + bond.second_arm * j[3 + b]);
       const double bend = j[3 + a] - i[3 + a] - n[a] * twist;
       shear_square += shear * shear;
       bend_square += bend * bend;

@@ -27,7 +27,7 @@ class FrameLimitSearch final : public BreakSearch {
   struct Bond {
     Index first, second;  ///< particle times width
     double n[3];
-    double half_length;
+    double first_arm, second_arm;  ///< from the ends to the inflection [length]
     double bending_share;   ///< kb / k
     double rotation_share;  ///< kb xi^2 / (12 k)
     double inverse;         ///< 1 / (xi s_c)^2; zero once broken

@@ -15,10 +15,11 @@
 /// and u = u_j - u_i (Gerstle, Sau & Aguilera 2007, Eq. 5 in diagonal form):
 ///
 ///   axial    k                       e = u . n
-///   shear    kb                      e = u . t - xi/2 (theta_i + theta_j)
+///   shear    kb                      e = u . t - xi (a theta_i + (1 - a) theta_j)
 ///   bending  kb xi^2 / 12            e = theta_j - theta_i
 ///   torsion  torsion kb xi^2 / 12    e = (theta_j - theta_i) . n     (three dimensions)
 ///
+/// a is one half in the paper; calibrated bonds have their inflection elsewhere (Network::inflection).
 /// In three dimensions shear and bending come twice, for the two directions across the bond. A rigid
 /// motion, rotations included, costs nothing.
 
@@ -46,13 +47,14 @@ struct FrameModes {
 
 namespace detail {
 
-inline FrameModes<2> plane_modes(const double* n, double xi, double k, double kb) {
+inline FrameModes<2> plane_modes(const double* n, double xi, double k, double kb,
+                                 double inflection) {
   FrameModes<2> modes;
   modes.stiffness = {k, kb, kb * xi * xi / 12.0};
   modes.first[0] = {-n[0], -n[1], 0.0};
   modes.second[0] = {n[0], n[1], 0.0};
-  modes.first[1] = {n[1], -n[0], -0.5 * xi};
-  modes.second[1] = {-n[1], n[0], -0.5 * xi};
+  modes.first[1] = {n[1], -n[0], -inflection * xi};
+  modes.second[1] = {-n[1], n[0], -(1.0 - inflection) * xi};
   modes.first[2] = {0.0, 0.0, -1.0};
   modes.second[2] = {0.0, 0.0, 1.0};
   return modes;
@@ -73,7 +75,7 @@ inline Vector3 across(const Vector3& n) {
 }
 
 inline FrameModes<3> space_modes(const double* direction, double xi, double k, double kb,
-                                 double torsion) {
+                                 double torsion, double inflection) {
   const double bending = kb * xi * xi / 12.0;
   const Vector3 n{direction[0], direction[1], direction[2]};
   const Vector3 t1 = across(n);
@@ -89,8 +91,10 @@ inline FrameModes<3> space_modes(const double* direction, double xi, double k, d
       modes.first[m][a] = -translation[m];
       modes.second[m][a] = translation[m];
     }
-    modes.first[1][3 + a] = modes.second[1][3 + a] = -0.5 * xi * t2[a];
-    modes.first[2][3 + a] = modes.second[2][3 + a] = 0.5 * xi * t1[a];
+    modes.first[1][3 + a] = -inflection * xi * t2[a];
+    modes.second[1][3 + a] = -(1.0 - inflection) * xi * t2[a];
+    modes.first[2][3 + a] = inflection * xi * t1[a];
+    modes.second[2][3 + a] = (1.0 - inflection) * xi * t1[a];
     const std::array<double, 3> rotation{t1[a], t2[a], n[a]};
     for (int m = 0; m < 3; ++m) {
       modes.first[3 + m][3 + a] = -rotation[m];
@@ -110,10 +114,11 @@ FrameModes<Dim> frame_modes(const Network& network, Index element) {
   const double xi = network.bonds.lengths[element];
   const double k = network.stiffness[element];
   const double kb = network.bending[element];
+  const double inflection = network.inflection_of(element);
   if constexpr (Dim == 2) {
-    return detail::plane_modes(n, xi, k, kb);
+    return detail::plane_modes(n, xi, k, kb, inflection);
   } else {
-    return detail::space_modes(n, xi, k, kb, network.torsion);
+    return detail::space_modes(n, xi, k, kb, network.torsion, inflection);
   }
 }
 

@@ -24,6 +24,9 @@ struct Network {
   /// that of the uncalibrated bond (docs/theory/micropolar.md, section 5) [-], per element; empty:
   /// bending over stiffness of the bond itself.
   std::vector<double> bending_ratio;
+  /// Where micropolar bonds bent by a transverse force have their inflection, from the first end over the
+  /// length [-], per element; empty: in the middle.
+  std::vector<double> inflection;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
   /// Stiffness of elastic supports between the components of particles and the ground
@@ -44,6 +47,9 @@ struct Network {
   int width() const { return bending.empty() ? dim() : dim() == 2 ? 3 : 6; }
   double ratio_of_bending(Index element) const {
     return bending_ratio.empty() ? bending[element] / stiffness[element] : bending_ratio[element];
+  }
+  double inflection_of(Index element) const {
+    return inflection.empty() ? 0.5 : inflection[element];
   }
   bool carries_moments() const { return !bending.empty(); }
   Index num_elements() const { return bonds.size(); }

@@ -233,13 +233,15 @@ Network build_network(const Body& body, const NetworkInput& input) {
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
   }
+  if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
   return network;
 }
 
 void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
   keep_bonds(network.particles, network.bonds, keep);
   for (std::vector<double>* values :
-       {&network.stiffness, &network.bending, &network.bending_ratio, &network.critical_stretch}) {
+       {&network.stiffness, &network.bending, &network.bending_ratio, &network.inflection,
+        &network.critical_stretch}) {
     std::size_t next = 0;
     for (std::size_t e = 0; e < values->size(); ++e) {
       if (keep[e]) (*values)[next++] = (*values)[e];

@@ -182,10 +182,11 @@ void Correction::calibrate() {
   }
   // What single bonds lose or gain from here on is no measure of their strength.
   network_.bending_ratio = own_bending_ratios(network_);
-  BondStiffness stiffness{network_.stiffness, network_.bending};
+  BondStiffness stiffness{network_.stiffness, network_.bending, {}};
   network_.calibration = calibrate_bonds(calibration, {}, network_.facets, stiffness);
   network_.stiffness = std::move(stiffness.axial);
   network_.bending = std::move(stiffness.bending);
+  network_.inflection = std::move(stiffness.inflection);
   if (network_.calibration->dropped > 0) {
     std::vector<std::uint8_t> keep;
     for (const double k : network_.stiffness) keep.push_back(k > 0.0);

@@ -39,6 +39,16 @@ void for_moduli(int dim, bool symmetric, Function f) {
   }
 }
 
+/// Components of xi^2 (nn - I/dim).
+double* fill_couple(int dim, double length, std::span<const double> n, double* row) {
+  const double square = length * length;
+  for (int a = 0; a < dim; ++a) {
+    for (int b = a + 1; b < dim; ++b) *row++ = square * n[a] * n[b];
+  }
+  for (int a = 0; a + 1 < dim; ++a) *row++ = 0.5 * square * (n[a] * n[a] - n[a + 1] * n[a + 1]);
+  return row;
+}
+
 }  // namespace
 
 void ForceRows::axial(double length, std::span<const double> n, double* row) const {
@@ -50,11 +60,7 @@ void ForceRows::axial(double length, std::span<const double> n, double* row) con
 void ForceRows::shear(double length, std::span<const double> n, double* row) const {
   for_third_order(dim, [&](int a, int b, int c) { *row++ = -length * n[a] * n[b] * n[c]; });
   for (int a = 0; a < dim; ++a) *row++ = length * n[a];
-  const double square = length * length;
-  for (int a = 0; a < dim; ++a) {
-    for (int b = a + 1; b < dim; ++b) *row++ = square * n[a] * n[b];
-  }
-  for (int a = 0; a + 1 < dim; ++a) *row++ = 0.5 * square * (n[a] * n[a] - n[a + 1] * n[a + 1]);
+  row = fill_couple(dim, length, n, row);
   if (dilatation) *row = 0.0;
 }
 
@@ -74,6 +80,7 @@ void ModuliRows::axial(double length, std::span<const double> n, double* row) co
   for_moduli(dim, !bending, [&](int a, int b, int c, int d) {
     *row++ = half_square * n[a] * n[b] * n[c] * n[d];
   });
+  for (int k = moduli(); k < count(); ++k) *row++ = 0.0;
 }
 
 void ModuliRows::shear(double length, std::span<const double> n, double* row) const {
@@ -83,6 +90,7 @@ void ModuliRows::shear(double length, std::span<const double> n, double* row) co
                                    delta(b, c) * n[a] * n[d] + delta(b, d) * n[a] * n[c]);
     *row++ = half_square * (product - n[a] * n[b] * n[c] * n[d]);
   });
+  fill_couple(dim, length, n, row);
 }
 
 void ModuliRows::right(double volume, const LameConstants& constants, double* row) const {
@@ -90,6 +98,16 @@ void ModuliRows::right(double volume, const LameConstants& constants, double* ro
     *row++ = volume * (constants.lambda * delta(a, b) * delta(c, d) +
                        constants.mu * (delta(a, c) * delta(b, d) + delta(a, d) * delta(b, c)));
   });
+  for (int k = moduli(); k < count(); ++k) *row++ = 0.0;
+}
+
+LameConstants constants_across(const Facets& facets, Index facet,
+                               std::span<const LameConstants> materials) {
+  LameConstants jump = materials[facets.inside[facet]];
+  if (facets.on_surface(facet)) return jump;
+  jump.lambda -= materials[facets.outside[facet]].lambda;
+  jump.mu -= materials[facets.outside[facet]].mu;
+  return jump;
 }
 
 std::vector<double> boundary_forces(const ForceRows& equations, const Facets& facets,
@@ -98,11 +116,7 @@ std::vector<double> boundary_forces(const ForceRows& equations, const Facets& fa
   std::vector<Vector3> lambda(static_cast<std::size_t>(num_particles), Vector3{});
   std::vector<Vector3> mu = lambda;
   for (Index f = 0; f < facets.size(); ++f) {
-    LameConstants jump = materials[facets.inside[f]];
-    if (!facets.on_surface(f)) {
-      jump.lambda -= materials[facets.outside[f]].lambda;
-      jump.mu -= materials[facets.outside[f]].mu;
-    }
+    const LameConstants jump = constants_across(facets, f, materials);
     for (Index c = facets.corners.offsets[f]; c < facets.corners.offsets[f + 1]; ++c) {
       const Index i = facets.corners.values[c];
       for (int a = 0; a < equations.dim; ++a) {
@@ -120,21 +134,27 @@ std::vector<double> boundary_forces(const ForceRows& equations, const Facets& fa
 
 std::vector<double> forces_out_of_balance(const ForceRows& equations, const Facets& facets,
                                           std::span<const LameConstants> materials,
-                                          const Bonds& bonds, std::span<const double> axial,
-                                          std::span<const double> bending, Index num_particles) {
+                                          const Bonds& bonds, const BondStiffness& stiffness,
+                                          Index num_particles) {
   std::vector<double> rest = boundary_forces(equations, facets, materials, num_particles);
   const std::size_t rows = static_cast<std::size_t>(equations.count());
+  const std::size_t odd = static_cast<std::size_t>(equations.odd());
   std::vector<double> row(rows);
   for (Index b = 0; b < bonds.size(); ++b) {
     double* first = rest.data() + bonds.first[b] * rows;
     double* second = rest.data() + bonds.second[b] * rows;
     for (const bool bends : {false, true}) {
-      if (bends && bending.empty()) break;
+      if (bends && stiffness.bending.empty()) break;
       equations.fill(bonds.lengths[b], bonds.direction(b), bends, row.data());
-      const double k = bends ? bending[b] : axial[b];
-      for (std::size_t r = 0; r < rows; ++r) {
+      const double k = bends ? stiffness.bending[b] : stiffness.axial[b];
+      const double at_first = bends ? 2.0 * stiffness.inflection[b] : 1.0;
+      for (std::size_t r = 0; r < odd; ++r) {
         first[r] -= k * row[r];
-        second[r] -= static_cast<int>(r) < equations.odd() ? -k * row[r] : k * row[r];
+        second[r] += k * row[r];
+      }
+      for (std::size_t r = odd; r < rows; ++r) {
+        first[r] -= at_first * k * row[r];
+        second[r] -= (2.0 - at_first) * k * row[r];
       }
     }
   }

@@ -22,13 +22,23 @@ struct LameConstants {
   double mu = 0.0;      ///< [force/length^2]
 };
 
+/// Stiffness of the bonds: where a calibration starts and what it becomes.
+struct BondStiffness {
+  std::vector<double> axial;       ///< [force/length]
+  std::vector<double> bending;     ///< [force/length]; empty where bonds carry no moment
+  /// Part of the couple of the transverse force that acts at the first end, 0 to 1: the point of inflection of
+  /// the bent bond over its length [-]; empty where bonds carry no moment.
+  std::vector<double> inflection;
+};
+
 /// Equations of equilibrium under all uniform strains at a particle without rotation. An axial stiffness
-/// k pulls with k xi (n.eps.n) n, a bending stiffness k with k xi (eps.n - (n.eps.n) n) and the moment
-/// k xi^2 n x (eps.n) / 2. Forces and moments vanish for every strain where
+/// k pulls with k xi (n.eps.n) n, a bending stiffness k with k xi (eps.n - (n.eps.n) n) and, at each end, one
+/// half of the couple k xi^2 n x (eps.n). Forces and moments vanish for every strain where
 ///   sum (k_axial - k_bending) xi nnn = -lambda (d_ab A_c + d_ac A_b + d_bc A_a),
 ///   sum k_bending xi n = -2 (mu - lambda) A,   sum k_bending xi^2 (nn - I/dim) = 0,
 /// A the area vector of the particle. Without bending only the first equation is left, with
-/// lambda = mu. The first two act on both ends with opposite signs.
+/// lambda = mu. The first two act on both ends with opposite signs. Where the couple is not halved, the last
+/// equation counts bending stiffnesses by twice the part of their couple that acts at the particle.
 ///
 /// With `dilatation` a last row holds the energy of a uniform dilatation, eps = identity: half of that of the
 /// bonds belongs to the particle,
@@ -57,12 +67,14 @@ struct ForceRows {
 /// that of its volume,
 ///   1/2 sum xi^2 (k_axial nnnn + k_bending ((d nn) - nnnn)) = V C,
 /// ((d nn) the symmetrised product with eps.(d nn).eps = |eps.n|^2). Without bending both sides are
-/// symmetric in all indices.
+/// symmetric in all indices. With it the couples must be in balance as well, which does not follow where a
+/// lattice is stretched: sum k_bending xi^2 (nn - I/dim) = 0.
 struct ModuliRows {
   int dim;
   bool bending;
 
-  int count() const { return bending ? (dim == 2 ? 6 : 21) : (dim == 2 ? 5 : 15); }
+  int moduli() const { return bending ? (dim == 2 ? 6 : 21) : (dim == 2 ? 5 : 15); }
+  int count() const { return moduli() + (bending ? (dim == 2 ? 2 : 5) : 0); }
 
   void axial(double length, std::span<const double> direction, double* row) const;
   void shear(double length, std::span<const double> direction, double* row) const;
@@ -80,11 +92,14 @@ std::vector<double> boundary_forces(const ForceRows& equations, const Facets& fa
                                     std::span<const LameConstants> materials,
                                     Index num_particles);
 
-/// What bonds of these stiffnesses (`bending` empty: none) leave out of balance.
-/// \return shape (particles, rows) [force]
+/// Constants inside less those outside of a facet, those inside on the surface.
+LameConstants constants_across(const Facets& facets, Index facet,
+                               std::span<const LameConstants> materials);
+
+/// What bonds of these stiffnesses leave out of balance. \return shape (particles, rows) [force]
 std::vector<double> forces_out_of_balance(const ForceRows& equations, const Facets& facets,
                                           std::span<const LameConstants> materials,
-                                          const Bonds& bonds, std::span<const double> axial,
-                                          std::span<const double> bending, Index num_particles);
+                                          const Bonds& bonds, const BondStiffness& stiffness,
+                                          Index num_particles);
 
 }  // namespace perilink

@@ -27,12 +27,6 @@ struct CalibrationInput {
   std::vector<std::uint8_t> free;
 };
 
-/// Stiffness of the bonds: where they start and what they become.
-struct BondStiffness {
-  std::vector<double> axial;    ///< [force/length]
-  std::vector<double> bending;  ///< [force/length]; empty where bonds carry no moment
-};
-
 struct CalibrationOptions {
   double least_weight = 0.02;  ///< relative to the start
   double tolerance = 1e-12;    ///< root mean square of the forces out of balance (see below)

@@ -72,6 +72,7 @@ void make_isotropic(int dim, std::span<const Vector3> offsets, double volume,
       equations.first.push_back(0);
       equations.second.push_back(0);  // a pair acts twice on the particle
       equations.lower.push_back(1e-3);
+      equations.upper.push_back(100.0);
       offset_of.push_back(k);
     }
   }

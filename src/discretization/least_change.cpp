@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -55,6 +56,8 @@ class DualNewton {
       : equations_(equations),
         options_(options),
         size_(equations.right.size()),
+        num_paired_(static_cast<std::size_t>(
+            std::min(equations.num_variables(), equations.one_ended))),
         active_(static_cast<std::size_t>(equations.num_variables()), 1.0),
         elongation_(active_.size()),
         weights_(active_.size(), 1.0),
@@ -85,6 +88,7 @@ class DualNewton {
   const PointEquations& equations_;
   const LeastChangeOptions& options_;
   std::size_t size_;
+  std::size_t num_paired_;          // variables that act at both ends in all rows
   std::vector<double> active_;      // 1 between the bounds, else 0
   std::vector<double> elongation_;  // A' y
   std::vector<double> weights_;
@@ -105,15 +109,26 @@ auto& DualNewton<Rows, Odd, Grouped>::last_row(Values& values, Index point) cons
 template <int Rows, int Odd, bool Grouped>
 void DualNewton<Rows, Odd, Grouped>::apply_transpose(const Vector& y, std::vector<double>& result) {
   for (std::size_t k = 0; k < size_; ++k) scaled_[k] = y[k] * equations_.scale[k];
-  for (std::size_t v = 0; v < result.size(); ++v) {
+  const auto ends = [&](std::size_t v) {
+    return std::pair(scaled_.data() + static_cast<std::size_t>(equations_.first[v]) * Rows,
+                     scaled_.data() + static_cast<std::size_t>(equations_.second[v]) * Rows);
+  };
+  for (std::size_t v = 0; v < num_paired_; ++v) {
     const double* a = equations_.coefficients.data() + v * Rows;
-    const double* p = scaled_.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
-    const double* q = scaled_.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
+    const auto [p, q] = ends(v);
     double sum = 0.0;
     for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
     for (int r = Odd; r < own; ++r) sum += a[r] * (p[r] + q[r]);
     if constexpr (Grouped) sum += a[own] * (last_row(scaled_, equations_.first[v]) +
                                             last_row(scaled_, equations_.second[v]));
+    result[v] = sum;
+  }
+  for (std::size_t v = num_paired_; v < result.size(); ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    const auto [p, q] = ends(v);
+    double sum = 0.0;
+    for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
+    for (int r = Odd; r < own; ++r) sum += a[r] * p[r];
     result[v] = sum;
   }
 }
@@ -126,11 +141,14 @@ void DualNewton<Rows, Odd, Grouped>::apply(const std::vector<double>& w, Vector&
     double* p = result.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
     double* q = result.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
     const double weight = w[v];
-    for (int r = 0; r < own; ++r) {
+    for (int r = 0; r < Odd; ++r) {
       const double term = a[r] * weight;
       p[r] += term;
-      q[r] += r < Odd ? -term : term;
+      q[r] -= term;
     }
+    for (int r = Odd; r < own; ++r) p[r] += a[r] * weight;
+    if (v >= num_paired_) continue;
+    for (int r = Odd; r < own; ++r) q[r] += a[r] * weight;
     if constexpr (Grouped) {
       last_row(result, equations_.first[v]) += a[own] * weight;
       last_row(result, equations_.second[v]) += a[own] * weight;
@@ -146,7 +164,7 @@ double DualNewton<Rows, Odd, Grouped>::choose_weights(const Vector& y) {
   double charge = 0.0;
   for (std::size_t v = 0; v < weights_.size(); ++v) {
     const double free = 1.0 + elongation_[v];
-    weights_[v] = std::clamp(free, equations_.lower[v], options_.upper);
+    weights_[v] = std::clamp(free, equations_.lower[v], equations_.upper[v]);
     active_[v] = weights_[v] == free ? 1.0 : 0.0;
     charge += weights_[v] * free - 0.5 * weights_[v] * weights_[v];
   }
@@ -354,9 +372,9 @@ LeastChange least_change(const PointEquations& equations, const LeastChangeOptio
   };
   // Moduli of a family of bonds without and with moments in two and three dimensions.
   if (are(5, 0, false)) return DualNewton<5, 0, false>(equations, options, factor).solve();
-  if (are(6, 0, false)) return DualNewton<6, 0, false>(equations, options, factor).solve();
+  if (are(8, 0, false)) return DualNewton<8, 0, false>(equations, options, factor).solve();
   if (are(15, 0, false)) return DualNewton<15, 0, false>(equations, options, factor).solve();
-  if (are(21, 0, false)) return DualNewton<21, 0, false>(equations, options, factor).solve();
+  if (are(26, 0, false)) return DualNewton<26, 0, false>(equations, options, factor).solve();
   // Their forces, and with them energies.
   if (are(4, 4, false)) return DualNewton<4, 4, false>(equations, options, factor).solve();
   if (are(5, 4, true)) return DualNewton<5, 4, true>(equations, options, factor).solve();
@@ -365,6 +383,7 @@ LeastChange least_change(const PointEquations& equations, const LeastChangeOptio
   if (are(10, 10, false)) return DualNewton<10, 10, false>(equations, options, factor).solve();
   if (are(11, 10, true)) return DualNewton<11, 10, true>(equations, options, factor).solve();
   if (are(18, 13, false)) return DualNewton<18, 13, false>(equations, options, factor).solve();
+  if (are(19, 13, true)) return DualNewton<19, 13, true>(equations, options, factor).solve();
   throw std::invalid_argument(std::to_string(equations.rows) + " equations per point, " +
                               std::to_string(equations.odd) + " of them odd, are not built in");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -19,16 +20,19 @@ namespace perilink {
 ///     = r_p,
 ///
 /// with the sign - in the first `odd` rows (forces, that act against each other at the two ends) and
-/// + in the others (moments, moduli). The last row may hold for groups of points instead.
+/// + in the others (moments, moduli). The last row may hold for groups of points instead. Variables from
+/// `one_ended` on act in the rows that are not odd at their first end only (couples).
 struct PointEquations {
   int dim = 2;
   int rows = 0;
   int odd = 0;
   std::vector<Index> first, second;  ///< points of each variable
+  Index one_ended = std::numeric_limits<Index>::max();
   std::vector<Index> group;          ///< of each point: the point at which the last row of its variables
                                      ///< counts, summed over the group; empty: at the point itself
   std::vector<double> coefficients;  ///< a_v, shape (variables, rows)
   std::vector<double> lower;         ///< least weight of each variable
+  std::vector<double> upper;         ///< largest weight of each variable
   std::vector<double> right;         ///< r_p, shape (points, rows)
   std::vector<double> scale;         ///< of the equations, shape (points, rows): times r they are of
                                      ///< order one; 0 switches an equation off
@@ -55,7 +59,6 @@ enum class Preconditioner {
 
 /// How to solve them.
 struct LeastChangeOptions {
-  double upper = 100.0;       ///< largest weight
   double tolerance = 1e-12;   ///< of the norm of the scaled residual, per root of the number of points
   int iterations = 20000;     ///< of conjugate gradients, in all
   Preconditioner preconditioner = Preconditioner::blocks;

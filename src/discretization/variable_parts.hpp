@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,13 +9,14 @@
 namespace perilink {
 
 /// Calls part(point, from, to, sign) for every place where a variable acts: on the rows [from, to) of a point,
-/// with its coefficients times the sign.
+/// with its coefficients times the sign. One-ended variables do not act in the rows of groups.
 template <class Part>
 void for_each_part(const PointEquations& equations, Index variable, Part part) {
   const Index p = equations.first[variable], q = equations.second[variable];
   const int own = equations.own_rows();
   part(p, 0, own, 1.0);
   part(q, 0, equations.odd, -1.0);
+  if (variable >= equations.one_ended) return;
   part(q, equations.odd, own, 1.0);
   if (own == equations.rows) return;
   part(equations.group[p], own, equations.rows, 1.0);
@@ -26,7 +28,7 @@ void for_each_part(const PointEquations& equations, Index variable, Part part) {
 inline void scale_last_rows(PointEquations& equations) {
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   std::vector<double> square(equations.group.size(), 0.0);
-  for (Index v = 0; v < equations.num_variables(); ++v) {
+  for (Index v = 0; v < std::min(equations.num_variables(), equations.one_ended); ++v) {
     const double a = equations.coefficients[(v + 1) * rows - 1];
     const Index p = equations.group[equations.first[v]];
     const Index q = equations.group[equations.second[v]];
