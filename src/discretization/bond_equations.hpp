@@ -26,8 +26,8 @@ struct LameConstants {
 struct BondStiffness {
   std::vector<double> axial;       ///< [force/length]
   std::vector<double> bending;     ///< [force/length]; empty where bonds carry no moment
-  /// Part of the couple of the transverse force that acts at the first end, 0 to 1: the point of inflection of
-  /// the bent bond over its length [-]; empty where bonds carry no moment.
+  /// Part of the couple of the transverse force that acts at the first end: the point of inflection of the bent
+  /// bond over its length [-]; empty where bonds carry no moment.
   std::vector<double> inflection;
 };
 

@@ -15,6 +15,10 @@ namespace {
 /// Forces out of balance above this have no solution with the floors of all bonds.
 constexpr double met = 1e-7;
 
+/// In space searches are repeated until forces and moments are less out of balance than this.
+constexpr double exact = 1e-10;
+constexpr int most_refinements = 3;
+
 /// Zeros stay where they bring the forces out of balance down to this part.
 constexpr double worth_dropping = 0.1;
 
@@ -41,6 +45,7 @@ class Calibration {
   bool solve(double tolerance);
   bool attempt();
   void settle();
+  void search(Method method, double tolerance);
   bool balance(double tolerance);
 
   bool in_space_, irregular_;
@@ -55,6 +60,7 @@ class Calibration {
 void Calibration::settle() {
   LeastChangeOptions options;
   options.tolerance = settling_tolerance;
+  options.method = in_space_ ? Method::interior_point : Method::newton;
   options.preconditioner = Preconditioner::aggregates;
   factor_.reset();  // coefficients are those of the stiffnesses now
   const LeastChange change = least_change(equations_.settling(), options, factor_);
@@ -63,14 +69,11 @@ void Calibration::settle() {
   report_.iterations += change.iterations;
 }
 
-/// The forces, exactly. Where no positive weights balance many particles the search diverges; then the settled
-/// stiffnesses are kept. \return whether forces are nearer to balance now
-bool Calibration::balance(double tolerance) {
-  equations_.report_balance(report_);
-  const double before = report_.residual_after;
-  const CalibrationEquations::State settled = equations_.save();
+/// One solution of the exact equations.
+void Calibration::search(Method method, double tolerance) {
   LeastChangeOptions options;
   options.tolerance = tolerance;
+  options.method = method;
   options.preconditioner = !in_space_   ? Preconditioner::factor
                            : irregular_ ? Preconditioner::aggregates
                                         : Preconditioner::blocks_then_factor;
@@ -78,6 +81,22 @@ bool Calibration::balance(double tolerance) {
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
   equations_.report_balance(report_);
+}
+
+/// The forces and moments, exactly. In the plane a factor serves several steps of Newton's method, but not those
+/// of an interior point, which is therefore the last resort. Where it ends farther from balance the settled
+/// stiffnesses are kept. \return whether forces are nearer to balance now
+bool Calibration::balance(double tolerance) {
+  equations_.report_balance(report_);
+  const double before = report_.residual_after;
+  const CalibrationEquations::State settled = equations_.save();
+  search(irregular_ && in_space_ ? Method::interior_point : Method::newton, tolerance);
+  if (irregular_ && !in_space_ && report_.residual_after > met) {
+    equations_.restore(settled);
+    factor_.reset();
+    search(Method::interior_point, tolerance);
+    factor_.reset();
+  }
   if (report_.residual_after <= std::max(met, before)) return true;
   equations_.restore(settled);
   equations_.report_balance(report_);
@@ -104,8 +123,11 @@ bool Calibration::attempt() {
     if (report_.residual_after <= worth_dropping * floored && !equations_.hollow()) return true;
     equations_.take_all_back();
     solve(tolerance_);
-  } else if (cautious) {
-    balance(tolerance_);
+    return true;
+  }
+  // Each search starts from the weights of the last and leaves a small part of what that left.
+  for (int pass = 0; cautious && pass < most_refinements; ++pass) {
+    if (!balance(tolerance_) || std::max(report_.residual_after, report_.moment_after) < exact) break;
   }
   return true;
 }

@@ -24,11 +24,18 @@ constexpr double vanishing = 1e-3;
 constexpr double dilatation_ridge = 0.03;
 constexpr double forces_ridge_in_space = 1e-4;
 
-/// A change of a share by this costs as much as doubling the stiffness of a bond. Shares move by 0.3 where the
-/// edges at a corner differ threefold, elsewhere by hundredths.
-constexpr double share_scale = 0.3;
+/// A change of a share by this costs as much as doubling the stiffness of a bond. Little, so that shares move only
+/// where stiffnesses cannot do it (by 0.3 at corners whose edges differ threefold): where they move freely the
+/// displacements of coarse plates with a hole are up to twice as far off. In space less makes the search slow.
+constexpr double share_scale_in_plane = 0.01, share_scale_in_space = 0.1;
 /// Every corner keeps this much of its facets.
 constexpr double least_share = 0.05;
+
+/// Least couples over those at the start at the two ends of a bond that hangs from the surface; of other bonds zero.
+/// At corners and edges all bonds lie on one side of the axes, and only couples that are all exactly zero would be
+/// in balance if none could change its sign: the search would have no room. The bending stiffness, their sum, stays
+/// positive, with the inflection within one length of the bond.
+constexpr double least_couple_at_surface = -0.2, least_couple_below = 0.4;
 
 /// Couples that have fallen to zero can come back by steps of this part of what they were.
 constexpr double least_couple_scale = 0.1;
@@ -48,6 +55,8 @@ CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double
       may_vanish_(static_cast<std::size_t>(input.bonds.size()), 0) {
   choose_points();
   measure_particles();
+  on_surface_.assign(static_cast<std::size_t>(input.particles.size()), 0);
+  for (const Index i : facets_.corners.values) on_surface_[i] = 1;
 }
 
 void CalibrationEquations::choose_points() {
@@ -113,7 +122,11 @@ CalibrationEquations::Variable CalibrationEquations::couple_variable(Index b, In
   const double present = part(stiffness_);
   const double scale = std::max(present, least_couple_scale * part(start_.stiffness));
   const Index ends[2] = {input_.bonds.first[b], input_.bonds.second[b]};
-  return {Kind::couple, b, end, ends[end], ends[1 - end], present, scale, 0.0, most_weight * scale};
+  const bool here = on_surface_[ends[end]] != 0, there = on_surface_[ends[1 - end]] != 0;
+  const double least = here == there ? 0.0 : here ? least_couple_at_surface : least_couple_below;
+  return {Kind::couple, b,       end,
+          ends[end],    ends[1 - end], present,
+          scale,        std::min(least * part(start_.stiffness), present), most_weight * scale};
 }
 
 Index CalibrationEquations::next_corner(Index facet, Index corner) const {
@@ -123,6 +136,7 @@ Index CalibrationEquations::next_corner(Index facet, Index corner) const {
 /// Transfers between the corners of the facets.
 template <class Visit>
 void CalibrationEquations::for_each_share(Visit visit) const {
+  const double scale = dim_ == 2 ? share_scale_in_plane : share_scale_in_space;
   for (Index f = 0; f < facets_.size(); ++f) {
     const Index begin = facets_.corners.offsets[f];
     const bool edge = facets_.corners.offsets[f + 1] - begin == 2;
@@ -134,7 +148,8 @@ void CalibrationEquations::for_each_share(Visit visit) const {
       const Index to = next_corner(f, c);
       const Index first = facets_.corners.values[c], second = facets_.corners.values[to];
       if (point_of_[first] == no_index || point_of_[second] == no_index) continue;
-      visit(Variable{Kind::share, f, c, first, second, 0.0, share_scale, -spare(to), spare(c)});
+      if (spare(to) + spare(c) == 0.0) continue;
+      visit(Variable{Kind::share, f, c, first, second, 0.0, scale, -spare(to), spare(c)});
     }
   }
 }

@@ -93,6 +93,7 @@ class CalibrationEquations {
   std::vector<Index> free_bonds_;
   std::vector<Index> kept_;               // of these: not dropped
   std::vector<std::uint8_t> may_vanish_;  // bonds without a floor
+  std::vector<std::uint8_t> on_surface_;  // of each particle: at a facet
   std::vector<double> modulus_;           // 1/2 sum k xi^2 of each particle at the start
   std::vector<double> length_;            // mean xi of each particle
 };

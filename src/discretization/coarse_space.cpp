@@ -103,7 +103,7 @@ void CoarseSpace::assemble(const PointEquations& equations, const std::vector<do
       for (int l = 0; l < column.count; ++l) {
         if (column.keys[k] < column.keys[l]) continue;
         block(column.keys[k], column.keys[l]).noalias() +=
-            column.blocks[k] * column.blocks[l].transpose();
+            active[v] * column.blocks[k] * column.blocks[l].transpose();
       }
     }
   }

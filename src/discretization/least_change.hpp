@@ -57,11 +57,18 @@ enum class Preconditioner {
   blocks_then_factor,  ///< the factor where blocks need many iterations: boundaries of solids
 };
 
+/// How the bounds are met.
+enum class Method {
+  newton,          ///< Newton's method on the dual function: few steps where few bounds matter
+  interior_point,  ///< finds out first which weights are at their bounds: for many of these
+};
+
 /// How to solve them.
 struct LeastChangeOptions {
   double tolerance = 1e-12;   ///< of the norm of the scaled residual, per root of the number of points
   int iterations = 20000;     ///< of conjugate gradients, in all
   Preconditioner preconditioner = Preconditioner::blocks;
+  Method method = Method::newton;
 };
 
 class CoarseSpace;
@@ -80,8 +87,9 @@ struct LeastChange {
 /// Minimises sum (w_v - 1)^2 subject to the equations and the bounds. The bounded problem is solved,
 /// not clamped: Newton's method on the concave dual function, w(y) = min(max(1 + A' y, lower), upper)
 /// with A w(y) + ridge y = r, whose linear systems A D A' (D: the weights between the bounds) conjugate
-/// gradients solve. Where the equations contradict each other or the bounds, the steps, which are those
-/// of the method of multipliers, lead to the least squared residual.
+/// gradients solve, or first the interior-point method (interior_point.hpp). Where the equations contradict each
+/// other or the bounds, the steps, which are those of the method of multipliers, lead to the least squared
+/// residual; Newton's method alone may get lost on the way.
 /// \throws std::invalid_argument for numbers of rows, odd ones and groups that are not built in
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);
 

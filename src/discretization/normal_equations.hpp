@@ -1,0 +1,282 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "discretization/coarse_space.hpp"
+#include "discretization/least_change.hpp"
+#include "discretization/variable_parts.hpp"
+
+namespace perilink {
+
+inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+inline double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
+
+/// The matrices A, A' and S = A D A' + ridge of least_change(), scaled equations by weights, and conjugate gradients
+/// for S. D, the mobility of the variables, is between 0 (at a bound) and 1.
+template <int Rows, int Odd, bool Grouped>
+class NormalEquations {
+ public:
+  using Vector = std::vector<double>;  // shape (points, Rows)
+
+  NormalEquations(const PointEquations& equations, const LeastChangeOptions& options,
+                  std::unique_ptr<CoarseSpace>& coarse)
+      : mobility(static_cast<std::size_t>(equations.num_variables()), 1.0),
+        equations_(equations),
+        options_(options),
+        size_(equations.right.size()),
+        num_paired_(static_cast<std::size_t>(
+            std::min(equations.num_variables(), equations.one_ended))),
+        scaled_(size_),
+        coarse_(coarse),
+        by_factor_(options.preconditioner == Preconditioner::factor ||
+                   (options.preconditioner == Preconditioner::blocks_then_factor && coarse)) {}
+
+  void apply_transpose(const Vector& y, std::vector<double>& result);
+  void apply(const std::vector<double>& w, Vector& result) const;
+  /// What the weights leave of the right sides, less ridge times y.
+  void measure(const std::vector<double>& weights, const Vector& y, Vector& residual) const;
+  /// Makes the preconditioner for the mobility as it is now, or keeps the factor of an earlier one.
+  void prepare();
+  /// The factor of an earlier mobility serves until it needs too many iterations.
+  void prepare_if_stale(bool settled);
+  /// S direction = residual, the residual reduced by the factor. \return iterations
+  int solve(const Vector& residual, double reduction, Vector& direction);
+
+  std::vector<double> mobility;
+
+ private:
+  using Block = Eigen::Matrix<double, Rows, Rows>;
+  static constexpr int own = Grouped ? Rows - 1 : Rows;  // rows that hold at each point
+
+  /// Weight of the method of multipliers, relative to equations of order one: contradictions decay by
+  /// this factor over the smallest squared singular value in each Newton step. Long waves along a boundary
+  /// have singular values that fall with the square of their length: a factor of the equations allows a smaller
+  /// weight.
+  static constexpr double proximity = 1e-10;
+  static constexpr double factor_proximity = 1e-14;
+  /// Fewer points converge without a coarse space.
+  static constexpr Index smallest_coarse_problem = 2000;
+  /// A factor is made anew when the last solution needed more iterations than this.
+  static constexpr int stale_iterations = 40;
+  /// Iterations of a solution after which Preconditioner::blocks_then_factor turns to the factor.
+  static constexpr int patience = 500;
+
+  template <class Values>
+  auto& last_row(Values& values, Index point) const {
+    return values[static_cast<std::size_t>(equations_.group[point]) * Rows + own];
+  }
+  int iterate(const Vector& residual, double reduction, int most, Vector& direction);
+  void precondition(const Vector& residual, Vector& result) const;
+  void build_blocks();
+  void build_factor();
+  std::vector<double> shifts() const;
+
+  const PointEquations& equations_;
+  const LeastChangeOptions& options_;
+  std::size_t size_;
+  std::size_t num_paired_;  // variables that act at both ends in all rows
+  Vector scaled_;
+  std::vector<Block> inverse_blocks_;
+  std::unique_ptr<CoarseSpace>& coarse_;
+  bool by_factor_;
+  int last_iterations_ = 0;
+};
+
+/// result_v = a_v . (s y at the first end -+ s y at the second).
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
+                                                          std::vector<double>& result) {
+  for (std::size_t k = 0; k < size_; ++k) scaled_[k] = y[k] * equations_.scale[k];
+  const auto ends = [&](std::size_t v) {
+    return std::pair(scaled_.data() + static_cast<std::size_t>(equations_.first[v]) * Rows,
+                     scaled_.data() + static_cast<std::size_t>(equations_.second[v]) * Rows);
+  };
+  for (std::size_t v = 0; v < num_paired_; ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    const auto [p, q] = ends(v);
+    double sum = 0.0;
+    for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
+    for (int r = Odd; r < own; ++r) sum += a[r] * (p[r] + q[r]);
+    if constexpr (Grouped) sum += a[own] * (last_row(scaled_, equations_.first[v]) +
+                                            last_row(scaled_, equations_.second[v]));
+    result[v] = sum;
+  }
+  for (std::size_t v = num_paired_; v < result.size(); ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    const auto [p, q] = ends(v);
+    double sum = 0.0;
+    for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
+    for (int r = Odd; r < own; ++r) sum += a[r] * p[r];
+    result[v] = sum;
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::apply(const std::vector<double>& w,
+                                                Vector& result) const {
+  result.assign(size_, 0.0);
+  for (std::size_t v = 0; v < w.size(); ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    double* p = result.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
+    double* q = result.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
+    const double weight = w[v];
+    for (int r = 0; r < Odd; ++r) {
+      const double term = a[r] * weight;
+      p[r] += term;
+      q[r] -= term;
+    }
+    for (int r = Odd; r < own; ++r) p[r] += a[r] * weight;
+    if (v >= num_paired_) continue;
+    for (int r = Odd; r < own; ++r) q[r] += a[r] * weight;
+    if constexpr (Grouped) {
+      last_row(result, equations_.first[v]) += a[own] * weight;
+      last_row(result, equations_.second[v]) += a[own] * weight;
+    }
+  }
+  for (std::size_t k = 0; k < size_; ++k) result[k] *= equations_.scale[k];
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::measure(const std::vector<double>& weights,
+                                                  const Vector& y, Vector& residual) const {
+  apply(weights, residual);
+  for (std::size_t k = 0; k < size_; ++k) {
+    residual[k] = equations_.right[k] * equations_.scale[k] - residual[k] -
+                  equations_.ridge_of(k % Rows) * y[k];
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
+  const Index points = equations_.num_points();
+  inverse_blocks_.assign(static_cast<std::size_t>(points), Block::Zero());
+  ColumnBlocks<Eigen::Matrix<double, Rows, 1>> column;
+  for (std::size_t v = 0; v < mobility.size(); ++v) {
+    if (mobility[v] == 0.0) continue;
+    column.count = 0;
+    const double* a = equations_.coefficients.data() + v * Rows;
+    for_each_part(equations_, static_cast<Index>(v), [&](Index p, int from, int to, double sign) {
+      const double* scale = equations_.scale.data() + static_cast<std::size_t>(p) * Rows;
+      auto& part = column.of(p);
+      for (int r = from; r < to; ++r) part[r] += sign * a[r] * scale[r];
+    });
+    for (int k = 0; k < column.count; ++k) {
+      inverse_blocks_[column.keys[k]].noalias() +=
+          mobility[v] * column.blocks[k] * column.blocks[k].transpose();
+    }
+  }
+  const std::vector<double> shift = shifts();
+  for (Block& block : inverse_blocks_) {
+    // What no variable between the bounds acts on keeps the identity.
+    const double floor = 1e-11 * block.trace();
+    for (int r = 0; r < Rows; ++r) block(r, r) += block(r, r) > 0.0 ? floor + shift[r] : 1.0;
+    block = block.llt().solve(Block::Identity()).eval();
+  }
+  if (options_.preconditioner == Preconditioner::aggregates && points >= smallest_coarse_problem) {
+    coarse_ = std::make_unique<CoarseSpace>(equations_, mobility, shift,
+                                            CoarseSpace::Boxes::of_many_points);
+  }
+}
+
+/// Ridge and proximity of each row.
+template <int Rows, int Odd, bool Grouped>
+std::vector<double> NormalEquations<Rows, Odd, Grouped>::shifts() const {
+  std::vector<double> result;
+  for (std::size_t r = 0; r < Rows; ++r) {
+    result.push_back(equations_.ridge_of(r) + (by_factor_ ? factor_proximity : proximity));
+  }
+  return result;
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::build_factor() {
+  by_factor_ = true;
+  inverse_blocks_.clear();
+  coarse_ = std::make_unique<CoarseSpace>(equations_, mobility, shifts(),
+                                          CoarseSpace::Boxes::of_single_points);
+  last_iterations_ = 0;
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::prepare() {
+  by_factor_ ? build_factor() : build_blocks();
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled) {
+  if (!by_factor_) {
+    if (!settled) build_blocks();
+  } else if (!coarse_ || last_iterations_ > stale_iterations) {
+    build_factor();
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
+                                                       Vector& result) const {
+  using Column = Eigen::Matrix<double, Rows, 1>;
+  if (by_factor_) std::fill(result.begin(), result.end(), 0.0);
+  for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
+    Eigen::Map<Column>(result.data() + p * Rows).noalias() =
+        inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
+  }
+  if (coarse_) coarse_->add_correction(residual.data(), result.data());
+}
+
+template <int Rows, int Odd, bool Grouped>
+int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double reduction,
+                                               Vector& direction) {
+  const bool impatient =
+      !by_factor_ && options_.preconditioner == Preconditioner::blocks_then_factor;
+  int count = iterate(residual, reduction, impatient ? patience : options_.iterations, direction);
+  if (impatient && count == patience) {
+    build_factor();
+    last_iterations_ = iterate(residual, reduction, options_.iterations, direction);
+    return count + last_iterations_;
+  }
+  return last_iterations_ = count;
+}
+
+/// Conjugate gradients on (S + proximity) direction = residual.
+template <int Rows, int Odd, bool Grouped>
+int NormalEquations<Rows, Odd, Grouped>::iterate(const Vector& residual, double reduction, int most,
+                                                 Vector& direction) {
+  const std::vector<double> shift = shifts();
+  Vector r = residual, z(size_), q(size_);
+  std::vector<double> stretch(mobility.size());
+  direction.assign(size_, 0.0);
+  precondition(r, z);
+  Vector p = z;
+  double rz = dot(r, z);
+  const double target = reduction * norm(residual);
+  int count = 0;
+  for (; count < most && norm(r) > target; ++count) {
+    apply_transpose(p, stretch);
+    for (std::size_t v = 0; v < stretch.size(); ++v) stretch[v] *= mobility[v];
+    apply(stretch, q);
+    for (std::size_t k = 0; k < size_; ++k) q[k] += shift[k % Rows] * p[k];
+    const double step = rz / dot(p, q);
+    for (std::size_t k = 0; k < size_; ++k) {
+      direction[k] += step * p[k];
+      r[k] -= step * q[k];
+    }
+    precondition(r, z);
+    const double next = dot(r, z);
+    for (std::size_t k = 0; k < size_; ++k) p[k] = z[k] + next / rz * p[k];
+    rz = next;
+  }
+  return count;
+}
+
+}  // namespace perilink
