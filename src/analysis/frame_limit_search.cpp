@@ -12,8 +12,8 @@ namespace {
 /// Fewer blocks than this are searched faster by one thread.
 constexpr Index smallest_parallel_search = 100;
 
-/// A bond counts as stretched when the square of its axial stretch is at least this share of that of
-/// its equivalent stretch. Where symmetry keeps its length, round-off must not decide.
+/// A bond counts as stretched when the square of its axial stretch is at least this share of that
+/// of its equivalent stretch. Where symmetry keeps its length, round-off must not decide.
 constexpr double least_tension = 1e-12;
 
 }  // namespace
@@ -30,14 +30,10 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
     if (!std::isfinite(limit)) continue;
     const double length = network.bonds.lengths[e];
     const double share = network.ratio_of_bending(e);
-    Bond bond{network.bonds.first[e] * network.width(),
-              network.bonds.second[e] * network.width(),
-              {},
-              network.inflection_of(e) * length,
-              (1.0 - network.inflection_of(e)) * length,
-              share,
-              share * length * length / 12.0,
-              1.0 / (length * limit * length * limit)};
+    Bond bond{
+        network.bonds.first[e] * network.width(), network.bonds.second[e] * network.width(), {},
+        network.inflection_of(e) * length,        (1.0 - network.inflection_of(e)) * length, share,
+        share * length * length / 12.0,           1.0 / (length * limit * length * limit)};
     for (int a = 0; a < dim_; ++a) bond.n[a] = network.bonds.direction(e)[a];
     elements_.push_back(e);
     bonds_.push_back(bond);
@@ -90,9 +86,9 @@ FrameLimitSearch::Hit FrameLimitSearch::find_in(const double* u, double toleranc
     for (Index k = begin; k < end; ++k) largest = std::max(largest, value_at(k));
     return largest;
   };
-  const BlockHit hit = find_first_largest(
-      static_cast<Index>(elements_.size()), block_largest_, (1.0 - tolerance) * (1.0 - tolerance),
-      threads, smallest_parallel_search, largest_in, value_at);
+  const BlockHit hit = find_first_largest(static_cast<Index>(elements_.size()), block_largest_,
+                                          (1.0 - tolerance) * (1.0 - tolerance), threads,
+                                          smallest_parallel_search, largest_in, value_at);
   if (hit.position == no_index) return {};
   return {elements_[hit.position], std::sqrt(hit.value)};
 }

@@ -11,11 +11,11 @@ namespace perilink {
 ///
 ///   s_eq^2 = 2 U / (k xi^2) = s^2 + (kb/k) (g/xi)^2 + (kb/k) (|dtheta_bend|^2 + torsion dtheta_twist^2) / 12,
 ///
-/// s = e/xi its axial stretch, kb/k = Network::ratio_of_bending(). A bond breaks where s_eq reaches the critical stretch while it is in
-/// tension, s > 0; so every bond that breaks holds k xi^2 s_c^2 / 2, whatever its direction across a
-/// crack, and the fracture energy needs the axial stiffness only. s_eq grows in proportion to the
-/// load factor, which is therefore 1 / ratio as for trusses. Bonds without bending stiffness (ties)
-/// break by s alone.
+/// s = e/xi its axial stretch, kb/k = Network::ratio_of_bending(). A bond breaks where s_eq reaches
+/// the critical stretch while it is in tension, s > 0; so every bond that breaks holds k xi^2 s_c^2
+/// / 2, whatever its direction across a crack, and the fracture energy needs the axial stiffness
+/// only. s_eq grows in proportion to the load factor, which is therefore 1 / ratio as for trusses.
+/// Bonds without bending stiffness (ties) break by s alone.
 class FrameLimitSearch final : public BreakSearch {
  public:
   explicit FrameLimitSearch(const Network& network);
@@ -28,9 +28,9 @@ class FrameLimitSearch final : public BreakSearch {
     Index first, second;  ///< particle times width
     double n[3];
     double first_arm, second_arm;  ///< from the ends to the inflection [length]
-    double bending_share;   ///< kb / k
-    double rotation_share;  ///< kb xi^2 / (12 k)
-    double inverse;         ///< 1 / (xi s_c)^2; zero once broken
+    double bending_share;          ///< kb / k
+    double rotation_share;         ///< kb xi^2 / (12 k)
+    double inverse;                ///< 1 / (xi s_c)^2; zero once broken
   };
   template <int Dim>
   double squared_ratio(const Bond& bond, const double* u) const;

@@ -3,9 +3,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace perilink {
+namespace {
+
+/// Out of balance by more than the errors that users of a coarse model expect.
+constexpr double harmful = 1e-2;
+
+}  // namespace
 
 std::string calibration_line(const CalibrationReport& report) {
   if (report.free_bonds == 0) return "no bond had to change";
@@ -21,24 +28,25 @@ std::string calibration_line(const CalibrationReport& report) {
 std::optional<std::string> calibration_shortfall(const Network& network) {
   if (!network.calibration || network.calibration->unmet == 0) return std::nullopt;
   const CalibrationReport& report = *network.calibration;
-  return fmt::format(
+  const double worst = std::max(report.residual_after, report.moment_after);
+  std::string text = fmt::format(
       "uniform strains leave {} particles out of balance, most (by {:.1e} of the force on a face "
       "of its cell) the one at ({:.6g})",
-      report.unmet, report.residual_after,
-      fmt::join(network.particles.position(report.worst_particle), ", "));
+      report.unmet, worst, fmt::join(network.particles.position(report.worst_particle), ", "));
+  if (worst > harmful) {
+    text +=
+        "; WARNING: strains around it are wrong by about as much, so mesh that place more evenly "
+        "or take a longer horizon";
+  }
+  return text;
 }
 
 nlohmann::ordered_json calibration_json(const CalibrationReport& report) {
-  return {{"free_bonds", report.free_bonds},
-          {"residual_before", report.residual_before},
-          {"residual_after", report.residual_after},
-          {"moment_after", report.moment_after},
-          {"unmet_particles", report.unmet},
-          {"smallest_weight", report.smallest_weight},
-          {"largest_weight", report.largest_weight},
-          {"bonds_at_floor", report.at_least_weight},
-          {"bonds_left_out", report.dropped},
-          {"iterations", report.iterations}};
+  return {{"free_bonds", report.free_bonds},         {"residual_before", report.residual_before},
+          {"residual_after", report.residual_after}, {"moment_after", report.moment_after},
+          {"unmet_particles", report.unmet},         {"smallest_weight", report.smallest_weight},
+          {"largest_weight", report.largest_weight}, {"bonds_at_floor", report.at_least_weight},
+          {"bonds_left_out", report.dropped},        {"iterations", report.iterations}};
 }
 
 }  // namespace perilink

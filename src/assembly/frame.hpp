@@ -5,9 +5,8 @@
 
 #include "assembly/network.hpp"
 
-/// \file
-/// Micropolar bonds as frame elements. The energy of a bond of length xi between the particles i and j
-/// is a sum of squares,
+/// \file Micropolar bonds as frame elements. The energy of a bond of length xi between the
+/// particles i and j is a sum of squares,
 ///
 ///   U = 1/2 sum over modes of k_m e_m^2,   e_m = b_first . q_i + b_second . q_j,
 ///
@@ -19,9 +18,9 @@
 ///   bending  kb xi^2 / 12            e = theta_j - theta_i
 ///   torsion  torsion kb xi^2 / 12    e = (theta_j - theta_i) . n     (three dimensions)
 ///
-/// a is one half in the paper; calibrated bonds have their inflection elsewhere (Network::inflection).
-/// In three dimensions shear and bending come twice, for the two directions across the bond. A rigid
-/// motion, rotations included, costs nothing.
+/// a is one half in the paper; calibrated bonds have their inflection elsewhere
+/// (Network::inflection). In three dimensions shear and bending come twice, for the two directions
+/// across the bond. A rigid motion, rotations included, costs nothing.
 
 namespace perilink {
 

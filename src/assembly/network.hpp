@@ -20,12 +20,12 @@ struct Network {
   /// Intact bending stiffness 12 d V_i V_j / xi^3 of micropolar bonds [force/length], per element;
   /// empty where no bond carries a moment.
   std::vector<double> bending;
-  /// The k_b / k with which shear and bending of calibrated bonds count in their equivalent stretch,
-  /// that of the uncalibrated bond (docs/theory/micropolar.md, section 5) [-], per element; empty:
-  /// bending over stiffness of the bond itself.
+  /// The k_b / k with which shear and bending of calibrated bonds count in their equivalent
+  /// stretch, that of the uncalibrated bond (docs/theory/micropolar.md, section 5) [-], per
+  /// element; empty: bending over stiffness of the bond itself.
   std::vector<double> bending_ratio;
-  /// Where micropolar bonds bent by a transverse force have their inflection, from the first end over the
-  /// length [-], per element; empty: in the middle.
+  /// Where micropolar bonds bent by a transverse force have their inflection, from the first end
+  /// over the length [-], per element; empty: in the middle.
   std::vector<double> inflection;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)

@@ -17,8 +17,8 @@ void for_third_order(int dim, Function f) {
   }
 }
 
-/// Calls f(a, b, c, d) for the components of a tensor of moduli: all that differ by its major and minor
-/// symmetries, or, where it is symmetric in all indices, those with ascending ones.
+/// Calls f(a, b, c, d) for the components of a tensor of moduli: all that differ by its major and
+/// minor symmetries, or, where it is symmetric in all indices, those with ascending ones.
 template <class Function>
 void for_moduli(int dim, bool symmetric, Function f) {
   constexpr std::array<std::array<int, 2>, 6> all_pairs = {
@@ -77,9 +77,8 @@ void ForceRows::right(const Vector3& lambda_area, const Vector3& mu_area, double
 
 void ModuliRows::axial(double length, std::span<const double> n, double* row) const {
   const double half_square = 0.5 * length * length;
-  for_moduli(dim, !bending, [&](int a, int b, int c, int d) {
-    *row++ = half_square * n[a] * n[b] * n[c] * n[d];
-  });
+  for_moduli(dim, !bending,
+             [&](int a, int b, int c, int d) { *row++ = half_square * n[a] * n[b] * n[c] * n[d]; });
   for (int k = moduli(); k < count(); ++k) *row++ = 0.0;
 }
 
@@ -111,8 +110,7 @@ LameConstants constants_across(const Facets& facets, Index facet,
 }
 
 std::vector<double> boundary_forces(const ForceRows& equations, const Facets& facets,
-                                    std::span<const LameConstants> materials,
-                                    Index num_particles) {
+                                    std::span<const LameConstants> materials, Index num_particles) {
   std::vector<Vector3> lambda(static_cast<std::size_t>(num_particles), Vector3{});
   std::vector<Vector3> mu = lambda;
   for (Index f = 0; f < facets.size(); ++f) {
@@ -128,7 +126,8 @@ std::vector<double> boundary_forces(const ForceRows& equations, const Facets& fa
   }
   const std::size_t rows = static_cast<std::size_t>(equations.count());
   std::vector<double> right(num_particles * rows);
-  for (Index i = 0; i < num_particles; ++i) equations.right(lambda[i], mu[i], right.data() + i * rows);
+  for (Index i = 0; i < num_particles; ++i)
+    equations.right(lambda[i], mu[i], right.data() + i * rows);
   return right;
 }
 

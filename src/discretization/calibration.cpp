@@ -22,7 +22,8 @@ constexpr int most_refinements = 3;
 /// Zeros stay where they bring the forces out of balance down to this part.
 constexpr double worth_dropping = 0.1;
 
-/// Few digits of the energies of dilatation are enough; what the exact forces move afterwards is more.
+/// Few digits of the energies of dilatation are enough; what the exact forces move afterwards is
+/// more.
 constexpr double settling_tolerance = 0.01;
 
 /// Intermediate passes need no more digits; what they leave is no contradiction.
@@ -30,10 +31,11 @@ constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
 
 class Calibration {
  public:
-  Calibration(const CalibrationInput& input, const CalibrationOptions& options, const Facets& facets,
-              const BondStiffness& stiffness)
+  Calibration(const CalibrationInput& input, const CalibrationOptions& options,
+              const Facets& facets, const BondStiffness& stiffness)
       : in_space_(input.particles.dim == 3),
         irregular_(input.free.empty()),
+        moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
         energies_(irregular_),
         equations_(input, options.least_weight, facets, stiffness) {}
@@ -48,7 +50,7 @@ class Calibration {
   void search(Method method, double tolerance);
   bool balance(double tolerance);
 
-  bool in_space_, irregular_;
+  bool in_space_, irregular_, moments_;
   double tolerance_;
   bool energies_;  // of dilatation take part
   CalibrationEquations equations_;
@@ -74,18 +76,18 @@ void Calibration::search(Method method, double tolerance) {
   LeastChangeOptions options;
   options.tolerance = tolerance;
   options.method = method;
-  options.preconditioner = !in_space_   ? Preconditioner::factor
-                           : irregular_ ? Preconditioner::aggregates
-                                        : Preconditioner::blocks_then_factor;
+  options.preconditioner = !in_space_               ? Preconditioner::factor
+                           : irregular_ || moments_ ? Preconditioner::aggregates
+                                                    : Preconditioner::blocks_then_factor;
   const LeastChange change = least_change(equations_.balance(), options, factor_);
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
   equations_.report_balance(report_);
 }
 
-/// The forces and moments, exactly. In the plane a factor serves several steps of Newton's method, but not those
-/// of an interior point, which is therefore the last resort. Where it ends farther from balance the settled
-/// stiffnesses are kept. \return whether forces are nearer to balance now
+/// The forces and moments, exactly. In the plane a factor serves several steps of Newton's method,
+/// but not those of an interior point, which is therefore the last resort. Where it ends farther
+/// from balance the settled stiffnesses are kept. \return whether forces are nearer to balance now
 bool Calibration::balance(double tolerance) {
   equations_.report_balance(report_);
   const double before = report_.residual_after;
@@ -109,8 +111,8 @@ bool Calibration::solve(double tolerance) {
   return balance(tolerance);
 }
 
-/// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours all over)
-/// every bond keeps something to carry. \return whether the exact forces led anywhere
+/// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
+/// all over) every bond keeps something to carry. \return whether the exact forces led anywhere
 bool Calibration::attempt() {
   const bool cautious = in_space_;  // corners may have no solution: finding out takes few digits
   const double coarse = cautious ? coarse_tolerance : tolerance_;
@@ -127,7 +129,8 @@ bool Calibration::attempt() {
   }
   // Each search starts from the weights of the last and leaves a small part of what that left.
   for (int pass = 0; cautious && pass < most_refinements; ++pass) {
-    if (!balance(tolerance_) || std::max(report_.residual_after, report_.moment_after) < exact) break;
+    if (!balance(tolerance_) || std::max(report_.residual_after, report_.moment_after) < exact)
+      break;
   }
   return true;
 }

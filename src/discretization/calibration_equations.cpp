@@ -10,8 +10,8 @@
 namespace perilink {
 namespace {
 
-/// Forces out of balance above this are told to the user. Round-off leaves up to 1e-8 along boundaries of
-/// some hundred spacings.
+/// Forces out of balance above this are told to the user. Round-off leaves up to 1e-8 along
+/// boundaries of some hundred spacings.
 constexpr double met = 1e-7;
 
 constexpr double most_weight = 100.0;
@@ -19,22 +19,25 @@ constexpr double most_weight = 100.0;
 /// Where a bond may fall to zero, it is on its way there below this weight.
 constexpr double vanishing = 1e-3;
 
-/// Energies of dilatation are soft equations: squares weigh 1 / ridge against those of the changes. In space the
-/// forces beside them are a little soft too: at edges and corners positive weights often cannot do both.
+/// Energies of dilatation are soft equations: squares weigh 1 / ridge against those of the changes.
+/// In space the forces beside them are a little soft too: at edges and corners positive weights
+/// often cannot do both.
 constexpr double dilatation_ridge = 0.03;
 constexpr double forces_ridge_in_space = 1e-4;
 
-/// A change of a share by this costs as much as doubling the stiffness of a bond. Little, so that shares move only
-/// where stiffnesses cannot do it (by 0.3 at corners whose edges differ threefold): where they move freely the
-/// displacements of coarse plates with a hole are up to twice as far off. In space less makes the search slow.
+/// A change of a share by this costs as much as doubling the stiffness of a bond. Little, so that
+/// shares move only where stiffnesses cannot do it (by 0.3 at corners whose edges differ
+/// threefold): where they move freely the displacements of coarse plates with a hole are up to
+/// twice as far off. In space less makes the search slow.
 constexpr double share_scale_in_plane = 0.01, share_scale_in_space = 0.1;
 /// Every corner keeps this much of its facets.
 constexpr double least_share = 0.05;
 
-/// Least couples over those at the start at the two ends of a bond that hangs from the surface; of other bonds zero.
-/// At corners and edges all bonds lie on one side of the axes, and only couples that are all exactly zero would be
-/// in balance if none could change its sign: the search would have no room. The bending stiffness, their sum, stays
-/// positive, with the inflection within one length of the bond.
+/// Least couples over those at the start at the two ends of a bond that hangs from the surface; of
+/// other bonds zero. At corners and edges all bonds lie on one side of the axes, and only couples
+/// that are all exactly zero would be in balance if none could change its sign: the search would
+/// have no room. The bending stiffness, their sum, stays positive, with the inflection within one
+/// length of the bond.
 constexpr double least_couple_at_surface = -0.2, least_couple_below = 0.4;
 
 /// Couples that have fallen to zero can come back by steps of this part of what they were.
@@ -110,8 +113,10 @@ void CalibrationEquations::take_all_back() {
 
 CalibrationEquations::Variable CalibrationEquations::axial_variable(Index b) const {
   const double k = stiffness_.axial[b];
-  const double least = may_vanish_[b] ? 0.0 : std::min(k, least_weight_ * start_.stiffness.axial[b]);
-  return {Kind::axial, b, 0, input_.bonds.first[b], input_.bonds.second[b], k, k, least, most_weight * k};
+  const double least =
+      may_vanish_[b] ? 0.0 : std::min(k, least_weight_ * start_.stiffness.axial[b]);
+  return {Kind::axial, b, 0,     input_.bonds.first[b], input_.bonds.second[b],
+          k,           k, least, most_weight * k};
 }
 
 /// The part of the bending stiffness whose couple acts at one end.
@@ -124,13 +129,14 @@ CalibrationEquations::Variable CalibrationEquations::couple_variable(Index b, In
   const Index ends[2] = {input_.bonds.first[b], input_.bonds.second[b]};
   const bool here = on_surface_[ends[end]] != 0, there = on_surface_[ends[1 - end]] != 0;
   const double least = here == there ? 0.0 : here ? least_couple_at_surface : least_couple_below;
-  return {Kind::couple, b,       end,
-          ends[end],    ends[1 - end], present,
-          scale,        std::min(least * part(start_.stiffness), present), most_weight * scale};
+  return {Kind::couple,       b,       end,   ends[end],
+          ends[1 - end],      present, scale, std::min(least * part(start_.stiffness), present),
+          most_weight * scale};
 }
 
 Index CalibrationEquations::next_corner(Index facet, Index corner) const {
-  return corner + 1 == facets_.corners.offsets[facet + 1] ? facets_.corners.offsets[facet] : corner + 1;
+  return corner + 1 == facets_.corners.offsets[facet + 1] ? facets_.corners.offsets[facet]
+                                                          : corner + 1;
 }
 
 /// Transfers between the corners of the facets.
@@ -169,9 +175,7 @@ void CalibrationEquations::for_each_variable(Visit visit) const {
 
 void CalibrationEquations::change(const Variable& variable, double value) {
   switch (variable.kind) {
-    case Kind::axial:
-      stiffness_.axial[variable.index] = value;
-      break;
+    case Kind::axial: stiffness_.axial[variable.index] = value; break;
     case Kind::couple: {
       const double other = couple_variable(variable.index, 1 - variable.end).present;
       const double sum = value + other;
@@ -196,7 +200,8 @@ void CalibrationEquations::apply(std::span<const double> weights) {
 }
 
 /// Per unit of the variable, at its first particle.
-void CalibrationEquations::fill_row(const ForceRows& form, const Variable& variable, double* row) const {
+void CalibrationEquations::fill_row(const ForceRows& form, const Variable& variable,
+                                    double* row) const {
   const Bonds& bonds = input_.bonds;
   if (variable.kind == Kind::axial) {
     form.axial(bonds.lengths[variable.index], bonds.direction(variable.index), row);
@@ -288,9 +293,8 @@ void CalibrationEquations::gather_dilatations(PointEquations& equations) const {
   for (const Index i : particle_of_) {
     const Index group = point_of_[head[i] == no_index ? i : head[i]];
     equations.group.push_back(group);
-    equations.right[(group + 1) * rows - 1] +=
-        dilatation_modulus(dim_, input_.particles.volumes[i],
-                           input_.materials[input_.particles.material[i]]);
+    equations.right[(group + 1) * rows - 1] += dilatation_modulus(
+        dim_, input_.particles.volumes[i], input_.materials[input_.particles.material[i]]);
   }
   scale_last_rows(equations);
   for (std::size_t p = 0; p < particle_of_.size(); ++p) {
@@ -304,7 +308,7 @@ void CalibrationEquations::report_balance(CalibrationReport& report) const {
   report.residual_after = report.moment_after = 0.0;
   report.unmet = 0;
   for (const Index i : particle_of_) {
-    double force = 0.0, moment = 0.0;
+    double force = 0.0, moment = 0.0;  // of this particle
     for (std::size_t r = 0; r < rows; ++r) {
       double size = std::abs(rest[i * rows + r]) / modulus_[i];
       if (!std::isfinite(size)) size = std::numeric_limits<double>::infinity();
@@ -312,11 +316,12 @@ void CalibrationEquations::report_balance(CalibrationReport& report) const {
       double& largest = is_force ? force : moment;
       largest = std::max(largest, is_force ? size * length_[i] : size);
     }
-    report.moment_after = std::max(report.moment_after, moment);
     report.unmet += std::max(force, moment) > met;
-    if (force <= report.residual_after) continue;
-    report.residual_after = force;
-    report.worst_particle = i;
+    if (std::max(force, moment) > std::max(report.residual_after, report.moment_after)) {
+      report.worst_particle = i;
+    }
+    report.residual_after = std::max(report.residual_after, force);
+    report.moment_after = std::max(report.moment_after, moment);
   }
 }
 
@@ -345,7 +350,8 @@ bool CalibrationEquations::allow_zero(double limit) {
   };
   bool any = false;
   for (const Index b : free_bonds_) {
-    if (may_vanish_[b] || (!unmet(input_.bonds.first[b]) && !unmet(input_.bonds.second[b]))) continue;
+    if (may_vanish_[b] || (!unmet(input_.bonds.first[b]) && !unmet(input_.bonds.second[b])))
+      continue;
     may_vanish_[b] = 1;
     any = true;
   }
@@ -370,7 +376,8 @@ bool CalibrationEquations::hollow() const {
   std::vector<Index> kept_minus_lost(static_cast<std::size_t>(input_.particles.size()), 0);
   for (Index b = 0; b < input_.bonds.size(); ++b) {
     const Index vote = stiffness_.axial[b] > 0.0 ? 1 : -1;
-    for (const Index i : {input_.bonds.first[b], input_.bonds.second[b]}) kept_minus_lost[i] += vote;
+    for (const Index i : {input_.bonds.first[b], input_.bonds.second[b]})
+      kept_minus_lost[i] += vote;
   }
   return std::any_of(kept_minus_lost.begin(), kept_minus_lost.end(), [](Index n) { return n < 0; });
 }

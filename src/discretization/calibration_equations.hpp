@@ -10,9 +10,9 @@
 
 namespace perilink {
 
-/// What a calibration may change, how far it has come, and the equations for the next step. Variables are the
-/// axial stiffness of the free bonds, for micropolar ones the couples at their two ends, and, where all bonds
-/// are free, the shares that corners have in their facets.
+/// What a calibration may change, how far it has come, and the equations for the next step.
+/// Variables are the axial stiffness of the free bonds, for micropolar ones the couples at their
+/// two ends, and, where all bonds are free, the shares that corners have in their facets.
 class CalibrationEquations {
  public:
   /// \param least_weight  floor of the axial stiffness, relative to the start
@@ -22,7 +22,8 @@ class CalibrationEquations {
 
   /// Forces and moments in balance at every particle, in every uniform strain, exactly.
   PointEquations balance() const;
-  /// The same with the energies of dilatation of particles inside and of columns under the surface, softly.
+  /// The same with the energies of dilatation of particles inside and of columns under the surface,
+  /// softly.
   PointEquations settling() const;
   /// Makes a solution of these equations the present state.
   void apply(std::span<const double> weights);
@@ -35,8 +36,8 @@ class CalibrationEquations {
   /// Takes the floor from the bonds of particles that are out of balance by more than the limit.
   /// \return whether there was a floor to take
   bool allow_zero(double limit);
-  /// Takes what has fallen to zero out of the equations. Where weights must be exactly zero no multiplier
-  /// brings them there, only nearer and nearer.
+  /// Takes what has fallen to zero out of the equations. Where weights must be exactly zero no
+  /// multiplier brings them there, only nearer and nearer.
   void drop_vanishing();
   /// Whether a particle has lost more than half of its bonds.
   bool hollow() const;
@@ -84,10 +85,10 @@ class CalibrationEquations {
   double least_weight_;
   int dim_;
   ForceRows forces_;
-  BondStiffness stiffness_;  // at present
-  Facets facets_;            // with the shares at present
-  State start_;              // zero for bonds that were dropped
-  const State given_;        // all of them
+  BondStiffness stiffness_;         // at present
+  Facets facets_;                   // with the shares at present
+  State start_;                     // zero for bonds that were dropped
+  const State given_;               // all of them
   std::vector<Index> point_of_;     // of each particle, no_index where no free bond ends
   std::vector<Index> particle_of_;  // of each point
   std::vector<Index> free_bonds_;

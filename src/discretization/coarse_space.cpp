@@ -15,7 +15,8 @@
 namespace perilink {
 namespace {
 
-/// Points along the side of a box: fewer make the coarse system dear, more leave work to the iteration.
+/// Points along the side of a box: fewer make the coarse system dear, more leave work to the
+/// iteration.
 constexpr double points_along_box = 8.0;
 
 /// Added to the diagonal, relative to its mean, for what has no stiffness at all.
@@ -108,7 +109,8 @@ void CoarseSpace::assemble(const PointEquations& equations, const std::vector<do
     }
   }
   const double points_in_box = static_cast<double>(box_of_.size()) / num_boxes_;
-  // The shifts of the fine system, and a little more where constants and rigid modes have no stiffness.
+  // The shifts of the fine system, and a little more where constants and rigid modes have no
+  // stiffness.
   std::vector<Eigen::Triplet<double>> entries;
   for (auto& [place, matrix] : blocks) {
     if (place.first == place.second) {

@@ -10,9 +10,10 @@
 
 namespace perilink {
 
-/// Second level of the preconditioner of least_change(): functions that are linear on boxes of points,
-/// one set for each equation row. Single points exchange errors only with their neighbours; what varies
-/// over the whole body is taken out here. With a box for each point it is the system itself.
+/// Second level of the preconditioner of least_change(): functions that are linear on boxes of
+/// points, one set for each equation row. Single points exchange errors only with their neighbours;
+/// what varies over the whole body is taken out here. With a box for each point it is the system
+/// itself.
 class CoarseSpace {
  public:
   enum class Boxes { of_many_points, of_single_points };

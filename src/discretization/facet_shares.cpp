@@ -60,7 +60,8 @@ Eigen::VectorXd work_on_killing_tensors(const RigidMotions& motions, std::span<c
       const Vector3 f = motions.at(j, x);
       for (int k = j; k < count; ++k) {
         const Vector3 g = motions.at(k, x);
-        work[next++] = dot(e, f) * dot(area, g) + dot(e, g) * dot(area, f) + dot(f, g) * dot(area, e);
+        work[next++] =
+            dot(e, f) * dot(area, g) + dot(e, g) * dot(area, f) + dot(f, g) * dot(area, e);
       }
     }
   }

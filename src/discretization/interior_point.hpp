@@ -10,14 +10,15 @@
 
 namespace perilink {
 
-/// The problem of least_change() by a primal-dual interior-point method: weights w strictly between their bounds
-/// with multipliers z, Z > 0 of these, w = 1 + A'y + z - Z, A w + ridge y = r and, on the way to zero,
-/// z (w - lower) = Z (upper - w) = mu. Newton's method for all of these leaves the system of NormalEquations
-/// with the mobility 1 / (1 + z / (w - lower) + Z / (upper - w)).
+/// The problem of least_change() by a primal-dual interior-point method: weights w strictly between
+/// their bounds with multipliers z, Z > 0 of these, w = 1 + A'y + z - Z, A w + ridge y = r and, on
+/// the way to zero, z (w - lower) = Z (upper - w) = mu. Newton's method for all of these leaves the
+/// system of NormalEquations with the mobility 1 / (1 + z / (w - lower) + Z / (upper - w)).
 ///
-/// Newton's method on the dual function alone takes short steps where many weights pass their bounds at once, and
-/// diverges where nothing is between the bounds; this one needs ten to thirty steps whatever the bounds do.
-/// Where they contradict the equations the residual settles at the least possible.
+/// Newton's method on the dual function alone takes short steps where many weights pass their
+/// bounds at once, and diverges where nothing is between the bounds; this one needs ten to thirty
+/// steps whatever the bounds do. Where they contradict the equations the residual settles at the
+/// least possible.
 template <int Rows, int Odd, bool Grouped>
 class InteriorPoint {
  public:
@@ -48,7 +49,8 @@ class InteriorPoint {
   static constexpr int most_steps = 40;
   /// Part of the way to the nearest bound that a step may take.
   static constexpr double boldness = 0.99;
-  /// A step of settled multipliers that leaves more than this of the residual leaves contradictions.
+  /// A step of settled multipliers that leaves more than this of the residual leaves
+  /// contradictions.
   static constexpr double contradiction = 0.9;
 
   void start();
@@ -60,7 +62,7 @@ class InteriorPoint {
   std::span<const double> lower_, upper_;
   Vector y_;
   std::vector<double> weights_;
-  std::vector<double> elongation_;  // A' y
+  std::vector<double> elongation_;           // A' y
   std::vector<double> at_lower_, at_upper_;  // z, Z
 };
 

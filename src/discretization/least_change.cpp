@@ -18,8 +18,8 @@ constexpr int most_newton_steps = 40;
 /// Newton's method is lost where the dual function stops growing this early along a step.
 constexpr double shortest_step = 1e-5;
 
-/// Root mean square of the residual at which the interior point method has found out which weights are at their
-/// bounds.
+/// Root mean square of the residual at which the interior point method has found out which weights
+/// are at their bounds.
 constexpr double rough = 1e-4;
 
 template <int Rows, int Odd, bool Grouped>
@@ -56,7 +56,8 @@ class DualNewton {
   LeastChange result_;
 };
 
-/// Weights of a dual vector, and the part of the dual function that they make. Mobile are those between the bounds.
+/// Weights of a dual vector, and the part of the dual function that they make. Mobile are those
+/// between the bounds.
 template <int Rows, int Odd, bool Grouped>
 double DualNewton<Rows, Odd, Grouped>::choose_weights(const Vector& y) {
   normal_.apply_transpose(y, elongation_);

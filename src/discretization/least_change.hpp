@@ -19,27 +19,28 @@ namespace perilink {
 ///   sum over variables with first end p of a_v w_v + sum over those with second end p of +- a_v w_v
 ///     = r_p,
 ///
-/// with the sign - in the first `odd` rows (forces, that act against each other at the two ends) and
-/// + in the others (moments, moduli). The last row may hold for groups of points instead. Variables from
-/// `one_ended` on act in the rows that are not odd at their first end only (couples).
+/// with the sign - in the first `odd` rows (forces, that act against each other at the two ends)
+/// and + in the others (moments, moduli). The last row may hold for groups of points instead.
+/// Variables from `one_ended` on act in the rows that are not odd at their first end only
+/// (couples).
 struct PointEquations {
   int dim = 2;
   int rows = 0;
   int odd = 0;
   std::vector<Index> first, second;  ///< points of each variable
   Index one_ended = std::numeric_limits<Index>::max();
-  std::vector<Index> group;          ///< of each point: the point at which the last row of its variables
-                                     ///< counts, summed over the group; empty: at the point itself
+  std::vector<Index> group;  ///< of each point: the point at which the last row of its variables
+                             ///< counts, summed over the group; empty: at the point itself
   std::vector<double> coefficients;  ///< a_v, shape (variables, rows)
   std::vector<double> lower;         ///< least weight of each variable
   std::vector<double> upper;         ///< largest weight of each variable
   std::vector<double> right;         ///< r_p, shape (points, rows)
-  std::vector<double> scale;         ///< of the equations, shape (points, rows): times r they are of
-                                     ///< order one; 0 switches an equation off
-  std::vector<double> ridge;         ///< of each row, empty: none. 0: equations hold exactly; > 0: their
-                                     ///< squared residuals are charged 1 / ridge against the squared
-                                     ///< changes of the weights
-  std::vector<double> positions;     ///< of the points, shape (points, dim) [length]
+  std::vector<double> scale;  ///< of the equations, shape (points, rows): times r they are of
+                              ///< order one; 0 switches an equation off
+  std::vector<double> ridge;  ///< of each row, empty: none. 0: equations hold exactly; > 0: their
+                              ///< squared residuals are charged 1 / ridge against the squared
+                              ///< changes of the weights
+  std::vector<double> positions;  ///< of the points, shape (points, dim) [length]
 
   Index num_variables() const { return static_cast<Index>(first.size()); }
   int own_rows() const { return group.empty() ? rows : rows - 1; }
@@ -51,9 +52,9 @@ struct PointEquations {
 
 /// What speeds up the conjugate gradients.
 enum class Preconditioner {
-  blocks,              ///< of the single points: for few points
-  aggregates,          ///< and what varies slowly, solved for on aggregates: points that fill a solid
-  factor,              ///< of all equations: bodies and boundaries in the plane
+  blocks,      ///< of the single points: for few points
+  aggregates,  ///< and what varies slowly, solved for on aggregates: points that fill a solid
+  factor,      ///< of all equations: bodies and boundaries in the plane
   blocks_then_factor,  ///< the factor where blocks need many iterations: boundaries of solids
 };
 
@@ -65,8 +66,9 @@ enum class Method {
 
 /// How to solve them.
 struct LeastChangeOptions {
-  double tolerance = 1e-12;   ///< of the norm of the scaled residual, per root of the number of points
-  int iterations = 20000;     ///< of conjugate gradients, in all
+  double tolerance =
+      1e-12;               ///< of the norm of the scaled residual, per root of the number of points
+  int iterations = 20000;  ///< of conjugate gradients, in all
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
 };
@@ -76,25 +78,27 @@ class CoarseSpace;
 /// What came out.
 struct LeastChange {
   std::vector<double> weights;
-  double residual = 0.0;     ///< largest scaled residual of an equation
+  double residual = 0.0;         ///< largest scaled residual of an equation
   Index worst_point = no_index;  ///< where it is
-  Index at_lower = 0;        ///< number of weights at their lower bound
-  int iterations = 0;        ///< of conjugate gradients
-  bool converged = false;    ///< false: no weights within the bounds satisfy all equations, or too few
-                             ///< iterations; what can be met is met
+  Index at_lower = 0;            ///< number of weights at their lower bound
+  int iterations = 0;            ///< of conjugate gradients
+  bool converged =
+      false;  ///< false: no weights within the bounds satisfy all equations, or too few
+              ///< iterations; what can be met is met
 };
 
-/// Minimises sum (w_v - 1)^2 subject to the equations and the bounds. The bounded problem is solved,
-/// not clamped: Newton's method on the concave dual function, w(y) = min(max(1 + A' y, lower), upper)
-/// with A w(y) + ridge y = r, whose linear systems A D A' (D: the weights between the bounds) conjugate
-/// gradients solve, or first the interior-point method (interior_point.hpp). Where the equations contradict each
-/// other or the bounds, the steps, which are those of the method of multipliers, lead to the least squared
-/// residual; Newton's method alone may get lost on the way.
+/// Minimises sum (w_v - 1)^2 subject to the equations and the bounds. The bounded problem is
+/// solved, not clamped: Newton's method on the concave dual function, w(y) = min(max(1 + A' y,
+/// lower), upper) with A w(y) + ridge y = r, whose linear systems A D A' (D: the weights between
+/// the bounds) conjugate gradients solve, or first the interior-point method (interior_point.hpp).
+/// Where the equations contradict each other or the bounds, the steps, which are those of the
+/// method of multipliers, lead to the least squared residual; Newton's method alone may get lost on
+/// the way.
 /// \throws std::invalid_argument for numbers of rows, odd ones and groups that are not built in
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);
 
-/// The same, where `factor` is that of equations of the same points and about these coefficients, or none.
-/// It is made or made anew where it serves badly, and kept for the next.
+/// The same, where `factor` is that of equations of the same points and about these coefficients,
+/// or none. It is made or made anew where it serves badly, and kept for the next.
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
                          std::unique_ptr<CoarseSpace>& factor);
 

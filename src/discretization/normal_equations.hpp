@@ -22,8 +22,8 @@ inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
 
 inline double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
 
-/// The matrices A, A' and S = A D A' + ridge of least_change(), scaled equations by weights, and conjugate gradients
-/// for S. D, the mobility of the variables, is between 0 (at a bound) and 1.
+/// The matrices A, A' and S = A D A' + ridge of least_change(), scaled equations by weights, and
+/// conjugate gradients for S. D, the mobility of the variables, is between 0 (at a bound) and 1.
 template <int Rows, int Odd, bool Grouped>
 class NormalEquations {
  public:
@@ -35,8 +35,8 @@ class NormalEquations {
         equations_(equations),
         options_(options),
         size_(equations.right.size()),
-        num_paired_(static_cast<std::size_t>(
-            std::min(equations.num_variables(), equations.one_ended))),
+        num_paired_(
+            static_cast<std::size_t>(std::min(equations.num_variables(), equations.one_ended))),
         scaled_(size_),
         coarse_(coarse),
         by_factor_(options.preconditioner == Preconditioner::factor ||
@@ -59,10 +59,10 @@ class NormalEquations {
   using Block = Eigen::Matrix<double, Rows, Rows>;
   static constexpr int own = Grouped ? Rows - 1 : Rows;  // rows that hold at each point
 
-  /// Weight of the method of multipliers, relative to equations of order one: contradictions decay by
-  /// this factor over the smallest squared singular value in each Newton step. Long waves along a boundary
-  /// have singular values that fall with the square of their length: a factor of the equations allows a smaller
-  /// weight.
+  /// Weight of the method of multipliers, relative to equations of order one: contradictions decay
+  /// by this factor over the smallest squared singular value in each Newton step. Long waves along
+  /// a boundary have singular values that fall with the square of their length: a factor of the
+  /// equations allows a smaller weight.
   static constexpr double proximity = 1e-10;
   static constexpr double factor_proximity = 1e-14;
   /// Fewer points converge without a coarse space.
@@ -108,8 +108,9 @@ void NormalEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
     double sum = 0.0;
     for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
     for (int r = Odd; r < own; ++r) sum += a[r] * (p[r] + q[r]);
-    if constexpr (Grouped) sum += a[own] * (last_row(scaled_, equations_.first[v]) +
-                                            last_row(scaled_, equations_.second[v]));
+    if constexpr (Grouped)
+      sum += a[own] *
+             (last_row(scaled_, equations_.first[v]) + last_row(scaled_, equations_.second[v]));
     result[v] = sum;
   }
   for (std::size_t v = num_paired_; v < result.size(); ++v) {

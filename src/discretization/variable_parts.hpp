@@ -8,8 +8,9 @@
 
 namespace perilink {
 
-/// Calls part(point, from, to, sign) for every place where a variable acts: on the rows [from, to) of a point,
-/// with its coefficients times the sign. One-ended variables do not act in the rows of groups.
+/// Calls part(point, from, to, sign) for every place where a variable acts: on the rows [from, to)
+/// of a point, with its coefficients times the sign. One-ended variables do not act in the rows of
+/// groups.
 template <class Part>
 void for_each_part(const PointEquations& equations, Index variable, Part part) {
   const Index p = equations.first[variable], q = equations.second[variable];
@@ -23,8 +24,8 @@ void for_each_part(const PointEquations& equations, Index variable, Part part) {
   part(equations.group[q], own, equations.rows, 1.0);
 }
 
-/// Gives the last row of every group the length one, so that a ridge weighs as much for large groups as for
-/// small ones. Rows without variables are switched off.
+/// Gives the last row of every group the length one, so that a ridge weighs as much for large
+/// groups as for small ones. Rows without variables are switched off.
 inline void scale_last_rows(PointEquations& equations) {
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   std::vector<double> square(equations.group.size(), 0.0);

@@ -64,8 +64,7 @@ TEST(OneFrame, HasTheStiffnessOfABeamInSpace) {
 TEST(OneFrame, IsACantilever) {
   constexpr double L = 5.0, EI = 11.0, P = 0.3;
   const Network network = single_frame(2, {3.0, 4.0}, 14.0, 12.0 * EI / (L * L * L));
-  const Unknowns unknowns =
-      number_unknowns(3, {1, 1, 1, 0, 0, 0}, std::vector<double>(6, 0.0));
+  const Unknowns unknowns = number_unknowns(3, {1, 1, 1, 0, 0, 0}, std::vector<double>(6, 0.0));
   const Eigen::Vector3d load(-0.8 * P, 0.6 * P, 0.0);  // across the bond
   const Eigen::Vector3d motion = dense(network, {1.0}, unknowns).ldlt().solve(load);
   EXPECT_NEAR(-0.8 * motion[0] + 0.6 * motion[1], P * L * L * L / (3.0 * EI), 1e-12);
@@ -159,8 +158,7 @@ TEST_P(MicropolarLattice, ForceIsTheDerivativeOfTheEnergyAndStiffnessThatOfTheFo
 TEST_P(MicropolarLattice, ForcesAndMomentsOfTheElementsAreInBalance) {
   const auto secants = random_secants(network_.num_elements(), 3);
   Loads internal;
-  internal.forces =
-      internal_force(network_, secants, random_vector(num_slots(network_), 4)).forces;
+  internal.forces = internal_force(network_, secants, random_vector(num_slots(network_), 4)).forces;
   const LoadResultant sum = load_resultant(network_, internal);
   EXPECT_LT(largest(sum.force), round_off * sum.scale);
   EXPECT_LT(largest(sum.moment), round_off * sum.scale);
@@ -296,6 +294,60 @@ TEST(MicropolarBulk, HasYoungsModulusAndPoissonsRatio) {
     EXPECT_NEAR(C66, 15.0 / (1.0 + nu), 1e-11);
   }
 }
+
+/// One bond with its inflection away from the middle: forces from the matrix of its modes.
+class Inflected : public testing::TestWithParam<int> {
+ protected:
+  Network make(double inflection) const {
+    const int dim = GetParam();
+    Network network = single_frame(
+        dim, dim == 2 ? std::vector{0.6, 0.8} : std::vector{0.48, 0.64, -0.6}, 3.0, 0.7);
+    network.inflection = {inflection};
+    return network;
+  }
+};
+
+TEST_P(Inflected, BondsResistNoRigidMotion) {
+  const Network network = make(-0.3);
+  const auto motion = linear_motion(network, {{{0, 0.4, -0.2}, {-0.4, 0, 0.9}, {0.2, -0.9, 0}}});
+  const std::vector<double> intact = {1.0};
+  for (const double f : internal_force(network, intact, motion).forces) EXPECT_NEAR(f, 0.0, 1e-15);
+}
+
+/// In a uniform strain without rotations the couple k_b xi^2 n x (eps n) is shared as the
+/// inflection says, and forces do not depend on it.
+TEST_P(Inflected, EndsShareTheCouple) {
+  const std::array<Vector3, 3> strain = {{{1.0, 0.3, -0.2}, {0.3, -0.5, 0.1}, {-0.2, 0.1, 0.4}}};
+  const std::vector<double> intact = {1.0};
+  const Network middle = make(0.5), moved = make(0.8);
+  const int dim = middle.dim(), width = middle.width();
+  const auto motion = linear_motion(middle, strain);
+  const auto half = internal_force(middle, intact, motion).forces;
+  const auto split = internal_force(moved, intact, motion).forces;
+  for (int end = 0; end < 2; ++end) {
+    for (int a = 0; a < width; ++a) {
+      const double share = a < dim ? 1.0 : end == 0 ? 1.6 : 0.4;
+      EXPECT_NEAR(split[end * width + a], share * half[end * width + a], 1e-15);
+    }
+  }
+}
+
+/// The equivalent stretch that the search compares is sqrt(2 U / (k xi^2)).
+TEST_P(Inflected, SearchMeasuresTheEnergy) {
+  const Network network = make(0.2);
+  const std::vector<double> intact = {1.0};
+  std::vector<double> motion = {0.1, -0.3, 0.2, 0.5, 0.4, 0.3};
+  if (GetParam() == 3) motion = {0.1, -0.3, 0.2, 0.5, 0.1, -0.2, 0.4, 0.3, -0.6, 0.1, 0.7, 0.2};
+  const auto forces = internal_force(network, intact, motion).forces;
+  double work = 0.0;
+  for (std::size_t k = 0; k < motion.size(); ++k) work += forces[k] * motion[k];
+  FrameLimitSearch search(network);
+  const BreakSearch::Hit hit = search.find(motion, 0.0, 1);
+  ASSERT_EQ(hit.element, 0);
+  EXPECT_NEAR(hit.ratio, std::sqrt(work / 3.0) / network.critical_stretch[0], 1e-11);
+}
+
+INSTANTIATE_TEST_SUITE_P(InPlaneAndSpace, Inflected, testing::Values(2, 3));
 
 /// In a homogeneous strain the bonds of a calibrated body break by their direction and length, not
 /// by what the calibration made of them: the order of breaking is that of

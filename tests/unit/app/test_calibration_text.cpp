@@ -39,6 +39,11 @@ TEST(CalibrationText, TellsWhereItFellShort) {
   EXPECT_NE(text.find("3 particles"), std::string::npos);
   EXPECT_NE(text.find("4.0e-03"), std::string::npos);
   EXPECT_NE(text.find("at (0, 0)"), std::string::npos) << text;
+  EXPECT_EQ(text.find("WARNING"), std::string::npos) << text;
+  network.calibration->moment_after = 0.02;
+  const std::string warning = calibration_shortfall(network).value_or("");
+  EXPECT_NE(warning.find("2.0e-02"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("WARNING"), std::string::npos) << warning;
   network.calibration.reset();
   EXPECT_FALSE(calibration_shortfall(network).has_value());
 }

@@ -8,8 +8,8 @@
 namespace perilink {
 namespace {
 
-/// Reads the rows back as the force on a particle in one strain, by the tensors that they stand for, and
-/// compares with the force of a bond computed from its definition.
+/// Reads the rows back as the force on a particle in one strain, by the tensors that they stand
+/// for, and compares with the force of a bond computed from its definition.
 TEST(BondEquations, RowsHoldTheForcesOfEveryStrain) {
   const double xi = 1.7;
   const std::array<double, 2> n = {0.6, 0.8};
@@ -52,7 +52,8 @@ TEST(BondEquations, RightSideIsTheStressOnTheArea) {
   }
 }
 
-/// A dilatation stretches bonds and turns none; a body of volume V stores (9 lambda + 6 mu) V / 2 in space.
+/// A dilatation stretches bonds and turns none; a body of volume V stores (9 lambda + 6 mu) V / 2
+/// in space.
 TEST(BondEquations, LastRowHoldsTheEnergyOfADilatation) {
   for (const bool bending : {false, true}) {
     const ForceRows rows{3, bending, true};

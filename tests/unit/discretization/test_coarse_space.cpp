@@ -13,8 +13,8 @@ namespace {
 double uniform(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0 - 0.5; }
 
 /// Points of a square grid, tied to their right and upper neighbours and along one diagonal by two
-/// variables each, more than there are equations; of the four equations the first `odd` act against each
-/// other.
+/// variables each, more than there are equations; of the four equations the first `odd` act against
+/// each other.
 PointEquations grid(Index side, int odd) {
   std::mt19937 random(11);
   PointEquations equations;

@@ -10,8 +10,8 @@
 namespace perilink {
 namespace {
 
-/// Quarter of a ring, coarse, with unequal steps: the work of its boundary on Killing tensors of the
-/// third degree is not zero with equal shares.
+/// Quarter of a ring, coarse, with unequal steps: the work of its boundary on Killing tensors of
+/// the third degree is not zero with equal shares.
 struct Ring {
   Simplices cells;
   std::vector<double> positions;
@@ -36,8 +36,8 @@ Ring quarter_ring() {
   return ring;
 }
 
-/// Work of the boundary on e r r, e the unit vector along x and r the rigid rotation about the origin:
-/// 2 (e . r) (A . r) + (r . r) (A . e).
+/// Work of the boundary on e r r, e the unit vector along x and r the rigid rotation about the
+/// origin: 2 (e . r) (A . r) + (r . r) (A . e).
 double cubic_work(const Facets& facets, const std::vector<double>& positions) {
   double work = 0.0;
   for (Index f = 0; f < facets.size(); ++f) {

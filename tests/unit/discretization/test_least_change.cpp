@@ -28,6 +28,7 @@ PointEquations ring(Index points, int rows, int odd, std::vector<double>& weight
       equations.first.push_back(p);
       equations.second.push_back((p + k) % points);
       equations.lower.push_back(0.1);
+      equations.upper.push_back(100.0);
       weights.push_back(1.0 + 0.3 * uniform(random));
       for (int r = 0; r < rows; ++r) {
         const double a = uniform(random);
@@ -41,6 +42,13 @@ PointEquations ring(Index points, int rows, int odd, std::vector<double>& weight
   return equations;
 }
 
+/// Squares of the changes.
+double change_of(const std::vector<double>& weights) {
+  double sum = 0.0;
+  for (const double w : weights) sum += (w - 1.0) * (w - 1.0);
+  return sum;
+}
+
 double largest_residual(const PointEquations& equations, const std::vector<double>& weights) {
   std::vector<double> rest = equations.right;
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
@@ -48,7 +56,11 @@ double largest_residual(const PointEquations& equations, const std::vector<doubl
     for (std::size_t r = 0; r < rows; ++r) {
       const double term = equations.coefficients[v * rows + r] * weights[v];
       rest[equations.first[v] * rows + r] -= term;
-      rest[equations.second[v] * rows + r] += static_cast<int>(r) < equations.odd ? term : -term;
+      if (static_cast<int>(r) < equations.odd) {
+        rest[equations.second[v] * rows + r] += term;
+      } else if (v < equations.one_ended) {
+        rest[equations.second[v] * rows + r] -= term;
+      }
     }
   }
   double largest = 0.0;
@@ -86,7 +98,8 @@ PointEquations group_by_three(PointEquations equations) {
   return equations;
 }
 
-/// Weights that fit each point fit the groups; the least change is smaller than that of any others that fit.
+/// Weights that fit each point fit the groups; the least change is smaller than that of any others
+/// that fit.
 TEST(LeastChange, LastRowsHoldForGroups) {
   std::vector<double> weights;
   const PointEquations equations = group_by_three(ring(60, 5, 4, weights, 8));
@@ -139,6 +152,73 @@ TEST(LeastChange, ThePreconditionerChangesNoAnswer) {
   }
 }
 
+/// Every second variable of a ring gives its moment to its first end alone.
+PointEquations one_ended_ring(std::vector<double>& weights) {
+  PointEquations equations = ring(40, 8, 6, weights, 8);
+  equations.one_ended = equations.num_variables() / 2;
+  for (Index v = equations.one_ended; v < equations.num_variables(); ++v) {
+    for (std::size_t r = 6; r < 8; ++r) {
+      equations.right[equations.second[v] * 8 + r] -=
+          equations.coefficients[v * 8 + r] * weights[v];
+    }
+  }
+  return equations;
+}
+
+TEST(LeastChange, MeetsEquationsOfOneEndedVariables) {
+  std::vector<double> weights;
+  const PointEquations equations = one_ended_ring(weights);
+  ASSERT_LT(largest_residual(equations, weights), 1e-14);
+  LeastChangeOptions options;
+  for (const Preconditioner preconditioner : {Preconditioner::blocks, Preconditioner::factor}) {
+    options.preconditioner = preconditioner;
+    const LeastChange found = least_change(equations, options);
+    EXPECT_TRUE(found.converged);
+    EXPECT_LT(largest_residual(equations, found.weights), 1e-10);
+    EXPECT_LE(change_of(found.weights), change_of(weights));
+  }
+}
+
+/// Bounds on both sides that a third of the weights meet: the minimum is unique, so both methods
+/// find it. 1e-8: the tolerance 1e-12 of the equations over the square of their smallest singular
+/// value.
+TEST(LeastChange, BothMethodsFindTheSameMinimum) {
+  for (const bool soft : {false, true}) {
+    std::vector<double> weights;
+    PointEquations equations = one_ended_ring(weights);
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+      equations.lower[v] = std::min(0.97, weights[v]);
+      equations.upper[v] = std::max(1.03, weights[v]);
+    }
+    if (soft) equations.ridge.assign(8, 1e-3);
+    LeastChangeOptions options;
+    const LeastChange newton = least_change(equations, options);
+    options.method = Method::interior_point;
+    const LeastChange interior = least_change(equations, options);
+    EXPECT_TRUE(newton.converged);
+    EXPECT_TRUE(interior.converged);
+    EXPECT_GT(newton.at_lower, 20);
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+      EXPECT_NEAR(interior.weights[v], newton.weights[v], 1e-8);
+      EXPECT_GE(interior.weights[v], equations.lower[v]);
+      EXPECT_LE(interior.weights[v], equations.upper[v]);
+    }
+  }
+}
+
+/// Few digits: weights of the interior point itself, off its bounds by less than the last gap.
+TEST(LeastChange, ACoarseToleranceStopsInside) {
+  LeastChangeOptions options;
+  options.method = Method::interior_point;
+  options.tolerance = 1e-2;
+  std::vector<double> weights;
+  const PointEquations equations = one_ended_ring(weights);
+  const LeastChange found = least_change(equations, options);
+  EXPECT_TRUE(found.converged);
+  EXPECT_EQ(found.at_lower, 0);
+  EXPECT_LT(largest_residual(equations, found.weights), 0.2);
+}
+
 /// One equation w_1 + w_2 + w_3 = 1.5 and a bound w_3 >= 0.8: minimum of the squares by hand.
 PointEquations one_point(double right, double lower) {
   PointEquations equations;
@@ -150,8 +230,10 @@ PointEquations one_point(double right, double lower) {
   for (int v = 0; v < 3; ++v) {
     equations.first.push_back(0);
     equations.second.push_back(0);
-    equations.coefficients.insert(equations.coefficients.end(), {0, 0, 0, 0, 0, 0, 0.5, 0});  // acts twice
+    equations.coefficients.insert(equations.coefficients.end(),
+                                  {0, 0, 0, 0, 0, 0, 0.5, 0});  // acts twice
     equations.lower.push_back(v == 2 ? lower : 0.0);
+    equations.upper.push_back(100.0);
   }
   return equations;
 }
@@ -172,11 +254,15 @@ TEST(LeastChange, RespectsBoundsInsteadOfClamping) {
 
 /// The bounds allow no less than 0.8: what is left is 0.3 of the equation.
 TEST(LeastChange, SaysHowFarContradictionsAre) {
-  const LeastChange found = least_change(one_point(0.5, 0.8), {});
-  EXPECT_FALSE(found.converged);
-  EXPECT_NEAR(found.residual, 0.3, 1e-8);
-  EXPECT_EQ(found.worst_point, 0);
-  EXPECT_EQ(found.at_lower, 3);
+  for (const Method method : {Method::newton, Method::interior_point}) {
+    LeastChangeOptions options;
+    options.method = method;
+    const LeastChange found = least_change(one_point(0.5, 0.8), options);
+    EXPECT_FALSE(found.converged);
+    EXPECT_NEAR(found.residual, 0.3, 1e-8);
+    EXPECT_EQ(found.worst_point, 0);
+    EXPECT_EQ(found.at_lower, 3);
+  }
 }
 
 /// Least squares of change and residual: w = 1 - t, t = d / (3 + ridge) with d = 3 - 1.5.

@@ -29,7 +29,6 @@ std::vector<PatchBody> patch_bodies() {
   const std::size_t count = bodies.size();
   for (std::size_t k = 0; k < count; ++k) {
     PatchBody body = bodies[k];
-    if (body.name == "l_block_coarse") continue;  // minutes of calibration that ends nowhere either
     body.name += "_micropolar";
     body.micropolar = true;
     bodies.push_back(body);

@@ -69,7 +69,7 @@ struct PatchResult {
 };
 PatchResult run_patch(const PatchBody& body);
 
-/// What counts as round-off: residuals of the forces and, of bond-based bodies, both errors [-].
+/// What counts as round-off, of forces, moments and both errors [-].
 inline constexpr double patch_acceptance = 1e-10;
 
 bool meets_acceptance(const PatchResult& result);

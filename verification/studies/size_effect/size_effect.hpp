@@ -45,9 +45,8 @@ struct BarRow {
 inline constexpr double largest_relaxation = 0.0025;
 /// Largest difference of the uncorrected bar from the closed form at a horizon of 12 spacings.
 inline constexpr double bar_acceptance = 0.01;
-/// Calibrated bars: their forces are in balance to round-off, their moments are soft equations and
-/// turn particles at the surface a little (docs/theory/calibration.md); measured: up to 8.1e-6.
-inline constexpr double calibrated_acceptance = 2e-5;
+/// Calibrated bars: forces and moments are in balance to 1e-10, and errors add up along the bar.
+inline constexpr double calibrated_acceptance = 1e-8;
 
 BarRow compare_bar(int width, int horizon_ratio, double poissons_ratio, bool calibrated);
 
