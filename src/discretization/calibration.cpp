@@ -35,7 +35,6 @@ class Calibration {
               const Facets& facets, const BondStiffness& stiffness)
       : in_space_(input.particles.dim == 3),
         irregular_(input.free.empty()),
-        moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
         energies_(irregular_),
         equations_(input, options.least_weight, facets, stiffness) {}
@@ -50,7 +49,7 @@ class Calibration {
   void search(Method method, double tolerance);
   bool balance(double tolerance);
 
-  bool in_space_, irregular_, moments_;
+  bool in_space_, irregular_;
   double tolerance_;
   bool energies_;  // of dilatation take part
   CalibrationEquations equations_;
@@ -76,9 +75,9 @@ void Calibration::search(Method method, double tolerance) {
   LeastChangeOptions options;
   options.tolerance = tolerance;
   options.method = method;
-  options.preconditioner = !in_space_               ? Preconditioner::factor
-                           : irregular_ || moments_ ? Preconditioner::aggregates
-                                                    : Preconditioner::blocks_then_factor;
+  options.preconditioner = !in_space_   ? Preconditioner::factor
+                           : irregular_ ? Preconditioner::aggregates
+                                        : Preconditioner::blocks_then_factor;
   const LeastChange change = least_change(equations_.balance(), options, factor_);
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
