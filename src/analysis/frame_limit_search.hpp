@@ -9,7 +9,8 @@ namespace perilink {
 /// Search among micropolar bonds. Extension, shear and bending count by their energy: with the
 /// deformations of assembly/frame.hpp the equivalent stretch of a bond is
 ///
-///   s_eq^2 = 2 U / (k xi^2) = s^2 + (kb/k) (g/xi)^2 + (kb/k) (|dtheta_bend|^2 + torsion dtheta_twist^2) / 12,
+///   s_eq^2 = 2 U / (k xi^2)
+///          = s^2 + (kb/k) (g/xi)^2 + (kb/k) (|dtheta_bend|^2 + torsion dtheta_twist^2) / 12,
 ///
 /// s = e/xi its axial stretch, kb/k = Network::ratio_of_bending(). A bond breaks where s_eq reaches
 /// the critical stretch while it is in tension, s > 0; so every bond that breaks holds k xi^2 s_c^2

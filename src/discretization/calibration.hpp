@@ -42,7 +42,8 @@ struct CalibrationReport {
   double moment_after = 0.0;  ///< largest moment out of balance of bonds that carry moments, over
                               ///< 1/2 sum k xi^2
   Index worst_particle = no_index;
-  Index unmet = 0;  ///< particles with a force or moment of more than 1e-7 out of balance at the end
+  /// Particles with a force or moment of more than 1e-7 out of balance at the end.
+  Index unmet = 0;
   double smallest_weight = 1.0;  ///< of axial stiffness, end over start
   double largest_weight = 1.0;
   Index at_least_weight = 0;  ///< number of bonds there

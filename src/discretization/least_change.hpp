@@ -16,8 +16,8 @@ namespace perilink {
 /// Weights w_v, one per variable, each with an end at two points. At every point p hold `rows`
 /// equations
 ///
-///   sum over variables with first end p of a_v w_v + sum over those with second end p of +- a_v w_v
-///     = r_p,
+///   sum over variables with first end p of a_v w_v
+///     + sum over those with second end p of +- a_v w_v = r_p,
 ///
 /// with the sign - in the first `odd` rows (forces, that act against each other at the two ends)
 /// and + in the others (moments, moduli). The last row may hold for groups of points instead.

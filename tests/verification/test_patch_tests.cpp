@@ -1,5 +1,6 @@
-// The linear patch test with calibrated bonds: uniform strains are equilibria, under tractions and under
-// prescribed displacements of the surface. The bodies of the study of the same name that take seconds.
+// The linear patch test with calibrated bonds: uniform strains are equilibria, under tractions and
+// under prescribed displacements of the surface. The bodies of the study of the same name that take
+// seconds.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -70,7 +71,8 @@ Gradient plane_stress_of_case(const Model&) {
 std::string side(const std::string& name, const std::string& where, double nx, double ny) {
   const Gradient s = plane_stress_of_case({});
   return fmt::format(
-      "[[regions]]\nname = \"{0}\"\n{1}\n[[tractions]]\nregion = \"{0}\"\ntraction = [{2:.17g}, {3:.17g}]\n",
+      "[[regions]]\nname = \"{0}\"\n{1}\n"
+      "[[tractions]]\nregion = \"{0}\"\ntraction = [{2:.17g}, {3:.17g}]\n",
       name, where, s[0][0] * nx + s[0][1] * ny, s[1][0] * nx + s[1][1] * ny);
 }
 
@@ -86,8 +88,9 @@ TEST(PatchLoads, TractionsOnTheSidesOfABoxAreThoseOfTheStress) {
 TEST(PatchLoads, TractionsOnTheGroupsOfAMeshAreThoseOfTheStress) {
   expect_loads(body_named("l_shape"),
                side("a", "group = \"left\"", -1, 0) + side("b", "group = \"right\"", 1, 0) +
-                   side("c", "group = \"inner right\"", 1, 0) + side("d", "group = \"bottom\"", 0, -1) +
-                   side("e", "group = \"top\"", 0, 1) + side("f", "group = \"inner top\"", 0, 1),
+                   side("c", "group = \"inner right\"", 1, 0) +
+                   side("d", "group = \"bottom\"", 0, -1) + side("e", "group = \"top\"", 0, 1) +
+                   side("f", "group = \"inner top\"", 0, 1),
                plane_stress_of_case);
 }
 

@@ -41,7 +41,8 @@ TEST(BondEquations, RightSideIsTheStressOnTheArea) {
   const double lambda = 1.3, mu = 2.1;
   const Vector3 area = {0.4, -0.9, 0.0};
   std::vector<double> right(static_cast<std::size_t>(rows.count()));
-  rows.right({lambda * area[0], lambda * area[1], 0}, {mu * area[0], mu * area[1], 0}, right.data());
+  rows.right({lambda * area[0], lambda * area[1], 0}, {mu * area[0], mu * area[1], 0},
+             right.data());
   const double eps[2][2] = {{0.3, -0.7}, {-0.7, 1.1}};
   for (int c = 0; c < 2; ++c) {
     const double force = eps[0][0] * right[c] + 2.0 * eps[0][1] * right[c + 1] +

@@ -6,7 +6,8 @@ namespace perilink::verification {
 
 std::vector<PatchBody> patch_bodies() {
   std::vector<PatchBody> bodies;
-  const auto lattice = [&](const char* name, const char* pattern, double spacing, int ratio, int dim) {
+  const auto lattice = [&](const char* name, const char* pattern, double spacing, int ratio,
+                           int dim) {
     bodies.push_back({fmt::format("{}_{}", name, ratio),
                       fmt::format("pattern = \"{}\"\nspacing = {}\nhorizon_ratio = {}\n", pattern,
                                   spacing, ratio),
@@ -17,7 +18,8 @@ std::vector<PatchBody> patch_bodies() {
   for (const int ratio : {2, 3}) lattice("cubic", "cubic", 0.125, ratio, 3);
   for (const int ratio : {2, 3}) lattice("face_centred", "face_centred", 0.15, ratio, 3);
   const auto mesh = [&](const char* name, const char* group, int dim) {
-    bodies.push_back({name, fmt::format("mesh = \"{}.msh\"\nhorizon_ratio = 3\n", name), dim, group});
+    bodies.push_back(
+        {name, fmt::format("mesh = \"{}.msh\"\nhorizon_ratio = 3\n", name), dim, group});
   };
   mesh("plate_with_hole", "plate", 2);
   mesh("disc", "disc", 2);

@@ -30,7 +30,8 @@ constexpr std::array<Mark, 3> marks = {{
      [](const PatchResult& r) { return r.displacement_error; }},
 }};
 
-void draw_panel(Svg& svg, const LogAxis& x, const std::vector<PatchResult>& results, bool micropolar) {
+void draw_panel(Svg& svg, const LogAxis& x, const std::vector<PatchResult>& results,
+                bool micropolar) {
   double y = top;
   svg.text({x.pixel_low, top - 22}, micropolar ? "micropolar" : "bond-based", "start", text_style);
   const auto count = static_cast<double>(
@@ -48,7 +49,8 @@ void draw_panel(Svg& svg, const LogAxis& x, const std::vector<PatchResult>& resu
     const double middle = y + row_height / 2;
     if (!micropolar) svg.text({x.pixel_low - 12, middle + 4.5}, r.body.name, "end", text_style);
     for (const Mark& mark : marks) {
-      svg.circle({x.map(std::clamp(mark.value(r), x.low, x.high)), middle}, mark.radius, mark.style);
+      svg.circle({x.map(std::clamp(mark.value(r), x.low, x.high)), middle}, mark.radius,
+                 mark.style);
     }
     y += row_height;
   }

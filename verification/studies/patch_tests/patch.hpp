@@ -22,26 +22,29 @@ struct PatchBody {
 /// The lattices and meshes of the study, each bond-based and micropolar.
 std::vector<PatchBody> patch_bodies();
 
-/// The case file of a body whose surface is held by a gradient of displacement with all components; loads
-/// may be added.
+/// The case file of a body whose surface is held by a gradient of displacement with all components;
+/// loads may be added.
 std::string patch_case(const PatchBody& body, const std::string& loading = {});
 
 /// Builds the model of such a case.
 Model patch_model(const PatchBody& body, const std::string& loading = {});
 
-/// The gradient of displacement of the study, G_ab = d u_a / d x_b; its symmetric part is the strain.
+/// The gradient of displacement of the study, G_ab = d u_a / d x_b; its symmetric part is the
+/// strain.
 using Gradient = std::vector<std::vector<double>>;
 Gradient patch_gradient(int dim);
 
 /// Stress of a gradient in the only material of a model [force/length^2].
 Gradient patch_stress(const Model& model, const Gradient& gradient);
 
-/// Forces of a uniform stress on the whole surface, by the function that the case's [[tractions]] use.
+/// Forces of a uniform stress on the whole surface, by the function that the case's [[tractions]]
+/// use.
 Loads surface_loads(const Model& model, const Gradient& stress);
 
 /// What uniform strains leave out of balance.
 struct PatchResidual {
-  double force = 0.0;   ///< largest force on a particle, over the largest force of a traction on one
+  /// Largest force on a particle, over the largest force of a traction on one.
+  double force = 0.0;
   Vector3 at{};         ///< where [length]
   Index particles = 0;  ///< with more than 1e-10 of that
   double moment = 0.0;  ///< largest moment on a particle, over that force times the spacing
@@ -50,8 +53,9 @@ struct PatchResidual {
 /// Largest over unit strains in each component, rotations of the particles zero.
 PatchResidual patch_residual(const Model& model);
 
-/// Largest error of the displacement over the largest displacement when the stress of patch_gradient()
-/// pulls at the whole surface of the free body. A rigid motion is taken out of the answer by least squares.
+/// Largest error of the displacement over the largest displacement when the stress of
+/// patch_gradient() pulls at the whole surface of the free body. A rigid motion is taken out of the
+/// answer by least squares.
 double traction_error(const Model& model);
 
 /// The same when the surface is held in the displacements of patch_gradient(), rotations too.

@@ -1,6 +1,6 @@
 // The linear patch test of calibrated bonds on every lattice and on meshes.
 //
-//   patch_tests [DIRECTORY]    writes result.csv and residuals.svg there, default: the study's folder
+//   patch_tests [DIRECTORY]    writes result.csv and residuals.svg there or in the study's folder
 //
 // Exit status 1 when a body misses the acceptance.
 
@@ -29,11 +29,11 @@ bool run_study(const std::string& directory) {
   for (const PatchBody& body : patch_bodies()) {
     const Timer timer;
     const PatchResult r = run_patch(body);
-    const std::string row = fmt::format(
-        "{},{},{},{},{},{:.1e},{:.1e},{},{:.3g},{:.3g},{:.3g},{:.1e},{:.1e},{:.1e}\n", body.name,
-        body.dim, body.micropolar ? 1 : 0, r.particles, r.bonds, r.before, r.residual.force,
-        r.residual.particles, r.residual.at[0], r.residual.at[1], r.residual.at[2], r.residual.moment,
-        r.traction_error, r.displacement_error);
+    const std::string row =
+        fmt::format("{},{},{},{},{},{:.1e},{:.1e},{},{:.3g},{:.3g},{:.3g},{:.1e},{:.1e},{:.1e}\n",
+                    body.name, body.dim, body.micropolar ? 1 : 0, r.particles, r.bonds, r.before,
+                    r.residual.force, r.residual.particles, r.residual.at[0], r.residual.at[1],
+                    r.residual.at[2], r.residual.moment, r.traction_error, r.displacement_error);
     fmt::print("{}", row);
     fmt::print(stderr, "{}: {:.1f} s\n", body.name, timer.seconds());
     std::fflush(stdout);
