@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
+#include <stdexcept>
 #include <string>
 
 #include "quality/source_tree.hpp"
@@ -43,6 +45,33 @@ TEST(Text, SourcesUseUnixLineEndsAndNoTabs) {
       for (const std::string& line : read_lines(file)) {
         ++number;
         EXPECT_EQ(line.find_first_of("\t\r"), std::string::npos) << shown(file) << ":" << number;
+      }
+    }
+  }
+}
+
+/// ColumnLimit of .clang-format.
+std::ptrdiff_t column_limit() {
+  const std::regex entry("ColumnLimit: *([0-9]+)");
+  std::smatch found;
+  for (const std::string& line : read_lines(project_root() / ".clang-format")) {
+    if (std::regex_match(line, found, entry)) return std::stol(found[1]);
+  }
+  throw std::runtime_error(".clang-format says no ColumnLimit");
+}
+
+TEST(Text, LinesOfSourcesEndAtTheColumnLimit) {
+  const std::ptrdiff_t limit = column_limit();
+  for (const char* folder : {"src", "tests", "verification"}) {
+    for (const auto& file : cpp_files(folder)) {
+      int number = 0;
+      for (const std::string& line : read_lines(file)) {
+        ++number;
+        // Characters of UTF-8 begin with every byte but those of the form 10xxxxxx.
+        const auto columns = std::count_if(line.begin(), line.end(), [](char byte) {
+          return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
+        });
+        EXPECT_LE(columns, limit) << shown(file) << ":" << number;
       }
     }
   }
