@@ -26,6 +26,10 @@ constexpr double worth_dropping = 0.1;
 /// more.
 constexpr double settling_tolerance = 0.01;
 
+/// Of conjugate gradients in one search. Those that end need less, up to 4000 in solids with edges;
+/// those of nearly contradictory equations would go on for minutes.
+constexpr int most_iterations = 8000;
+
 /// Intermediate passes need no more digits; what they leave is no contradiction.
 constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
 
@@ -35,6 +39,7 @@ class Calibration {
               const Facets& facets, const BondStiffness& stiffness)
       : in_space_(input.particles.dim == 3),
         irregular_(input.free.empty()),
+        moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
         energies_(irregular_),
         equations_(input, options.least_weight, facets, stiffness) {}
@@ -43,62 +48,80 @@ class Calibration {
   CalibrationEquations::State result() const { return equations_.save(); }
 
  private:
+  double unbalanced() const {
+    return soft_moments_ ? report_.residual_after
+                         : std::max(report_.residual_after, report_.moment_after);
+  }
+  void soften_moments();
   bool solve(double tolerance);
   bool attempt();
   void settle();
   void search(Method method, double tolerance);
   bool balance(double tolerance);
 
-  bool in_space_, irregular_;
+  bool in_space_, irregular_, moments_;
   double tolerance_;
   bool energies_;  // of dilatation take part
+  bool soft_moments_ = false;
   CalibrationEquations equations_;
   CalibrationReport report_;
   std::unique_ptr<CoarseSpace> factor_;  // of the force equations
 };
 
-/// Energies of dilatation, and forces beside them.
+/// Energies of dilatation, and forces beside them. In the plane a step of Newton's method is cheap,
+/// but it can get lost.
 void Calibration::settle() {
+  const CalibrationEquations::State start = equations_.save();
   LeastChangeOptions options;
   options.tolerance = settling_tolerance;
-  options.method = in_space_ ? Method::interior_point : Method::newton;
   options.preconditioner = Preconditioner::aggregates;
-  factor_.reset();  // coefficients are those of the stiffnesses now
-  const LeastChange change = least_change(equations_.settling(), options, factor_);
+  for (const Method method : {Method::newton, Method::interior_point}) {
+    if (in_space_ && method == Method::newton) continue;
+    equations_.restore(start);
+    options.method = method;
+    factor_.reset();  // coefficients are those of the stiffnesses now
+    const LeastChange change = least_change(equations_.settling(), options, factor_);
+    equations_.apply(change.weights);
+    report_.iterations += change.iterations;
+    if (change.converged) break;
+  }
   factor_.reset();
-  equations_.apply(change.weights);
-  report_.iterations += change.iterations;
 }
 
 /// One solution of the exact equations.
 void Calibration::search(Method method, double tolerance) {
   LeastChangeOptions options;
   options.tolerance = tolerance;
+  options.iterations = most_iterations;
   options.method = method;
-  options.preconditioner = !in_space_   ? Preconditioner::factor
-                           : irregular_ ? Preconditioner::aggregates
-                                        : Preconditioner::blocks_then_factor;
+  const bool iterated = irregular_ || method == Method::interior_point;
+  options.preconditioner = !in_space_ ? Preconditioner::factor
+                           : iterated ? Preconditioner::aggregates
+                                      : Preconditioner::blocks_then_factor;
   const LeastChange change = least_change(equations_.balance(), options, factor_);
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
   equations_.report_balance(report_);
 }
 
-/// The forces and moments, exactly. In the plane a factor serves several steps of Newton's method,
-/// but not those of an interior point, which is therefore the last resort. Where it ends farther
-/// from balance the settled stiffnesses are kept. \return whether forces are nearer to balance now
+/// The forces and moments, exactly. The interior point is the last resort where one factor serves
+/// several steps of Newton's method; the corners of solids without moments have no solution, and it
+/// would find none. Where the search ends farther from balance the settled stiffnesses are kept.
+/// \return whether it is nearer now
 bool Calibration::balance(double tolerance) {
   equations_.report_balance(report_);
-  const double before = report_.residual_after;
+  const double before = unbalanced();
   const CalibrationEquations::State settled = equations_.save();
-  search(irregular_ && in_space_ ? Method::interior_point : Method::newton, tolerance);
-  if (irregular_ && !in_space_ && report_.residual_after > met) {
+  const Method first = irregular_ && in_space_ ? Method::interior_point : Method::newton;
+  search(first, tolerance);
+  const bool solvable = moments_ || !in_space_;
+  if (first == Method::newton && solvable && unbalanced() > met) {
     equations_.restore(settled);
     factor_.reset();
     search(Method::interior_point, tolerance);
     factor_.reset();
   }
-  if (report_.residual_after <= std::max(met, before)) return true;
+  if (unbalanced() <= std::max(met, before)) return true;
   equations_.restore(settled);
   equations_.report_balance(report_);
   return false;
@@ -116,37 +139,57 @@ bool Calibration::attempt() {
   const bool cautious = in_space_;  // corners may have no solution: finding out takes few digits
   const double coarse = cautious ? coarse_tolerance : tolerance_;
   if (!solve(coarse)) return false;
-  const double floored = report_.residual_after;
+  const double floored = unbalanced();
   if (equations_.allow_zero(cautious ? coarsely_met : met)) {
     solve(coarse);
     equations_.drop_vanishing();
     solve(tolerance_);
-    if (report_.residual_after <= worth_dropping * floored && !equations_.hollow()) return true;
+    if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
     equations_.take_all_back();
     solve(tolerance_);
     return true;
   }
   // Each search starts from the weights of the last and leaves a small part of what that left.
   for (int pass = 0; cautious && pass < most_refinements; ++pass) {
-    if (!balance(tolerance_) || std::max(report_.residual_after, report_.moment_after) < exact)
-      break;
+    if (!balance(tolerance_) || unbalanced() < exact) break;
   }
   return true;
+}
+
+/// Where forces and moments have no solution together (interfaces of materials that meet the
+/// surface of a lattice), forces alone are exact.
+void Calibration::soften_moments() {
+  const CalibrationEquations::State best = equations_.save();
+  const double reached = report_.residual_after;
+  equations_.take_all_back();
+  equations_.soften_moments();
+  soft_moments_ = true;
+  attempt();
+  if (report_.residual_after <= reached) return;
+  equations_.take_all_back();
+  equations_.restore(best);
+  equations_.report_balance(report_);
 }
 
 CalibrationReport Calibration::run() {
   equations_.report_balance(report_);
   report_.residual_before = report_.residual_after;
+  const double start = unbalanced();
   if (!attempt() && energies_) {
     const CalibrationEquations::State settled = equations_.save();
-    const double reached = report_.residual_after;
+    const double reached = unbalanced();
     energies_ = false;
     attempt();
-    if (report_.residual_after > reached) {
+    if (unbalanced() > reached) {
       equations_.take_all_back();
       equations_.restore(settled);
       equations_.report_balance(report_);
     }
+  }
+  if (moments_ && unbalanced() > met) soften_moments();
+  if (!(unbalanced() <= start)) {  // too few neighbours all over
+    equations_.take_all_back();
+    equations_.report_balance(report_);
   }
   equations_.report_weights(report_);
   return report_;

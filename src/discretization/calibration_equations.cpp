@@ -15,6 +15,7 @@ namespace {
 constexpr double met = 1e-7;
 
 constexpr double most_weight = 100.0;
+constexpr double round_off = 1e-12;
 
 /// Where a bond may fall to zero, it is on its way there below this weight.
 constexpr double vanishing = 1e-3;
@@ -55,7 +56,7 @@ CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double
       facets_(facets),
       start_{stiffness, facets.shares},
       given_(start_),
-      may_vanish_(static_cast<std::size_t>(input.bonds.size()), 0) {
+      floor_(static_cast<std::size_t>(input.bonds.size()), Floor::least_weight) {
   choose_points();
   measure_particles();
   on_surface_.assign(static_cast<std::size_t>(input.particles.size()), 0);
@@ -107,16 +108,19 @@ void CalibrationEquations::start_over() { restore(start_); }
 void CalibrationEquations::take_all_back() {
   start_ = given_;
   kept_ = free_bonds_;
-  std::fill(may_vanish_.begin(), may_vanish_.end(), 0);
+  std::fill(floor_.begin(), floor_.end(), Floor::least_weight);
   start_over();
 }
 
 CalibrationEquations::Variable CalibrationEquations::axial_variable(Index b) const {
-  const double k = stiffness_.axial[b];
-  const double least =
-      may_vanish_[b] ? 0.0 : std::min(k, least_weight_ * start_.stiffness.axial[b]);
-  return {Kind::axial, b, 0,     input_.bonds.first[b], input_.bonds.second[b],
-          k,           k, least, most_weight * k};
+  const double k = stiffness_.axial[b], start = start_.stiffness.axial[b];
+  const double scale = std::max(k, least_weight_ * start);
+  const double floor = floor_[b] == Floor::none    ? 0.0
+                       : floor_[b] == Floor::small ? vanishing
+                                                   : least_weight_;
+  const double least = std::min(k, floor * start), most = most_weight * scale;
+  const Index first = input_.bonds.first[b], second = input_.bonds.second[b];
+  return {Kind::axial, b, 0, first, second, k, scale, least, most};
 }
 
 /// The part of the bending stiffness whose couple acts at one end.
@@ -166,6 +170,7 @@ void CalibrationEquations::for_each_variable(Visit visit) const {
   for (const Index b : kept_) visit(axial_variable(b));
   if (carries_moments()) {
     for (const Index b : kept_) {
+      if (!(start_.stiffness.bending[b] > 0.0)) continue;  // a truss (Poisson's ratio at its limit)
       visit(couple_variable(b, 0));
       visit(couple_variable(b, 1));
     }
@@ -180,8 +185,10 @@ void CalibrationEquations::change(const Variable& variable, double value) {
       const double other = couple_variable(variable.index, 1 - variable.end).present;
       const double sum = value + other;
       const double at_first = variable.end == 0 ? value : other;
-      stiffness_.bending[variable.index] = sum;
-      stiffness_.inflection[variable.index] = sum > 0.0 ? at_first / sum : 0.5;
+      // Two couples at their bounds may sum to round-off of either sign.
+      const bool bends = sum > round_off * start_.stiffness.bending[variable.index];
+      stiffness_.bending[variable.index] = bends ? sum : 0.0;
+      stiffness_.inflection[variable.index] = bends ? at_first / sum : 0.5;
       break;
     }
     case Kind::share:
@@ -244,6 +251,9 @@ PointEquations CalibrationEquations::make_equations(const ForceRows& form) const
     equations.positions.insert(equations.positions.end(), x.begin(), x.end());
   }
   set_right_sides(equations);
+  if (moments_ridge_ == 0.0) return equations;
+  equations.ridge.assign(static_cast<std::size_t>(equations.rows), moments_ridge_);
+  std::fill_n(equations.ridge.begin(), forces_.odd(), 0.0);
   return equations;
 }
 
@@ -276,11 +286,9 @@ void CalibrationEquations::set_right_sides(PointEquations& equations) const {
   }
 }
 
-PointEquations CalibrationEquations::balance() const { return make_equations(forces_); }
-
 PointEquations CalibrationEquations::settling() const {
   PointEquations equations = make_equations({dim_, forces_.bending, true});
-  equations.ridge.assign(static_cast<std::size_t>(equations.rows), 0.0);
+  equations.ridge.resize(static_cast<std::size_t>(equations.rows), 0.0);
   if (dim_ == 3) std::fill_n(equations.ridge.begin(), forces_.odd(), forces_ridge_in_space);
   equations.ridge.back() = dilatation_ridge;
   gather_dilatations(equations);
@@ -307,6 +315,7 @@ void CalibrationEquations::report_balance(CalibrationReport& report) const {
   const std::size_t rows = static_cast<std::size_t>(forces_.count());
   report.residual_after = report.moment_after = 0.0;
   report.unmet = 0;
+  report.worst_particle = no_index;
   for (const Index i : particle_of_) {
     double force = 0.0, moment = 0.0;  // of this particle
     for (std::size_t r = 0; r < rows; ++r) {
@@ -350,9 +359,10 @@ bool CalibrationEquations::allow_zero(double limit) {
   };
   bool any = false;
   for (const Index b : free_bonds_) {
-    if (may_vanish_[b] || (!unmet(input_.bonds.first[b]) && !unmet(input_.bonds.second[b])))
+    if (floor_[b] == Floor::none ||
+        (!unmet(input_.bonds.first[b]) && !unmet(input_.bonds.second[b])))
       continue;
-    may_vanish_[b] = 1;
+    floor_[b] = Floor::none;
     any = true;
   }
   return any;
@@ -362,7 +372,8 @@ void CalibrationEquations::drop_vanishing() {
   std::vector<Index> stay;
   for (const Index b : kept_) {
     double& start = start_.stiffness.axial[b];
-    if (!may_vanish_[b] || stiffness_.axial[b] >= vanishing * start) {
+    if (floor_[b] != Floor::none || stiffness_.axial[b] >= vanishing * start) {
+      if (floor_[b] == Floor::none) floor_[b] = Floor::small;
       stay.push_back(b);
       continue;
     }

@@ -21,10 +21,12 @@ class CalibrationEquations {
                        const BondStiffness& stiffness);
 
   /// Forces and moments in balance at every particle, in every uniform strain, exactly.
-  PointEquations balance() const;
+  PointEquations balance() const { return make_equations(forces_); }
   /// The same with the energies of dilatation of particles inside and of columns under the surface,
   /// softly.
   PointEquations settling() const;
+  /// From now on moments are soft equations beside the exact forces.
+  void soften_moments() { moments_ridge_ = soft_ridge; }
   /// Makes a solution of these equations the present state.
   void apply(std::span<const double> weights);
 
@@ -54,6 +56,11 @@ class CalibrationEquations {
 
  private:
   enum class Kind { axial, couple, share };
+  enum class Floor : std::uint8_t {
+    least_weight,
+    none,
+    small
+  };  // small: stays after others fell to 0
 
   /// A quantity in the equations: its value is present + scale (weight - 1).
   struct Variable {
@@ -81,6 +88,9 @@ class CalibrationEquations {
   bool shares_vary() const { return input_.free.empty(); }
   bool carries_moments() const { return forces_.bending; }
 
+  /// Squares of soft moments weigh its inverse against those of the changes.
+  static constexpr double soft_ridge = 1e-4;
+
   const CalibrationInput& input_;
   double least_weight_;
   int dim_;
@@ -91,9 +101,10 @@ class CalibrationEquations {
   const State given_;               // all of them
   std::vector<Index> point_of_;     // of each particle, no_index where no free bond ends
   std::vector<Index> particle_of_;  // of each point
+  double moments_ridge_ = 0.0;      // 0: exact
   std::vector<Index> free_bonds_;
   std::vector<Index> kept_;               // of these: not dropped
-  std::vector<std::uint8_t> may_vanish_;  // bonds without a floor
+  std::vector<Floor> floor_;              // of the axial stiffness of each bond
   std::vector<std::uint8_t> on_surface_;  // of each particle: at a facet
   std::vector<double> modulus_;           // 1/2 sum k xi^2 of each particle at the start
   std::vector<double> length_;            // mean xi of each particle

@@ -44,7 +44,7 @@ class InteriorPoint {
  private:
   /// Multipliers of the bounds to begin with; those of soft equations grow to this order.
   static constexpr double first_gap = 30.0;
-  /// z (w - lower) at the end: what weights at a bound may be off by.
+  /// z (w - lower) at the end: weights at a bound are off by its square root at most.
   static constexpr double last_gap = 1e-4;
   static constexpr int most_steps = 40;
   /// Part of the way to the nearest bound that a step may take.
@@ -79,6 +79,7 @@ void InteriorPoint<Rows, Odd, Grouped>::start() {
 /// Mean of z (w - lower) and Z (upper - w).
 template <int Rows, int Odd, bool Grouped>
 double InteriorPoint<Rows, Odd, Grouped>::gap() const {
+  if (weights_.empty()) return 0.0;
   double sum = 0.0;
   for (std::size_t v = 0; v < weights_.size(); ++v) {
     sum += at_lower_[v] * (weights_[v] - lower_[v]) + at_upper_[v] * (upper_[v] - weights_[v]);

@@ -22,7 +22,8 @@ namespace {
 std::vector<PatchBody> quick_bodies() {
   std::vector<PatchBody> bodies = patch_bodies();
   std::erase_if(bodies, [](const PatchBody& body) {
-    return body.name.find("block") != std::string::npos;  // tetrahedra: up to ten seconds each
+    // Up to ten seconds each; the coarse one stays.
+    return body.name.find("block") != std::string::npos && body.name != "l_block_coarse";
   });
   return bodies;
 }

@@ -218,12 +218,31 @@ TEST(Calibration, DropsTheDiagonalsAtTheCornersOfACube) {
   EXPECT_EQ(report.dropped, 8);
 }
 
+/// At the limit of Poisson's ratio bonds do not bend, in one of two materials or in all: trusses
+/// among frames.
+TEST(Calibration, TakesBondsThatDoNotBendAsTrusses) {
+  for (const Index every : {1, 2}) {
+    Problem problem = make_problem(box(Pattern::cubic, 0.25, {1, 1, 1}), 3.0, 0.2, true);
+    for (Index b = 0; b < problem.bonds.size(); b += every) problem.stiffness.bending[b] = 0.0;
+    const LameConstants constants{1.0, every == 1 ? 1.0 : 1.1};
+    const CalibrationInput input{problem.body.particles, problem.bonds, {constants}, {}};
+    const CalibrationReport report =
+        calibrate_bonds(input, {}, problem.body.facets, problem.stiffness);
+    EXPECT_LT(report.residual_after, 1e-10);
+    EXPECT_LT(report.moment_after, 1e-10);
+    for (Index b = 0; b < problem.bonds.size(); b += every) {
+      EXPECT_EQ(problem.stiffness.bending[b], 0.0);
+    }
+  }
+}
+
 /// A chain of bonds cannot balance a shear: the report says where and how far.
 TEST(Calibration, SaysWhatCannotBeMet) {
   Problem problem = make_problem(box(Pattern::rectangular, 0.25, {1, 1, 0}), 1.1, 0.0, false);
   const CalibrationReport report = calibrate(problem);
   EXPECT_GT(report.unmet, 0);
   EXPECT_GT(report.residual_after, 1e-3);
+  EXPECT_LE(report.residual_after, report.residual_before);
   ASSERT_NE(report.worst_particle, no_index);
 }
 
