@@ -230,7 +230,7 @@ void CalibrationEquations::fill_row(const ForceRows& form, const Variable& varia
   form.right(lambda_area, mu_area, row);
 }
 
-/// Variables, coefficients and bounds; right sides and scales are left to the caller.
+/// All but the right sides of the dilatation.
 PointEquations CalibrationEquations::make_equations(const ForceRows& form) const {
   PointEquations equations;
   equations.dim = dim_;

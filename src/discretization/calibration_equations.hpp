@@ -20,7 +20,8 @@ class CalibrationEquations {
   CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,
                        const BondStiffness& stiffness);
 
-  /// Forces and moments in balance at every particle, in every uniform strain, exactly.
+  /// Forces and moments in balance at every particle, in every uniform strain, exactly (moments until
+  /// soften_moments()).
   PointEquations balance() const { return make_equations(forces_); }
   /// The same with the energies of dilatation of particles inside and of columns under the surface,
   /// softly.
@@ -56,11 +57,8 @@ class CalibrationEquations {
 
  private:
   enum class Kind { axial, couple, share };
-  enum class Floor : std::uint8_t {
-    least_weight,
-    none,
-    small
-  };  // small: stays after others fell to 0
+  /// Of the axial stiffness; small: of bonds that stay after others fell to zero.
+  enum class Floor : std::uint8_t { least_weight, none, small };
 
   /// A quantity in the equations: its value is present + scale (weight - 1).
   struct Variable {
@@ -104,7 +102,7 @@ class CalibrationEquations {
   double moments_ridge_ = 0.0;      // 0: exact
   std::vector<Index> free_bonds_;
   std::vector<Index> kept_;               // of these: not dropped
-  std::vector<Floor> floor_;              // of the axial stiffness of each bond
+  std::vector<Floor> floor_;              // of each bond
   std::vector<std::uint8_t> on_surface_;  // of each particle: at a facet
   std::vector<double> modulus_;           // 1/2 sum k xi^2 of each particle at the start
   std::vector<double> length_;            // mean xi of each particle
