@@ -23,8 +23,8 @@ class CalibrationEquations {
   /// Forces and moments in balance at every particle, in every uniform strain, exactly (moments until
   /// soften_moments()).
   PointEquations balance() const { return make_equations(forces_); }
-  /// The same with the energies of dilatation of particles inside and of columns under the surface,
-  /// softly.
+  /// The same with the energies of dilatation of particles inside and of columns under the
+  /// surface, softly.
   PointEquations settling() const;
   /// From now on moments are soft equations beside the exact forces.
   void soften_moments() { moments_ridge_ = soft_ridge; }
