@@ -20,8 +20,8 @@ class CalibrationEquations {
   CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,
                        const BondStiffness& stiffness);
 
-  /// Forces and moments in balance at every particle, in every uniform strain, exactly (moments until
-  /// soften_moments()).
+  /// Forces and moments in balance at every particle, in every uniform strain, exactly (moments
+  /// until soften_moments()).
   PointEquations balance() const { return make_equations(forces_); }
   /// The same with the energies of dilatation of particles inside and of columns under the
   /// surface, softly.
