@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/configure.hpp"
 #include "app/progress.hpp"
+#include "app/run_model.hpp"
 #include "app/summary.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/timer.hpp"
@@ -147,7 +148,7 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
 int check_case(const std::string& case_path) {
   const CaseFile input = read_case_file(case_path);
   const Timer timer;
-  const Model model = build_model(input);
+  const Model model = build_model_visibly(input, false);
   const double set_up = timer.seconds();
   const Network& network = model.network;
   const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);

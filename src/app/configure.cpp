@@ -293,9 +293,11 @@ void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkI
   build_gauges(input, draft);
 }
 
-void build_bonds(const CaseFile& input, Body& body, Model& model) {
+void build_bonds(const CaseFile& input, const CalibrationObserver& on_search, Body& body,
+                 Model& model) {
   refuse_bars_outside(input, body);
-  const NetworkInput network = network_input(input, model.problem, model.horizon);
+  NetworkInput network = network_input(input, model.problem, model.horizon);
+  network.on_search = on_search;
   refuse_poissons_ratios(input, body, network);
   refuse_impossible_cracks(input, body.particles.dim);
   refuse_before_calibration(input, body, network, model);
@@ -308,7 +310,7 @@ void build_bonds(const CaseFile& input, Body& body, Model& model) {
 
 }  // namespace
 
-Model build_model(const CaseFile& input) {
+Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
   Model model;
   model.problem = problem_of(input);
   const int dim = dimension_of(model.problem);
@@ -316,7 +318,7 @@ Model build_model(const CaseFile& input) {
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
   if (input.body.method == "bonds") {
-    build_bonds(input, body, model);
+    build_bonds(input, on_search, body, model);
   } else {
     build_elements(input, body, model);
   }

@@ -10,6 +10,7 @@
 #include "assembly/network.hpp"
 #include "assembly/rigid_modes.hpp"
 #include "assembly/unknowns.hpp"
+#include "discretization/calibration.hpp"
 #include "discretization/lattice.hpp"
 #include "io/case_file.hpp"
 #include "material/elasticity.hpp"
@@ -50,9 +51,10 @@ struct Model {
 };
 
 /// Builds the model of a case.
+/// \param on_search  told how the calibration of the bonds comes along; may be empty
 /// \throws InputError where the case makes no sense for its body: empty regions, particles that
 /// nothing holds, free rigid-body modes, contradictory supports
-Model build_model(const CaseFile& input);
+Model build_model(const CaseFile& input, const CalibrationObserver& on_search = {});
 
 /// Options of the damage analysis that a case asks for.
 DamageOptions damage_options(const CaseFile& input, int threads);

@@ -14,6 +14,14 @@ constexpr double terminal_interval = 0.1;  // [s]
 constexpr double log_interval = 10.0;      // [s]
 constexpr int bar_width = 24;
 
+/// Over the line that stands there.
+void draw_line(const std::string& text) {
+  fmt::print(stderr, "\r{}\033[K", text);
+  std::fflush(stderr);
+}
+
+void erase_line() { draw_line(""); }
+
 }  // namespace
 
 std::string format_duration(double seconds) {
@@ -68,16 +76,28 @@ void Progress::draw(const StepRecord& record) {
     const int full = static_cast<int>(*done * bar_width);
     bar = "[" + std::string(full, '#') + std::string(bar_width - full, '.') + "] ";
   }
-  fmt::print(stderr, "\r{}{}{}\033[K", bar, state, left);
-  std::fflush(stderr);
+  draw_line(bar + state + left);
   drawn_ = true;
 }
 
 void Progress::finish() {
-  if (!drawn_) return;
-  fmt::print(stderr, "\r\033[K");
-  std::fflush(stderr);
+  if (drawn_) erase_line();
   drawn_ = false;
+}
+
+CalibrationProgress::CalibrationProgress(bool quiet)
+    : shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
+
+CalibrationProgress::~CalibrationProgress() {
+  if (drawn_) erase_line();
+}
+
+void CalibrationProgress::update(int search, double unbalanced) {
+  if (!shown_) return;
+  // Nothing is drawn while a search lasts: a time "so far" would soon be wrong.
+  draw_line(fmt::format("calibrating bonds: search {} begun after {}, forces out of balance {:.1e}",
+                        search, format_duration(since_start_.seconds()), unbalanced));
+  drawn_ = true;
 }
 
 }  // namespace perilink

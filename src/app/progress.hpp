@@ -34,6 +34,24 @@ class Progress {
   bool drawn_ = false;
 };
 
+/// Where the calibration of bonds stands, for people at a terminal: a line drawn over itself on
+/// standard error, and gone at the end; nothing elsewhere or when quiet.
+class CalibrationProgress {
+ public:
+  explicit CalibrationProgress(bool quiet);
+  ~CalibrationProgress();
+  CalibrationProgress(const CalibrationProgress&) = delete;
+  CalibrationProgress& operator=(const CalibrationProgress&) = delete;
+
+  /// To be called before every search, see CalibrationObserver.
+  void update(int search, double unbalanced);
+
+ private:
+  bool shown_;
+  Timer since_start_;
+  bool drawn_ = false;
+};
+
 /// "3 s", "2 min 10 s", "1 h 05 min".
 std::string format_duration(double seconds);
 

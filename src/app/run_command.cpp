@@ -69,7 +69,7 @@ int run_case(const RunOptions& options) {
                                                : default_result_directory(options.case_path);
   refuse_own_case(directory, options.case_path);
   refuse_old_results(directory, options.force);  // at once: the model may take minutes
-  const Model model = build_model(input);
+  const Model model = build_model_visibly(input, options.quiet);
   prepare_result_directory(directory, options.force);
   catch_stop_signals();
   write_resolved_case(directory, seen_from(input, directory));

@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/progress.hpp"
+
 namespace perilink {
 namespace {
 
@@ -41,6 +43,12 @@ DamageResult as_history(const Model& model, const ElasticResult& elastic) {
 }
 
 }  // namespace
+
+Model build_model_visibly(const CaseFile& input, bool quiet) {
+  CalibrationProgress progress(quiet);
+  return build_model(
+      input, [&](int search, double unbalanced) { progress.update(search, unbalanced); });
+}
 
 ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepObserver& observer) {
   ModelRun run;

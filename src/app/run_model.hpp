@@ -14,6 +14,9 @@ struct ModelRun {
   std::optional<ElasticResult> elastic;  ///< of an elastic case
 };
 
+/// build_model(), while people at a terminal see how the calibration of the bonds comes along.
+Model build_model_visibly(const CaseFile& input, bool quiet);
+
 /// Runs the analysis that a case asks for on its model.
 /// \throws SolverError when the stiffness matrix is not positive definite
 ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepObserver& observer);

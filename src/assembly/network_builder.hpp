@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assembly/network.hpp"
+#include "discretization/calibration.hpp"
 #include "discretization/cracks.hpp"
 #include "discretization/lattice.hpp"
 #include "discretization/rebar.hpp"
@@ -59,6 +60,7 @@ struct NetworkInput {
   std::vector<Crack> cracks;
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< of each bar
+  CalibrationObserver on_search;           ///< of calibrated bonds; may be empty
 };
 
 /// Constants c [force/length^6] and d [force/length^4] of the bonds of a material of the body; d is

@@ -183,7 +183,9 @@ void Correction::calibrate() {
   // What single bonds lose or gain from here on is no measure of their strength.
   network_.bending_ratio = own_bending_ratios(network_);
   BondStiffness stiffness{network_.stiffness, network_.bending, {}};
-  network_.calibration = calibrate_bonds(calibration, {}, network_.facets, stiffness);
+  CalibrationOptions options;
+  options.on_search = input_.on_search;
+  network_.calibration = calibrate_bonds(calibration, options, network_.facets, stiffness);
   network_.stiffness = std::move(stiffness.axial);
   network_.bending = std::move(stiffness.bending);
   network_.inflection = std::move(stiffness.inflection);

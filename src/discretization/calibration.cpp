@@ -41,6 +41,7 @@ class Calibration {
         irregular_(input.free.empty()),
         moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
+        on_search_(options.on_search),
         energies_(irregular_),
         equations_(input, options.least_weight, facets, stiffness) {}
 
@@ -53,6 +54,7 @@ class Calibration {
                          : std::max(report_.residual_after, report_.moment_after);
   }
   void soften_moments();
+  LeastChange seek(const PointEquations& equations, const LeastChangeOptions& options);
   bool solve(double tolerance);
   bool attempt();
   void settle();
@@ -61,12 +63,24 @@ class Calibration {
 
   bool in_space_, irregular_, moments_;
   double tolerance_;
+  CalibrationObserver on_search_;
+  int searches_ = 0;
   bool energies_;  // of dilatation take part
   bool soft_moments_ = false;
   CalibrationEquations equations_;
   CalibrationReport report_;
   std::unique_ptr<CoarseSpace> factor_;  // of the force equations
 };
+
+/// One search, whose answer becomes the present state.
+LeastChange Calibration::seek(const PointEquations& equations, const LeastChangeOptions& options) {
+  ++searches_;
+  if (on_search_) on_search_(searches_, unbalanced());
+  LeastChange change = least_change(equations, options, factor_);
+  equations_.apply(change.weights);
+  report_.iterations += change.iterations;
+  return change;
+}
 
 /// Energies of dilatation, and forces beside them. In the plane a step of Newton's method is cheap,
 /// but it can get lost.
@@ -80,10 +94,7 @@ void Calibration::settle() {
     equations_.restore(start);
     options.method = method;
     factor_.reset();  // coefficients are those of the stiffnesses now
-    const LeastChange change = least_change(equations_.settling(), options, factor_);
-    equations_.apply(change.weights);
-    report_.iterations += change.iterations;
-    if (change.converged) break;
+    if (seek(equations_.settling(), options).converged) break;
   }
   factor_.reset();
 }
@@ -98,9 +109,7 @@ void Calibration::search(Method method, double tolerance) {
   options.preconditioner = !in_space_ ? Preconditioner::factor
                            : iterated ? Preconditioner::aggregates
                                       : Preconditioner::blocks_then_factor;
-  const LeastChange change = least_change(equations_.balance(), options, factor_);
-  equations_.apply(change.weights);
-  report_.iterations += change.iterations;
+  seek(equations_.balance(), options);
   equations_.report_balance(report_);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "discretization/isotropic_weights.hpp"
 #include "discretization/lattice.hpp"
@@ -234,6 +235,26 @@ TEST(Calibration, TakesBondsThatDoNotBendAsTrusses) {
       EXPECT_EQ(problem.stiffness.bending[b], 0.0);
     }
   }
+}
+
+/// Before each: the first time what the start leaves. Whoever looks on changes nothing.
+TEST(Calibration, TellsOfItsSearches) {
+  const LatticeInput square = box(Pattern::rectangular, 0.1, {1, 1, 0});
+  Problem alone = make_problem(square, 3.0, 0.4, false);
+  Problem watched = make_problem(square, 3.0, 0.4, false);
+  const CalibrationInput input{watched.body.particles, watched.bonds, {LameConstants{1, 1}}, {}};
+  std::vector<double> unbalanced;
+  CalibrationOptions options;
+  options.on_search = [&](int search, double now) {
+    unbalanced.push_back(now);
+    EXPECT_EQ(search, static_cast<int>(unbalanced.size()));
+  };
+  calibrate(alone);
+  const CalibrationReport report =
+      calibrate_bonds(input, options, watched.body.facets, watched.stiffness);
+  ASSERT_GE(unbalanced.size(), 2U);  // energies of dilatation, exact forces
+  EXPECT_EQ(unbalanced.front(), report.residual_before);
+  EXPECT_EQ(watched.stiffness.axial, alone.stiffness.axial);
 }
 
 /// A chain of bonds cannot balance a shear: the report says where and how far.
