@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
+#include "analysis/break_search.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
@@ -14,23 +17,27 @@ inline std::size_t num_search_blocks(std::size_t num_elements) {
   return (num_elements + search_block_size - 1) / search_block_size;
 }
 
-/// An element among those that are searched.
-struct BlockHit {
-  Index position = no_index;
-  double value = 0.0;
-};
+/// What is left of zero times all values of a block: zero, or not a number where one of them is not
+/// finite. Comparisons alone would pass over it.
+inline double largest_or_nan(double largest, double zero_times_all) {
+  return zero_times_all == 0.0 ? largest : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// The largest positive value; of those above `share` of it the first. Two passes: the largest of
 /// every block, in parallel, then the first element among the blocks that reach the threshold. The
 /// answer does not depend on the number of threads.
+/// \param elements          that are searched
 /// \param block_largest     work space, one per block
 /// \param fewest_parallel   blocks from which on several threads are faster than one
-/// \param largest_in        largest value in the positions [begin, end)
+/// \param largest_in        largest value in the positions [begin, end), see largest_or_nan()
 /// \param value_at          value at one position
+/// \throws SolverError where a value is not finite
 template <typename LargestIn, typename ValueAt>
-BlockHit find_first_largest(Index count, std::vector<double>& block_largest, double share,
-                            int threads, Index fewest_parallel, const LargestIn& largest_in,
-                            const ValueAt& value_at) {
+BreakSearch::Hit find_first_largest(const std::vector<Index>& elements,
+                                    std::vector<double>& block_largest, double share, int threads,
+                                    Index fewest_parallel, const LargestIn& largest_in,
+                                    const ValueAt& value_at) {
+  const Index count = static_cast<Index>(elements.size());
   const Index blocks = static_cast<Index>(block_largest.size());
   const auto end_of = [count](Index block) {
     return std::min<Index>((block + 1) * search_block_size, count);
@@ -41,7 +48,14 @@ BlockHit find_first_largest(Index count, std::vector<double>& block_largest, dou
     block_largest[b] = largest_in(b * search_block_size, end_of(b));
   }
   double largest = 0.0;
-  for (const double value : block_largest) largest = std::max(largest, value);
+  for (Index b = 0; b < blocks; ++b) {
+    if (!std::isfinite(block_largest[b])) {
+      for (Index k = b * search_block_size; k < end_of(b); ++k) {
+        finite_ratio(elements[k], value_at(k));
+      }
+    }
+    largest = std::max(largest, block_largest[b]);
+  }
   if (largest <= 0.0) return {};
   // The two passes may be rounded differently.
   const double threshold = largest * share * (1.0 - 1e-14);
@@ -49,7 +63,7 @@ BlockHit find_first_largest(Index count, std::vector<double>& block_largest, dou
     if (block_largest[b] < threshold) continue;
     for (Index k = b * search_block_size; k < end_of(b); ++k) {
       const double value = value_at(k);
-      if (value >= threshold) return {k, value};
+      if (value >= threshold) return {elements[k], value};
     }
   }
   return {};

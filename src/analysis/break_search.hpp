@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "assembly/network.hpp"
+#include "base/error.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
@@ -20,11 +23,22 @@ class BreakSearch {
 
   /// Largest positive ratio; of those within `tolerance` of it the lowest element.
   /// \param displacement  shape (particles, width)
+  /// \throws SolverError where the ratio of a bond is not a finite number
   virtual Hit find(std::span<const double> displacement, double tolerance, int threads) = 0;
 
   /// Takes a broken bond out of the search.
   virtual void remove(Index element) = 0;
 };
+
+/// The ratio of an element's measure to its limit. One that is not a number compares as nothing and
+/// would look like an element that never fails.
+/// \throws SolverError where it is not finite
+inline double finite_ratio(Index element, double ratio) {
+  if (std::isfinite(ratio)) return ratio;
+  throw SolverError("the stretch of element " + std::to_string(element) +
+                    " over its limit is not a finite number: displacements or limits are not "
+                    "finite, and no figure that follows would mean anything");
+}
 
 /// The search for the bonds of a network: trusses or frames.
 std::unique_ptr<BreakSearch> make_break_search(const Network& network);

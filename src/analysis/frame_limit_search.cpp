@@ -27,7 +27,7 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
     : dim_(network.dim()), torsion_(network.torsion) {
   for (Index e = 0; e < network.num_elements(); ++e) {
     const double limit = network.critical_stretch[e];
-    if (!std::isfinite(limit)) continue;
+    if (std::isinf(limit)) continue;
     const double length = network.bonds.lengths[e];
     const double share = network.ratio_of_bending(e);
     Bond bond{
@@ -75,22 +75,25 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const 
   }
   square += extension * extension;
   const bool stretched = extension > 0.0 && extension * extension > least_tension * square;
-  return stretched ? square * bond.inverse : 0.0;
+  return square * (stretched ? bond.inverse : 0.0);  // not a number where the square is none
 }
 
 template <int Dim>
 FrameLimitSearch::Hit FrameLimitSearch::find_in(const double* u, double tolerance, int threads) {
   const auto value_at = [&](Index k) { return squared_ratio<Dim>(bonds_[k], u); };
   const auto largest_in = [&](Index begin, Index end) {
-    double largest = 0.0;
-    for (Index k = begin; k < end; ++k) largest = std::max(largest, value_at(k));
-    return largest;
+    double largest = 0.0, zero_times_all = 0.0;
+    for (Index k = begin; k < end; ++k) {
+      const double value = value_at(k);
+      largest = std::max(largest, value);
+      zero_times_all += 0.0 * value;
+    }
+    return largest_or_nan(largest, zero_times_all);
   };
-  const BlockHit hit = find_first_largest(static_cast<Index>(elements_.size()), block_largest_,
-                                          (1.0 - tolerance) * (1.0 - tolerance), threads,
-                                          smallest_parallel_search, largest_in, value_at);
-  if (hit.position == no_index) return {};
-  return {elements_[hit.position], std::sqrt(hit.value)};
+  Hit hit = find_first_largest(elements_, block_largest_, (1.0 - tolerance) * (1.0 - tolerance),
+                               threads, smallest_parallel_search, largest_in, value_at);
+  hit.ratio = std::sqrt(hit.ratio);
+  return hit;
 }
 
 FrameLimitSearch::Hit FrameLimitSearch::find(std::span<const double> displacement, double tolerance,

@@ -16,7 +16,7 @@ constexpr Index smallest_parallel_search = 400;
 LimitSearch::LimitSearch(const Network& network) : dim_(network.dim()) {
   for (Index e = 0; e < network.num_elements(); ++e) {
     const double limit = network.critical_stretch[e];
-    if (!std::isfinite(limit)) continue;
+    if (std::isinf(limit)) continue;
     elements_.push_back(e);
     first_.push_back(network.bonds.first[e] * dim_);
     second_.push_back(network.bonds.second[e] * dim_);
@@ -35,16 +35,17 @@ double LimitSearch::largest_between(const double* u, Index begin, Index end) con
   const double* gx = gradient_[0].data();
   const double* gy = gradient_[1].data();
   const double* gz = gradient_[2].data();
-  double largest = 0.0;
-#pragma omp simd reduction(max : largest)
+  double largest = 0.0, zero_times_all = 0.0;
+#pragma omp simd reduction(max : largest) reduction(+ : zero_times_all)
   for (Index k = begin; k < end; ++k) {
     const Index i = first[k];
     const Index j = second[k];
     double ratio = gx[k] * (u[j] - u[i]) + gy[k] * (u[j + 1] - u[i + 1]);
     if constexpr (Dim == 3) ratio += gz[k] * (u[j + 2] - u[i + 2]);
     largest = ratio > largest ? ratio : largest;
+    zero_times_all += 0.0 * ratio;
   }
-  return largest;
+  return largest_or_nan(largest, zero_times_all);
 }
 
 template <int Dim>
@@ -54,12 +55,9 @@ LimitSearch::Hit LimitSearch::find_in(const double* u, double tolerance, int thr
     for (int a = 0; a < Dim; ++a) ratio += gradient_[a][k] * (u[second_[k] + a] - u[first_[k] + a]);
     return ratio;
   };
-  const BlockHit hit = find_first_largest(
-      static_cast<Index>(elements_.size()), block_largest_, 1.0 - tolerance, threads,
-      smallest_parallel_search,
+  return find_first_largest(
+      elements_, block_largest_, 1.0 - tolerance, threads, smallest_parallel_search,
       [&](Index begin, Index end) { return largest_between<Dim>(u, begin, end); }, ratio_at);
-  if (hit.position == no_index) return {};
-  return {elements_[hit.position], hit.value};
 }
 
 LimitSearch::Hit LimitSearch::find(std::span<const double> displacement, double tolerance,

@@ -142,7 +142,7 @@ Event SingleEventEngine::next_event() {
     if (secants_[element] == 0.0) continue;  // cut
     const Change change = make_change(element, 1.0);
     const double strain = std::abs(change.extension) / network_.bonds.lengths[element];
-    const double ratio = strain / plateaus_[k].tooth(teeth_[k]).limit;
+    const double ratio = finite_ratio(element, strain / plateaus_[k].tooth(teeth_[k]).limit);
     if (ratio > hit.ratio * (1.0 + tie_tolerance)) hit = {element, ratio};
   }
   if (hit.element == no_index) return {};

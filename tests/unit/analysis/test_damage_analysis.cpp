@@ -72,6 +72,17 @@ TEST(DamageAnalysis, CollapsesExactlyWhenTheLastLoadPathGoes) {
   EXPECT_EQ(recorder.broken_at_end, 1) << "the body before it separated";
 }
 
+/// A limit that is not a number is no bond that never breaks.
+TEST(DamageAnalysis, FailsWhereAMeasureIsNotANumber) {
+  AnalysisBody body = make_square();
+  body.network.critical_stretch[1] = NAN;
+  Recorder recorder;
+  const DamageResult result = run(body, {}, recorder);
+  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_THAT(result.reason, HasSubstr("element 1 "));
+  EXPECT_THAT(result.reason, HasSubstr("not a finite number"));
+}
+
 TEST(DamageAnalysis, EndsWhenNothingBreaks) {
   AnalysisBody body = make_square();
   for (double& force : body.loads.forces) force = -force;

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "analysis/event_engine.hpp"
 #include "analysis/limit_search.hpp"
+#include "base/error.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {
@@ -111,6 +114,28 @@ TEST(FrameLimitSearch, BendingOfCalibratedBondsCountsByItsOwnRatio) {
   const double own = 1.5 * 1.7 / 0.02;
   EXPECT_NEAR(FrameLimitSearch(network).find(u, 0.0, 1).ratio,
               1e3 * std::sqrt(1e-6 + own * 0.04 + own * 0.04 / 12.0), 1e-10);
+}
+
+/// Not even where nothing is stretched: the other bonds of the particle may be as well.
+TEST(FrameLimitSearch, RefusesWhatIsNotFinite) {
+  const Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
+  for (const double extension : {1e-3, -1e-3}) {
+    const std::vector<double> u = {0, 0, 0.1, extension, 0.2, -0.1};
+    for (std::size_t slot = 0; slot < u.size(); ++slot) {
+      auto broken = u;
+      broken[slot] = NAN;
+      FrameLimitSearch search(network);
+      EXPECT_THROW(search.find(broken, tie_tolerance, 1), SolverError) << slot;
+      EXPECT_NO_THROW(search.find(u, tie_tolerance, 1));
+    }
+  }
+  for (const LatticeCase& lattice : {LatticeCase{"plane", Pattern::hexagonal, Surface::none},
+                                     LatticeCase{"space", Pattern::cubic, Surface::none}}) {
+    const Network body = make_micropolar_network(lattice, 4);
+    auto u = random_vector(num_slots(body), 3);
+    u.back() = NAN;  // a rotation
+    EXPECT_THROW(FrameLimitSearch(body).find(u, tie_tolerance, 2), SolverError);
+  }
 }
 
 /// Of bonds that symmetry makes equal the lowest breaks, whatever round-off says.

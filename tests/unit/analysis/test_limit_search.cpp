@@ -1,8 +1,12 @@
 #include "analysis/limit_search.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "analysis/event_engine.hpp"
+#include "base/error.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {
@@ -105,6 +109,32 @@ TEST(LimitSearch, LeavesOutWhatCannotBreak) {
 
   for (double& limit : network.critical_stretch) limit = std::numeric_limits<double>::infinity();
   EXPECT_EQ(LimitSearch(network).find(u, tie_tolerance, 1).element, no_index);
+}
+
+/// A measure that is not a number is no bond that holds, wherever in a block it stands and whatever
+/// the others say; nor is a limit.
+TEST(LimitSearch, RefusesWhatIsNotFinite) {
+  for (const LatticeCase& lattice : {plane, space}) {
+    Network network = make_network(lattice, 4);
+    const auto u = random_vector(network.particles.positions.size(), 3);
+    for (const float bad : {NAN, -NAN, INFINITY, -INFINITY}) {
+      for (const std::size_t slot : {std::size_t{0}, u.size() / 2, u.size() - 1}) {
+        auto broken = u;
+        broken[slot] = bad;
+        LimitSearch search(network);
+        EXPECT_THROW(search.find(broken, tie_tolerance, 1), SolverError) << bad << " at " << slot;
+        EXPECT_NO_THROW(search.find(u, tie_tolerance, 1));
+      }
+    }
+    network.critical_stretch[7] = NAN;
+    LimitSearch search(network);
+    try {
+      search.find(u, tie_tolerance, 1);
+      FAIL() << "a limit that is not a number was taken for infinite";
+    } catch (const SolverError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("element 7 "));
+    }
+  }
 }
 
 /// The table is searched in parallel from 400 blocks of 512 bonds on.
