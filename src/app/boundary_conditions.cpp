@@ -155,6 +155,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);
   hold_idle_rotations(model.network, prescription.held);
+  model.gripped = std::move(prescription.gripped);
   model.unknowns =
       number_unknowns(model.network.width(), prescription.held, std::move(prescription.value));
 }

@@ -11,6 +11,7 @@
 #include "app/summary.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/timer.hpp"
+#include "discretization/triangulate.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -99,6 +100,21 @@ void print_elements(const Model& model) {
   print_breakable(network);
 }
 
+void print_spacing(const Model& model) {
+  const bool mesh = model.lattice.pattern == Pattern::irregular;
+  fmt::print("#   {:<18} {:.6g}", mesh ? "mean edge" : "spacing", model.lattice.spacing);
+  if (mesh) {
+    const std::vector<double> edges = edges_of(model.cells, model.network.particles).lengths;
+    const auto [shortest, longest] = std::minmax_element(edges.begin(), edges.end());
+    fmt::print(", edges {:.4g} to {:.4g}", *shortest, *longest);
+  }
+  if (!model.elements) {
+    fmt::print(", horizon {:.6g} = {:.4g} {}", model.horizon, model.horizon / model.lattice.spacing,
+               mesh ? "mean edges" : "spacings");
+  }
+  fmt::print("\n");
+}
+
 void print_sizes(const Model& model) {
   const Network& network = model.network;
   Index ghosts = 0, bar_nodes = 0;
@@ -109,12 +125,7 @@ void print_sizes(const Model& model) {
   fmt::print("# sizes\n");
   fmt::print("#   particles          {} ({} ghosts, {} bar nodes)\n", network.particles.size(),
              ghosts, bar_nodes);
-  fmt::print("#   spacing            {:.6g}", model.lattice.spacing);
-  if (!model.elements) {
-    fmt::print(", horizon {:.6g} = {:.4g} spacings", model.horizon,
-               model.horizon / model.lattice.spacing);
-  }
-  fmt::print("\n");
+  print_spacing(model);
   print_elements(model);
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {
@@ -138,7 +149,8 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
   fmt::print(" (as it took now)\n");
   fmt::print("#   factorisation      {}\n", time_text(cost.factorization));
   if (input.analysis.type != "elastic") {
-    fmt::print("#   each broken bond   {:.2g} ms\n", 1e3 * cost.broken_bond);
+    fmt::print("#   each broken bond   {:.2g} ms; 1000 of them {}\n", 1e3 * cost.broken_bond,
+               time_text(1e3 * cost.broken_bond));
   }
   fmt::print("#   run                {}\n", run_text(input, set_up, cost));
 }

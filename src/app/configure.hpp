@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,9 @@ struct Model {
   Loads loads;
   ReferenceLoad reference;
   std::vector<Gauge> gauges;
+  /// Of each particle: a displacement of it is prescribed by a support or driven (planes of
+  /// symmetry grip nothing: a crack may run into them).
+  std::vector<std::uint8_t> gripped;
   std::vector<HookeConstants> hooke;  ///< elastic constants per material
   LoadResultant resultant;
   std::vector<std::string> notes;  ///< what the user should know: pinned modes, unbalanced moments

@@ -69,7 +69,7 @@ int run_case(const RunOptions& options) {
                                                : default_result_directory(options.case_path);
   refuse_own_case(directory, options.case_path);
   refuse_old_results(directory, options.force);  // at once: the model may take minutes
-  const Model model = build_model_visibly(input, options.quiet);
+  Model model = build_model_visibly(input, options.quiet);
   prepare_result_directory(directory, options.force);
   catch_stop_signals();
   write_resolved_case(directory, seen_from(input, directory));
@@ -91,6 +91,10 @@ int run_case(const RunOptions& options) {
   } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
     result.ending = Ending::failed;
     result.reason = error.what();
+  }
+  if (const auto note = note_of_grips(model, observer.broken())) {
+    model.notes.push_back(*note);
+    log->info("note: {}", *note);
   }
   if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
   seconds.output = observer.seconds_writing();

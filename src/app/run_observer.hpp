@@ -26,6 +26,8 @@ class RunObserver final : public StepObserver {
 
   /// Brings everything to the disk and ends the progress line.
   void finish();
+  /// Broken bonds and ties of the last row, in the order of breaking.
+  const std::vector<Index>& broken() const { return broken_; }
   double seconds_writing() const { return seconds_writing_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,18 @@ namespace perilink {
 std::string elements_text(const Model& model) {
   return model.elements ? fmt::format("{} linear elements", model.elements->cells.size())
                         : fmt::format("{} bonds", model.network.first_segment);
+}
+
+std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken) {
+  const Bonds& bonds = model.network.bonds;
+  const auto at_grip = std::count_if(broken.begin(), broken.end(), [&](Index e) {
+    return model.gripped[bonds.first[e]] != 0 || model.gripped[bonds.second[e]] != 0;
+  });
+  if (at_grip == 0) return std::nullopt;
+  return fmt::format(
+      "{} of {} broken bonds end at particles with prescribed displacements; if the body should "
+      "not break there, give it a material with fracture_energy = \"infinite\" around them",
+      at_grip, broken.size());
 }
 
 double peak_memory_bytes() {

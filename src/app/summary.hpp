@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "analysis/damage_analysis.hpp"
@@ -23,6 +24,11 @@ std::string elements_text(const Model& model);
 
 /// Peak memory of this process [bytes].
 double peak_memory_bytes();
+
+/// Where bonds broke at particles that supports or driven displacements hold: nothing of the body
+/// may be wrong with that, but often the grips are.
+/// \param broken  elements that broke
+std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken);
 
 /// Writes DIR/summary.json. \throws FileError
 void write_summary(const std::filesystem::path& directory, const CaseFile& input,

@@ -53,6 +53,12 @@ void prescribe(const CaseFile& input, const Model& model, Prescription& prescrip
   }
 }
 
+void grip(const Network& network, Prescription& prescription, std::span<const Index> particles,
+          int component) {
+  if (component >= network.dim()) return;  // a rotation
+  for (const Index i : particles) prescription.gripped[i] = 1;
+}
+
 /// Particles in a plane of symmetry.
 std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model, std::size_t k) {
   const SymmetrySection& section = input.symmetry[k];
@@ -101,6 +107,7 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
   Prescription prescription;
   prescription.held.assign(width * model.network.particles.size(), 0);
   prescription.value.assign(prescription.held.size(), 0.0);
+  prescription.gripped.assign(static_cast<std::size_t>(model.network.particles.size()), 0);
   for (std::size_t k = 0; k < input.supports.size(); ++k) {
     const Expression zero;
     const PositionField values(input, item_key("supports", k), {&zero, 1});
@@ -108,8 +115,9 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
         input, model, input.supports[k].region, item_key("supports", k, "region"));
     for (int entry = 0; entry < 6; ++entry) {
       if (!input.supports[k].fix[entry]) continue;
-      prescribe(input, model, prescription, particles, item_key("supports", k),
-                component_of(model.network, entry), values);
+      const int component = component_of(model.network, entry);
+      prescribe(input, model, prescription, particles, item_key("supports", k), component, values);
+      grip(model.network, prescription, particles, component);
     }
   }
   for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
@@ -123,8 +131,10 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
       if (!value) continue;
       const PositionField values(input, item_key("displacements", k, motion_name(dim, entry)),
                                  {&*value, 1});
-      prescribe(input, model, prescription, particles, item_key("displacements", k),
-                component_of(model.network, entry), values);
+      const int component = component_of(model.network, entry);
+      prescribe(input, model, prescription, particles, item_key("displacements", k), component,
+                values);
+      grip(model.network, prescription, particles, component);
     }
   }
   return prescription;

@@ -11,6 +11,7 @@ namespace perilink {
 struct Prescription {
   std::vector<std::uint8_t> held;  ///< shape (particles, width)
   std::vector<double> value;       ///< at load factor 1 [length], of rotations [-]
+  std::vector<std::uint8_t> gripped;  ///< see Model::gripped
 };
 
 /// Supports, planes of symmetry and driven displacements of a case.

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -127,6 +129,13 @@ void check_element_ratio(const CaseTable& table, double given) {
 /// two together.
 bool ratio_is_third(const BodySection& body) { return body.problem == "plane_stress"; }
 
+/// What else a material can be made of whose ratio no bonds have.
+std::string other_model(double given) {
+  if (!(given > -1.0 && given < 0.5)) return "";
+  return "; where no bond is to break, method = \"linear_elements\" in [body] with "
+         "analysis.type = \"elastic\" has ratios up to 1/2";
+}
+
 void check_bond_based_ratio(const CaseTable& table, const BodySection& body, double given) {
   constexpr double tolerance = 1e-3;  // users write 0.333
   const bool third = ratio_is_third(body);
@@ -141,8 +150,8 @@ void check_bond_based_ratio(const CaseTable& table, const BodySection& body, dou
           ? std::string("leave the key out, or set model = \"micropolar\" in [body], whose bonds "
                         "bend and have this ratio")
           : fmt::format("leave the key out; model = \"micropolar\" in [body] has ratios above -1 "
-                        "and up to {} only, and no model of this version has others",
-                        word));
+                        "and up to {} only{}",
+                        word, other_model(given)));
 }
 
 void check_micropolar_ratio(const CaseTable& table, const BodySection& body, double given) {
@@ -152,7 +161,7 @@ void check_micropolar_ratio(const CaseTable& table, const BodySection& body, dou
   table.refuse("poissons_ratio",
                fmt::format("is {}, but micropolar bonds in {} have ratios above -1 and up to {}",
                            given, body.problem, third ? "1/3" : "1/4"),
-               "no model of this version has other ratios");
+               "no bonds of this version have other ratios" + other_model(given));
 }
 
 std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySection& body) {
@@ -168,10 +177,22 @@ std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySect
   return given;
 }
 
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0 &&
+         end == text.c_str() + text.size();
+}
+
 double read_fracture_energy(const CaseTable& table) {
   const std::string key = "fracture_energy";
   const TomlValue* value = table.value(key);
   if (value != nullptr && value->kind == TomlValue::Kind::text) {
+    if (is_number(value->text)) {
+      table.refuse(key, fmt::format("is the text {}, but must be a number or \"infinite\"",
+                                    quoted(value->text)),
+                   fmt::format("write the number without quotes: {} = {}", key, value->text));
+    }
     table.choice(key, {"infinite"});
     return std::numeric_limits<double>::infinity();
   }

@@ -206,7 +206,8 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part :
        {"[body]", "particles          336", "bonds              2345", "unknowns           669",
-        "memory", "set-up", "each broken bond", "to 30 broken bonds"}) {
+        "memory", "set-up", "each broken bond", "; 1000 of them ",
+        "spacing            ", " spacings\n", "to 30 broken bonds"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
   EXPECT_EQ(names(), std::set<std::string>{"small.toml"});

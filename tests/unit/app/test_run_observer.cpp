@@ -175,6 +175,13 @@ TEST_F(RunObserverTest, YieldingBreaksNothing) {
   EXPECT_THAT(broken_bonds("fields_000002.vtu"), ElementsAre(ends_of(17), ends_of(8)));
 }
 
+TEST_F(RunObserverTest, TellsWhatIsBrokenInTheOrderOfBreaking) {
+  RunObserver observer = make_observer();
+  EXPECT_TRUE(observer.broken().empty());
+  run(observer, {7, 3, 11});
+  EXPECT_THAT(observer.broken(), ElementsAre(7, 3, 11));
+}
+
 TEST_F(RunObserverTest, EveryRowGoesToTheHistory) {
   RunObserver observer = make_observer();
   run(observer, {7, 3, 11});

@@ -114,6 +114,23 @@ TEST(Summary, NamesEveryEnding) {
   }
 }
 
+/// The lower end is held, the upper one pulled by a force.
+TEST(Summary, NotesBondsThatBreakAtParticlesWithPrescribedDisplacements) {
+  const Model model = build_model(test::strip_case());
+  const Bonds& bonds = model.network.bonds;
+  std::vector<Index> at_grip, elsewhere;
+  for (Index b = 0; b < bonds.size(); ++b) {
+    const double lower = std::min(model.network.particles.position(bonds.first[b])[1],
+                                  model.network.particles.position(bonds.second[b])[1]);
+    (lower <= 20.0 ? at_grip : elsewhere).push_back(b);
+  }
+  EXPECT_EQ(note_of_grips(model, {}), std::nullopt);
+  EXPECT_EQ(note_of_grips(model, elsewhere), std::nullopt);
+  const std::vector<Index> broken = {elsewhere[0], at_grip[0], elsewhere[1], at_grip[1]};
+  EXPECT_THAT(note_of_grips(model, broken).value(),
+              testing::HasSubstr("2 of 4 broken bonds end at particles with prescribed"));
+}
+
 TEST(Summary, AFailureToWriteIsReported) {
   const CaseFile input = test::strip_case();
   EXPECT_THROW(write_summary("/no/such/folder", input, build_model(input), {}, {}, 1), FileError);

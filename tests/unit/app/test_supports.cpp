@@ -65,6 +65,9 @@ TEST(Supports, HalfABodyWithAPlaneOfSymmetryHoldsTheNormalDisplacement) {
   input.regions[3].box = {{40.0, 0.0, 0.0}, {40.0, 80.0, 0.0}};
   const Model by_region = build_model(input);
   EXPECT_EQ(by_region.unknowns.count, model.unknowns.count);
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    EXPECT_EQ(model.gripped[i] != 0, model.network.particles.position(i)[1] <= 20.0) << "support";
+  }
   input.symmetry[0] = {0, 3.0, ""};
   expect_refused(input, "symmetry[1].at", "is 3, but no particle lies in that plane");
   expect_refused(input, "symmetry[1].at", "the nearest particle has x = 0");
