@@ -26,8 +26,9 @@ std::optional<std::string> note_of_grips(const Model& model, std::span<const Ind
   });
   if (at_grip == 0) return std::nullopt;
   return fmt::format(
-      "{} of {} broken bonds end at particles with prescribed displacements; if the body should "
-      "not break there, give it a material with fracture_energy = \"infinite\" around them",
+      "{} of {} broken bonds end at particles of [[supports]] or [[displacements]]; where the body "
+      "should not break there, give it a material with fracture_energy = \"infinite\"; hold planes "
+      "of symmetry by [[symmetry]], which this note leaves out",
       at_grip, broken.size());
 }
 

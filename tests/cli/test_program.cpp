@@ -200,6 +200,15 @@ TEST_F(Program, TheResolvedCaseRunsAgainToTheSameHistory) {
   }
 }
 
+TEST_F(Program, ARunNotesBondsThatBrokeAtItsSupports) {
+  const ProcessEnd end =
+      run({"run", PERILINK_SOURCE_DIR "/meshes/plate_with_hole.toml", "--out", "r"});
+  ASSERT_EQ(end.exit_status, 0) << end.err;
+  const std::string note = "broken bonds end at particles of [[supports]] or [[displacements]]";
+  EXPECT_THAT(end.out, HasSubstr(note));
+  EXPECT_THAT(read_text(work() / "r/log.txt"), HasSubstr(note));
+}
+
 TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   write_case("small.toml", small_ghost_case);
   const ProcessEnd end = run({"check", "small.toml"});
@@ -222,6 +231,14 @@ TEST_F(Program, CheckTellsWhatTheCalibrationReachedAndTook) {
   EXPECT_THAT(end.out,
               testing::ContainsRegex("calibration        [0-9]+ bonds, forces out of balance"));
   EXPECT_THAT(end.out, testing::ContainsRegex("set-up .*, of it calibration [0-9.e-]+ s"));
+}
+
+TEST_F(Program, CheckOfAMeshSpeaksOfItsEdges) {
+  const ProcessEnd end = run({"check", PERILINK_SOURCE_DIR "/meshes/plate_with_hole.toml"});
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_THAT(end.out, testing::ContainsRegex("mean edge          0.18[0-9]*, edges 0.076[0-9]* to "
+                                              "0.395[0-9]*, horizon [0-9.]* = 3 mean edges\n"));
+  EXPECT_THAT(end.out, testing::Not(HasSubstr("spacing")));
 }
 
 TEST_F(Program, CheckOfAnElasticCaseSpeaksOfNoBreaks) {

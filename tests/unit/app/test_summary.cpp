@@ -128,7 +128,7 @@ TEST(Summary, NotesBondsThatBreakAtParticlesWithPrescribedDisplacements) {
   EXPECT_EQ(note_of_grips(model, elsewhere), std::nullopt);
   const std::vector<Index> broken = {elsewhere[0], at_grip[0], elsewhere[1], at_grip[1]};
   EXPECT_THAT(note_of_grips(model, broken).value(),
-              testing::HasSubstr("2 of 4 broken bonds end at particles with prescribed"));
+              testing::HasSubstr("2 of 4 broken bonds end at particles of [[supports]]"));
 }
 
 TEST(Summary, AFailureToWriteIsReported) {
