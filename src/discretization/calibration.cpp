@@ -13,7 +13,7 @@ namespace perilink {
 namespace {
 
 /// Forces out of balance above this have no solution with the floors of all bonds.
-constexpr double met = 1e-7;
+constexpr double met = CalibrationEquations::met;
 
 /// In space searches are repeated until forces and moments are less out of balance than this.
 constexpr double exact = 1e-10;

@@ -10,10 +10,6 @@
 namespace perilink {
 namespace {
 
-/// Forces out of balance above this are told to the user. Round-off leaves up to 1e-8 along
-/// boundaries of some hundred spacings.
-constexpr double met = 1e-7;
-
 constexpr double most_weight = 100.0;
 constexpr double round_off = 1e-12;
 

@@ -15,6 +15,10 @@ namespace perilink {
 /// two ends, and, where all bonds are free, the shares that corners have in their facets.
 class CalibrationEquations {
  public:
+  /// Forces and moments out of balance above this are told to the user. Round-off leaves up to 1e-8
+  /// along boundaries of some hundred spacings.
+  static constexpr double met = 1e-7;
+
   /// \param least_weight  floor of the axial stiffness, relative to the start
   /// \param stiffness     that the calibration starts from
   CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,

@@ -107,6 +107,25 @@ TEST_P(EveryLattice, CalibratedBondsPassThePatchTest) {
   for (std::size_t k = 0; k < force.size(); ++k) EXPECT_NEAR(force[k], expected[k], 1e-9 * face);
 }
 
+/// Few neighbours and rows that are stretched to end on the boundary: many bonds pass their bounds
+/// at once, and Newton's method ends farther from balance than it began. The second search is that
+/// by an interior point.
+TEST(SurfaceCorrection, InThePlaneTheInteriorPointIsTheLastResort) {
+  LatticeInput of_body = body_input({"", Pattern::hexagonal, Surface::calibrated}, 8);
+  of_body.spacing = 0.125;
+  of_body.solid = {{{0, 0, 0}, {1, 1, 0}}};
+  NetworkInput input = network_input(of_body);
+  input.horizon = 2.0002 * of_body.spacing;
+  std::vector<double> unbalanced;
+  input.on_search = [&](int, double now) { unbalanced.push_back(now); };
+  const Network network = build_network(make_body(of_body), input);
+  ASSERT_EQ(unbalanced.size(), 2U) << "another body is needed to test the last resort";
+  EXPECT_GT(unbalanced[1], 1e-7) << "left by Newton's method";
+  EXPECT_LT(network.calibration->residual_after, 1e-10);
+  EXPECT_EQ(network.calibration->unmet, 0);
+  EXPECT_EQ(network.calibration->dropped, 0);
+}
+
 /// Inside, the critical stretch releases G_F: the bonds of an interior particle, summed as a crack
 /// would cross them.
 TEST_P(EveryLattice, CalibratedBondsReleaseTheFractureEnergy) {

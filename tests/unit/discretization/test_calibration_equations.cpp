@@ -77,6 +77,36 @@ TEST(CalibrationEquations, PredictWhatTheirWeightsLeave) {
   for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-13);
 }
 
+/// Where both couples of a bond are zero it does not bend, and has no inflection but that of the
+/// middle; the next step finds its couples in the equations and may bring them back.
+TEST(CalibrationEquations, OfABondWithoutCouplesPutTheInflectionInTheMiddle) {
+  const Square square = make_square();
+  const CalibrationInput input = square.input();
+  CalibrationEquations equations(input, 0.02, square.body.facets, square.stiffness);
+  const std::size_t num_bonds = square.stiffness.axial.size();
+  std::vector<double> weights(static_cast<std::size_t>(equations.balance().num_variables()), 1.0);
+  const std::size_t zero = 5, round_off = 6;
+  for (const double end : {0, 1}) {
+    weights[num_bonds + 2 * zero + static_cast<std::size_t>(end)] = 0.0;
+    weights[num_bonds + 2 * round_off + static_cast<std::size_t>(end)] = 1e-15 * (end - 0.6);
+  }
+  equations.apply(weights);
+  const auto gone = equations.save().stiffness;
+  for (const std::size_t bond : {zero, round_off}) {
+    EXPECT_EQ(gone.bending[bond], 0.0);
+    EXPECT_EQ(gone.inflection[bond], 0.5);
+    EXPECT_EQ(gone.axial[bond], square.stiffness.axial[bond]);
+  }
+  EXPECT_EQ(gone.bending[4], square.stiffness.bending[4]);
+  ASSERT_EQ(equations.balance().num_variables(), static_cast<Index>(weights.size()));
+  equations.apply(std::vector<double>(weights.size(), 2.0));
+  const auto back = equations.save().stiffness;
+  for (const std::size_t bond : {zero, round_off}) {
+    EXPECT_GT(back.bending[bond], 0.0);
+    EXPECT_NEAR(back.inflection[bond], square.stiffness.inflection[bond], 1e-14);
+  }
+}
+
 TEST(CalibrationEquations, KeepTheSumOfTheSharesAndTheirBounds) {
   const Square square = make_square();
   const CalibrationInput input = square.input();
