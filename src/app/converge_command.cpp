@@ -129,6 +129,7 @@ int converge(const RunOptions& options) {
   results.dim = dimension_of(input.body);
   if (results.study.title.empty()) results.study.title = input.title;
   results.series = study_series(results.study);
+  check_members(results.study, results.series);
 
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);

@@ -78,6 +78,13 @@ struct Repeat {
   MemberSeconds seconds;
 };
 
+/// Keys of a member over those of the case.
+std::vector<TomlValue> keys_of(const StudySeries& series, const TomlValue& refinement) {
+  std::vector<TomlValue> keys = series.keys;
+  keys.push_back(refinement);
+  return keys;
+}
+
 Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int threads) {
   Repeat repeat;
   Timer timer;
@@ -246,12 +253,27 @@ void check_study(const StudyFile& study, const CaseFile& input) {
   }
 }
 
+void check_members(const StudyFile& study, const std::vector<StudySeries>& all) {
+  std::string first_fault;
+  for (const StudySeries& series : all) {
+    for (const TomlValue& refinement : study.vary.values) {
+      try {
+        read_case_file(study.case_path, keys_of(series, refinement));
+        return;
+      } catch (const InputError& error) {
+        if (first_fault.empty()) first_fault = error.what();
+      }
+    }
+  }
+  throw InputError({study.path, 0, "vary"}, "leaves no member that the case accepts",
+                   "the first is refused so: " + first_fault);
+}
+
 StudyMember run_member(const StudyFile& study, const StudySeries& series,
                        const TomlValue& refinement, int threads) {
   StudyMember member;
   member.refinement = refinement;
-  std::vector<TomlValue> keys = series.keys;
-  keys.push_back(refinement);
+  const std::vector<TomlValue> keys = keys_of(series, refinement);
   try {
     for (int k = 0; k < study.repeats; ++k) {
       const Repeat repeat = run_once(study, keys, threads);

@@ -54,6 +54,11 @@ std::vector<StudySeries> study_series(const StudyFile& study);
 /// \throws InputError at the study's key
 void check_study(const StudyFile& study, const CaseFile& input);
 
+/// Refuses a study of which every member would be refused as it is read: a ghost layer around a
+/// mesh, linear elements that are to break. Where one is accepted the others tell their own fault.
+/// \throws InputError at the study's [vary], with what is wrong with the first member
+void check_members(const StudyFile& study, const std::vector<StudySeries>& all);
+
 /// Runs one member; a failure is told in the member.
 StudyMember run_member(const StudyFile& study, const StudySeries& series,
                        const TomlValue& refinement, int threads);

@@ -138,10 +138,10 @@ TEST_F(Study, AMemberThatFailsDoesNotStopTheOthers) {
 
 TEST_F(Study, WhereAllMembersFailTheStatusAndTheFirstReasonSaySo) {
   const ProcessEnd end =
-      converge("case = \"bar.toml\"\n[vary]\nspacing = [2, 1]\n" + energy);  // the horizon is 0.6
+      converge("case = \"bar.toml\"\n[vary]\nspacing = [2e-7, 1e-7]\n" + energy);
   EXPECT_EQ(end.exit_status, 2);
   EXPECT_THAT(end.err, HasSubstr("every member of the study failed"));
-  EXPECT_THAT(end.err, HasSubstr("body."));
+  EXPECT_THAT(end.err, HasSubstr("body.spacing: gives about"));
 }
 
 TEST_F(Study, EveryErrorHasItsPictures) {
@@ -184,6 +184,16 @@ TEST_F(Study, ASpacingOfAMeshIsRefusedOnceBeforeWorkBegins) {
       end.err,
       HasSubstr("study.toml:4: vary.spacing: is given, but the body of the case is a mesh"));
   EXPECT_THAT(end.err, HasSubstr("refine with `mesh_size`"));
+  EXPECT_FALSE(fs::exists(work() / "r"));
+}
+
+TEST_F(Study, AStudyThatTheCaseCannotHaveIsRefusedOnceBeforeWorkBegins) {
+  const ProcessEnd end = converge("case = \"bar.toml\"\n[vary]\nspacing = [2, 1]\n" + energy,
+                                  {"--out", "r"});  // the horizon is 0.6
+  EXPECT_EQ(end.exit_status, 2);
+  EXPECT_THAT(end.err,
+              HasSubstr("study.toml: vary: leaves no member that the case accepts\n"));
+  EXPECT_THAT(end.err, HasSubstr("body.horizon: is 0.6"));
   EXPECT_FALSE(fs::exists(work() / "r"));
 }
 

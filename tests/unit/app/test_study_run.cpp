@@ -192,6 +192,23 @@ TEST_F(StudyRun, RefinementsThatTheBodyCannotHaveAreRefusedOnce) {
   EXPECT_NO_THROW(check_study(sizes, input));
 }
 
+/// One that the case accepts is enough, whatever the others are.
+TEST_F(StudyRun, StudiesWithoutAMemberThatTheCaseAcceptsAreRefusedOnce) {
+  const StudyFile file = study(energy + "1\n");
+  StudySeries good = study_series(file).front(), bad = good;
+  bad.keys.push_back(body_key("surface", std::string("glass")));
+  EXPECT_NO_THROW(check_members(file, {bad, good}));
+  try {
+    check_members(file, {bad, bad});
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.where().file, "study.toml");
+    EXPECT_EQ(error.where().key, "vary");
+    EXPECT_NE(std::string(error.what()).find("body.surface: is \"glass\""), std::string::npos)
+        << error.what();
+  }
+}
+
 /// Members of one series with values 1 + 3 h^2, in the wrong order and with a failed one.
 std::vector<StudyMember> parabola(const std::vector<double>& spacings) {
   std::vector<StudyMember> members;
