@@ -84,6 +84,14 @@ void tell(const StudyMember& member, const StudySeries& series, std::size_t done
              member.failed() ? "failed" : format_duration(member.seconds.total()));
 }
 
+/// While people at a terminal see how the calibration of its bonds comes along.
+StudyMember run_visibly(const Results& results, std::size_t series, const TomlValue& value,
+                        int threads, bool quiet) {
+  CalibrationProgress progress(quiet);
+  return run_member(results.study, results.series[series], value, threads,
+                    [&](int search, double left) { progress.update(search, left); });
+}
+
 /// \return whether all members were run
 bool run_members(const fs::path& directory, Results& results, int threads, bool quiet) {
   const std::vector<TomlValue>& values = results.study.vary.values;
@@ -91,7 +99,7 @@ bool run_members(const fs::path& directory, Results& results, int threads, bool 
   std::size_t done = 0;
   for (std::size_t s = 0; s < results.series.size(); ++s) {
     for (const TomlValue& value : values) {
-      StudyMember member = run_member(results.study, results.series[s], value, threads);
+      StudyMember member = run_visibly(results, s, value, threads, quiet);
       if (stop_signal_received()) return false;
       member.series = s;
       if (!quiet) tell(member, results.series[s], ++done, all);

@@ -85,11 +85,12 @@ std::vector<TomlValue> keys_of(const StudySeries& series, const TomlValue& refin
   return keys;
 }
 
-Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int threads) {
+Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int threads,
+                const CalibrationObserver& on_search) {
   Repeat repeat;
   Timer timer;
   repeat.input = read_case_file(study.case_path, keys);
-  repeat.model = build_model(repeat.input);
+  repeat.model = build_model(repeat.input, on_search);
   repeat.seconds.set_up = timer.seconds();
   if (repeat.model.network.calibration) {
     repeat.seconds.calibration = repeat.model.network.calibration->seconds;
@@ -270,13 +271,14 @@ void check_members(const StudyFile& study, const std::vector<StudySeries>& all) 
 }
 
 StudyMember run_member(const StudyFile& study, const StudySeries& series,
-                       const TomlValue& refinement, int threads) {
+                       const TomlValue& refinement, int threads,
+                       const CalibrationObserver& on_search) {
   StudyMember member;
   member.refinement = refinement;
   const std::vector<TomlValue> keys = keys_of(series, refinement);
   try {
     for (int k = 0; k < study.repeats; ++k) {
-      const Repeat repeat = run_once(study, keys, threads);
+      const Repeat repeat = run_once(study, keys, threads, on_search);
       const Ending ending = repeat.run.result.ending;
       if (ending == Ending::failed || ending == Ending::interrupted) {
         member.failure = repeat.run.result.reason;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "discretization/calibration.hpp"
 #include "discretization/particles.hpp"
 #include "io/case_file.hpp"
 #include "io/study_file.hpp"
@@ -60,8 +61,10 @@ void check_study(const StudyFile& study, const CaseFile& input);
 void check_members(const StudyFile& study, const std::vector<StudySeries>& all);
 
 /// Runs one member; a failure is told in the member.
+/// \param on_search  told how the calibration of the bonds comes along; may be empty
 StudyMember run_member(const StudyFile& study, const StudySeries& series,
-                       const TomlValue& refinement, int threads);
+                       const TomlValue& refinement, int threads,
+                       const CalibrationObserver& on_search = {});
 
 /// Error of a displacement field against the closed form that `error` has.
 /// \param displacement  shape (particles, dim) [length]
