@@ -168,7 +168,10 @@ void Correction::calibrate() {
   }
   const LatticeFamilies* family = families ? &*families : nullptr;
   CalibrationInput calibration{network_.particles, network_.bonds, {}, {}};
-  if (family) calibration.free = free_bonds(*family);
+  if (family) {
+    calibration.free = free_bonds(*family);
+    calibration.box = lattice_box(body_);
+  }
   std::vector<double> bulk = network_.stiffness;
   std::vector<double> bulk_bending = network_.bending;
   scale_to(wanted_moduli(family));

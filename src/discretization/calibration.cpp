@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "discretization/calibration_equations.hpp"
@@ -33,17 +34,22 @@ constexpr int most_iterations = 8000;
 /// Intermediate passes need no more digits; what they leave is no contradiction.
 constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
 
+/// The matrix of equations of bonds that lie alike is nearly full: so many take 2 GB. Only boxes
+/// whose steps differ along all axes have more, and horizons of four spacings then.
+constexpr Index most_alike_equations = 20000;
+
 class Calibration {
  public:
   Calibration(const CalibrationInput& input, const CalibrationOptions& options,
-              const Facets& facets, const BondStiffness& stiffness)
+              const Facets& facets, const BondStiffness& stiffness, const BondOrbits* orbits)
       : in_space_(input.particles.dim == 3),
         irregular_(input.free.empty()),
+        tied_(orbits != nullptr),
         moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
         on_search_(options.on_search),
         energies_(irregular_),
-        equations_(input, options.least_weight, facets, stiffness) {}
+        equations_(input, options.least_weight, facets, stiffness, orbits) {}
 
   CalibrationReport run();
   CalibrationEquations::State result() const { return equations_.save(); }
@@ -61,7 +67,7 @@ class Calibration {
   void search(Method method, double tolerance);
   bool balance(double tolerance);
 
-  bool in_space_, irregular_, moments_;
+  bool in_space_, irregular_, tied_, moments_;
   double tolerance_;
   CalibrationObserver on_search_;
   int searches_ = 0;
@@ -124,7 +130,8 @@ bool Calibration::balance(double tolerance) {
   const Method first = irregular_ && in_space_ ? Method::interior_point : Method::newton;
   search(first, tolerance);
   const bool solvable = moments_ || !in_space_;
-  if (first == Method::newton && solvable && unbalanced() > met) {
+  // The tolerance is that of the mean.
+  if (first == Method::newton && solvable && unbalanced() > std::max(met, 100.0 * tolerance)) {
     equations_.restore(settled);
     factor_.reset();
     search(Method::interior_point, tolerance);
@@ -145,11 +152,12 @@ bool Calibration::solve(double tolerance) {
 /// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
 /// all over) every bond keeps something to carry. \return whether the exact forces led anywhere
 bool Calibration::attempt() {
-  const bool cautious = in_space_;  // corners may have no solution: finding out takes few digits
+  // Corners may have no solution: finding out takes few digits, where many are dear.
+  const bool cautious = in_space_ && !tied_;
   const double coarse = cautious ? coarse_tolerance : tolerance_;
   if (!solve(coarse)) return false;
   const double floored = unbalanced();
-  if (equations_.allow_zero(cautious ? coarsely_met : met)) {
+  if (equations_.allow_zero(in_space_ ? coarsely_met : met)) {
     solve(coarse);
     equations_.drop_vanishing();
     solve(tolerance_);
@@ -195,13 +203,52 @@ CalibrationReport Calibration::run() {
       equations_.report_balance(report_);
     }
   }
-  if (moments_ && unbalanced() > met) soften_moments();
+  if (moments_ && !tied_ && unbalanced() > met) soften_moments();
   if (!(unbalanced() <= start)) {  // too few neighbours all over
     equations_.take_all_back();
     equations_.report_balance(report_);
   }
   equations_.report_weights(report_);
   return report_;
+}
+
+/// The same constants all over; materials may differ in strength.
+bool uniform(const CalibrationInput& input) {
+  const LameConstants& first = input.materials[input.particles.material.front()];
+  return std::all_of(
+      input.particles.material.begin(), input.particles.material.end(), [&](Index m) {
+        return input.materials[m].lambda == first.lambda && input.materials[m].mu == first.mu;
+      });
+}
+
+/// Bonds of a box that lie alike are made alike: a problem whose size does not depend on the size
+/// of the box. \return what was reached in the whole box, none where it has no exact solution
+std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
+                                                 const CalibrationOptions& options,
+                                                 const Facets& facets, BondStiffness& stiffness) {
+  const BondOrbits orbits = find_orbits(*input.box, input.particles, input.bonds, input.free);
+  const Index rows = ForceRows{input.particles.dim, !stiffness.bending.empty()}.count();
+  if (orbits.representatives.empty() ||
+      static_cast<Index>(orbits.representatives.size()) * rows > most_alike_equations) {
+    return std::nullopt;
+  }
+  const OrbitSample sample =
+      sample_orbits(orbits, input.particles, input.bonds, input.free, stiffness);
+  const CalibrationInput sampled{input.particles, sample.bonds, input.materials, sample.free};
+  Calibration calibration(sampled, options, facets, sample.stiffness, &sample.orbits);
+  CalibrationReport report = calibration.run();
+  CalibrationEquations whole(input, options.least_weight, facets, stiffness);
+  whole.report_balance(report);
+  report.residual_before = report.residual_after;
+  CalibrationEquations::State state = whole.save();
+  spread(sample, calibration.result().stiffness, orbits, state.stiffness);
+  whole.restore(state);
+  whole.report_balance(report);
+  if (std::max(report.residual_after, report.moment_after) > exact) return std::nullopt;
+  report.at_least_weight = report.dropped = 0;
+  whole.report_weights(report);
+  stiffness = std::move(state.stiffness);
+  return report;
 }
 
 }  // namespace
@@ -213,7 +260,10 @@ CalibrationReport calibrate_bonds(const CalibrationInput& input, const Calibrati
   balance_shares(facets, input.particles.positions,
                  connected_parts(input.bonds, input.particles.size()), lambda);
   if (!stiffness.bending.empty()) stiffness.inflection.assign(stiffness.bending.size(), 0.5);
-  Calibration calibration(input, options, facets, stiffness);
+  if (input.box && !input.free.empty() && uniform(input)) {
+    if (const auto report = calibrate_alike(input, options, facets, stiffness)) return *report;
+  }
+  Calibration calibration(input, options, facets, stiffness, nullptr);
   const CalibrationReport report = calibration.run();
   CalibrationEquations::State found = calibration.result();
   stiffness = std::move(found.stiffness);

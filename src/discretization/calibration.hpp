@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/types.hpp"
 #include "discretization/bond_equations.hpp"
+#include "discretization/bond_orbits.hpp"
 #include "discretization/bonds.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
@@ -26,6 +28,9 @@ struct CalibrationInput {
   /// Empty: all may, and the energies of dilatation are made right as well, softly (irregular
   /// clouds).
   std::vector<std::uint8_t> free;
+  /// That the particles fill with one lattice: bonds that lie alike are made alike, if the material
+  /// is the same all over.
+  std::optional<LatticeBox> box = std::nullopt;
 };
 
 /// Told before every search for stiffnesses: its number, from 1, and the largest force or moment

@@ -43,8 +43,10 @@ constexpr double least_couple_scale = 0.1;
 }  // namespace
 
 CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double least_weight,
-                                           const Facets& facets, const BondStiffness& stiffness)
+                                           const Facets& facets, const BondStiffness& stiffness,
+                                           const BondOrbits* orbits)
     : input_(input),
+      orbits_(orbits),
       least_weight_(least_weight),
       dim_(input.particles.dim),
       forces_{dim_, !stiffness.bending.empty()},
@@ -66,6 +68,10 @@ void CalibrationEquations::choose_points() {
     if (!input_.free.empty() && !input_.free[b]) continue;
     free_bonds_.push_back(b);
     touched[input_.bonds.first[b]] = touched[input_.bonds.second[b]] = 1;
+  }
+  if (orbits_) {
+    std::fill(touched.begin(), touched.end(), 0);
+    for (const Index i : orbits_->representatives) touched[i] = 1;
   }
   kept_ = free_bonds_;
   point_of_.assign(static_cast<std::size_t>(num_particles), no_index);
@@ -93,13 +99,6 @@ void CalibrationEquations::measure_particles() {
     if (forces[i] > 0.0) length_[i] = modulus_[i] / forces[i];
   }
 }
-
-void CalibrationEquations::restore(State state) {
-  stiffness_ = std::move(state.stiffness);
-  facets_.shares = std::move(state.shares);
-}
-
-void CalibrationEquations::start_over() { restore(start_); }
 
 void CalibrationEquations::take_all_back() {
   start_ = given_;
@@ -132,11 +131,6 @@ CalibrationEquations::Variable CalibrationEquations::couple_variable(Index b, In
   return {Kind::couple,       b,       end,   ends[end],
           ends[1 - end],      present, scale, std::min(least * part(start_.stiffness), present),
           most_weight * scale};
-}
-
-Index CalibrationEquations::next_corner(Index facet, Index corner) const {
-  return corner + 1 == facets_.corners.offsets[facet + 1] ? facets_.corners.offsets[facet]
-                                                          : corner + 1;
 }
 
 /// Transfers between the corners of the facets.
@@ -237,6 +231,7 @@ PointEquations CalibrationEquations::make_equations(const ForceRows& form) const
   for_each_variable([&](const Variable& variable) {
     equations.first.push_back(point_of_[variable.first]);
     equations.second.push_back(point_of_[variable.second]);
+    if (orbits_) equations.unknown.push_back(unknown_of(variable));
     fill_row(form, variable, row.data());
     for (const double value : row) equations.coefficients.push_back(variable.scale * value);
     equations.lower.push_back(1.0 + (variable.least - variable.present) / variable.scale);
@@ -275,6 +270,7 @@ void CalibrationEquations::set_right_sides(PointEquations& equations) const {
   for (Index v = 0; v < equations.num_variables(); ++v) {
     const double* a = equations.coefficients.data() + v * rows;
     for_each_part(equations, v, [&](Index p, int from, int to, double sign) {
+      if (p == no_index) return;
       for (int r = from; r < std::min<int>(to, static_cast<int>(known)); ++r) {
         equations.right[p * rows + r] += sign * a[r];
       }
@@ -348,16 +344,19 @@ bool CalibrationEquations::allow_zero(double limit) {
   const std::vector<double> rest = out_of_balance();
   const std::size_t rows = static_cast<std::size_t>(forces_.count());
   const auto unmet = [&](Index i) {
+    if (point_of_[i] == no_index) return false;
     const auto forces = rest.begin() + static_cast<std::ptrdiff_t>(i * rows);
     return std::any_of(forces, forces + forces_.odd(), [&](double force) {
       return std::abs(force) * length_[i] > limit * modulus_[i];
     });
   };
+  std::vector<std::uint8_t> loose(orbits_ ? orbits_->num_views : floor_.size(), 0);
+  for (const Index b : free_bonds_) {
+    if (unmet(input_.bonds.first[b]) || unmet(input_.bonds.second[b])) loose[class_of(b)] = 1;
+  }
   bool any = false;
   for (const Index b : free_bonds_) {
-    if (floor_[b] == Floor::none ||
-        (!unmet(input_.bonds.first[b]) && !unmet(input_.bonds.second[b])))
-      continue;
+    if (floor_[b] == Floor::none || !loose[class_of(b)]) continue;
     floor_[b] = Floor::none;
     any = true;
   }
@@ -386,7 +385,8 @@ bool CalibrationEquations::hollow() const {
     for (const Index i : {input_.bonds.first[b], input_.bonds.second[b]})
       kept_minus_lost[i] += vote;
   }
-  return std::any_of(kept_minus_lost.begin(), kept_minus_lost.end(), [](Index n) { return n < 0; });
+  return std::any_of(particle_of_.begin(), particle_of_.end(),
+                     [&](Index i) { return kept_minus_lost[i] < 0; });
 }
 
 }  // namespace perilink

@@ -21,8 +21,10 @@ class CalibrationEquations {
 
   /// \param least_weight  floor of the axial stiffness, relative to the start
   /// \param stiffness     that the calibration starts from
+  /// \param orbits        of the bonds, that change alike; only their representatives are asked for
+  ///                      balance. None: all particles are
   CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,
-                       const BondStiffness& stiffness);
+                       const BondStiffness& stiffness, const BondOrbits* orbits = nullptr);
 
   /// Forces and moments in balance at every particle, in every uniform strain, exactly (moments
   /// until soften_moments()).
@@ -55,8 +57,11 @@ class CalibrationEquations {
     std::vector<double> shares;
   };
   State save() const { return {stiffness_, facets_.shares}; }
-  void restore(State state);
-  void start_over();     ///< without what was dropped
+  void restore(State state) {
+    stiffness_ = std::move(state.stiffness);
+    facets_.shares = std::move(state.shares);
+  }
+  void start_over() { restore(start_); }  ///< without what was dropped
   void take_all_back();  ///< with all bonds and their floors again
 
  private:
@@ -76,7 +81,16 @@ class CalibrationEquations {
   void for_each_variable(Visit visit) const;
   template <class Visit>
   void for_each_share(Visit visit) const;
-  Index next_corner(Index facet, Index corner) const;
+  Index next_corner(Index facet, Index corner) const {
+    return corner + 1 == facets_.corners.offsets[facet + 1] ? facets_.corners.offsets[facet]
+                                                            : corner + 1;
+  }
+  Index class_of(Index bond) const { return orbits_ ? orbits_->of_bond(bond) : bond; }
+  Index unknown_of(const Variable& variable) const {
+    return variable.kind == Kind::axial
+               ? orbits_->of_bond(variable.index)
+               : orbits_->num_views + orbits_->views[variable.index][variable.end];
+  }
   Variable axial_variable(Index bond) const;
   Variable couple_variable(Index bond, Index end) const;
   void change(const Variable& variable, double value);
@@ -94,6 +108,7 @@ class CalibrationEquations {
   static constexpr double soft_ridge = 1e-4;
 
   const CalibrationInput& input_;
+  const BondOrbits* orbits_;
   double least_weight_;
   int dim_;
   ForceRows forces_;

@@ -19,12 +19,12 @@ namespace perilink {
 /// bounds at once, and diverges where nothing is between the bounds; this one needs ten to thirty
 /// steps whatever the bounds do. Where they contradict the equations the residual settles at the
 /// least possible.
-template <int Rows, int Odd, bool Grouped>
+template <class Normal>
 class InteriorPoint {
  public:
-  using Vector = std::vector<double>;  // shape (points, Rows)
+  using Vector = std::vector<double>;  // shape (points, rows)
 
-  InteriorPoint(const PointEquations& equations, NormalEquations<Rows, Odd, Grouped>& normal)
+  InteriorPoint(const PointEquations& equations, Normal& normal)
       : equations_(equations),
         normal_(normal),
         lower_(equations.lower),
@@ -58,7 +58,7 @@ class InteriorPoint {
   int take_step(double mu, double& length);
 
   const PointEquations& equations_;
-  NormalEquations<Rows, Odd, Grouped>& normal_;
+  Normal& normal_;
   std::span<const double> lower_, upper_;
   Vector y_;
   std::vector<double> weights_;
@@ -66,8 +66,8 @@ class InteriorPoint {
   std::vector<double> at_lower_, at_upper_;  // z, Z
 };
 
-template <int Rows, int Odd, bool Grouped>
-void InteriorPoint<Rows, Odd, Grouped>::start() {
+template <class Normal>
+void InteriorPoint<Normal>::start() {
   for (std::size_t v = 0; v < weights_.size(); ++v) {
     const double margin = 0.1 * std::min(1.0, upper_[v] - lower_[v]);
     weights_[v] = std::clamp(1.0, lower_[v] + margin, upper_[v] - margin);
@@ -77,8 +77,8 @@ void InteriorPoint<Rows, Odd, Grouped>::start() {
 }
 
 /// Mean of z (w - lower) and Z (upper - w).
-template <int Rows, int Odd, bool Grouped>
-double InteriorPoint<Rows, Odd, Grouped>::gap() const {
+template <class Normal>
+double InteriorPoint<Normal>::gap() const {
   if (weights_.empty()) return 0.0;
   double sum = 0.0;
   for (std::size_t v = 0; v < weights_.size(); ++v) {
@@ -88,8 +88,8 @@ double InteriorPoint<Rows, Odd, Grouped>::gap() const {
 }
 
 /// A Newton step towards z (w - lower) = mu, as far as the bounds allow. \return iterations
-template <int Rows, int Odd, bool Grouped>
-int InteriorPoint<Rows, Odd, Grouped>::take_step(double mu, double& length) {
+template <class Normal>
+int InteriorPoint<Normal>::take_step(double mu, double& length) {
   const std::size_t count = weights_.size();
   std::vector<double> pull(count), change(count);
   for (std::size_t v = 0; v < count; ++v) {
@@ -130,8 +130,8 @@ int InteriorPoint<Rows, Odd, Grouped>::take_step(double mu, double& length) {
   return iterations;
 }
 
-template <int Rows, int Odd, bool Grouped>
-int InteriorPoint<Rows, Odd, Grouped>::solve(double target) {
+template <class Normal>
+int InteriorPoint<Normal>::solve(double target) {
   start();
   int iterations = 0;
   double centring = 0.2, last_size = std::numeric_limits<double>::infinity();

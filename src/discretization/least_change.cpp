@@ -8,6 +8,7 @@
 
 #include "discretization/interior_point.hpp"
 #include "discretization/normal_equations.hpp"
+#include "discretization/tied_equations.hpp"
 
 namespace perilink {
 namespace {
@@ -22,22 +23,22 @@ constexpr double shortest_step = 1e-5;
 /// are at their bounds.
 constexpr double rough = 1e-4;
 
-template <int Rows, int Odd, bool Grouped>
+template <class Normal>
 class DualNewton {
  public:
-  using Vector = std::vector<double>;  // shape (points, Rows)
+  using Vector = std::vector<double>;  // shape (points, rows)
 
-  DualNewton(const PointEquations& equations, const LeastChangeOptions& options,
-             std::unique_ptr<CoarseSpace>& coarse)
+  DualNewton(const PointEquations& equations, const LeastChangeOptions& options, Normal& normal)
       : equations_(equations),
         options_(options),
-        normal_(equations, options, coarse),
-        elongation_(static_cast<std::size_t>(equations.num_variables())),
+        normal_(normal),
+        elongation_(equations.lower.size()),
         weights_(elongation_.size(), 1.0) {}
 
   LeastChange solve();
 
  private:
+  std::size_t rows() const { return static_cast<std::size_t>(equations_.rows); }
   double root_of_points() const {
     return std::sqrt(static_cast<double>(std::max<Index>(equations_.num_points(), 1)));
   }
@@ -49,7 +50,7 @@ class DualNewton {
 
   const PointEquations& equations_;
   const LeastChangeOptions& options_;
-  NormalEquations<Rows, Odd, Grouped> normal_;
+  Normal& normal_;
   std::vector<double> elongation_;  // A' y
   std::vector<double> weights_;
   Vector residual_;
@@ -58,8 +59,8 @@ class DualNewton {
 
 /// Weights of a dual vector, and the part of the dual function that they make. Mobile are those
 /// between the bounds.
-template <int Rows, int Odd, bool Grouped>
-double DualNewton<Rows, Odd, Grouped>::choose_weights(const Vector& y) {
+template <class Normal>
+double DualNewton<Normal>::choose_weights(const Vector& y) {
   normal_.apply_transpose(y, elongation_);
   double charge = 0.0;
   for (std::size_t v = 0; v < weights_.size(); ++v) {
@@ -71,20 +72,19 @@ double DualNewton<Rows, Odd, Grouped>::choose_weights(const Vector& y) {
   return charge;
 }
 
-template <int Rows, int Odd, bool Grouped>
-double DualNewton<Rows, Odd, Grouped>::dual(const Vector& y) {
+template <class Normal>
+double DualNewton<Normal>::dual(const Vector& y) {
   double value = -choose_weights(y);
   for (std::size_t k = 0; k < y.size(); ++k) {
-    const double ridge = equations_.ridge_of(k % Rows);
+    const double ridge = equations_.ridge_of(k % rows());
     value += y[k] * (equations_.right[k] * equations_.scale[k] - 0.5 * ridge * y[k]);
   }
   return value;
 }
 
 /// Halves the step until the concave dual function grows. \return length of the step
-template <int Rows, int Odd, bool Grouped>
-double DualNewton<Rows, Odd, Grouped>::search_line(const Vector& residual, const Vector& direction,
-                                                   Vector& y) {
+template <class Normal>
+double DualNewton<Normal>::search_line(const Vector& residual, const Vector& direction, Vector& y) {
   const double before = dual(y);
   const double slope = dot(residual, direction);
   Vector trial(y.size());
@@ -99,8 +99,8 @@ double DualNewton<Rows, Odd, Grouped>::search_line(const Vector& residual, const
 }
 
 /// Newton's method on the dual function.
-template <int Rows, int Odd, bool Grouped>
-void DualNewton<Rows, Odd, Grouped>::climb(Vector& y) {
+template <class Normal>
+void DualNewton<Normal>::climb(Vector& y) {
   const double target = options_.tolerance * root_of_points();
   Vector direction;
   choose_weights(y);
@@ -126,15 +126,15 @@ void DualNewton<Rows, Odd, Grouped>::climb(Vector& y) {
   result_.converged = norm(residual_) <= target;
 }
 
-template <int Rows, int Odd, bool Grouped>
-LeastChange DualNewton<Rows, Odd, Grouped>::solve() {
+template <class Normal>
+LeastChange DualNewton<Normal>::solve() {
   Vector y(equations_.right.size(), 0.0);
   if (options_.method == Method::newton) {
     climb(y);
     report(y);
     return result_;
   }
-  InteriorPoint<Rows, Odd, Grouped> interior(equations_, normal_);
+  InteriorPoint<Normal> interior(equations_, normal_);
   result_.iterations = interior.solve(std::max(options_.tolerance, rough) * root_of_points());
   y = interior.multipliers();
   if (options_.tolerance < rough) {
@@ -148,41 +148,58 @@ LeastChange DualNewton<Rows, Odd, Grouped>::solve() {
   return result_;
 }
 
-template <int Rows, int Odd, bool Grouped>
-void DualNewton<Rows, Odd, Grouped>::report(const Vector& y) {
+template <class Normal>
+void DualNewton<Normal>::report(const Vector& y) {
   for (std::size_t v = 0; v < weights_.size(); ++v) {
     result_.at_lower += weights_[v] <= equations_.lower[v];
   }
   for (std::size_t k = 0; k < y.size(); ++k) {
-    const double rest = std::abs(residual_[k] + equations_.ridge_of(k % Rows) * y[k]);
+    const double rest = std::abs(residual_[k] + equations_.ridge_of(k % rows()) * y[k]);
     if (rest <= result_.residual) continue;
     result_.residual = rest;
-    result_.worst_point = static_cast<Index>(k / Rows);
+    result_.worst_point = static_cast<Index>(k / rows());
   }
   result_.weights = std::move(weights_);
+}
+
+template <int Rows, int Odd, bool Grouped>
+LeastChange solve(const PointEquations& equations, const LeastChangeOptions& options,
+                  std::unique_ptr<CoarseSpace>& coarse) {
+  using Normal = NormalEquations<Rows, Odd, Grouped>;
+  Normal normal(equations, options, coarse);
+  return DualNewton<Normal>(equations, options, normal).solve();
+}
+
+LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions& options) {
+  const TiedEquations tied = tie(equations);
+  TiedNormalEquations normal(tied);
+  LeastChange change = DualNewton<TiedNormalEquations>(tied.equations, options, normal).solve();
+  change.weights = tied.weights(change.weights);
+  return change;
 }
 
 }  // namespace
 
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
                          std::unique_ptr<CoarseSpace>& factor) {
+  if (!equations.unknown.empty()) return solve_tied(equations, options);
   const auto are = [&](int rows, int odd, bool grouped) {
     return equations.rows == rows && equations.odd == odd && equations.group.empty() != grouped;
   };
   // Moduli of a family of bonds without and with moments in two and three dimensions.
-  if (are(5, 0, false)) return DualNewton<5, 0, false>(equations, options, factor).solve();
-  if (are(8, 0, false)) return DualNewton<8, 0, false>(equations, options, factor).solve();
-  if (are(15, 0, false)) return DualNewton<15, 0, false>(equations, options, factor).solve();
-  if (are(26, 0, false)) return DualNewton<26, 0, false>(equations, options, factor).solve();
+  if (are(5, 0, false)) return solve<5, 0, false>(equations, options, factor);
+  if (are(8, 0, false)) return solve<8, 0, false>(equations, options, factor);
+  if (are(15, 0, false)) return solve<15, 0, false>(equations, options, factor);
+  if (are(26, 0, false)) return solve<26, 0, false>(equations, options, factor);
   // Their forces and moments, and with them energies.
-  if (are(4, 4, false)) return DualNewton<4, 4, false>(equations, options, factor).solve();
-  if (are(5, 4, true)) return DualNewton<5, 4, true>(equations, options, factor).solve();
-  if (are(8, 6, false)) return DualNewton<8, 6, false>(equations, options, factor).solve();
-  if (are(9, 6, true)) return DualNewton<9, 6, true>(equations, options, factor).solve();
-  if (are(10, 10, false)) return DualNewton<10, 10, false>(equations, options, factor).solve();
-  if (are(11, 10, true)) return DualNewton<11, 10, true>(equations, options, factor).solve();
-  if (are(18, 13, false)) return DualNewton<18, 13, false>(equations, options, factor).solve();
-  if (are(19, 13, true)) return DualNewton<19, 13, true>(equations, options, factor).solve();
+  if (are(4, 4, false)) return solve<4, 4, false>(equations, options, factor);
+  if (are(5, 4, true)) return solve<5, 4, true>(equations, options, factor);
+  if (are(8, 6, false)) return solve<8, 6, false>(equations, options, factor);
+  if (are(9, 6, true)) return solve<9, 6, true>(equations, options, factor);
+  if (are(10, 10, false)) return solve<10, 10, false>(equations, options, factor);
+  if (are(11, 10, true)) return solve<11, 10, true>(equations, options, factor);
+  if (are(18, 13, false)) return solve<18, 13, false>(equations, options, factor);
+  if (are(19, 13, true)) return solve<19, 13, true>(equations, options, factor);
   throw std::invalid_argument(std::to_string(equations.rows) + " equations per point, " +
                               std::to_string(equations.odd) + " of them odd, are not built in");
 }

@@ -31,6 +31,9 @@ struct PointEquations {
   Index one_ended = std::numeric_limits<Index>::max();
   std::vector<Index> group;  ///< of each point: the point at which the last row of its variables
                              ///< counts, summed over the group; empty: at the point itself
+  /// Of each variable: the unknown that it shares with others; where nothing is asked at an end,
+  /// its point is no_index. Empty: every variable is an unknown of its own.
+  std::vector<Index> unknown;
   std::vector<double> coefficients;  ///< a_v, shape (variables, rows)
   std::vector<double> lower;         ///< least weight of each variable
   std::vector<double> upper;         ///< largest weight of each variable

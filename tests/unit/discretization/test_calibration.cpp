@@ -9,65 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "discretization/isotropic_weights.hpp"
-#include "discretization/lattice.hpp"
+#include "support/calibration_problem.hpp"
 
 namespace perilink {
 namespace {
 
-/// A body whose bonds start from c V V / xi, scaled so that each particle has about its modulus.
-struct Problem {
-  Body body;
-  Bonds bonds;
-  BondStiffness stiffness;
-};
-
-Problem make_problem(const LatticeInput& input, double ratio, double jitter, bool bending) {
-  Problem problem;
-  problem.body = make_body(input);
-  Particles& particles = problem.body.particles;
-  std::vector<std::uint8_t> on_facet(static_cast<std::size_t>(particles.size()), 0);
-  for (const Index i : problem.body.facets.corners.values) on_facet[i] = 1;
-  std::mt19937 random(7);
-  for (Index i = 0; i < particles.size(); ++i) {
-    for (int a = 0; a < particles.dim; ++a) {
-      const double shift = static_cast<double>(random()) / 4294967296.0 - 0.5;
-      if (!on_facet[i])
-        particles.positions[i * particles.dim + a] += jitter * input.spacing * shift;
-    }
-  }
-  const double horizon = ratio * problem.body.lattice.spacing;
-  problem.bonds = make_bonds(particles, horizon);
-  std::vector<double> modulus(static_cast<std::size_t>(particles.size()), 0.0);
-  for (Index b = 0; b < problem.bonds.size(); ++b) {
-    const Index i = problem.bonds.first[b], j = problem.bonds.second[b];
-    const double xi = problem.bonds.lengths[b];
-    problem.stiffness.axial.push_back(particles.volumes[i] * particles.volumes[j] / xi *
-                                      partial_volume(xi, horizon, input.spacing));
-    modulus[i] += 0.5 * problem.stiffness.axial.back() * xi * xi;
-    modulus[j] += 0.5 * problem.stiffness.axial.back() * xi * xi;
-  }
-  const double trace = particles.dim == 2 ? 8.0 : 15.0;
-  for (Index b = 0; b < problem.bonds.size(); ++b) {
-    double factor = 0.0;
-    for (const Index i : {problem.bonds.first[b], problem.bonds.second[b]}) {
-      factor += 0.5 * trace * particles.volumes[i] / modulus[i];
-    }
-    problem.stiffness.axial[b] *= factor;
-    if (bending) problem.stiffness.bending.push_back(0.2 * problem.stiffness.axial[b]);
-  }
-  return problem;
-}
-
-LatticeInput box(Pattern pattern, double spacing, Vector3 size) {
-  LatticeInput input;
-  input.pattern = pattern;
-  input.spacing = spacing;
-  input.surface = Surface::calibrated;
-  input.solid = {{{0, 0, 0}, size}};
-  input.material = {0};
-  return input;
-}
+using namespace test;
 
 CalibrationReport calibrate(Problem& problem, bool bending = false) {
   const CalibrationInput input{problem.body.particles,
@@ -211,6 +158,67 @@ TEST(Calibration, KeepsBendingPositiveAndInflectionsNear) {
   }
   EXPECT_GT(farthest, 0.1);
   EXPECT_LE(farthest, 1.5 + 1e-12);
+}
+
+double squares_of_changes(const Problem& start, const Problem& end) {
+  double sum = 0.0;
+  for (Index b = 0; b < start.bonds.size(); ++b) {
+    sum += std::pow(end.stiffness.axial[b] / start.stiffness.axial[b] - 1.0, 2);
+  }
+  return sum;
+}
+
+/// Bonds that lie alike in a box are made alike, with about as small a change as if all were asked:
+/// every kind of place counts once there, the eight corners as much as the many places on a face.
+TEST(Calibration, OfABoxChangesAboutAsLittleAsThatOfAllBonds) {
+  for (const Pattern pattern : {Pattern::cubic, Pattern::face_centred}) {
+    for (const bool bending : {false, true}) {
+      const Problem start = make_problem(box(pattern, 0.2, {1, 1, 1}), 2.5, 0.0, bending);
+      Problem all = start, alike = start;
+      const std::vector<std::uint8_t> free(static_cast<std::size_t>(start.bonds.size()), 1);
+      const LameConstants constants = bending ? LameConstants{0.8, 1.3} : LameConstants{1.0, 1.0};
+      for (Problem* problem : {&all, &alike}) {
+        CalibrationInput given{problem->body.particles, problem->bonds, {constants}, free};
+        if (problem == &alike) given.box = lattice_box(problem->body);
+        const CalibrationReport report =
+            calibrate_bonds(given, {}, problem->body.facets, problem->stiffness);
+        EXPECT_LT(report.residual_after, 1e-10);
+        EXPECT_LT(report.moment_after, 1e-10);
+        EXPECT_GT(report.residual_before, 0.1);
+        EXPECT_GT(report.smallest_weight, 0.0);
+      }
+      EXPECT_LT(squares_of_changes(start, alike), 1.2 * squares_of_changes(start, all));
+    }
+  }
+}
+
+/// Constants decide, not their number: a box of two materials with other constants is no lattice
+/// whose bonds lie alike, and is in balance all the same.
+TEST(Calibration, OfABoxOfTwoMaterialsAsksEveryParticle) {
+  LatticeInput input = box(Pattern::cubic, 0.25, {1, 1, 1});
+  input.solid.push_back({{0, 0, 0}, {0.5, 1, 1}});
+  input.material.push_back(1);
+  for (const double modulus : {1.0, 1.5}) {
+    Problem problem = make_problem(input, 2.0, 0.0, true);
+    CalibrationInput given{problem.body.particles,
+                           problem.bonds,
+                           {{0.8, 1.3}, {0.8 * modulus, 1.3 * modulus}},
+                           std::vector<std::uint8_t>(problem.bonds.lengths.size(), 1)};
+    for (Index b = 0; b < problem.bonds.size(); ++b) {
+      double factor = 0.0;
+      for (const Index i : {problem.bonds.first[b], problem.bonds.second[b]}) {
+        factor += problem.body.particles.material[i] == 1 ? 0.5 * modulus : 0.5;
+      }
+      problem.stiffness.axial[b] *= factor;
+      problem.stiffness.bending[b] *= factor;
+    }
+    given.box = lattice_box(problem.body);
+    ASSERT_TRUE(given.box);
+    const CalibrationReport report =
+        calibrate_bonds(given, {}, problem.body.facets, problem.stiffness);
+    EXPECT_LT(report.residual_after, 1e-10);
+    EXPECT_LT(report.moment_after, 1e-10);
+  }
 }
 
 /// The floor stands in the way at the corners of a cube only: bonds along the diagonals of the
