@@ -62,7 +62,7 @@ class CalibrationEquations {
     facets_.shares = std::move(state.shares);
   }
   void start_over() { restore(start_); }  ///< without what was dropped
-  void take_all_back();  ///< with all bonds and their floors again
+  void take_all_back();                   ///< with all bonds and their floors again
 
  private:
   enum class Kind { axial, couple, share };

@@ -72,7 +72,7 @@ Ring make_ring(Index points, Index neighbours, double lower) {
   for (Index k = 1; k <= neighbours; ++k) {
     std::vector<double> a;
     for (int r = 0; r < rows; ++r) a.push_back(uniform());
-    const double weight = std::max(lower, 1.0 + uniform());
+    const double weight = 1.0 + uniform();
     for (int r = 0; r < rows; ++r) right[r] += 2.0 * a[r] * weight;
     for (Index p = 0; p < points; ++p) add(ring.whole, p, (p + k) % points, a);
     add(ring.one, 0, no_index, a);
@@ -95,7 +95,7 @@ Ring make_ring(Index points, Index neighbours, double lower) {
 /// well be tied.
 TEST(TiedEquations, OfOnePointLeadToTheSolutionOfAll) {
   constexpr Index points = 20, neighbours = 9;
-  for (const double lower : {0.0, 1.0}) {
+  for (const double lower : {0.0, 0.9}) {
     for (const Method method : {Method::newton, Method::interior_point}) {
       const Ring ring = make_ring(points, neighbours, lower);
       LeastChangeOptions options;
