@@ -121,7 +121,8 @@ void Calibration::search(Method method, double tolerance) {
 
 /// The forces and moments, exactly. The interior point is the last resort where one factor serves
 /// several steps of Newton's method; the corners of solids without moments have no solution, and it
-/// would find none. Where the search ends farther from balance the settled stiffnesses are kept.
+/// would find none, but where bonds are made alike it costs little and may find back when Newton's
+/// method is lost. Where the search ends farther from balance the settled stiffnesses are kept.
 /// \return whether it is nearer now
 bool Calibration::balance(double tolerance) {
   equations_.report_balance(report_);
@@ -131,7 +132,9 @@ bool Calibration::balance(double tolerance) {
   search(first, tolerance);
   const bool solvable = moments_ || !in_space_;
   // The tolerance is that of the mean.
-  if (first == Method::newton && solvable && unbalanced() > std::max(met, 100.0 * tolerance)) {
+  const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
+  const bool lost = tied_ && unbalanced() > before;
+  if (first == Method::newton && (unsolved || lost)) {
     equations_.restore(settled);
     factor_.reset();
     search(Method::interior_point, tolerance);
@@ -167,8 +170,8 @@ bool Calibration::attempt() {
     return true;
   }
   // Each search starts from the weights of the last and leaves a small part of what that left.
-  for (int pass = 0; cautious && pass < most_refinements; ++pass) {
-    if (!balance(tolerance_) || unbalanced() < exact) break;
+  for (int pass = 0; in_space_ && unbalanced() > exact && pass < most_refinements; ++pass) {
+    if (!balance(tolerance_)) break;
   }
   return true;
 }

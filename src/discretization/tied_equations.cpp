@@ -30,8 +30,9 @@ void multiply(const TiedEquations::Matrix& matrix, const Column& x, Column& prod
   }
 }
 
-/// Weight of the method of multipliers, that of other factors of all equations.
-constexpr double proximity = 1e-14;
+/// Weight of the method of multipliers, as without a factor. With less, Newton's method gets lost
+/// where many weights pass their bounds: symmetry leaves rows that depend on each other.
+constexpr double proximity = 1e-10;
 /// Added to the diagonal of the factor beside that, relative to its mean: round-off must not make
 /// rows negative that depend on others.
 constexpr double factor_floor = 1e-13;
