@@ -1,6 +1,7 @@
 #include "discretization/calibration.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -30,6 +31,10 @@ constexpr double settling_tolerance = 0.01;
 /// Of conjugate gradients in one search. Those that end need less, up to 4000 in solids with edges;
 /// those of nearly contradictory equations would go on for minutes.
 constexpr int most_iterations = 8000;
+
+/// Of what is left of the equations of forces and moments. Multipliers of bodies that can be in
+/// balance are up to 1e3.
+constexpr double price = 1e5, no_price = std::numeric_limits<double>::infinity();
 
 /// Intermediate passes need no more digits; what they leave is no contradiction.
 constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
@@ -64,7 +69,7 @@ class Calibration {
   bool solve(double tolerance);
   bool attempt();
   void settle();
-  void search(Method method, double tolerance);
+  void search(Method method, double charge, double tolerance);
   bool balance(double tolerance);
 
   bool in_space_, irregular_, tied_, moments_;
@@ -106,11 +111,12 @@ void Calibration::settle() {
 }
 
 /// One solution of the exact equations.
-void Calibration::search(Method method, double tolerance) {
+void Calibration::search(Method method, double charge, double tolerance) {
   LeastChangeOptions options;
   options.tolerance = tolerance;
   options.iterations = most_iterations;
   options.method = method;
+  options.price = charge;
   const bool iterated = irregular_ || method == Method::interior_point;
   options.preconditioner = !in_space_ ? Preconditioner::factor
                            : iterated ? Preconditioner::aggregates
@@ -129,7 +135,7 @@ bool Calibration::balance(double tolerance) {
   const double before = unbalanced();
   const CalibrationEquations::State settled = equations_.save();
   const Method first = irregular_ && in_space_ ? Method::interior_point : Method::newton;
-  search(first, tolerance);
+  search(first, irregular_ && !in_space_ ? price : no_price, tolerance);
   const bool solvable = moments_ || !in_space_;
   // The tolerance is that of the mean.
   const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
@@ -137,7 +143,7 @@ bool Calibration::balance(double tolerance) {
   if (first == Method::newton && (unsolved || lost)) {
     equations_.restore(settled);
     factor_.reset();
-    search(Method::interior_point, tolerance);
+    search(Method::interior_point, irregular_ ? price : no_price, tolerance);
     factor_.reset();
   }
   if (unbalanced() <= std::max(met, before)) return true;
@@ -160,18 +166,24 @@ bool Calibration::attempt() {
   const double coarse = cautious ? coarse_tolerance : tolerance_;
   if (!solve(coarse)) return false;
   const double floored = unbalanced();
-  if (equations_.allow_zero(in_space_ ? coarsely_met : met)) {
+  const bool spread = in_space_ || !irregular_;  // is what cannot be met
+  if (spread && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
+    const CalibrationEquations::State with_floors = equations_.save();
     solve(coarse);
-    equations_.drop_vanishing();
-    solve(tolerance_);
-    if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
+    if (unbalanced() <= worth_dropping * floored) {
+      equations_.drop_vanishing();
+      solve(tolerance_);
+      if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
+    }
     equations_.take_all_back();
-    solve(tolerance_);
+    equations_.restore(with_floors);
+    equations_.report_balance(report_);
     return true;
   }
   // Each search starts from the weights of the last and leaves a small part of what that left.
   for (int pass = 0; in_space_ && unbalanced() > exact && pass < most_refinements; ++pass) {
-    if (!balance(tolerance_)) break;
+    const double before = unbalanced();
+    if (!balance(tolerance_) || unbalanced() > 0.5 * before) break;
   }
   return true;
 }

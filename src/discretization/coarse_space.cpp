@@ -25,7 +25,8 @@ constexpr double tiny = 1e-12;
 }  // namespace
 
 CoarseSpace::CoarseSpace(const PointEquations& equations, const std::vector<double>& active,
-                         const std::vector<double>& shifts, Boxes boxes)
+                         const std::vector<double>& shifts, const std::vector<double>& compliance,
+                         Boxes boxes)
     : dim_(equations.dim), rows_(equations.rows) {
   if (boxes == Boxes::of_many_points) {
     functions_ = 1 + dim_;
@@ -33,7 +34,7 @@ CoarseSpace::CoarseSpace(const PointEquations& equations, const std::vector<doub
   } else {
     put_points_in_boxes_of_their_own(equations);
   }
-  assemble(equations, active, shifts);
+  assemble(equations, active, shifts, compliance);
 }
 
 void CoarseSpace::put_points_in_boxes_of_their_own(const PointEquations& equations) {
@@ -56,8 +57,7 @@ void CoarseSpace::number_boxes(const PointEquations& equations) {
   }
   double extent = 1.0;
   for (int a = 0; a < dim_; ++a) extent *= upper[a] - lower[a];
-  const double side =
-      points_along_box * std::pow(extent / std::max<Index>(count, 1), 1.0 / dim_);
+  const double side = points_along_box * std::pow(extent / std::max<Index>(count, 1), 1.0 / dim_);
   std::map<std::array<Index, 3>, Index> numbers;
   box_of_.resize(static_cast<std::size_t>(count));
   values_.resize(static_cast<std::size_t>(count) * functions_);
@@ -76,7 +76,8 @@ void CoarseSpace::number_boxes(const PointEquations& equations) {
 }
 
 void CoarseSpace::assemble(const PointEquations& equations, const std::vector<double>& active,
-                           const std::vector<double>& shifts) {
+                           const std::vector<double>& shifts,
+                           const std::vector<double>& compliance) {
   const int width = rows_ * functions_;
   std::map<std::pair<Index, Index>, Eigen::MatrixXd> blocks;
   const auto block = [&](Index a, Index b) -> Eigen::MatrixXd& {
@@ -105,6 +106,18 @@ void CoarseSpace::assemble(const PointEquations& equations, const std::vector<do
         if (column.keys[k] < column.keys[l]) continue;
         block(column.keys[k], column.keys[l]).noalias() +=
             active[v] * column.blocks[k] * column.blocks[l].transpose();
+      }
+    }
+  }
+  for (std::size_t p = 0; !compliance.empty() && p < box_of_.size(); ++p) {
+    Eigen::MatrixXd& matrix = block(box_of_[p], box_of_[p]);
+    const double* value = values_.data() + p * static_cast<std::size_t>(functions_);
+    for (int r = 0; r < rows_; ++r) {
+      const double part = compliance[p * static_cast<std::size_t>(rows_) + r];
+      for (int f = 0; f < functions_; ++f) {
+        for (int g = 0; g < functions_; ++g) {
+          matrix(r * functions_ + f, r * functions_ + g) += part * value[f] * value[g];
+        }
       }
     }
   }

@@ -18,9 +18,10 @@ class CoarseSpace {
  public:
   enum class Boxes { of_many_points, of_single_points };
   /// \param active  1 for the variables that the system holds, else 0
-  /// \param shifts  added to the diagonal of the fine system, one for each row
+  /// \param shifts      added to the diagonal of the fine system, one for each row
+  /// \param compliance  added to it, one for each row of each point, or empty
   CoarseSpace(const PointEquations& equations, const std::vector<double>& active,
-             const std::vector<double>& shifts,
+              const std::vector<double>& shifts, const std::vector<double>& compliance,
               Boxes boxes);
 
   /// Adds P (P' S P)^-1 P' residual to `result`, both of shape (points, rows).
@@ -30,14 +31,14 @@ class CoarseSpace {
   void number_boxes(const PointEquations& equations);
   void put_points_in_boxes_of_their_own(const PointEquations& equations);
   void assemble(const PointEquations& equations, const std::vector<double>& active,
-                const std::vector<double>& shifts);
+                const std::vector<double>& shifts, const std::vector<double>& compliance);
   void factorize(const std::vector<Eigen::Triplet<double>>& entries);  // of the lower triangle
 
   int dim_, rows_;
-  int functions_ = 1;          // per row and box
+  int functions_ = 1;  // per row and box
   Index num_boxes_ = 0;
-  std::vector<Index> box_of_;  // of each point
-  std::vector<double> values_; // of the functions at the points, shape (points, functions)
+  std::vector<Index> box_of_;   // of each point
+  std::vector<double> values_;  // of the functions at the points, shape (points, functions)
   std::unique_ptr<Factor> factor_;
 };
 

@@ -17,8 +17,9 @@ namespace perilink {
 ///
 /// Newton's method on the dual function alone takes short steps where many weights pass their
 /// bounds at once, and diverges where nothing is between the bounds; this one needs ten to thirty
-/// steps whatever the bounds do. Where they contradict the equations the residual settles at the
-/// least possible.
+/// steps whatever the bounds do. What is left of an equation with a price p is the difference of
+/// two positive variables with s (p - y) = S (p + y) = mu, which add s / (p - y) + S / (p + y) to
+/// the diagonal. Without a price the residual of contradictions settles at the least possible.
 template <class Normal>
 class InteriorPoint {
  public:
@@ -35,9 +36,10 @@ class InteriorPoint {
         at_lower_(lower_.size()),
         at_upper_(lower_.size()) {}
 
-  /// \param residual  norm of the scaled residual that is enough
-  /// \return iterations of conjugate gradients
-  int solve(double residual);
+  /// \param target      norm of the scaled residual that is enough
+  /// \param iterations  of conjugate gradients are added
+  /// \return whether it was reached
+  bool solve(double target, int& iterations);
   const Vector& multipliers() const { return y_; }
   const std::vector<double>& weights() const { return weights_; }
 
@@ -46,16 +48,24 @@ class InteriorPoint {
   static constexpr double first_gap = 30.0;
   /// z (w - lower) at the end: weights at a bound are off by its square root at most.
   static constexpr double last_gap = 1e-4;
-  static constexpr int most_steps = 40;
+  static constexpr int most_steps = 60;
   /// Part of the way to the nearest bound that a step may take.
   static constexpr double boldness = 0.99;
-  /// A step of settled multipliers that leaves more than this of the residual leaves
-  /// contradictions.
+  /// Reduction of the residual by a step while bounds are found out, and the least of the others.
+  static constexpr double coarse = 1e-2, finest = 1e-8;
+  /// Steps in a row that leave more than this of the residual at settled multipliers leave
+  /// contradictions or round-off.
   static constexpr double contradiction = 0.9;
+  static constexpr int most_stalls = 2;
 
   void start();
   double gap() const;
-  int take_step(double mu, double& length);
+  template <class Visit>
+  void for_each_rest(Visit visit);
+  Vector linearize(double mu);
+  template <class Visit>
+  void for_each_pair(const std::vector<double>& change, const Vector& direction, Visit visit);
+  double take_step(double mu, double reduction, int& iterations);
 
   const PointEquations& equations_;
   Normal& normal_;
@@ -63,7 +73,9 @@ class InteriorPoint {
   Vector y_;
   std::vector<double> weights_;
   std::vector<double> elongation_;           // A' y
+  std::vector<double> pull_;                 // on the weights, but for the change of y
   std::vector<double> at_lower_, at_upper_;  // z, Z
+  Vector over_, under_;                      // s, S; empty without a price
 };
 
 template <class Normal>
@@ -73,6 +85,19 @@ void InteriorPoint<Normal>::start() {
     weights_[v] = std::clamp(1.0, lower_[v] + margin, upper_[v] - margin);
     at_lower_[v] = first_gap / (weights_[v] - lower_[v]);
     at_upper_[v] = first_gap / (upper_[v] - weights_[v]);
+  }
+  if (!std::isfinite(normal_.price())) return;
+  over_.assign(y_.size(), first_gap / normal_.price());
+  under_ = over_;
+}
+
+/// Calls visit(k, s, p - y, S, p + y).
+template <class Normal>
+template <class Visit>
+void InteriorPoint<Normal>::for_each_rest(Visit visit) {
+  for (std::size_t k = 0; k < over_.size(); ++k) {
+    if (!normal_.has_price(k)) continue;
+    visit(k, over_[k], normal_.price() - y_[k], under_[k], normal_.price() + y_[k]);
   }
 }
 
@@ -87,65 +112,102 @@ double InteriorPoint<Normal>::gap() const {
   return 0.5 * sum / static_cast<double>(weights_.size());
 }
 
-/// A Newton step towards z (w - lower) = mu, as far as the bounds allow. \return iterations
+/// The linear system of a Newton step towards z (w - lower) = mu. \return its right side
 template <class Normal>
-int InteriorPoint<Normal>::take_step(double mu, double& length) {
+auto InteriorPoint<Normal>::linearize(double mu) -> Vector {
   const std::size_t count = weights_.size();
-  std::vector<double> pull(count), change(count);
+  std::vector<double> change(count);
+  pull_.resize(count);
   for (std::size_t v = 0; v < count; ++v) {
     const double below = weights_[v] - lower_[v], above = upper_[v] - weights_[v];
     normal_.mobility[v] = 1.0 / (1.0 + at_lower_[v] / below + at_upper_[v] / above);
-    pull[v] = 1.0 + elongation_[v] - weights_[v] + mu / below - mu / above;
-    change[v] = weights_[v] + normal_.mobility[v] * pull[v];
+    pull_[v] = 1.0 + elongation_[v] - weights_[v] + mu / below - mu / above;
+    change[v] = weights_[v] + normal_.mobility[v] * pull_[v];
   }
-  Vector residual, direction;
+  Vector residual;
   normal_.measure(change, y_, residual);
-  normal_.prepare();
-  const int iterations = normal_.solve(residual, 1e-2, direction);
-  std::vector<double> stretch(count);
-  normal_.apply_transpose(direction, stretch);
-  length = 1.0;
-  const auto limit = [&](double distance, double approach) {
-    if (approach > 0.0) length = std::min(length, boldness * distance / approach);
-  };
-  const auto change_of_z = [&](double z, double distance, double approach) {
-    return (mu - z * (distance - approach)) / distance;
-  };
-  for (std::size_t v = 0; v < count; ++v) {
-    const double below = weights_[v] - lower_[v], above = upper_[v] - weights_[v];
-    change[v] = normal_.mobility[v] * (stretch[v] + pull[v]);
-    limit(below, -change[v]);
-    limit(above, change[v]);
-    limit(at_lower_[v], -change_of_z(at_lower_[v], below, -change[v]));
-    limit(at_upper_[v], -change_of_z(at_upper_[v], above, change[v]));
+  for_each_rest([&](std::size_t k, double over, double below, double under, double above) {
+    normal_.compliance[k] = over / below + under / above;
+    residual[k] -= mu / below - mu / above;
+  });
+  return residual;
+}
+
+/// Calls visit(variable, slack, change of the slack): the variable, positive, times its slack is on
+/// the way to mu.
+template <class Normal>
+template <class Visit>
+void InteriorPoint<Normal>::for_each_pair(const std::vector<double>& change,
+                                          const Vector& direction, Visit visit) {
+  for (std::size_t v = 0; v < weights_.size(); ++v) {
+    visit(at_lower_[v], weights_[v] - lower_[v], change[v]);
+    visit(at_upper_[v], upper_[v] - weights_[v], -change[v]);
   }
-  for (std::size_t v = 0; v < count; ++v) {
-    const double below = weights_[v] - lower_[v], above = upper_[v] - weights_[v];
-    at_lower_[v] += length * change_of_z(at_lower_[v], below, -change[v]);
-    at_upper_[v] += length * change_of_z(at_upper_[v], above, change[v]);
+  for_each_rest([&](std::size_t k, double& over, double below, double& under, double above) {
+    visit(over, below, -direction[k]);
+    visit(under, above, direction[k]);
+  });
+}
+
+/// A Newton step towards mu, as far as the bounds allow. \return its length
+template <class Normal>
+double InteriorPoint<Normal>::take_step(double mu, double reduction, int& iterations) {
+  const Vector residual = linearize(mu);
+  Vector direction;
+  normal_.prepare();
+  iterations += normal_.solve(residual, reduction, direction);
+  std::vector<double> stretch(weights_.size()), change(weights_.size());
+  normal_.apply_transpose(direction, stretch);
+  for (std::size_t v = 0; v < change.size(); ++v) {
+    change[v] = normal_.mobility[v] * (stretch[v] + pull_[v]);
+  }
+  const auto change_of = [&](double variable, double slack, double change_of_slack) {
+    return (mu - variable * (slack + change_of_slack)) / slack;
+  };
+  double length = 1.0;
+  const auto limit = [&](double value, double step) {
+    if (step < 0.0) length = std::min(length, -boldness * value / step);
+  };
+  for_each_pair(change, direction, [&](double variable, double slack, double change_of_slack) {
+    limit(slack, change_of_slack);
+    limit(variable, change_of(variable, slack, change_of_slack));
+  });
+  for_each_pair(change, direction, [&](double& variable, double slack, double change_of_slack) {
+    variable += length * change_of(variable, slack, change_of_slack);
+  });
+  for (std::size_t v = 0; v < change.size(); ++v) {
     weights_[v] += length * change[v];
     elongation_[v] += length * stretch[v];
   }
   for (std::size_t k = 0; k < y_.size(); ++k) y_[k] += length * direction[k];
-  return iterations;
+  return length;
 }
 
 template <class Normal>
-int InteriorPoint<Normal>::solve(double target) {
+bool InteriorPoint<Normal>::solve(double target, int& iterations) {
   start();
-  int iterations = 0;
   double centring = 0.2, last_size = std::numeric_limits<double>::infinity();
+  int stalls = 0;
+  bool full = true;  // the last step
   Vector residual;
   for (int step = 0; step < most_steps; ++step) {
     normal_.measure(weights_, y_, residual);
+    for_each_rest([&](std::size_t k, double over, double, double under, double) {
+      residual[k] -= over - under;
+    });
     const double size = norm(residual), present = gap();
-    if (present <= last_gap && (size <= target || size > contradiction * last_size)) break;
+    const bool settled = present <= last_gap;
+    if (settled && size <= target) return true;
+    stalls = settled && full && size > contradiction * last_size ? stalls + 1 : 0;
+    if (stalls == most_stalls) break;
     last_size = size;
-    double length = 1.0;
-    iterations += take_step(centring * present, length);
-    centring = length > 0.8 ? 0.1 : 0.4;
+    // Once the bounds are settled the steps only take the residual down.
+    const double reduction = settled ? std::clamp(0.1 * target / size, finest, coarse) : coarse;
+    const double mu = std::max(centring * present, 0.1 * last_gap);
+    full = take_step(mu, reduction, iterations) > 0.8;
+    centring = full ? 0.1 : 0.4;
   }
-  return iterations;
+  return false;
 }
 
 }  // namespace perilink

@@ -19,9 +19,12 @@ constexpr int most_newton_steps = 40;
 /// Newton's method is lost where the dual function stops growing this early along a step.
 constexpr double shortest_step = 1e-5;
 
-/// Root mean square of the residual at which the interior point method has found out which weights
+/// Root mean square of the residual at which the interior-point method has found out which weights
 /// are at their bounds.
 constexpr double rough = 1e-4;
+
+/// Weights this near to a bound are at it.
+constexpr double at_bound = 1e-3;
 
 template <class Normal>
 class DualNewton {
@@ -33,7 +36,8 @@ class DualNewton {
         options_(options),
         normal_(normal),
         elongation_(equations.lower.size()),
-        weights_(elongation_.size(), 1.0) {}
+        weights_(elongation_.size(), 1.0),
+        residual_(equations.right.size(), 0.0) {}
 
   LeastChange solve();
 
@@ -44,9 +48,9 @@ class DualNewton {
   }
   double choose_weights(const Vector& y);
   double dual(const Vector& y);
-  void climb(Vector& y);
+  void climb(Vector y, double target);
   double search_line(const Vector& residual, const Vector& direction, Vector& y);
-  void report(const Vector& y);
+  void report();
 
   const PointEquations& equations_;
   const LeastChangeOptions& options_;
@@ -69,6 +73,9 @@ double DualNewton<Normal>::choose_weights(const Vector& y) {
     normal_.mobility[v] = weights_[v] == free ? 1.0 : 0.0;
     charge += weights_[v] * free - 0.5 * weights_[v] * weights_[v];
   }
+  for (std::size_t k = 0; k < normal_.compliance.size(); ++k) {
+    normal_.compliance[k] = normal_.given_up(k, y[k]) != 0.0 ? 1.0 : 0.0;
+  }
   return charge;
 }
 
@@ -78,48 +85,56 @@ double DualNewton<Normal>::dual(const Vector& y) {
   for (std::size_t k = 0; k < y.size(); ++k) {
     const double ridge = equations_.ridge_of(k % rows());
     value += y[k] * (equations_.right[k] * equations_.scale[k] - 0.5 * ridge * y[k]);
+    const double given_up = normal_.given_up(k, y[k]);
+    value -= 0.5 * given_up * given_up;
   }
   return value;
 }
 
-/// Halves the step until the concave dual function grows. \return length of the step
+/// Halves the step until the concave dual function grows. Multipliers of what cannot be met would
+/// go to infinity: no step is longer than to the price and back. \return length of the step, of the
+/// first that was tried
 template <class Normal>
 double DualNewton<Normal>::search_line(const Vector& residual, const Vector& direction, Vector& y) {
   const double before = dual(y);
   const double slope = dot(residual, direction);
   Vector trial(y.size());
-  double step = 1.0;
+  double longest = 0.0;
+  for (const double d : direction) longest = std::max(longest, std::abs(d));
+  const double first = longest > 2.0 * options_.price ? 2.0 * options_.price / longest : 1.0;
+  double step = first;
   for (int halvings = 0; halvings < 30; ++halvings, step *= 0.5) {
     for (std::size_t k = 0; k < y.size(); ++k) trial[k] = y[k] + step * direction[k];
     // Round-off of the sums in dual(): 1e-13 of their size.
     if (dual(trial) >= before + 1e-4 * step * slope - 1e-13 * std::abs(before)) break;
   }
   y = trial;
-  return step;
+  return step / first;
 }
 
-/// Newton's method on the dual function.
+/// Newton's method on the dual function, from the multipliers y.
 template <class Normal>
-void DualNewton<Normal>::climb(Vector& y) {
-  const double target = options_.tolerance * root_of_points();
+void DualNewton<Normal>::climb(Vector y, double target) {
   Vector direction;
   choose_weights(y);
   normal_.measure(weights_, y, residual_);
-  double last_size = 0.0;
-  std::vector<double> pattern;  // weights between their bounds at the last step
+  double last_size = 0.0, last_length = 1.0;
+  std::vector<double> pattern, given_up;  // weights between their bounds, at the last step
   for (int step = 0; step < most_newton_steps; ++step) {
     const double size = norm(residual_);
     if (size <= target || result_.iterations >= options_.iterations) break;
-    const bool settled = pattern == normal_.mobility;
+    const bool settled =
+        last_length == 1.0 && pattern == normal_.mobility && given_up == normal_.compliance;
     if (settled && size > contradiction * last_size) break;
     last_size = size;
     normal_.prepare_if_stale(settled);
     pattern = normal_.mobility;
+    given_up = normal_.compliance;
     // The first steps only find out which weights are at their bounds.
     const double coarse = step == 0 ? 1e-2 : settled ? 0.0 : 1e-3;
     const double reduction = std::max({coarse, 0.3 * target / size, 1e-12});
     result_.iterations += normal_.solve(residual_, reduction, direction);
-    const double length = search_line(residual_, direction, y);
+    const double length = last_length = search_line(residual_, direction, y);
     normal_.measure(weights_, y, residual_);
     if (length < shortest_step) break;
   }
@@ -128,33 +143,30 @@ void DualNewton<Normal>::climb(Vector& y) {
 
 template <class Normal>
 LeastChange DualNewton<Normal>::solve() {
-  Vector y(equations_.right.size(), 0.0);
+  const double target = options_.tolerance * root_of_points();
   if (options_.method == Method::newton) {
-    climb(y);
-    report(y);
-    return result_;
-  }
-  InteriorPoint<Normal> interior(equations_, normal_);
-  result_.iterations = interior.solve(std::max(options_.tolerance, rough) * root_of_points());
-  y = interior.multipliers();
-  if (options_.tolerance < rough) {
-    climb(y);
+    climb(Vector(residual_.size(), 0.0), target);
   } else {
+    InteriorPoint<Normal> interior(equations_, normal_);
+    // Newton's method finishes where it can: prices leave it lost between their kinks.
+    const bool finished = std::isfinite(options_.price) || options_.tolerance >= rough;
+    result_.converged =
+        interior.solve(finished ? target : rough * root_of_points(), result_.iterations);
     weights_ = interior.weights();
-    normal_.measure(weights_, y, residual_);
-    result_.converged = norm(residual_) <= options_.tolerance * root_of_points();
+    if (!finished) climb(interior.multipliers(), target);
   }
-  report(y);
+  report();
   return result_;
 }
 
 template <class Normal>
-void DualNewton<Normal>::report(const Vector& y) {
+void DualNewton<Normal>::report() {
   for (std::size_t v = 0; v < weights_.size(); ++v) {
-    result_.at_lower += weights_[v] <= equations_.lower[v];
+    result_.at_lower += weights_[v] <= equations_.lower[v] + at_bound;
   }
-  for (std::size_t k = 0; k < y.size(); ++k) {
-    const double rest = std::abs(residual_[k] + equations_.ridge_of(k % rows()) * y[k]);
+  normal_.measure(weights_, Vector(residual_.size(), 0.0), residual_);
+  for (std::size_t k = 0; k < residual_.size(); ++k) {
+    const double rest = std::abs(residual_[k]);
     if (rest <= result_.residual) continue;
     result_.residual = rest;
     result_.worst_point = static_cast<Index>(k / rows());

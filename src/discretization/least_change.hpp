@@ -64,7 +64,7 @@ enum class Preconditioner {
 /// How the bounds are met.
 enum class Method {
   newton,          ///< Newton's method on the dual function: few steps where few bounds matter
-  interior_point,  ///< finds out first which weights are at their bounds: for many of these
+  interior_point,  ///< a few tens of dear steps, whatever the bounds do
 };
 
 /// How to solve them.
@@ -72,6 +72,7 @@ struct LeastChangeOptions {
   double tolerance =
       1e-12;               ///< of the norm of the scaled residual, per root of the number of points
   int iterations = 20000;  ///< of conjugate gradients, in all
+  double price = std::numeric_limits<double>::infinity();  ///< of what is left of exact equations
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
 };
@@ -93,9 +94,11 @@ struct LeastChange {
 /// Minimises sum (w_v - 1)^2 subject to the equations and the bounds. The bounded problem is
 /// solved, not clamped: Newton's method on the concave dual function, w(y) = min(max(1 + A' y,
 /// lower), upper) with A w(y) + ridge y = r, whose linear systems A D A' (D: the weights between
-/// the bounds) conjugate gradients solve, or first the interior-point method (interior_point.hpp).
-/// Where the equations contradict each other or the bounds, the steps, which are those of the
-/// method of multipliers, lead to the least squared residual; Newton's method alone may get lost on
+/// the bounds) conjugate gradients solve, or the interior-point method (interior_point.hpp).
+/// Where exact equations contradict each other or the bounds, and have a price, what is left of
+/// each (scaled) is charged with its size times the price: few equations are given up, the others
+/// hold exactly, with multipliers below the price. Without a price the steps, which are those of
+/// the method of multipliers, lead to the least squared residual. Newton's method may get lost on
 /// the way.
 /// \throws std::invalid_argument for numbers of rows, odd ones and groups that are not built in
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);

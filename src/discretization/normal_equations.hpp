@@ -40,13 +40,26 @@ class NormalEquations {
         scaled_(size_),
         coarse_(coarse),
         by_factor_(options.preconditioner == Preconditioner::factor ||
-                   (options.preconditioner == Preconditioner::blocks_then_factor && coarse)) {}
+                   (options.preconditioner == Preconditioner::blocks_then_factor && coarse)) {
+    if (std::isfinite(options.price)) compliance.assign(size_, 0.0);
+  }
 
   void apply_transpose(const Vector& y, std::vector<double>& result);
   void apply(const std::vector<double>& w, Vector& result) const;
-  /// What the weights leave of the right sides, less ridge times y.
+  double price() const { return options_.price; }
+  bool has_price(std::size_t k) const {
+    return std::isfinite(price()) && equations_.ridge_of(k % Rows) == 0.0;
+  }
+  /// Part of equation k that is given up at the multiplier y, which is above the price then, by as
+  /// much.
+  double given_up(std::size_t k, double y) const {
+    if (!has_price(k) || std::abs(y) <= price()) return 0.0;
+    return y > 0.0 ? y - price() : y + price();
+  }
+  /// What the weights leave of the right sides, less ridge times y and what is given up.
   void measure(const std::vector<double>& weights, const Vector& y, Vector& residual) const;
-  /// Makes the preconditioner for the mobility as it is now, or keeps the factor of an earlier one.
+  /// Makes the preconditioner for the mobility as it is now, or keeps the factor of an earlier one
+  /// while it takes less time than a new one.
   void prepare();
   /// The factor of an earlier mobility serves until it needs too many iterations.
   void prepare_if_stale(bool settled);
@@ -54,6 +67,9 @@ class NormalEquations {
   int solve(const Vector& residual, double reduction, Vector& direction);
 
   std::vector<double> mobility;
+  /// What an exact equation gives way per unit of its multiplier, shape (points, Rows); empty where
+  /// none has a price.
+  Vector compliance;
 
  private:
   using Block = Eigen::Matrix<double, Rows, Rows>;
@@ -67,6 +83,8 @@ class NormalEquations {
   static constexpr double factor_proximity = 1e-14;
   /// Fewer points converge without a coarse space.
   static constexpr Index smallest_coarse_problem = 2000;
+  /// As many iterations take about the time of a factor.
+  static constexpr int worth_of_factor = 15;
   /// A factor is made anew when the last solution needed more iterations than this.
   static constexpr int stale_iterations = 40;
   /// Iterations of a solution after which Preconditioner::blocks_then_factor turns to the factor.
@@ -91,6 +109,7 @@ class NormalEquations {
   std::unique_ptr<CoarseSpace>& coarse_;
   bool by_factor_;
   int last_iterations_ = 0;
+  Vector compliance_of_factor_;
 };
 
 /// result_v = a_v . (s y at the first end -+ s y at the second).
@@ -154,7 +173,7 @@ void NormalEquations<Rows, Odd, Grouped>::measure(const std::vector<double>& wei
   apply(weights, residual);
   for (std::size_t k = 0; k < size_; ++k) {
     residual[k] = equations_.right[k] * equations_.scale[k] - residual[k] -
-                  equations_.ridge_of(k % Rows) * y[k];
+                  equations_.ridge_of(k % Rows) * y[k] - given_up(k, y[k]);
   }
 }
 
@@ -178,14 +197,18 @@ void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
     }
   }
   const std::vector<double> shift = shifts();
-  for (Block& block : inverse_blocks_) {
+  for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
+    Block& block = inverse_blocks_[p];
     // What no variable between the bounds acts on keeps the identity.
     const double floor = 1e-11 * block.trace();
-    for (int r = 0; r < Rows; ++r) block(r, r) += block(r, r) > 0.0 ? floor + shift[r] : 1.0;
+    for (int r = 0; r < Rows; ++r) {
+      block(r, r) += block(r, r) > 0.0 ? floor + shift[r] : 1.0;
+      if (!compliance.empty()) block(r, r) += compliance[p * Rows + r];
+    }
     block = block.llt().solve(Block::Identity()).eval();
   }
   if (options_.preconditioner == Preconditioner::aggregates && points >= smallest_coarse_problem) {
-    coarse_ = std::make_unique<CoarseSpace>(equations_, mobility, shift,
+    coarse_ = std::make_unique<CoarseSpace>(equations_, mobility, shift, compliance,
                                             CoarseSpace::Boxes::of_many_points);
   }
 }
@@ -204,21 +227,27 @@ template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::build_factor() {
   by_factor_ = true;
   inverse_blocks_.clear();
-  coarse_ = std::make_unique<CoarseSpace>(equations_, mobility, shifts(),
+  coarse_ = std::make_unique<CoarseSpace>(equations_, mobility, shifts(), compliance,
                                           CoarseSpace::Boxes::of_single_points);
+  compliance_of_factor_ = compliance;
   last_iterations_ = 0;
 }
 
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::prepare() {
-  by_factor_ ? build_factor() : build_blocks();
+  if (!by_factor_) {
+    build_blocks();
+  } else if (!coarse_ || last_iterations_ > worth_of_factor) {
+    build_factor();
+  }
 }
 
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled) {
   if (!by_factor_) {
     if (!settled) build_blocks();
-  } else if (!coarse_ || last_iterations_ > stale_iterations) {
+  } else if (!coarse_ || last_iterations_ > stale_iterations ||
+             compliance_of_factor_ != compliance) {
     build_factor();
   }
 }
@@ -267,6 +296,7 @@ int NormalEquations<Rows, Odd, Grouped>::iterate(const Vector& residual, double 
     for (std::size_t v = 0; v < stretch.size(); ++v) stretch[v] *= mobility[v];
     apply(stretch, q);
     for (std::size_t k = 0; k < size_; ++k) q[k] += shift[k % Rows] * p[k];
+    for (std::size_t k = 0; k < compliance.size(); ++k) q[k] += compliance[k] * p[k];
     const double step = rz / dot(p, q);
     for (std::size_t k = 0; k < size_; ++k) {
       direction[k] += step * p[k];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -47,7 +48,13 @@ class TiedNormalEquations {
   /// S direction = residual, the residual reduced by the factor. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
 
+  /// Tied equations have no price.
+  static constexpr double price() { return std::numeric_limits<double>::infinity(); }
+  static constexpr bool has_price(std::size_t) { return false; }
+  static constexpr double given_up(std::size_t, double) { return 0.0; }
+
   std::vector<double> mobility;
+  Vector compliance;  // stays empty
 
  private:
   const TiedEquations& tied_;

@@ -71,7 +71,7 @@ TEST(CoarseSpace, OfSinglePointsIsTheInverse) {
   for (std::size_t v = 0; v < active.size(); v += 7) active[v] = 0.0;
   constexpr double ridge = 0.1;
   const CoarseSpace space(equations, active, std::vector<double>(4, ridge),
-                          CoarseSpace::Boxes::of_single_points);
+                          {}, CoarseSpace::Boxes::of_single_points);
   std::mt19937 random(5);
   const Eigen::VectorXd x =
       Eigen::VectorXd::NullaryExpr(equations.num_points() * 4, [&] { return uniform(random); });
@@ -88,7 +88,7 @@ TEST(CoarseSpace, OfManyPointsLeavesNoSmoothResidual) {
   const PointEquations equations = grid(24, 0);
   const std::vector<double> active(static_cast<std::size_t>(equations.num_variables()), 1.0);
   const CoarseSpace space(equations, active, std::vector<double>(4, 0.0),
-                          CoarseSpace::Boxes::of_many_points);
+                          {}, CoarseSpace::Boxes::of_many_points);
   std::mt19937 random(5);
   const Eigen::VectorXd right =
       Eigen::VectorXd::NullaryExpr(equations.num_points() * 4, [&] { return uniform(random); });

@@ -49,7 +49,8 @@ double change_of(const std::vector<double>& weights) {
   return sum;
 }
 
-double largest_residual(const PointEquations& equations, const std::vector<double>& weights) {
+/// Shape (points, rows).
+std::vector<double> residuals(const PointEquations& equations, const std::vector<double>& weights) {
   std::vector<double> rest = equations.right;
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   for (Index v = 0; v < equations.num_variables(); ++v) {
@@ -63,8 +64,14 @@ double largest_residual(const PointEquations& equations, const std::vector<doubl
       }
     }
   }
+  return rest;
+}
+
+double largest_residual(const PointEquations& equations, const std::vector<double>& weights) {
   double largest = 0.0;
-  for (const double value : rest) largest = std::max(largest, std::abs(value));
+  for (const double value : residuals(equations, weights)) {
+    largest = std::max(largest, std::abs(value));
+  }
   return largest;
 }
 
@@ -203,6 +210,49 @@ TEST(LeastChange, BothMethodsFindTheSameMinimum) {
       EXPECT_GE(interior.weights[v], equations.lower[v]);
       EXPECT_LE(interior.weights[v], equations.upper[v]);
     }
+  }
+}
+
+/// One equation asks for more than its bounded weights can give. With a price it is given up alone,
+/// as far as it must be, and all others hold; least squares spread what is left.
+TEST(LeastChange, GivesUpTheEquationThatCannotBeMet) {
+  std::vector<double> weights;
+  PointEquations equations = ring(40, 8, 6, weights, 16);
+  equations.upper.assign(weights.size(), 2.0);
+  constexpr std::size_t impossible = 20 * 8 + 6;
+  equations.right[impossible] += 12.0;
+  const auto unmet = [&](const LeastChange& found) {
+    std::size_t count = 0;
+    const std::vector<double> rest = residuals(equations, found.weights);
+    for (std::size_t k = 0; k < rest.size(); ++k)
+      count += k != impossible && std::abs(rest[k]) > 1e-9;
+    EXPECT_GT(rest[impossible], 0.1);
+    return count;
+  };
+  LeastChangeOptions options;
+  options.method = Method::interior_point;
+  EXPECT_GT(unmet(least_change(equations, options)), 100u);
+  for (const Preconditioner preconditioner : {Preconditioner::blocks, Preconditioner::factor}) {
+    options.preconditioner = preconditioner;
+    options.price = 1e5;
+    options.tolerance = 1e-10;  // round-off of multipliers of this size
+    const LeastChange found = least_change(equations, options);
+    EXPECT_TRUE(found.converged);
+    EXPECT_EQ(unmet(found), 0u);
+    EXPECT_EQ(found.worst_point, 20);
+  }
+}
+
+/// Where all can be met a price changes nothing.
+TEST(LeastChange, APriceChangesNoAnswerThatMeetsAll) {
+  std::vector<double> weights;
+  const PointEquations equations = ring(40, 8, 6, weights, 7);
+  LeastChangeOptions options;
+  const LeastChange without = least_change(equations, options);
+  options.price = 1e5;
+  const LeastChange with = least_change(equations, options);
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    EXPECT_DOUBLE_EQ(with.weights[v], without.weights[v]);
   }
 }
 

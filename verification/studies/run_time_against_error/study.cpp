@@ -205,7 +205,7 @@ std::string growth(const fs::path& work) {
   for (const double steps : {20.0, 40.0, 80.0, 192.0}) {
     run("cantilever", body_key("spacing", 1.0 / steps));
   }
-  for (const double size : {0.05, 0.025, 0.0125}) {
+  for (const double size : {0.05, 0.025, 0.0125, 0.008}) {
     run("plate_with_hole", make_mesh(work, size));
   }
   return table;
