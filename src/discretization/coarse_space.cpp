@@ -75,6 +75,23 @@ void CoarseSpace::number_boxes(const PointEquations& equations) {
   num_boxes_ = static_cast<Index>(numbers.size());
 }
 
+/// Adds P' compliance P. \param block  of a pair of boxes
+template <class BlockOf>
+void CoarseSpace::add_compliance(const std::vector<double>& compliance, BlockOf block) const {
+  for (std::size_t p = 0; !compliance.empty() && p < box_of_.size(); ++p) {
+    Eigen::MatrixXd& matrix = block(box_of_[p], box_of_[p]);
+    const double* value = values_.data() + p * static_cast<std::size_t>(functions_);
+    for (int r = 0; r < rows_; ++r) {
+      const double part = compliance[p * static_cast<std::size_t>(rows_) + r];
+      for (int f = 0; f < functions_; ++f) {
+        for (int g = 0; g < functions_; ++g) {
+          matrix(r * functions_ + f, r * functions_ + g) += part * value[f] * value[g];
+        }
+      }
+    }
+  }
+}
+
 void CoarseSpace::assemble(const PointEquations& equations, const std::vector<double>& active,
                            const std::vector<double>& shifts,
                            const std::vector<double>& compliance) {
@@ -109,18 +126,7 @@ void CoarseSpace::assemble(const PointEquations& equations, const std::vector<do
       }
     }
   }
-  for (std::size_t p = 0; !compliance.empty() && p < box_of_.size(); ++p) {
-    Eigen::MatrixXd& matrix = block(box_of_[p], box_of_[p]);
-    const double* value = values_.data() + p * static_cast<std::size_t>(functions_);
-    for (int r = 0; r < rows_; ++r) {
-      const double part = compliance[p * static_cast<std::size_t>(rows_) + r];
-      for (int f = 0; f < functions_; ++f) {
-        for (int g = 0; g < functions_; ++g) {
-          matrix(r * functions_ + f, r * functions_ + g) += part * value[f] * value[g];
-        }
-      }
-    }
-  }
+  add_compliance(compliance, block);
   const double points_in_box = static_cast<double>(box_of_.size()) / num_boxes_;
   // The shifts of the fine system, and a little more where constants and rigid modes have no
   // stiffness.

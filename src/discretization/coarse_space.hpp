@@ -32,6 +32,8 @@ class CoarseSpace {
   void put_points_in_boxes_of_their_own(const PointEquations& equations);
   void assemble(const PointEquations& equations, const std::vector<double>& active,
                 const std::vector<double>& shifts, const std::vector<double>& compliance);
+  template <class BlockOf>
+  void add_compliance(const std::vector<double>& compliance, BlockOf block) const;
   void factorize(const std::vector<Eigen::Triplet<double>>& entries);  // of the lower triangle
 
   int dim_, rows_;
