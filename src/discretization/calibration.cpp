@@ -48,7 +48,7 @@ class Calibration {
   Calibration(const CalibrationInput& input, const CalibrationOptions& options,
               const Facets& facets, const BondStiffness& stiffness, const BondOrbits* orbits)
       : in_space_(input.particles.dim == 3),
-        irregular_(input.free.empty()),
+        irregular_(input.all_free()),
         tied_(orbits != nullptr),
         moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
@@ -275,7 +275,7 @@ CalibrationReport calibrate_bonds(const CalibrationInput& input, const Calibrati
   balance_shares(facets, input.particles.positions,
                  connected_parts(input.bonds, input.particles.size()), lambda);
   if (!stiffness.bending.empty()) stiffness.inflection.assign(stiffness.bending.size(), 0.5);
-  if (input.box && !input.free.empty() && uniform(input)) {
+  if (input.box && !input.all_free() && uniform(input)) {
     if (const auto report = calibrate_alike(input, options, facets, stiffness)) return *report;
   }
   Calibration calibration(input, options, facets, stiffness, nullptr);

@@ -28,6 +28,7 @@ struct CalibrationInput {
   /// Empty: all may, and the energies of dilatation are made right as well, softly (irregular
   /// clouds).
   std::vector<std::uint8_t> free;
+  bool all_free() const { return free.empty(); }
   /// That the particles fill with one lattice: bonds that lie alike are made alike, if the material
   /// is the same all over.
   std::optional<LatticeBox> box = std::nullopt;

@@ -65,7 +65,7 @@ void CalibrationEquations::choose_points() {
   const Index num_particles = input_.particles.size();
   std::vector<std::uint8_t> touched(static_cast<std::size_t>(num_particles), 0);
   for (Index b = 0; b < input_.bonds.size(); ++b) {
-    if (!input_.free.empty() && !input_.free[b]) continue;
+    if (!input_.all_free() && !input_.free[b]) continue;
     free_bonds_.push_back(b);
     touched[input_.bonds.first[b]] = touched[input_.bonds.second[b]] = 1;
   }

@@ -101,7 +101,7 @@ class CalibrationEquations {
   std::vector<double> out_of_balance() const;
   void choose_points();
   void measure_particles();
-  bool shares_vary() const { return input_.free.empty(); }
+  bool shares_vary() const { return input_.all_free(); }
   bool carries_moments() const { return forces_.bending; }
 
   /// Squares of soft moments weigh its inverse against those of the changes.
