@@ -73,8 +73,8 @@ void Correction::take_bulk_families(const LatticeFamilies& families) {
     const Index i = network_.bonds.first[e], j = network_.bonds.second[e];
     const Index k = families.find(network_.bonds.direction(e), network_.bonds.lengths[e]);
     if (k == no_index) continue;
-    const double share = network_.particles.volumes[i] / volume *
-                         (network_.particles.volumes[j] / volume);
+    const double share =
+        network_.particles.volumes[i] / volume * (network_.particles.volumes[j] / volume);
     const FamilyStiffness& a = families.stiffness(material(i));
     const FamilyStiffness& b = families.stiffness(material(j));
     network_.stiffness[e] = 0.5 * (a.axial[k] + b.axial[k]) * share;
@@ -115,9 +115,11 @@ void Correction::scale_to(const std::vector<double>& wanted) {
 std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families) const {
   std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
   const Bonds& bonds = network_.bonds;
+  std::vector<LameConstants> constants;  // materials may differ in strength only
+  for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
-    if (material(i) != material(j)) continue;
+    if (!(constants[material(i)] == constants[material(j)])) continue;
     if (families.find(bonds.direction(b), bonds.lengths[b]) == no_index) continue;
     ++regular[i];
     ++regular[j];

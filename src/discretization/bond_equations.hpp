@@ -19,6 +19,7 @@ namespace perilink {
 struct LameConstants {
   double lambda = 0.0;  ///< [force/length^2]
   double mu = 0.0;      ///< [force/length^2]
+  bool operator==(const LameConstants&) const = default;
 };
 
 /// Stiffness of the bonds: where a calibration starts and what it becomes.

@@ -181,13 +181,17 @@ OrbitSample sample_orbits(const BondOrbits& orbits, const Particles& particles, 
   return sample;
 }
 
-void spread(const OrbitSample& sample, const BondStiffness& sampled, const BondOrbits& orbits,
+bool spread(const OrbitSample& sample, const BondStiffness& sampled, const BondOrbits& orbits,
             BondStiffness& stiffness) {
   std::vector<Index> leader(static_cast<std::size_t>(orbits.num_views), no_index);  // in the sample
   for (Index s = 0; s < sample.bonds.size(); ++s) {
     if (sample.free[s] && leader[sample.orbits.of_bond(s)] == no_index) {
       leader[sample.orbits.of_bond(s)] = s;
     }
+  }
+  for (std::size_t b = 0; b < orbits.views.size(); ++b) {
+    if (orbits.views[b][0] == no_index) continue;
+    if (leader[orbits.of_bond(static_cast<Index>(b))] == no_index) return false;
   }
   for (std::size_t b = 0; b < orbits.views.size(); ++b) {
     if (orbits.views[b][0] == no_index) continue;
@@ -199,6 +203,7 @@ void spread(const OrbitSample& sample, const BondStiffness& sampled, const BondO
     stiffness.bending[b] = sampled.bending[s];
     stiffness.inflection[b] = reversed ? 1.0 - inflection : inflection;
   }
+  return true;
 }
 
 }  // namespace perilink

@@ -63,8 +63,9 @@ OrbitSample sample_orbits(const BondOrbits& orbits, const Particles& particles, 
 
 /// Gives all bonds of a class the stiffness that the sample found for it.
 /// \param sampled    stiffness of the bonds of the sample
-/// \param stiffness  of the body
-void spread(const OrbitSample& sample, const BondStiffness& sampled, const BondOrbits& orbits,
+/// \param stiffness  of the body, unchanged where the sample lacks a class
+/// \return whether it has all
+bool spread(const OrbitSample& sample, const BondStiffness& sampled, const BondOrbits& orbits,
             BondStiffness& stiffness);
 
 }  // namespace perilink

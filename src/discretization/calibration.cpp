@@ -64,6 +64,10 @@ class Calibration {
     return soft_moments_ ? report_.residual_after
                          : std::max(report_.residual_after, report_.moment_after);
   }
+  /// What a search lessens, to compare two ends: prices the sum, least squares about the largest.
+  double left() const {
+    return irregular_ && !in_space_ && !soft_moments_ ? report_.sum_after : unbalanced();
+  }
   void soften_moments();
   LeastChange seek(const PointEquations& equations, const LeastChangeOptions& options);
   bool solve(double tolerance);
@@ -132,21 +136,27 @@ void Calibration::search(Method method, double charge, double tolerance) {
 /// \return whether it is nearer now
 bool Calibration::balance(double tolerance) {
   equations_.report_balance(report_);
-  const double before = unbalanced();
+  const double before = left(), largest_before = unbalanced();
   const CalibrationEquations::State settled = equations_.save();
   const Method first = irregular_ && in_space_ ? Method::interior_point : Method::newton;
   search(first, irregular_ && !in_space_ ? price : no_price, tolerance);
   const bool solvable = moments_ || !in_space_;
   // The tolerance is that of the mean.
   const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
-  const bool lost = tied_ && unbalanced() > before;
+  const bool lost = tied_ && unbalanced() > largest_before;
   if (first == Method::newton && (unsolved || lost)) {
+    const CalibrationEquations::State climbed = equations_.save();
+    const double reached = left();
     equations_.restore(settled);
     factor_.reset();
     search(Method::interior_point, irregular_ ? price : no_price, tolerance);
     factor_.reset();
+    if (left() > reached) {
+      equations_.restore(climbed);
+      equations_.report_balance(report_);
+    }
   }
-  if (unbalanced() <= std::max(met, before)) return true;
+  if (unbalanced() <= met || left() <= before) return true;
   equations_.restore(settled);
   equations_.report_balance(report_);
   return false;
@@ -209,10 +219,10 @@ CalibrationReport Calibration::run() {
   const double start = unbalanced();
   if (!attempt() && energies_) {
     const CalibrationEquations::State settled = equations_.save();
-    const double reached = unbalanced();
+    const double reached = left();
     energies_ = false;
     attempt();
-    if (unbalanced() > reached) {
+    if (left() > reached) {
       equations_.take_all_back();
       equations_.restore(settled);
       equations_.report_balance(report_);
@@ -230,10 +240,8 @@ CalibrationReport Calibration::run() {
 /// The same constants all over; materials may differ in strength.
 bool uniform(const CalibrationInput& input) {
   const LameConstants& first = input.materials[input.particles.material.front()];
-  return std::all_of(
-      input.particles.material.begin(), input.particles.material.end(), [&](Index m) {
-        return input.materials[m].lambda == first.lambda && input.materials[m].mu == first.mu;
-      });
+  return std::all_of(input.particles.material.begin(), input.particles.material.end(),
+                     [&](Index m) { return input.materials[m] == first; });
 }
 
 /// Bonds of a box that lie alike are made alike: a problem whose size does not depend on the size
@@ -256,7 +264,9 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
   whole.report_balance(report);
   report.residual_before = report.residual_after;
   CalibrationEquations::State state = whole.save();
-  spread(sample, calibration.result().stiffness, orbits, state.stiffness);
+  if (!spread(sample, calibration.result().stiffness, orbits, state.stiffness)) {
+    return std::nullopt;
+  }
   whole.restore(state);
   whole.report_balance(report);
   if (std::max(report.residual_after, report.moment_after) > exact) return std::nullopt;

@@ -53,6 +53,7 @@ struct CalibrationReport {
   double residual_after = 0.0;   ///< ... and at the end
   double moment_after = 0.0;  ///< largest moment out of balance of bonds that carry moments, over
                               ///< 1/2 sum k xi^2
+  double sum_after = 0.0;     ///< of the largest force or moment of each particle
   Index worst_particle = no_index;
   /// Particles with a force or moment of more than 1e-7 out of balance at the end.
   Index unmet = 0;
@@ -69,8 +70,8 @@ struct CalibrationReport {
 /// docs/theory/calibration.md. Shifts the shares of facets where no stiffness could do it, and the
 /// inflection of bonds that carry moments. Where the bounds stand in the way (a corner of a cube:
 /// bonds along its diagonal pull out of all three faces at once) the bonds there may fall to zero.
-/// What cannot be balanced either stays as near to it as least squares or the soft equations lead;
-/// the report says how near.
+/// What cannot be balanced either stays as near to it as least squares, prices or the soft
+/// equations lead; the report says how near.
 CalibrationReport calibrate_bonds(const CalibrationInput& input, const CalibrationOptions& options,
                                   Facets& facets, BondStiffness& stiffness);
 

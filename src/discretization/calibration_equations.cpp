@@ -305,7 +305,7 @@ void CalibrationEquations::gather_dilatations(PointEquations& equations) const {
 void CalibrationEquations::report_balance(CalibrationReport& report) const {
   const std::vector<double> rest = out_of_balance();
   const std::size_t rows = static_cast<std::size_t>(forces_.count());
-  report.residual_after = report.moment_after = 0.0;
+  report.residual_after = report.moment_after = report.sum_after = 0.0;
   report.unmet = 0;
   report.worst_particle = no_index;
   for (const Index i : particle_of_) {
@@ -318,6 +318,7 @@ void CalibrationEquations::report_balance(CalibrationReport& report) const {
       largest = std::max(largest, is_force ? size * length_[i] : size);
     }
     report.unmet += std::max(force, moment) > met;
+    report.sum_after += std::max(force, moment);
     if (std::max(force, moment) > std::max(report.residual_after, report.moment_after)) {
       report.worst_particle = i;
     }

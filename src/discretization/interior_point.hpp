@@ -37,9 +37,10 @@ class InteriorPoint {
         at_upper_(lower_.size()) {}
 
   /// \param target      norm of the scaled residual that is enough
-  /// \param iterations  of conjugate gradients are added
+  /// \param most        iterations of conjugate gradients after which no step begins
+  /// \param iterations  are added
   /// \return whether it was reached
-  bool solve(double target, int& iterations);
+  bool solve(double target, int most, int& iterations);
   const Vector& multipliers() const { return y_; }
   const std::vector<double>& weights() const { return weights_; }
 
@@ -184,13 +185,13 @@ double InteriorPoint<Normal>::take_step(double mu, double reduction, int& iterat
 }
 
 template <class Normal>
-bool InteriorPoint<Normal>::solve(double target, int& iterations) {
+bool InteriorPoint<Normal>::solve(double target, int most, int& iterations) {
   start();
   double centring = 0.2, last_size = std::numeric_limits<double>::infinity();
   int stalls = 0;
   bool full = true;  // the last step
   Vector residual;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < most_steps && iterations < most; ++step) {
     normal_.measure(weights_, y_, residual);
     for_each_rest([&](std::size_t k, double over, double, double under, double) {
       residual[k] -= over - under;

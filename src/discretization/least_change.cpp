@@ -150,8 +150,8 @@ LeastChange DualNewton<Normal>::solve() {
     InteriorPoint<Normal> interior(equations_, normal_);
     // Newton's method finishes where it can: prices leave it lost between their kinks.
     const bool finished = std::isfinite(options_.price) || options_.tolerance >= rough;
-    result_.converged =
-        interior.solve(finished ? target : rough * root_of_points(), result_.iterations);
+    result_.converged = interior.solve(finished ? target : rough * root_of_points(),
+                                       options_.iterations, result_.iterations);
     weights_ = interior.weights();
     if (!finished) climb(interior.multipliers(), target);
   }

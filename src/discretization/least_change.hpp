@@ -71,7 +71,7 @@ enum class Method {
 struct LeastChangeOptions {
   double tolerance =
       1e-12;               ///< of the norm of the scaled residual, per root of the number of points
-  int iterations = 20000;  ///< of conjugate gradients, in all
+  int iterations = 20000;  ///< of conjugate gradients after which no step begins
   double price = std::numeric_limits<double>::infinity();  ///< of what is left of exact equations
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;

@@ -126,8 +126,6 @@ TEST(SurfaceCorrection, InThePlaneTheInteriorPointIsTheLastResort) {
   EXPECT_EQ(network.calibration->dropped, 0);
 }
 
-/// Inside, the critical stretch releases G_F: the bonds of an interior particle, summed as a crack
-/// would cross them.
 /// In space the problem ends a few horizons from the edges: weights of longer boxes are the same.
 TEST(SurfaceCorrection, CalibrationOfABoxInSpaceDoesNotDependOnItsSize) {
   for (const Pattern pattern : {Pattern::cubic, Pattern::face_centred}) {
@@ -142,6 +140,26 @@ TEST(SurfaceCorrection, CalibrationOfABoxInSpaceDoesNotDependOnItsSize) {
   }
 }
 
+/// A weak half is as stiff as the other: nothing of the calibration sees it.
+TEST(SurfaceCorrection, StrengthIsNothingToTheCalibration) {
+  LatticeInput of_body = body_input({"", Pattern::cubic, Surface::calibrated}, 12);
+  NetworkInput input = network_input(of_body);
+  const Network plain = build_network(make_body(of_body), input);
+  SolidMaterial weak = input.materials.front();
+  weak.fracture_energy *= 0.1;
+  input.materials.push_back(weak);
+  Box half = of_body.solid.front();
+  half.upper[0] *= 0.5;
+  of_body.solid.push_back(half);
+  of_body.material.push_back(1);
+  const Network halves = build_network(make_body(of_body), input);
+  ASSERT_NE(halves.particles.material.front(), halves.particles.material.back());
+  EXPECT_EQ(halves.calibration->free_bonds, plain.calibration->free_bonds);
+  EXPECT_EQ(halves.stiffness, plain.stiffness);
+}
+
+/// Inside, the critical stretch releases G_F: the bonds of an interior particle, summed as a crack
+/// would cross them.
 TEST_P(EveryLattice, CalibratedBondsReleaseTheFractureEnergy) {
   // Wide enough for a particle none of whose bonds was changed.
   const int columns = GetParam() == Pattern::face_centred ? 14 : 10;
