@@ -19,7 +19,7 @@ constexpr double vanishing = 1e-3;
 /// Energies of dilatation are soft equations: squares weigh 1 / ridge against those of the changes.
 /// In space the forces beside them are a little soft too: at edges and corners positive weights
 /// often cannot do both.
-constexpr double dilatation_ridge = 0.03;
+constexpr double dilatation_ridge = 0.003;
 constexpr double forces_ridge_in_space = 1e-4;
 
 /// A change of a share by this costs as much as doubling the stiffness of a bond. Little, so that

@@ -18,7 +18,7 @@ namespace {
 std::string pulled_plate(double poissons_ratio) {
   return R"([body]
 mesh = "full_plate_with_hole.msh"
-horizon_ratio = 3
+horizon_ratio = 2.5
 model = "micropolar"
 
 [[regions]]
@@ -68,7 +68,8 @@ TEST_P(PulledPlate, BreaksAcrossTheHoleOnly) {
   const CaseFile input =
       parse_case(pulled_plate(GetParam()), PERILINK_SOURCE_DIR "/meshes/plate.toml");
   const Model model = build_model(input);
-  ASSERT_LT(model.network.calibration->smallest_weight, 0.1);
+  const CalibrationReport& calibration = *model.network.calibration;
+  ASSERT_GT(calibration.largest_weight, 5.0 * calibration.smallest_weight);
   Recorder recorder;
   const DamageResult result =
       run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
@@ -76,7 +77,7 @@ TEST_P(PulledPlate, BreaksAcrossTheHoleOnly) {
   const auto peak =
       std::max_element(recorder.rows.begin(), recorder.rows.end(),
                        [](const StepRecord& a, const StepRecord& b) { return a.load < b.load; });
-  ASSERT_GT(peak->step, 10);
+  ASSERT_GT(recorder.rows.size(), 100U);
   ASSERT_LT(recorder.rows.back().load, 0.3 * peak->load);
   const Bonds& bonds = model.network.bonds;
   for (const StepRecord& row : recorder.rows) {

@@ -19,4 +19,5 @@ Curve Loop(1) = {1, 2, 3, 4, 5, 6};
 Plane Surface(1) = {1};
 Point{1, 8} In Surface{1};
 Physical Curve("platens") = {2, 5};
+Physical Curve("sides") = {1, 3, 4, 6};
 Physical Surface("disc") = {1};
