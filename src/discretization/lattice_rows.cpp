@@ -81,6 +81,7 @@ class RowBuilder {
     int first = 0, last = -1;   ///< particles
     int lower = 0, upper = -1;  ///< slots
     Index begin = 0;            ///< slot of `lower`
+    Index number = no_index;    ///< among the rows with particles
     std::vector<int> columns;   ///< of its particles, ascending
     bool empty() const { return columns.empty(); }
     Index slot(int column) const { return begin + (column - lower); }
@@ -153,7 +154,9 @@ class RowBuilder {
         }
       }
     }
+    Index rows = 0;
     for (auto& [key, row] : table_) {
+      if (!row.empty()) row.number = rows++;
       row.begin = lattice_.slots;
       lattice_.slots += row.upper - row.lower + 1;
     }
@@ -172,6 +175,7 @@ class RowBuilder {
         const Row& out = table_.at(moved(key, step, 1));
         const Row& in = table_.at(moved(key, step, -1));
         lattice_.shift_out.push_back(out.slot(row.first + step[0]) - row.slot(row.first));
+        lattice_.row_out.push_back(out.number);
         lattice_.shift_in.push_back(row.slot(row.first) - in.slot(row.first - step[0]));
       }
       for (const int column : row.columns) {

@@ -80,6 +80,7 @@ void expect_incoming_shifts(const LatticeRows& lattice) {
       if (lattice.present[lattice.at(k, a)] == 0.0) continue;
       const Index b = a + lattice.shift_out[row_of[a] * own + k];
       EXPECT_EQ(b - lattice.shift_in[row_of[b] * own + k], a);
+      EXPECT_EQ(lattice.row_out[row_of[a] * own + k], row_of[b]);
     }
   }
 }
