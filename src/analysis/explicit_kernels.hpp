@@ -1,0 +1,33 @@
+#pragma once
+
+#include "analysis/explicit_state.hpp"
+
+/// \file
+/// The four passes of a time step, each over one row of particles. Every pass writes only what
+/// belongs to its row, so the rows of a pass may run in any order and on any thread; between passes
+/// all rows must be done.
+
+namespace perilink {
+
+/// Stretches, directions and rates of the own bonds from displacements and velocities; the work of
+/// the damping forces of the last step over the motion that followed.
+void measure_bonds(const ExplicitModel& model, ExplicitState& state, Index row, double time_step);
+
+/// Sums of effective stretches of the particles, stored energy of the row.
+void sum_stretches(const ExplicitModel& model, ExplicitState& state, Index row);
+
+/// effective = stretch times the factor of the bond's damage.
+void apply_factors(const ExplicitModel& model, ExplicitState& state, Index row);
+
+/// A bound of the principal stresses of the row (state.tension_bound).
+void bound_tension(const ExplicitModel& model, ExplicitState& state, Index row);
+
+/// Forces of the own bonds on their owners, damping included.
+void bond_forces(const ExplicitModel& model, ExplicitState& state, Index row);
+
+/// Euler–Cromer: velocities from forces, then displacements from velocities. Prescribed components
+/// move by amplitude times `load_increment`; their reactions and work are summed.
+void advance(const ExplicitModel& model, ExplicitState& state, Index row, double time_step,
+             double load_increment);
+
+}  // namespace perilink

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "analysis/explicit_kernels.hpp"
+
+/// \file
+/// Forces and energies of a lattice body as functions of its displacements.
+
+namespace perilink::testing_support {
+
+/// Brings stretches, sums and forces up to date with the displacements of a state at rest.
+inline void evaluate(const ExplicitModel& model, ExplicitState& state) {
+  const auto rows = static_cast<Index>(model.lattice.rows.size());
+  for (Index r = 0; r < rows; ++r) measure_bonds(model, state, r, 0.0);
+  for (Index r = 0; r < rows; ++r) sum_stretches(model, state, r);
+  for (Index r = 0; r < rows; ++r) bond_forces(model, state, r);
+}
+
+inline double stored_energy(const ExplicitState& state) {
+  double energy = 0.0;
+  for (const RowSums& row : state.sums) energy += row.stored;
+  return energy;
+}
+
+/// Sum of the bonds' forces on every particle, shape (dim, slots).
+inline std::vector<double> resultants(const ExplicitModel& model, const ExplicitState& state) {
+  const LatticeRows& lattice = model.lattice;
+  std::vector<double> total(state.displacement.size(), 0.0);
+  for (std::size_t r = 0; r < lattice.rows.size(); ++r) {
+    for (int k = 0; k < lattice.own_bonds(); ++k) {
+      for (Index i = 0; i < lattice.rows[r].size; ++i) {
+        const Index slot = lattice.rows[r].first + i;
+        if (lattice.present[lattice.at(k, slot)] == 0.0) continue;
+        const Index partner = slot + lattice.shift_out[r * lattice.bonds.size() + k];
+        for (int c = 0; c < lattice.dim; ++c) {
+          const double force = state.force[lattice.at(k * lattice.dim + c, slot)];
+          total[lattice.at(c, slot)] += force;
+          total[lattice.at(c, partner)] -= force;
+        }
+      }
+    }
+  }
+  return total;
+}
+
+/// Largest eigenvalue of M^-1 K by power iteration, from below.
+inline double highest_frequency_squared(const ExplicitModel& model) {
+  ExplicitState state(model);
+  const LatticeRows& lattice = model.lattice;
+  const double size = 1e-9 * lattice.spacing;  // so small that the body is linear
+  std::vector<double> shape(state.displacement.size(), 0.0);
+  for (const Index slot : lattice.particle_slot) {
+    for (int c = 0; c < lattice.dim; ++c) shape[lattice.at(c, slot)] = std::sin(3.7 * slot + c);
+  }
+  double value = 0.0;
+  for (int iteration = 0; iteration < 2000; ++iteration) {
+    double largest = 0.0;
+    for (const double entry : shape) largest = std::max(largest, std::abs(entry));
+    for (double& entry : shape) entry /= largest;
+    for (std::size_t k = 0; k < shape.size(); ++k) state.displacement[k] = size * shape[k];
+    evaluate(model, state);
+    const std::vector<double> force = resultants(model, state);
+    double up = 0.0, down = 0.0;
+    for (const Index slot : lattice.particle_slot) {
+      for (int c = 0; c < lattice.dim; ++c) {
+        const Index at = lattice.at(c, slot);
+        up -= force[at] / size * shape[at];
+        down += model.mass[slot] * shape[at] * shape[at];
+        shape[at] = -force[at] / size * model.inverse_mass[slot];
+      }
+    }
+    value = up / down;
+  }
+  return value;
+}
+
+}  // namespace perilink::testing_support

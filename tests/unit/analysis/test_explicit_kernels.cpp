@@ -1,0 +1,200 @@
+#include "analysis/explicit_kernels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "analysis/explicit_damage.hpp"
+#include "material/crack_opening.hpp"
+#include "support/lattice_models.hpp"
+#include "support/lattice_operator.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace testing_support;
+
+constexpr double finite_strain = 0.05;  // large enough that geometry matters
+
+/// Displacements without any pattern.
+void shake(const ExplicitModel& model, ExplicitState& state, double size) {
+  for (const Index slot : model.lattice.particle_slot) {
+    for (int c = 0; c < model.lattice.dim; ++c) {
+      state.displacement[model.lattice.at(c, slot)] = size * std::sin(12.9898 * slot + 78.2 * c);
+    }
+  }
+}
+
+/// Some bonds weaker, differently in tension and compression.
+void weaken(const ExplicitModel& model, ExplicitState& state) {
+  for (std::size_t k = 0; k < state.in_tension.size(); ++k) {
+    state.in_tension[k] *= 0.5 + 0.5 * std::sin(0.7 * static_cast<double>(k));
+    state.in_compression[k] *= 0.8 + 0.2 * std::cos(1.3 * static_cast<double>(k));
+  }
+  ASSERT_EQ(model.lattice.present.size(), state.in_tension.size());
+}
+
+ExplicitModel block(Problem problem, LatticeRules rules) {
+  if (problem != Problem::three_dimensional) {
+    return plane_model(rectangle(0.03, 0.03, 0.01, 17.0), elastic_concrete(), rules, problem);
+  }
+  LatticeCut cut = rectangle(0.02, 0.02, 0.01, 17.0, 1.0);
+  cut.lower[2] = -0.02;
+  cut.upper[2] = 0.02;
+  return make_explicit_model(problem, rules, face_centred_rows(cut), elastic_concrete(), 1.0);
+}
+
+TEST(ExplicitKernels, ForcesAreTheDerivativeOfTheStoredEnergy) {
+  for (const Problem problem :
+       {Problem::plane_stress, Problem::plane_strain, Problem::three_dimensional}) {
+    const ExplicitModel model = block(problem, LatticeRules::consistent);
+    const LatticeRows& lattice = model.lattice;
+    ExplicitState state(model);
+    weaken(model, state);
+    shake(model, state, finite_strain * lattice.spacing);
+    evaluate(model, state);
+    const std::vector<double> force = resultants(model, state);
+    double largest = 0.0;
+    for (const double f : force) largest = std::max(largest, std::abs(f));
+    const double h = 1e-6 * lattice.spacing;
+    for (std::size_t n = 0; n < lattice.particle_slot.size(); n += 3) {
+      const Index at = lattice.at(static_cast<Index>(n) % lattice.dim, lattice.particle_slot[n]);
+      const double middle = state.displacement[at];
+      double energy[2];
+      for (const int side : {0, 1}) {
+        state.displacement[at] = middle + (2 * side - 1) * h;
+        evaluate(model, state);
+        energy[side] = stored_energy(state);
+      }
+      state.displacement[at] = middle;
+      // Central differences: h^2 of curvature and round-off of the energy over h.
+      EXPECT_NEAR(force[at], -(energy[1] - energy[0]) / (2.0 * h), 1e-6 * largest);
+    }
+  }
+}
+
+TEST(ExplicitKernels, RigidMotionCostsNothing) {
+  for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
+    const ExplicitModel model = block(problem, LatticeRules::consistent);
+    const LatticeRows& lattice = model.lattice;
+    ExplicitState state(model);
+    const double angle = 1.1;
+    for (const Index slot : lattice.particle_slot) {
+      const double x = lattice.positions[slot], y = lattice.positions[lattice.at(1, slot)];
+      state.displacement[slot] = std::cos(angle) * x - std::sin(angle) * y - x + 0.3;
+      state.displacement[lattice.at(1, slot)] = std::sin(angle) * x + std::cos(angle) * y - y;
+    }
+    evaluate(model, state);
+    for (const Index slot : lattice.particle_slot) {
+      for (int k = 0; k < lattice.own_bonds(); ++k) {
+        if (lattice.present[lattice.at(k, slot)] == 0.0) continue;
+        // Round-off of displacements of 0.3 over a spacing of 0.01.
+        EXPECT_NEAR(state.stretch[lattice.at(k, slot)], 0.0, 1e-13);
+      }
+    }
+  }
+}
+
+TEST(ExplicitKernels, RulesAgreeInAUniformStrainFarFromEdges) {
+  std::vector<double> reference;
+  for (const LatticeRules rules :
+       {LatticeRules::consistent, LatticeRules::mean_2017, LatticeRules::least_2018}) {
+    const ExplicitModel model = block(Problem::plane_stress, rules);
+    const LatticeRows& lattice = model.lattice;
+    ExplicitState state(model);
+    for (const Index slot : lattice.particle_slot) {
+      const double x = lattice.positions[slot], y = lattice.positions[lattice.at(1, slot)];
+      state.displacement[slot] = 1e-6 * x + 4e-7 * y;
+      state.displacement[lattice.at(1, slot)] = -3e-7 * y;
+    }
+    evaluate(model, state);
+    Index middle = 0;
+    for (const Index slot : lattice.particle_slot) {
+      if (std::hypot(lattice.positions[slot], lattice.positions[lattice.at(1, slot)]) < 1e-9) {
+        middle = slot;
+      }
+    }
+    for (int part = 0; part < 6; ++part) {
+      const double force = state.force[lattice.at(part, middle)];
+      if (rules == LatticeRules::consistent) {
+        reference.push_back(force);
+      } else {
+        EXPECT_NEAR(force, reference[part], 1e-9 * std::abs(reference[0]));
+      }
+    }
+  }
+}
+
+TEST(ExplicitKernels, SmallerForceStateActsWhereTheyAgreeInSign) {
+  const ExplicitModel least = block(Problem::plane_stress, LatticeRules::least_2018);
+  const ExplicitModel mean = block(Problem::plane_stress, LatticeRules::mean_2017);
+  ExplicitState a(least), b(mean);
+  shake(least, a, 1e-6);
+  shake(mean, b, 1e-6);
+  evaluate(least, a);
+  evaluate(mean, b);
+  const LatticeRows& lattice = least.lattice;
+  for (std::size_t r = 0; r < lattice.rows.size(); ++r) {
+    for (int k = 0; k < 3; ++k) {
+      for (Index i = 0; i < lattice.rows[r].size; ++i) {
+        const Index slot = lattice.rows[r].first + i, at = lattice.at(k, slot);
+        if (lattice.present[at] == 0.0) continue;
+        const Index partner = slot + lattice.shift_out[r * 3 + k];
+        const double mine = least.moduli.own * a.stretch[at] + least.moduli.sum * a.sum[slot];
+        const double other = least.moduli.own * a.stretch[at] + least.moduli.sum * a.sum[partner];
+        double expected = 0.5 * (mine + other);
+        const double length =
+            std::hypot(b.force[lattice.at(2 * k, slot)], b.force[lattice.at(2 * k + 1, slot)]);
+        EXPECT_NEAR(length, std::abs(expected), 1e-9 * std::abs(mine) + 1e-9 * std::abs(other));
+        if (mine * other > 0.0) expected = std::abs(mine) < std::abs(other) ? mine : other;
+        EXPECT_NEAR(
+            std::hypot(a.force[lattice.at(2 * k, slot)], a.force[lattice.at(2 * k + 1, slot)]),
+            std::abs(expected), 1e-9 * std::abs(mine) + 1e-9 * std::abs(other));
+      }
+    }
+  }
+}
+
+TEST(ExplicitKernels, TensionBoundIsAboveEveryPrincipalStress) {
+  for (const LatticeRules rules : {LatticeRules::consistent, LatticeRules::least_2018}) {
+    for (const double poissons_ratio : {0.2, 0.45}) {
+      const ExplicitModel model =
+          plane_model(rectangle(0.05, 0.05, 0.01, 17.0), elastic_concrete(poissons_ratio), rules);
+      const LatticeDamage damage(model);
+      ExplicitState state(model);
+      shake(model, state, 1e-6);
+      weaken(model, state);
+      evaluate(model, state);
+      for (std::size_t r = 0; r < model.lattice.rows.size(); ++r) {
+        const auto row = static_cast<Index>(r);
+        bound_tension(model, state, row);
+        for (Index i = 0; i < model.lattice.rows[r].size; ++i) {
+          const Index slot = model.lattice.rows[r].first + i;
+          if (model.inverse_mass[slot] == 0.0) continue;
+          EXPECT_LE(principal_values(damage.stress(state, row, slot)).first,
+                    state.tension_bound[r] * (1.0 + 1e-12));
+        }
+      }
+    }
+  }
+}
+
+TEST(ExplicitKernels, PrescribedMotionsAreMetExactly) {
+  ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 0.0), elastic_concrete());
+  grip_ends(model, 0.005, 1e-5);
+  ExplicitState state(model);
+  const auto rows = static_cast<Index>(model.lattice.rows.size());
+  evaluate(model, state);
+  for (Index r = 0; r < rows; ++r) advance(model, state, r, 1e-7, 0.25);
+  for (const auto& row : model.prescribed) {
+    for (const PrescribedMotion& motion : row) {
+      const double u = state.displacement[model.lattice.at(motion.component, motion.slot)];
+      EXPECT_NEAR(u, 0.25 * motion.amplitude, 1e-20);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace perilink
