@@ -1,0 +1,85 @@
+#pragma once
+
+#include <string>
+
+#include "analysis/explicit_state.hpp"
+#include "analysis/observer.hpp"
+
+namespace perilink {
+
+/// Load factor over time: (1 - cos(pi t / ramp)) / 2 up to `ramp`, then one.
+double ramped_load_factor(double time, double ramp);
+
+/// How an explicit run goes through time.
+struct ExplicitOptions {
+  double duration = 0.0;   ///< [time]
+  double ramp = 0.0;       ///< time in which the load factor rises from zero to one [time]
+  double time_step = 0.0;  ///< zero: `safety` times the critical one [time]
+  double safety = 0.9;
+  int rows = 500;          ///< of the history
+  double reference = 1.0;  ///< displacement of the driven particles at load factor 1 [length]
+  int threads = 1;
+  bool refuse_unstable = true;  ///< false: a step beyond the critical one runs until it is noticed
+};
+
+/// Where the energy is [force length].
+struct EnergyBalance {
+  double kinetic = 0.0;
+  double stored = 0.0;
+  double internal_damping = 0.0;
+  double external_damping = 0.0;
+  double fractured = 0.0;
+  double external_work = 0.0;
+
+  /// Energy that appeared (+) or vanished.
+  double surplus() const {
+    return kinetic + stored + internal_damping + external_damping + fractured - external_work;
+  }
+};
+
+/// One row of an explicit history.
+struct ExplicitRecord {
+  Index step = 0;
+  double time = 0.0;  ///< [time]
+  double load_factor = 0.0;
+  double load = 0.0;              ///< of the driven particles, inertia included [force]
+  double support_reaction = 0.0;  ///< along the load [force]
+  double displacement = 0.0;      ///< of the driven particles [length]
+  Index cracked_particles = 0;
+  EnergyBalance energy;
+};
+
+/// Watches a run; the state is valid during the call only.
+class ExplicitObserver {
+ public:
+  virtual ~ExplicitObserver() = default;
+  virtual void on_row(const ExplicitRecord& record, const ExplicitState& state) = 0;
+  virtual bool stop_requested() { return false; }
+};
+
+/// How an explicit run ended.
+struct ExplicitResult {
+  Ending ending = Ending::completed;
+  std::string reason;
+  Index steps = 0;
+  double time_step = 0.0;           ///< [time]
+  double critical_time_step = 0.0;  ///< [time]
+  double peak_load = 0.0;           ///< largest support reaction in magnitude [force]
+  double peak_displacement = 0.0;   ///< of the driven particles at that moment [length]
+  double largest_surplus = 0.0;     ///< over the external work at the end [-]
+  ExplicitRecord last;
+};
+
+/// Runs a body from the given state by Euler–Cromer: forces at step n change velocities, those the
+/// displacements. Sums are the same for any number of threads.
+/// \throws std::invalid_argument where the time step exceeds the critical one (unless
+/// refuse_unstable is off) or duration is not positive
+/// \returns ending = failed where energy grows from nothing: kinetic and stored energy exceed twice
+/// all work done so far
+ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
+                                     const ExplicitOptions& options, ExplicitObserver& observer);
+
+/// The energies of a state, after `sum_stretches` of a step and before its forces.
+EnergyBalance energy_balance(const ExplicitModel& model, const ExplicitState& state);
+
+}  // namespace perilink
