@@ -49,8 +49,10 @@ double measure_bond(const ExplicitModel& model, ExplicitState& state, Index r, i
       square += change[c] * change[c];
     }
     const double excess = 2.0 * along + square;
-    const double s = excess / (1.0 + std::sqrt(1.0 + excess));
-    const double shorten = 1.0 / (1.0 + s);
+    const double length = std::sqrt(1.0 + excess);
+    const double share = 1.0 / ((1.0 + length) * length);  // one division for two quotients
+    const double s = excess * length * share;
+    const double shorten = (1.0 + length) * share;
     double speed = 0.0;
     for (int c = 0; c < Dim; ++c) {
       const double direction = (n[c] + change[c]) * shorten;
