@@ -6,6 +6,7 @@
 #include "app/calibration_text.hpp"
 #include "app/commands.hpp"
 #include "app/configure.hpp"
+#include "app/explicit_case.hpp"
 #include "app/progress.hpp"
 #include "app/run_model.hpp"
 #include "app/summary.hpp"
@@ -155,10 +156,49 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
   fmt::print("#   run                {}\n", run_text(input, set_up, cost));
 }
 
+/// Rough rates of one quiet core (verification/studies/splm_tension), for estimates only.
+constexpr double elastic_particle_steps_per_second = 60e6;
+constexpr double breakable_particle_steps_per_second = 25e6;
+
+int check_explicit(const std::string& case_path, const CaseFile& input) {
+  const Timer timer;
+  const ExplicitCase built = build_explicit_case(input);
+  const ExplicitModel& model = built.model;
+  const ExplicitState state(model);  // what a run holds in memory
+  const double set_up = timer.seconds();
+  std::size_t prescribed = 0;
+  for (const auto& row : model.prescribed) prescribed += row.size();
+  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  fmt::print("# sizes\n");
+  fmt::print("#   particles          {} in {} rows\n", model.lattice.particles(),
+             model.lattice.rows.size());
+  fmt::print("#   spacing            {:.6g}\n", model.lattice.spacing);
+  fmt::print("#   bonds              {}\n", built.bonds);
+  fmt::print("#   prescribed         {} displacements\n", prescribed);
+  if (model.material.breakable) {
+    const CrackOpeningLaw& law = model.material.softening;
+    fmt::print("#   softening          fracture energy {:.6g}, critical opening {:.6g}\n",
+               fracture_energy(law), law.critical_opening);
+  }
+  fmt::print("#   critical time step {:.6g}\n", built.critical_time_step);
+  fmt::print("#   time step          {:.6g}\n", built.time_step);
+  fmt::print("#   steps              {}, about {} rows of history\n", built.steps,
+             std::min<Index>(built.steps, built.options.rows));
+  const double rate = model.material.breakable ? breakable_particle_steps_per_second
+                                               : elastic_particle_steps_per_second;
+  const double run = static_cast<double>(model.lattice.particles()) * built.steps / rate;
+  fmt::print("# expected cost of a run\n");
+  fmt::print("#   memory             {:.3g} GB\n", peak_memory_bytes() / 1e9);
+  fmt::print("#   set-up             {} (as it took now)\n", time_text(set_up));
+  fmt::print("#   run                about {} on one core\n", time_text(set_up + run));
+  return exit_done;
+}
+
 }  // namespace
 
 int check_case(const std::string& case_path) {
   const CaseFile input = read_case_file(case_path);
+  if (input.analysis.type == "explicit") return check_explicit(case_path, input);
   const Timer timer;
   const Model model = build_model_visibly(input, false);
   const double set_up = timer.seconds();

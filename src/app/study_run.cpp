@@ -230,6 +230,10 @@ std::vector<StudySeries> study_series(const StudyFile& study) {
 }
 
 void check_study(const StudyFile& study, const CaseFile& input) {
+  if (input.analysis.type == "explicit") {
+    throw InputError({study.path, 0, "case"}, "is an explicit analysis, which studies do not run",
+                     "name a case with analysis.type = \"elastic\" or \"damage\"");
+  }
   check_refinement(study.vary, input.body);
   const int dim = dimension_of(input.body);
   for (const ErrorSection& error : study.errors) {

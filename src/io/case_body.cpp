@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "io/case_lattice.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
 
@@ -184,26 +185,6 @@ bool is_number(const std::string& text) {
          end == text.c_str() + text.size();
 }
 
-double read_fracture_energy(const CaseTable& table) {
-  const std::string key = "fracture_energy";
-  const TomlValue* value = table.value(key);
-  if (value != nullptr && value->kind == TomlValue::Kind::text) {
-    if (is_number(value->text)) {
-      table.refuse(key, fmt::format("is the text {}, but must be a number or \"infinite\"",
-                                    quoted(value->text)),
-                   fmt::format("write the number without quotes: {} = {}", key, value->text));
-    }
-    table.choice(key, {"infinite"});
-    return std::numeric_limits<double>::infinity();
-  }
-  if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
-    table.refuse(key, fmt::format("is {}", describe(*value)),
-                 "write fracture_energy = \"infinite\" for a material that cannot break");
-  }
-  return table.need(key, table.positive(key),
-                    "the fracture energy, or \"infinite\" for a material that cannot break");
-}
-
 std::vector<std::string> read_material_regions(const CaseTable& table) {
   table.need_one_of({"region", "regions"});
   if (const auto single = table.text("region")) return {*single};
@@ -224,6 +205,27 @@ std::vector<std::string> read_material_regions(const CaseTable& table) {
 
 int dimension_of(const BodySection& body) { return body.problem == "three_dimensional" ? 3 : 2; }
 
+double read_fracture_energy(const CaseTable& table) {
+  const std::string key = "fracture_energy";
+  const TomlValue* value = table.value(key);
+  if (value != nullptr && value->kind == TomlValue::Kind::text) {
+    if (is_number(value->text)) {
+      table.refuse(
+          key,
+          fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
+          fmt::format("write the number without quotes: {} = {}", key, value->text));
+    }
+    table.choice(key, {"infinite"});
+    return std::numeric_limits<double>::infinity();
+  }
+  if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
+    table.refuse(key, fmt::format("is {}", describe(*value)),
+                 "write fracture_energy = \"infinite\" for a material that cannot break");
+  }
+  return table.need(key, table.positive(key),
+                    "the fracture energy, or \"infinite\" for a material that cannot break");
+}
+
 BodySection read_body(const CaseTable& table) {
   BodySection body;
   assign(body.problem,
@@ -235,7 +237,12 @@ BodySection read_body(const CaseTable& table) {
   assign(body.thickness, table.positive("thickness"));
   assign(body.method, table.choice("method", method_words()));
   if (body.method == "linear_elements") refuse_keys_of_bonds(table);
-  assign(body.model, table.choice("model", {"bond_based", "micropolar"}));
+  assign(body.model, table.choice("model", {"bond_based", "micropolar", "lattice"}));
+  if (is_lattice(body)) {
+    read_lattice_body(table, body);
+    return body;
+  }
+  refuse_lattice_keys(table, body);
   if (table.has("torsion") && (dimension_of(body) == 2 || body.model != "micropolar")) {
     table.refuse(
         "torsion",
@@ -270,6 +277,11 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
   material.regions = read_material_regions(table);
   material.youngs_modulus =
       table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");
+  if (is_lattice(body)) {
+    read_lattice_material(table, body, material);
+    return material;
+  }
+  refuse_lattice_material_keys(table);
   material.poissons_ratio = read_poissons_ratio(table, body);
   material.fracture_energy = read_fracture_energy(table);
   return material;

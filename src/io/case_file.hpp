@@ -28,7 +28,7 @@ struct BodySection {
   std::optional<double> mesh_size;       ///< of the cells where `mesh` is a geometry [length]
   std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
   std::string method = "bonds";          ///< bonds | linear_elements
-  std::string model = "bond_based";      ///< bond_based | micropolar
+  std::string model = "bond_based";      ///< bond_based | micropolar | lattice
   double torsion = 1.0;                  ///< torsional over bending modulus of micropolar bonds, 3D
   double thickness = 1.0;                ///< of two-dimensional bodies
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
@@ -40,6 +40,25 @@ struct BodySection {
   std::optional<double> horizon_ratio;   ///< horizon / spacing
   std::string micromodulus = "lattice";      ///< lattice | continuum, of a mesh always continuum
   std::string critical_stretch = "lattice";  ///< lattice | continuum, of a mesh always continuum
+  double rotation = 0.0;  ///< of the rows of model = lattice against x, about z [degrees]
+  Vector3 offset{};       ///< one of its lattice points [length]
+  std::string variant = "consistent";  ///< its rules: consistent | 2018 | 2017
+};
+
+/// Keys of [[materials]] of bodies with model = lattice.
+struct LatticeMaterialSection {
+  double density = 0.0;                    ///< [mass/length^3]
+  std::optional<double> tensile_strength;  ///< [force/length^2]; absent: unbreakable
+  /// Crack opening at which the stress has fallen to zero [length]; absent: from fracture_energy.
+  std::optional<double> critical_opening;
+  double knee_stress_ratio = 0.25;      ///< stress over strength where the softening bends
+  double knee_opening_ratio = 0.1;      ///< opening over the critical one there
+  double compression_ratio = 6.0;       ///< compression over tensile strength that forbids damage
+  double compression_threshold = 0.8;   ///< tensile damage where that in compression begins
+  double boundary_factor = 1.0;         ///< on the stress of particles that lack bonds
+  double internal_damping = 0.0;        ///< ratio at the frequency of a particle's own vibration
+  double external_damping = 0.0;        ///< ratio at the fundamental frequency of the body
+  std::optional<double> fundamental_period;  ///< [time]
 };
 
 /// [[materials]]: elastic constants and fracture energy of one or more regions. A later entry
@@ -51,6 +70,7 @@ struct MaterialSection {
   std::optional<double> poissons_ratio;  ///< of micropolar bonds; of others only to be refused with
                                          ///< an explanation, or confirmed
   double fracture_energy = 0.0;          ///< infinity: unbreakable ("infinite" in the file)
+  std::optional<LatticeMaterialSection> lattice;  ///< of bodies with model = lattice
 };
 
 /// [[supports]]: displacements and rotations held at zero.
@@ -131,11 +151,16 @@ struct GaugeSection {
 
 /// [analysis]
 struct AnalysisSection {
-  std::string type = "damage";               ///< damage | elastic
+  std::string type = "damage";               ///< damage | elastic | explicit
   std::string control = "events";            ///< events | steps
   std::vector<double> load_factors;          ///< of control = steps
   std::string rigid_body_modes = "refuse";   ///< refuse | pin
   std::string factor = "in_place";           ///< in_place | cholmod_updown | refactorize
+  double duration = 0.0;                     ///< of type = explicit and below [time]
+  double ramp_time = 0.0;                    ///< in which the load factor rises to one [time]
+  std::optional<double> time_step;           ///< [time]
+  double safety = 0.9;                       ///< of the critical time step, without time_step
+  int rows = 500;                            ///< of the history, about
 };
 
 /// [stop]: the run ends at the first rule met (always at collapse).
@@ -149,6 +174,7 @@ struct StopSection {
 struct OutputSection {
   std::vector<int> fields_at;      ///< numbers of broken bonds at which fields are written
   std::optional<int> fields_every; ///< and after every so many
+  std::vector<double> fields_times;  ///< of type = explicit: times of fields [time]
 };
 
 /// A whole case.

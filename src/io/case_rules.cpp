@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "io/case_gauges.hpp"
-#include "io/case_sections.hpp"
+#include "io/case_lattice.hpp"
 #include "io/case_schema.hpp"
+#include "io/case_sections.hpp"
 #include "io/case_words.hpp"
 #include "io/toml_tree.hpp"
 
@@ -159,12 +160,15 @@ void check_contradictions(const CaseFile& input) {
 }
 
 void check_driven(const CaseFile& input) {
-  bool driven = !input.loads.empty() || !input.tractions.empty() ||
-                !input.point_loads.empty();
+  bool driven = !input.loads.empty() || !input.tractions.empty() || !input.point_loads.empty();
   for (const DisplacementSection& section : input.displacements) {
     for (const auto& value : section.value) driven = driven || (value && !value->is_zero());
   }
   if (driven) return;
+  if (is_lattice(input.body)) {
+    throw InputError(input.where("displacements"), "nothing moves the body",
+                     "add [[displacements]] that are not zero");
+  }
   throw InputError(
       input.where("loads"), "nothing loads the body",
       "add [[loads]], [[tractions]], [[point_loads]], or [[displacements]] that are not zero");
@@ -204,6 +208,7 @@ void check_method(const CaseFile& input) {
 }  // namespace
 
 void check_rules(const CaseFile& input) {
+  check_lattice(input);
   check_method(input);
   const std::set<std::string> names = check_region_names(input);
   check_groups(input);

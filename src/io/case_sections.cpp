@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "io/case_lattice.hpp"
 #include "io/case_schema.hpp"
 #include "io/case_words.hpp"
 
@@ -66,8 +67,9 @@ std::string need_region(const CaseTable& table, const std::string& use) {
 }  // namespace
 
 std::string why_nothing_rotates(const BodySection& body) {
-  return body.method == "linear_elements" ? "the corners of linear elements do not rotate"
-                                          : "the particles of a bond-based body do not rotate";
+  if (body.method == "linear_elements") return "the corners of linear elements do not rotate";
+  return fmt::format("the particles of a {} body do not rotate",
+                     is_lattice(body) ? "lattice" : "bond-based");
 }
 
 std::string what_rotates(const BodySection& body) {
@@ -200,7 +202,12 @@ RebarSection read_rebar(const CaseTable& table, int dim) {
 
 AnalysisSection read_analysis(const CaseTable& table) {
   AnalysisSection analysis;
-  assign(analysis.type, table.choice("type", {"damage", "elastic"}));
+  assign(analysis.type, table.choice("type", {"damage", "elastic", "explicit"}));
+  if (analysis.type == "explicit") {
+    read_explicit_analysis(table, analysis);
+    return analysis;
+  }
+  refuse_explicit_keys(table, analysis);
   assign(analysis.control, table.choice("control", {"events", "steps"}));
   assign(analysis.load_factors, table.numbers("load_factors"));
   assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
@@ -255,6 +262,15 @@ OutputSection read_output(const CaseTable& table) {
                  "sort the numbers of broken bonds, each once");
   }
   output.fields_every = table.integer("fields_every", 1, largest_count);
+  assign(output.fields_times, table.numbers("fields_times"));
+  for (std::size_t i = 0; i < output.fields_times.size(); ++i) {
+    const double before = i > 0 ? output.fields_times[i - 1] : 0.0;
+    if (output.fields_times[i] > before) continue;
+    table.refuse(
+        "fields_times",
+        fmt::format("has {} after {}, but times must ascend", output.fields_times[i], before),
+        "sort the times, each once; the fields at time 0 are always written");
+  }
   return output;
 }
 

@@ -21,6 +21,8 @@ std::string why_nothing_rotates(const BodySection& body);
 std::string what_rotates(const BodySection& body);
 
 BodySection read_body(const CaseTable& table);
+/// A positive number, or infinity for "infinite".
+double read_fracture_energy(const CaseTable& table);
 Region read_region(const CaseTable& table, int dim);
 /// \param index  zero-based, for the name of a nameless material
 MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index);

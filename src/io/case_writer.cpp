@@ -6,6 +6,7 @@
 
 #include "io/case_file.hpp"
 #include "io/case_gauges.hpp"
+#include "io/case_lattice.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
 #include "io/toml_writer.hpp"
@@ -21,6 +22,7 @@ void write_body(TomlWriter& out, const BodySection& body) {
   if (bonds) out.write("model", body.model);
   if (dimension_of(body) == 3 && body.model == "micropolar") out.write("torsion", body.torsion);
   if (dimension_of(body) == 2) out.write("thickness", body.thickness);
+  if (is_lattice(body)) return write_lattice_body(out, body);
   out.write("mesh", body.mesh);
   out.write("mesh_size", body.mesh_size);
   if (!body.mesh) out.write("pattern", word_of(body.pattern));
@@ -56,9 +58,10 @@ void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
     out.write("poissons_ratio", material.poissons_ratio);
     if (std::isinf(material.fracture_energy)) {
       out.write("fracture_energy", "infinite");
-    } else {
+    } else if (material.fracture_energy > 0.0) {
       out.write("fracture_energy", material.fracture_energy);
     }
+    if (material.lattice) write_lattice_material(out, material);
   }
 }
 
@@ -139,6 +142,12 @@ void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
 void write_run(TomlWriter& out, const CaseFile& input) {
   out.header("[analysis]");
   out.write("type", input.analysis.type);
+  if (input.analysis.type == "explicit") {
+    write_explicit_analysis(out, input.analysis);
+    out.header("[output]");
+    out.write("fields_times", input.output.fields_times);
+    return;
+  }
   out.write("control", input.analysis.control);
   if (input.analysis.control == "steps") out.write("load_factors", input.analysis.load_factors);
   out.write("rigid_body_modes", input.analysis.rigid_body_modes);

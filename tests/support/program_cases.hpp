@@ -167,6 +167,107 @@ x = 0.04
 type = "elastic"
 )";
 
+/// The strip of a lattice of particles, held at one end and drawn out at the other within a second:
+/// elastic, about 250 particles.
+/// \param more  lines of [analysis]
+inline std::string lattice_strip_case(double spacing = 0.1, const std::string& more = "") {
+  return fmt::format(R"(title = "Lattice strip"
+units = "N, m"
+
+[body]
+model = "lattice"
+spacing = {}
+
+[[regions]]
+name = "strip"
+x = [0, 2]
+y = [0, 1]
+
+[[regions]]
+name = "left side"
+x = [0, 0.1]
+y = [0, 1]
+
+[[regions]]
+name = "right side"
+x = [1.9, 2]
+y = [0, 1]
+
+[[materials]]
+region = "strip"
+youngs_modulus = 100
+poissons_ratio = 0.2
+density = 1
+fracture_energy = "infinite"
+internal_damping = 0.1
+
+[[supports]]
+region = "left side"
+fix = ["x", "y"]
+
+[[displacements]]
+region = "right side"
+x = 0.04
+
+[analysis]
+type = "explicit"
+duration = 2
+ramp_time = 1
+rows = 100
+{})",
+                     spacing, more);
+}
+
+/// A bar of a face-centred lattice, drawn out within a second: elastic.
+inline std::string lattice_bar_case() {
+  return R"([body]
+problem = "three_dimensional"
+model = "lattice"
+spacing = 0.25
+
+[[regions]]
+name = "bar"
+x = [0, 1]
+y = [0, 2]
+z = [0, 1]
+
+[[regions]]
+name = "lower end"
+x = [0, 1]
+y = [0, 0.2]
+z = [0, 1]
+
+[[regions]]
+name = "upper end"
+x = [0, 1]
+y = [1.8, 2]
+z = [0, 1]
+
+[[materials]]
+region = "bar"
+youngs_modulus = 100
+poissons_ratio = 0.2
+density = 1
+fracture_energy = "infinite"
+
+[[supports]]
+region = "lower end"
+fix = ["x", "y", "z"]
+
+[[displacements]]
+region = "upper end"
+y = 0.02
+
+[analysis]
+type = "explicit"
+duration = 1
+rows = 20
+
+[output]
+fields_times = [0.5]
+)";
+}
+
 /// A bar of 1 by 1 by 4 in tension by 2 along y; its modulus is 100. Rollers and one corner line
 /// hold it so that it may contract.
 inline std::string tension_bar_case(const std::string& pattern, double spacing,

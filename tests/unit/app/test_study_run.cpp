@@ -167,6 +167,18 @@ TEST_F(StudyRun, ErrorsThatTheCaseCannotHaveAreRefused) {
       check_study(study(energy + "1\n"), read_case_file((directory_ / "strip.toml").string())));
 }
 
+TEST_F(StudyRun, ExplicitAnalysesAreRefused) {
+  CaseFile input = read_case_file((directory_ / "strip.toml").string());
+  input.analysis.type = "explicit";
+  try {
+    check_study(study(energy + "1\n"), input);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.where().key, "case");
+    EXPECT_NE(std::string(error.what()).find("is an explicit analysis"), std::string::npos);
+  }
+}
+
 TEST_F(StudyRun, RefinementsThatTheBodyCannotHaveAreRefusedOnce) {
   const StudyFile finer = study(energy + "1\n");
   CaseFile input = read_case_file(finer.case_path);

@@ -144,6 +144,46 @@ force = [0, -1]
 points = [[0, 0.125], [1, 2], [3, 4.5]]
 )";
 
+inline const char* const lattice_case = R"([body]
+model = "lattice"
+spacing = 0.1
+rotation = 15
+offset = [0.025, 0]
+variant = "2018"
+
+[[regions]]
+name = "block"
+x = [0, 1]
+y = [0, 2]
+
+[[regions]]
+name = "top"
+x = [0, 1]
+y = [1.8, 2]
+
+[[materials]]
+region = "block"
+youngs_modulus = 30
+poissons_ratio = 0.2
+density = 2.5
+tensile_strength = 0.003
+fracture_energy = 1e-5
+external_damping = 0.05
+fundamental_period = 0.7
+
+[[displacements]]
+region = "top"
+y = "0.001*x"
+
+[analysis]
+type = "explicit"
+duration = 4
+time_step = 0.001
+
+[output]
+fields_times = [0.5, 4]
+)";
+
 /// The text with the first occurrence of `from` replaced.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);

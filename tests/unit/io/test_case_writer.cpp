@@ -11,7 +11,7 @@ namespace perilink {
 namespace {
 
 TEST(CaseWriter, WritesWhatItReads) {
-  for (const char* text : {small_case, full_case, mesh_case}) {
+  for (const char* text : {small_case, full_case, mesh_case, lattice_case}) {
     const CaseFile input = parse_case(text, "case.toml");
     const std::string written = write_case(input);
     const CaseFile again = parse_case(written, "written.toml");
@@ -26,7 +26,10 @@ TEST(CaseWriter, WritesWhatItReads) {
     EXPECT_EQ(again.materials.back().fracture_energy, input.materials.back().fracture_energy);
     EXPECT_EQ(again.supports.size(), input.supports.size());
     EXPECT_EQ(again.displacements.size(), input.displacements.size());
-    EXPECT_EQ(again.loads.back().force, input.loads.back().force);
+    ASSERT_EQ(again.loads.size(), input.loads.size());
+    for (std::size_t i = 0; i < input.loads.size(); ++i) {
+      EXPECT_EQ(again.loads[i].force, input.loads[i].force);
+    }
     ASSERT_EQ(again.cracks.size(), input.cracks.size());
     for (std::size_t i = 0; i < input.cracks.size(); ++i) {
       EXPECT_EQ(again.cracks[i].points, input.cracks[i].points);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "analysis/explicit_analysis.hpp"
+#include "analysis/explicit_model.hpp"
+#include "io/case_file.hpp"
+
+namespace perilink {
+
+/// A case of an explicit analysis turned into its lattice and options.
+struct ExplicitCase {
+  ExplicitModel model;
+  ExplicitOptions options;          ///< threads left at one
+  double critical_time_step = 0.0;  ///< [time]
+  double time_step = 0.0;           ///< that the run takes [time]
+  Index steps = 0;
+  Index bonds = 0;
+};
+
+/// Builds the lattice of a case with type = "explicit".
+/// \throws InputError where the case makes no sense for its body: no lattice point in a region,
+/// contradictory supports, a spacing too large for the softening, a time step above the critical
+ExplicitCase build_explicit_case(const CaseFile& input);
+
+/// The softening that a material of the case asks for; strength zero where it is unbreakable.
+CrackOpeningLaw softening_of(const MaterialSection& material);
+
+}  // namespace perilink

@@ -1,0 +1,316 @@
+#include "io/case_lattice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "io/case_sections.hpp"
+#include "io/case_words.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr int most_rows = 1000000;
+constexpr std::array body_keys = {"rotation", "offset", "variant"};
+constexpr std::array material_keys = {"density",
+                                      "tensile_strength",
+                                      "critical_opening",
+                                      "knee_stress_ratio",
+                                      "knee_opening_ratio",
+                                      "compression_ratio",
+                                      "compression_threshold",
+                                      "boundary_factor",
+                                      "internal_damping",
+                                      "external_damping",
+                                      "fundamental_period"};
+/// Of these, what an unbreakable material has no use for.
+constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
+                                       "knee_opening_ratio",    "compression_ratio",
+                                       "compression_threshold", "boundary_factor"};
+constexpr std::array explicit_keys = {"duration", "ramp_time", "time_step", "safety", "rows"};
+
+/// A number above zero and below one.
+std::optional<double> proper_fraction(const CaseTable& table, const std::string& key) {
+  const std::optional<double> value = table.positive(key);
+  if (value && *value >= 1.0) {
+    table.refuse(key, fmt::format("is {}, but must be less than 1", *value),
+                 "give a number between 0 and 1");
+  }
+  return value;
+}
+
+std::optional<double> not_negative(const CaseTable& table, const std::string& key) {
+  const std::optional<double> value = table.number(key);
+  if (value && *value < 0.0) {
+    table.refuse(key, fmt::format("is {}, but must not be negative", *value),
+                 "give zero or a positive number");
+  }
+  return value;
+}
+
+void read_softening(const CaseTable& table, const BodySection& body,
+                    LatticeMaterialSection& section) {
+  section.tensile_strength = table.need("tensile_strength", table.positive("tensile_strength"),
+                                        "the tensile strength at which damage begins");
+  section.critical_opening = table.positive("critical_opening");
+  assign(section.knee_stress_ratio, proper_fraction(table, "knee_stress_ratio"));
+  assign(section.knee_opening_ratio, proper_fraction(table, "knee_opening_ratio"));
+  assign(section.compression_ratio, table.positive("compression_ratio"));
+  // What the papers of each variant have.
+  section.compression_threshold = body.variant == "2017" ? 1.0 / 3.0 : 0.8;
+  section.boundary_factor = body.variant == "consistent" ? 1.0 : 0.2;
+  assign(section.compression_threshold, proper_fraction(table, "compression_threshold"));
+  assign(section.boundary_factor, table.positive("boundary_factor"));
+}
+
+void read_damping(const CaseTable& table, LatticeMaterialSection& section) {
+  assign(section.internal_damping, not_negative(table, "internal_damping"));
+  assign(section.external_damping, not_negative(table, "external_damping"));
+  section.fundamental_period = table.positive("fundamental_period");
+  if (section.external_damping == 0.0 || section.fundamental_period) return;
+  table.refuse_missing("fundamental_period",
+                       "the fundamental period of the body, to which external_damping refers");
+}
+
+/// Tables that a lattice body cannot have yet.
+template <class Section>
+void refuse_table(const CaseFile& input, const std::string& table,
+                  const std::vector<Section>& sections) {
+  if (sections.empty()) return;
+  throw InputError(input.where(item_key(table, 0)),
+                   "is given, but a body with model = \"lattice\" knows [[supports]] and "
+                   "[[displacements]] only",
+                   "delete it, or take another model in [body] with an implicit analysis");
+}
+
+void check_output(const CaseFile& input, bool is_explicit) {
+  const OutputSection& output = input.output;
+  if (!is_explicit) {
+    if (output.fields_times.empty()) return;
+    throw InputError(input.where("output.fields_times"),
+                     "is given, but only an explicit analysis goes through time",
+                     "give `fields_at` or `fields_every`");
+  }
+  for (const char* key : {"output.fields_at", "output.fields_every"}) {
+    if (input.lines.count(key) == 0) continue;
+    throw InputError(input.where(key), "counts broken bonds, of which a lattice body has none",
+                     "give `fields_times`");
+  }
+  for (const double time : output.fields_times) {
+    if (time <= input.analysis.duration) continue;
+    throw InputError(
+        input.where("output.fields_times"),
+        fmt::format("holds {}, later than the duration {}", time, input.analysis.duration),
+        "give times from 0 to analysis.duration");
+  }
+}
+
+void check_stop(const CaseFile& input) {
+  const StopSection& stop = input.stop;
+  if (!stop.broken_bonds && !stop.load_fraction && !stop.displacement) return;
+  throw InputError(input.where("stop"), "is given, but an explicit analysis ends by its duration",
+                   "delete it, and give analysis.duration");
+}
+
+void refuse_surface_region(const CaseFile& input, const std::string& key,
+                           const std::string& region) {
+  if (region != surface_region) return;
+  throw InputError(
+      input.where(key),
+      "is \"surface\", but the lattice of a body with model = \"lattice\" does not end "
+      "on the surface",
+      "name a region of the case");
+}
+
+}  // namespace
+
+bool is_lattice(const BodySection& body) { return body.model == "lattice"; }
+
+void read_lattice_body(const CaseTable& table, BodySection& body) {
+  for (const char* key : {"torsion", "mesh", "mesh_size", "columns", "surface", "horizon",
+                          "horizon_level", "horizon_ratio", "micromodulus", "critical_stretch"}) {
+    if (!table.has(key)) continue;
+    table.refuse(key,
+                 "is given, but particles with model = \"lattice\" have their nearest "
+                 "neighbours on a lattice of a given spacing",
+                 "delete it; `pattern`, `spacing`, `rotation` and `offset` say where they are");
+  }
+  const int dim = dimension_of(body);
+  body.surface = Surface::none;
+  body.pattern = dim == 2 ? Pattern::hexagonal : Pattern::face_centred;
+  const std::string_view only = word_of(body.pattern);
+  if (const auto word = table.choice("pattern", pattern_words()); word && *word != only) {
+    table.refuse("pattern",
+                 fmt::format("is \"{}\", but lattice particles in {} stand on another", *word,
+                             dim == 2 ? "the plane" : "space"),
+                 fmt::format("Allowed here: {}", only));
+  }
+  body.spacing =
+      table.need("spacing", table.positive("spacing"), "the distance of neighbouring particles");
+  assign(body.rotation, table.number("rotation"));
+  if (std::abs(body.rotation) > 360.0) {
+    table.refuse("rotation", fmt::format("is {} degrees", body.rotation),
+                 "give an angle from -360 to 360");
+  }
+  assign(body.offset, table.vector("offset", dim));
+  assign(body.variant, table.choice("variant", {"consistent", "2018", "2017"}));
+}
+
+void refuse_lattice_keys(const CaseTable& table, const BodySection& body) {
+  for (const char* key : body_keys) {
+    if (!table.has(key)) continue;
+    table.refuse(key, fmt::format("is given, but model is \"{}\"", body.model),
+                 "delete it, or set model = \"lattice\"");
+  }
+}
+
+void read_lattice_material(const CaseTable& table, const BodySection& body,
+                           MaterialSection& material) {
+  const double ratio =
+      table.need("poissons_ratio", table.number("poissons_ratio"), "Poisson's ratio");
+  if (!(ratio > -1.0 && ratio < 0.5)) {
+    table.refuse(
+        "poissons_ratio",
+        fmt::format("is {}, but lattice particles have ratios above -1 and below 1/2", ratio),
+        "0.2 is usual for concrete");
+  }
+  material.poissons_ratio = ratio;
+  LatticeMaterialSection& section = material.lattice.emplace();
+  section.density = table.need("density", table.positive("density"), "mass per volume");
+  table.need_one_of({"fracture_energy", "critical_opening"});
+  material.fracture_energy = table.has("fracture_energy") ? read_fracture_energy(table) : 0.0;
+  const bool breakable = !std::isinf(material.fracture_energy);
+  if (breakable && dimension_of(body) == 3) {
+    table.refuse(table.has("fracture_energy") ? "fracture_energy" : "critical_opening",
+                 "lets the material break, but lattices in space are elastic",
+                 "write fracture_energy = \"infinite\", or take a body in the plane");
+  }
+  if (breakable) read_softening(table, body, section);
+  for (const char* key : softening_keys) {
+    if (breakable || !table.has(key)) continue;
+    table.refuse(key, "is given, but the material is unbreakable",
+                 "delete it, or give a finite fracture_energy");
+  }
+  read_damping(table, section);
+}
+
+void refuse_lattice_material_keys(const CaseTable& table) {
+  for (const char* key : material_keys) {
+    if (!table.has(key)) continue;
+    table.refuse(key, "is given, but only bodies with model = \"lattice\" have it",
+                 "delete it, or set model = \"lattice\" in [body]");
+  }
+}
+
+void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
+  for (const char* key : {"control", "load_factors", "rigid_body_modes", "factor"}) {
+    if (!table.has(key)) continue;
+    table.refuse(key, "is given, but an explicit analysis goes through time and solves nothing",
+                 "delete it; `duration` and `ramp_time` say how the body is loaded");
+  }
+  analysis.duration =
+      table.need("duration", table.positive("duration"), "the time that the run covers");
+  analysis.ramp_time = analysis.duration;
+  assign(analysis.ramp_time, table.positive("ramp_time"));
+  analysis.time_step = table.positive("time_step");
+  if (analysis.time_step && table.has("safety")) {
+    table.refuse("safety", "is given beside `time_step`",
+                 "give the time step, or its part of the critical one; delete one of the two");
+  }
+  assign(analysis.safety, table.positive("safety"));
+  if (analysis.safety > 1.0) {
+    table.refuse(
+        "safety",
+        fmt::format("is {}, but steps above the critical one are unstable", analysis.safety),
+        "give a number up to 1; 0.9 is the default");
+  }
+  assign(analysis.rows, table.integer("rows", 1, most_rows));
+}
+
+void refuse_explicit_keys(const CaseTable& table, const AnalysisSection& analysis) {
+  for (const char* key : explicit_keys) {
+    if (!table.has(key)) continue;
+    table.refuse(key, fmt::format("is given, but type is \"{}\"", analysis.type),
+                 "delete it, or set type = \"explicit\"");
+  }
+}
+
+void write_lattice_body(TomlWriter& out, const BodySection& body) {
+  out.write("pattern", word_of(body.pattern));
+  out.write("spacing", body.spacing);
+  out.write("rotation", body.rotation);
+  out.write("offset", body.offset, dimension_of(body));
+  out.write("variant", body.variant);
+}
+
+void write_lattice_material(TomlWriter& out, const MaterialSection& material) {
+  const LatticeMaterialSection& section = *material.lattice;
+  out.write("density", section.density);
+  if (section.tensile_strength) {
+    out.write("tensile_strength", section.tensile_strength);
+    out.write("critical_opening", section.critical_opening);
+    out.write("knee_stress_ratio", section.knee_stress_ratio);
+    out.write("knee_opening_ratio", section.knee_opening_ratio);
+    out.write("compression_ratio", section.compression_ratio);
+    out.write("compression_threshold", section.compression_threshold);
+    out.write("boundary_factor", section.boundary_factor);
+  }
+  out.write("internal_damping", section.internal_damping);
+  out.write("external_damping", section.external_damping);
+  out.write("fundamental_period", section.fundamental_period);
+}
+
+void write_explicit_analysis(TomlWriter& out, const AnalysisSection& analysis) {
+  out.write("duration", analysis.duration);
+  out.write("ramp_time", analysis.ramp_time);
+  if (analysis.time_step) {
+    out.write("time_step", analysis.time_step);
+  } else {
+    out.write("safety", analysis.safety);
+  }
+  out.write("rows", analysis.rows);
+}
+
+void check_lattice(const CaseFile& input) {
+  const bool lattice = is_lattice(input.body), is_explicit = input.analysis.type == "explicit";
+  check_output(input, is_explicit);
+  if (lattice && !is_explicit) {
+    throw InputError(
+        input.where("body.model"),
+        fmt::format("is \"lattice\", but analysis.type is \"{}\"", input.analysis.type),
+        "set type = \"explicit\" in [analysis], or take another model");
+  }
+  if (!lattice && is_explicit) {
+    throw InputError(input.where("analysis.type"),
+                     fmt::format("is \"explicit\", but body.model is \"{}\"", input.body.model),
+                     "set model = \"lattice\" in [body], or take an implicit analysis");
+  }
+  if (!lattice) return;
+  if (input.materials.size() > 1) {
+    throw InputError(input.where("materials[2]"),
+                     "is a second material, but a body with model = \"lattice\" has one",
+                     "delete it, or name its regions in the first");
+  }
+  refuse_table(input, "loads", input.loads);
+  refuse_table(input, "tractions", input.tractions);
+  refuse_table(input, "point_loads", input.point_loads);
+  refuse_table(input, "symmetry", input.symmetry);
+  refuse_table(input, "springs", input.springs);
+  refuse_table(input, "cracks", input.cracks);
+  refuse_table(input, "rebar", input.rebar);
+  refuse_table(input, "gauges", input.gauges);
+  check_stop(input);
+  for (std::size_t i = 0; i < input.supports.size(); ++i) {
+    refuse_surface_region(input, item_key("supports", i, "region"), input.supports[i].region);
+  }
+  for (std::size_t i = 0; i < input.displacements.size(); ++i) {
+    refuse_surface_region(input, item_key("displacements", i, "region"),
+                          input.displacements[i].region);
+  }
+}
+
+}  // namespace perilink

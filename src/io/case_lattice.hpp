@@ -1,0 +1,39 @@
+#pragma once
+
+#include "io/case_file.hpp"
+#include "io/case_table.hpp"
+#include "io/toml_writer.hpp"
+
+/// \file
+/// Lattice bodies and the explicit analyses that move them: what their keys in [body],
+/// [[materials]] and [analysis] have of their own.
+
+namespace perilink {
+
+/// Whether [body] says model = "lattice".
+bool is_lattice(const BodySection& body);
+
+/// The keys of [body] below `model`.
+void read_lattice_body(const CaseTable& table, BodySection& body);
+/// Refuses keys of lattice bodies in [body] of others.
+void refuse_lattice_keys(const CaseTable& table, const BodySection& body);
+
+/// Poisson's ratio, fracture_energy and what other bodies' materials lack.
+void read_lattice_material(const CaseTable& table, const BodySection& body,
+                           MaterialSection& material);
+/// Refuses keys of lattice materials in those of others.
+void refuse_lattice_material_keys(const CaseTable& table);
+
+/// The keys of [analysis] with type = "explicit".
+void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis);
+/// Refuses them with other types.
+void refuse_explicit_keys(const CaseTable& table, const AnalysisSection& analysis);
+
+void write_lattice_body(TomlWriter& out, const BodySection& body);
+void write_lattice_material(TomlWriter& out, const MaterialSection& material);
+void write_explicit_analysis(TomlWriter& out, const AnalysisSection& analysis);
+
+/// Refuses what lattice bodies and explicit analyses cannot be combined with.
+void check_lattice(const CaseFile& input);
+
+}  // namespace perilink
