@@ -7,40 +7,13 @@
 #include <filesystem>
 #include <iterator>
 
+#include "io/csv.hpp"
+
 namespace perilink {
 namespace {
 
-/// Fields of a row of comma-separated values.
-class Row {
- public:
-  Row& text(const std::string& value) {
-    const bool quote = value.find_first_of(",\"\n\r") != std::string::npos;
-    std::string field = quote ? "\"" : "";
-    for (const char c : value) {
-      if (c == '"') field += '"';
-      field += c;
-    }
-    return append(quote ? field + '"' : field);
-  }
-  /// Not-a-number is an empty field.
-  Row& number(double value) { return append(std::isnan(value) ? "" : fmt::format("{}", value)); }
-  Row& empty() { return append(""); }
-  std::string end() const { return line_ + "\n"; }
-
- private:
-  Row& append(const std::string& field) {
-    if (!first_) line_ += ',';
-    first_ = false;
-    line_ += field;
-    return *this;
-  }
-
-  std::string line_;
-  bool first_ = true;
-};
-
 /// Columns that name a member.
-void begin_row(Row& row, std::span<const StudySeries> series, const StudyMember& member) {
+void begin_row(CsvRow& row, std::span<const StudySeries> series, const StudyMember& member) {
   row.text(series[member.series].name).text(refinement_text(member.refinement));
 }
 
@@ -130,7 +103,7 @@ std::string study_report(const StudyFile& study, std::span<const StudySeries> se
 
 std::string study_table(const StudyFile& study, std::span<const StudySeries> series,
                         std::span<const StudyMember> members) {
-  Row header;
+  CsvRow header;
   header.text("combination").text(study.vary.refinement).text("method").text("surface");
   header.text("mean_spacing").text("horizon").text("particles").text("bonds").text("unknowns");
   for (const ErrorSection& error : study.errors) {
@@ -139,7 +112,7 @@ std::string study_table(const StudyFile& study, std::span<const StudySeries> ser
   }
   std::string table = header.text("failure").end();
   for (const StudyMember& member : members) {
-    Row row;
+    CsvRow row;
     begin_row(row, series, member);
     row.text(member.method).text(member.surface);
     const bool failed = member.failed();
@@ -159,7 +132,7 @@ std::string study_table(const StudyFile& study, std::span<const StudySeries> ser
 
 std::string study_timing(const StudyFile& study, std::span<const StudySeries> series,
                          std::span<const StudyMember> members) {
-  Row header;
+  CsvRow header;
   header.text("combination").text(study.vary.refinement).text("unknowns").text("set_up");
   std::string table = header.text("calibration")
                           .text("assembly")
@@ -170,7 +143,7 @@ std::string study_timing(const StudyFile& study, std::span<const StudySeries> se
                           .end();
   for (const StudyMember& member : members) {
     if (member.failed()) continue;
-    Row row;
+    CsvRow row;
     begin_row(row, series, member);
     const MemberSeconds& s = member.seconds;
     row.number(member.unknowns).number(s.set_up).number(s.calibration);

@@ -1,5 +1,7 @@
 #include "io/csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -112,6 +114,29 @@ void CsvWriter::flush() {
   const bool failed = written != pending_.size();
   pending_.erase(0, written);
   if (failed) throw FileError(path_ + ": cannot be written: " + std::strerror(errno));
+}
+
+CsvRow& CsvRow::text(const std::string& value) {
+  const bool quote = value.find_first_of(",\"\n\r") != std::string::npos;
+  std::string field = quote ? "\"" : "";
+  for (const char c : value) {
+    if (c == '"') field += '"';
+    field += c;
+  }
+  return append(quote ? field + '"' : field);
+}
+
+CsvRow& CsvRow::number(double value) {
+  return append(std::isnan(value) ? "" : fmt::format("{}", value));
+}
+
+CsvRow& CsvRow::empty() { return append(""); }
+
+CsvRow& CsvRow::append(const std::string& field) {
+  if (!first_) line_ += ',';
+  first_ = false;
+  line_ += field;
+  return *this;
 }
 
 int CsvTable::column(const std::string& name) const {

@@ -26,6 +26,23 @@ class CsvWriter {
   std::string pending_;  ///< whole rows that are not in the file yet
 };
 
+/// A row of a table that holds texts too; texts with commas, quotes or line ends are quoted.
+class CsvRow {
+ public:
+  CsvRow& text(const std::string& value);
+  /// Not-a-number is an empty field.
+  CsvRow& number(double value);
+  CsvRow& empty();
+  /// The row with its line end.
+  std::string end() const { return line_ + "\n"; }
+
+ private:
+  CsvRow& append(const std::string& field);
+
+  std::string line_;
+  bool first_ = true;
+};
+
 /// A table read back.
 struct CsvTable {
   std::vector<std::string> columns;

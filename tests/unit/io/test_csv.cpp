@@ -31,6 +31,17 @@ class Csv : public ::testing::Test {
   std::string path_;
 };
 
+TEST(CsvRow, QuotesTextsThatWouldEndAField) {
+  CsvRow row;
+  EXPECT_EQ(row.text("plain").text("a, b").text("so \"it\" is").text("two\nlines").end(),
+            "plain,\"a, b\",\"so \"\"it\"\" is\",\"two\nlines\"\n");
+}
+
+TEST(CsvRow, LeavesMissingNumbersEmpty) {
+  CsvRow row;
+  EXPECT_EQ(row.empty().number(0.1).number(std::nan("")).number(-3.0).end(), ",0.1,,-3\n");
+}
+
 TEST_F(Csv, WritesTheFewestDigitsThatReadBackAndWholeNumbersAsSuch) {
   {
     CsvWriter writer(path_, {"a", "b", "c"});
