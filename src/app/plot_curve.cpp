@@ -13,9 +13,6 @@
 namespace perilink {
 namespace {
 
-constexpr std::size_t events_for_envelope = 200;
-constexpr double figure_width = 820.0;
-constexpr double figure_height = 560.0;
 constexpr const char* title_style = "font-size=\"18\" font-weight=\"bold\" fill=\"#222\"";
 constexpr const char* note_style = "font-size=\"13\" fill=\"#444\"";
 constexpr const char* envelope_style =
@@ -25,43 +22,6 @@ constexpr const char* few_events_style =
     "fill=\"none\" stroke=\"#0b3c6f\" stroke-width=\"1.5\" stroke-linejoin=\"round\"";
 constexpr const char* many_events_style =
     "fill=\"none\" stroke=\"#9dbfe0\" stroke-width=\"0.5\" stroke-linejoin=\"round\"";
-
-/// Smallest distance worth a line: thousands of events that fall on one pixel would make large
-/// files.
-constexpr double visible_distance = 0.3;
-
-class Frame {
- public:
-  explicit Frame(std::span<const StepRecord> records) {
-    double low_u = 0.0, high_u = 0.0, low_p = 0.0, high_p = 0.0;
-    for (const StepRecord& record : records) {
-      low_u = std::min(low_u, record.displacement);
-      high_u = std::max(high_u, record.displacement);
-      low_p = std::min(low_p, record.load);
-      high_p = std::max(high_p, record.load);
-    }
-    x = make_axis(low_u, high_u, 92.0, figure_width - 32.0);
-    y = make_axis(low_p, high_p, figure_height - 72.0, 62.0);
-  }
-  SvgPoint at(CurvePoint point) const { return {x.map(point.displacement), y.map(point.load)}; }
-
-  Axis x;
-  Axis y;
-};
-
-SvgPath make_path(const Frame& frame, std::span<const CurvePoint> points) {
-  SvgPath path;
-  SvgPoint last = frame.at({});
-  path.move_to(last);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const SvgPoint at = frame.at(points[k]);
-    const bool end = k + 1 == points.size();
-    if (!end && std::hypot(at.x - last.x, at.y - last.y) < visible_distance) continue;
-    path.line_to(at);
-    last = at;
-  }
-  return path;
-}
 
 /// Rectangle of the page [px].
 struct Area {
@@ -91,7 +51,7 @@ struct PeakLabel {
   }
 };
 
-PeakLabel label_of(const Frame& frame, const StepRecord& peak, const PlotLabels& labels) {
+PeakLabel label_of(const CurveFrame& frame, const StepRecord& peak, const PlotLabels& labels) {
   PeakLabel label;
   label.text = fmt::format("peak {} at {}", in_unit(short_number(peak.load), labels.force),
                            in_unit(short_number(peak.displacement), labels.length));
@@ -111,7 +71,8 @@ void mark_peak(Svg& svg, const PeakLabel& label) {
 
 /// The corner of the frame where the legend meets neither the label nor, as far as that is
 /// possible, the curve.
-Area legend_area(const Frame& frame, const PeakLabel& label, std::span<const CurvePoint> curve) {
+Area legend_area(const CurveFrame& frame, const PeakLabel& label,
+                 std::span<const CurvePoint> curve) {
   constexpr double width = 222.0, height = 48.0, margin = 2.0;
   const double right = frame.x.pixel_high - width, left = frame.x.pixel_low + margin;
   const double top = frame.y.pixel_high + margin, bottom = frame.y.pixel_low - height - margin;
@@ -192,29 +153,29 @@ std::size_t peak_row(std::span<const StepRecord> records) {
 }
 
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels) {
-  const Frame frame(records);
-  Svg svg(figure_width, figure_height);
+  std::vector<CurvePoint> events;
+  events.reserve(records.size());
+  for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
+  const CurveFrame frame = make_curve_frame(events, 62.0);
+  Svg svg(curve_figure_width, curve_figure_height);
   svg.text({frame.x.pixel_low, 32}, labels.title, "start", title_style);
   draw_axes(svg, frame.x, frame.y, with_unit("displacement", labels.length),
             with_unit("load", labels.force), Grid::lines);
   if (records.empty()) return svg;
 
-  std::vector<CurvePoint> events;
-  events.reserve(records.size());
-  for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
   const PeakLabel label = label_of(frame, records[peak_row(records)], labels);
   if (records.size() > events_for_envelope) {
     // Where events snap back far the mean of a window can lie beyond all of them.
     svg.clip_rect("frame", {frame.x.pixel_low, frame.y.pixel_high},
                   frame.x.pixel_high - frame.x.pixel_low, frame.y.pixel_low - frame.y.pixel_high);
     svg.open_group("clip-path=\"url(#frame)\"");
-    svg.path(make_path(frame, events), many_events_style);
+    svg.path(curve_path(frame, events), many_events_style);
     const std::size_t window = envelope_window(records.size());
-    svg.path(make_path(frame, smooth_envelope(records, window)), envelope_style);
+    svg.path(curve_path(frame, smooth_envelope(records, window)), envelope_style);
     svg.close_group();
     draw_legend(svg, legend_area(frame, label, events));
   } else {
-    svg.path(make_path(frame, events), few_events_style);
+    svg.path(curve_path(frame, events), few_events_style);
   }
   mark_peak(svg, label);
   return svg;

@@ -4,16 +4,14 @@
 #include <vector>
 
 #include "analysis/observer.hpp"
+#include "app/curve_frame.hpp"
 #include "app/plot_labels.hpp"
 #include "app/svg.hpp"
 
 namespace perilink {
 
-/// A point of a load–displacement curve.
-struct CurvePoint {
-  double displacement = 0.0;
-  double load = 0.0;
-};
+/// Curves of more rows are drawn with their envelope.
+inline constexpr std::size_t events_for_envelope = 200;
 
 /// Smooth curve through the saw-teeth of an event path that dissipates as much energy: in each
 /// window of events with compliance growths dC, load factor^2 = sum(factor^2 dC) / sum(dC) at the

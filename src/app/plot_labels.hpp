@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace perilink {
@@ -10,6 +11,13 @@ struct PlotLabels {
   std::string force;   ///< unit; empty: none is known
   std::string length;  ///< unit; empty: none is known
 };
+
+/// Last part of a path to a directory, "beam" of "results/beam/".
+std::string directory_name(const std::filesystem::path& directory);
+
+/// Labels from DIR/summary.json; the title is that of the directory where it says none. A run that
+/// was killed leaves no summary, and its results are worth a look.
+PlotLabels read_labels(const std::filesystem::path& directory);
 
 /// "load (kip)", or "load" without a unit.
 inline std::string with_unit(const std::string& quantity, const std::string& unit) {

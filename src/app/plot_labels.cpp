@@ -1,0 +1,43 @@
+#include "app/plot_labels.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace perilink {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string trim(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+}  // namespace
+
+std::string directory_name(const fs::path& directory) {
+  return fs::absolute(directory / ".").lexically_normal().parent_path().filename().string();
+}
+
+PlotLabels read_labels(const fs::path& directory) {
+  PlotLabels labels;
+  labels.title = directory_name(directory);
+  std::ifstream file(directory / "summary.json");
+  const nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);
+  if (!summary.is_object()) return labels;
+  const auto text = [&](const char* key) {
+    const auto found = summary.find(key);
+    return found != summary.end() && found->is_string() ? found->get<std::string>() : "";
+  };
+  if (!text("title").empty()) labels.title = text("title");
+  const std::string units = text("units");  // "kip, in": of force, of length
+  const std::size_t comma = units.find(',');
+  if (comma != std::string::npos) {
+    labels.force = trim(units.substr(0, comma));
+    labels.length = trim(units.substr(comma + 1));
+  }
+  return labels;
+}
+
+}  // namespace perilink
