@@ -21,6 +21,18 @@ int run_case(const RunOptions& options);
 /// perilink converge: runs a study of a case; the options name the study in place of the case.
 int converge(const RunOptions& options);
 
+/// perilink compare
+struct CompareOptions {
+  std::string first, second;             ///< directories of the results
+  std::optional<std::string> directory;  ///< of the comparison
+  bool quiet = false;
+  bool force = false;
+};
+/// Compares the results of two runs: a table, compare.csv and compare.svg.
+/// \returns the exit status
+/// \throws FileError
+int compare(const CompareOptions& options);
+
 /// perilink check: validates a case, builds its model with calibrated bonds, and prints what a run
 /// is and will cost; writes no file and solves nothing.
 int check_case(const std::string& case_path);

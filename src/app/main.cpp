@@ -14,7 +14,7 @@ namespace {
 constexpr const char* footer =
     "Exit status: 0 done (also when the specimen collapsed), 2 bad input, 3 solver failure,\n"
     "4 interrupted (results so far are kept). Case files are described in docs/case_file.md,\n"
-    "studies in docs/studies.md.";
+    "studies in docs/studies.md, comparisons in docs/compare.md.";
 
 /// What all commands that compute have in common.
 void add_run_options(CLI::App& command, perilink::RunOptions& options) {
@@ -23,6 +23,27 @@ void add_run_options(CLI::App& command, perilink::RunOptions& options) {
       ->check(CLI::Range(1, 1024));
   command.add_flag("--quiet", options.quiet, "No progress, no summary");
   command.add_flag("--force", options.force, "Overwrite the results of an earlier run");
+}
+
+const CLI::App* add_compare_command(CLI::App& app, perilink::CompareOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "compare", "Compare two results: peaks, curves, energies, cracks, times, overlay plot");
+  command->add_option("dir_a", options.first, "Directory of the results A")->required();
+  command->add_option("dir_b", options.second, "Directory of the results B")->required();
+  command->add_option("--out", options.directory,
+                      "Directory of compare.csv and compare.svg [results/A_vs_B]");
+  command->add_flag("--quiet", options.quiet, "No table, files only");
+  command->add_flag("--force", options.force, "Overwrite an earlier comparison");
+  return command;
+}
+
+void add_plot_command(CLI::App& app, perilink::PlotOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "plot", "Draw the load-displacement curve and the deformed body of a result (SVG)");
+  command->add_option("directory", options.directory, "Directory of the results")->required();
+  command->add_option("--out", options.out, "Directory of the pictures [the same]");
+  command->add_option("--scale", options.scale, "Factor on the displacements [automatic]")
+      ->check(CLI::NonNegativeNumber);
 }
 
 }  // namespace
@@ -46,18 +67,16 @@ int main(int argc, char** argv) {
   converge_command->add_option("study", study.case_path, "Study file (.toml)")->required();
   add_run_options(*converge_command, study);
 
+  CompareOptions compared;
+  const CLI::App* compare_command = add_compare_command(app, compared);
+
   std::string checked_case;
   CLI::App* check_command = app.add_subcommand(
       "check", "Validate a case, calibrate its bonds; print its sizes, expected memory and time");
   check_command->add_option("case", checked_case, "Case file (.toml)")->required();
 
   PlotOptions plot;
-  CLI::App* plot_command = app.add_subcommand(
-      "plot", "Draw the load-displacement curve and the deformed body of a result (SVG)");
-  plot_command->add_option("directory", plot.directory, "Directory of the results")->required();
-  plot_command->add_option("--out", plot.out, "Directory of the pictures [the same]");
-  plot_command->add_option("--scale", plot.scale, "Factor on the displacements [automatic]")
-      ->check(CLI::NonNegativeNumber);
+  add_plot_command(app, plot);
 
   try {
     app.parse(argc, argv);
@@ -74,6 +93,7 @@ int main(int argc, char** argv) {
   try {
     if (run_command->parsed()) return run_case(run);
     if (converge_command->parsed()) return converge(study);
+    if (compare_command->parsed()) return compare(compared);
     if (check_command->parsed()) return check_case(checked_case);
     return plot_results(plot);
   } catch (const InputError& error) {

@@ -49,10 +49,11 @@ class Program : public testing::Test {
 TEST_F(Program, HelpNamesEveryCommandAndOption) {
   const std::map<std::string, std::vector<std::string>> expected = {
       {"",
-       {"--help", "--version", "run", "converge", "check", "plot", "Exit status",
+       {"--help", "--version", "run", "converge", "compare", "check", "plot", "Exit status",
         "docs/case_file.md"}},
       {"run", {"case", "--out", "--threads", "--quiet", "--force", "Exit status"}},
       {"converge", {"study", "--out", "--threads", "--quiet", "--force", "docs/studies.md"}},
+      {"compare", {"dir_a", "dir_b", "--out", "--quiet", "--force", "docs/compare.md"}},
       {"check", {"case", "Exit status"}},
       {"plot", {"directory", "--out", "--scale", "Exit status"}}};
   for (const auto& [command, words] : expected) {
@@ -81,6 +82,9 @@ TEST_F(Program, BadCommandLinesAreRefused) {
                                                      {"run", "a.toml", "--threads", "0"},
                                                      {"run", "a.toml", "--threads", "many"},
                                                      {"run", "a.toml", "--fast"},
+                                                     {"compare", "."},
+                                                     {"compare", ".", ".", "."},
+                                                     {"compare", ".", ".", "--threads", "1"},
                                                      {"check"},
                                                      {"check", "a.toml", "--out", "x"},
                                                      {"plot"},
@@ -215,8 +219,8 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part :
        {"[body]", "particles          336", "bonds              2345", "unknowns           669",
-        "memory", "set-up", "each broken bond", "; 1000 of them ",
-        "spacing            ", " spacings\n", "to 30 broken bonds"}) {
+        "memory", "set-up", "each broken bond", "; 1000 of them ", "spacing            ",
+        " spacings\n", "to 30 broken bonds"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
   EXPECT_EQ(names(), std::set<std::string>{"small.toml"});

@@ -14,6 +14,7 @@ namespace {
 const std::map<std::string, std::string>& tested_elsewhere() {
   static const std::map<std::string, std::string> table = {
       {"app/check_command.cpp", "a command: tests/cli runs the program"},
+      {"app/compare_command.cpp", "a command: tests/cli runs the program"},
       {"app/converge_command.cpp", "a command: tests/cli runs the program"},
       {"app/main.cpp", "only calls the commands; tests/cli runs the program"},
       {"app/run_command.cpp", "a command: tests/cli runs the program"},
