@@ -131,7 +131,7 @@ void compare_summaries(Pair& pair) {
            static_cast<double>(pair.b.records.size()));
   for (const RunResult* result : {&pair.a, &pair.b}) {
     for (const auto& [key, number] : result->summary) {
-      if (pair.has(key) || key == "steps") continue;  // rows
+      if (pair.has(key)) continue;
       pair.add(key, unit_of(key, pair.units), number_of(pair.a.summary, key),
                number_of(pair.b.summary, key));
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,12 @@ std::vector<CurvePoint> points_of(const RunResult& result) {
     points.push_back({record.displacement, record.load});
   }
   return points;
+}
+
+/// Rows over time scatter about no path of events.
+bool wants_envelope(const RunResult& result) {
+  return result.records.size() > events_for_envelope &&
+         std::isnan(number_of(result.last_row, "time"));
 }
 
 /// The title that both have, else the names of both.
@@ -93,13 +100,11 @@ Svg draw_comparison(const RunResult& a, const RunResult& b) {
                 frame.x.pixel_high - frame.x.pixel_low, frame.y.pixel_low - frame.y.pixel_high);
   svg.open_group("clip-path=\"url(#frame)\"");
   for (std::size_t k = 0; k < 2; ++k) {
-    if (points[k].size() > events_for_envelope) {
-      svg.path(curve_path(frame, points[k]), pale(looks[k]));
-    }
+    if (wants_envelope(*results[k])) svg.path(curve_path(frame, points[k]), pale(looks[k]));
   }
   for (std::size_t k = 0; k < 2; ++k) {
     const std::vector<StepRecord>& records = results[k]->records;
-    const bool smooth = records.size() > events_for_envelope;
+    const bool smooth = wants_envelope(*results[k]);
     svg.path(curve_path(frame, smooth ? smooth_envelope(records, envelope_window(records.size()))
                                       : points[k]),
              strong(looks[k]));

@@ -75,8 +75,8 @@ void read_rows(const fs::path& directory, RunResult& result) {
   }
 }
 
-double longest_broken_bond(const PlotBody& body) {
-  double longest = 0.0;
+double least_horizon(const PlotBody& body) {
+  double longest = 2.0 * body.spacing;
   for (const auto& [i, j] : body.broken_bonds) {
     const Vector3 &from = body.positions[i], &to = body.positions[j];
     longest = std::max(longest, std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]));
@@ -115,7 +115,7 @@ void read_last_fields(const fs::path& directory, RunResult& result) {
   const PlotBody body = read_body(grid, path);
   result.body = solid_part(body, grid);
   const double horizon = number_of(result.summary, "horizon");
-  result.horizon = horizon > 0.0 ? horizon : longest_broken_bond(body);
+  result.horizon = horizon > 0.0 ? horizon : least_horizon(body);
 }
 
 }  // namespace

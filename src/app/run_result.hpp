@@ -28,7 +28,9 @@ struct RunResult {
   std::vector<StepRecord> records;   ///< rows of history.csv
   NamedNumbers last_row;             ///< of history.csv, all its columns
   std::optional<CrackPattern> body;  ///< of the last field file
-  double horizon = 0.0;  ///< of summary.json, else the longest broken bond; 0: unknown [length]
+  /// Of summary.json, else the longest broken bond, or two spacings where that is more: the reach
+  /// of a lattice whose bonds see the neighbours of either end; 0 without fields [length].
+  double horizon = 0.0;
   std::vector<std::string> notes;  ///< what is missing
 };
 

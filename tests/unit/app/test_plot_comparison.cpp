@@ -69,6 +69,11 @@ TEST(PlotComparison, ManyRowsHaveAnEnvelope) {
   const std::string svg =
       draw_comparison(result_of("coarse", "a", 300), result_of("fine", "b", 30)).str();
   EXPECT_EQ(count(svg, "stroke-opacity=\"0.35\""), 1);
+  RunResult over_time = result_of("dynamic", "c", 300);
+  over_time.last_row = {{"time", 0.5}};
+  EXPECT_EQ(count(draw_comparison(over_time, result_of("fine", "b", 30)).str(),
+                  "stroke-opacity=\"0.35\""),
+            0);
 }
 
 TEST(PlotComparison, AxesHaveNoUnitsWhereTheResultsDiffer) {

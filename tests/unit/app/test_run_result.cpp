@@ -79,9 +79,18 @@ TEST_F(RunResults, AKilledRunIsReadWithANote) {
   write_pvd((place() / "fields.pvd").string(), {{4.0, "last.vtu"}});
   const RunResult result = read();
   EXPECT_EQ(result.records.size(), 2u);
-  EXPECT_EQ(result.horizon, 2.0) << "the broken bonds are one spacing long";
+  EXPECT_EQ(result.horizon, 4.0) << "twice the spacing: the broken bonds are one long";
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_THAT(result.notes[0], HasSubstr("summary.json"));
+}
+
+TEST_F(RunResults, WithoutAHorizonTheLongestBrokenBondStandsForIt) {
+  write("history.csv", history);
+  VtuGrid grid = test::make_cracked_field({}, false);
+  test::append_line(grid, 0, 3, 1.0);
+  write_vtu((place() / "last.vtu").string(), grid);
+  write_pvd((place() / "fields.pvd").string(), {{4.0, "last.vtu"}});
+  EXPECT_EQ(read().horizon, 6.0) << "three spacings";
 }
 
 TEST_F(RunResults, AnInterruptedRunIsReadWithItsReason) {
