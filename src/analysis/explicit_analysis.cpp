@@ -93,6 +93,7 @@ class ExplicitRun {
     if (!row && step % steps_between_checks != 0) return;
     record_.energy = energy_balance(model_, state_);
     check_growth(step);
+    guarded([&] { stop_on_request(); });
     if (!row && !done_) return;
     record_.step = step;
     record_.time = step * dt_;
@@ -104,19 +105,25 @@ class ExplicitRun {
     result_.last = record_;
     largest_surplus_ = std::max(largest_surplus_, std::abs(record_.energy.surplus()));
     result_.largest_surplus = largest_surplus_ / std::max(supplied_, smallest_);
-    tell_observer();
-    if (!done_ && stop_requested_) {
-      result_.ending = Ending::interrupted;
-      result_.reason = "interrupted";
-      done_ = true;
-    }
+    const bool last = done_ || step == steps_;
+    guarded([&] {
+      observer_.on_row(record_, state_);
+      if (last) observer_.on_end(record_, state_);
+    });
+  }
+
+  void stop_on_request() {
+    if (done_ || !observer_.stop_requested()) return;
+    result_.ending = Ending::interrupted;
+    result_.reason = "interrupted";
+    done_ = true;
   }
 
   /// Exceptions must not leave a parallel region: the run ends and run() throws them again.
-  void tell_observer() {
+  template <class Action>
+  void guarded(const Action& action) {
     try {
-      observer_.on_row(record_, state_);
-      stop_requested_ = observer_.stop_requested();
+      action();
     } catch (...) {
       failure_ = std::current_exception();
       done_ = true;
@@ -149,7 +156,7 @@ class ExplicitRun {
   ExplicitRecord record_;
   double dt_ = 0.0, initial_ = 0.0, supplied_ = 0.0, largest_surplus_ = 0.0;
   Index steps_ = 0, between_rows_ = 1;
-  bool done_ = false, stop_requested_ = false;
+  bool done_ = false;
   std::exception_ptr failure_;
 };
 

@@ -54,6 +54,9 @@ class ExplicitObserver {
  public:
   virtual ~ExplicitObserver() = default;
   virtual void on_row(const ExplicitRecord& record, const ExplicitState& state) = 0;
+  /// Once, after the last row.
+  virtual void on_end(const ExplicitRecord& /*last*/, const ExplicitState& /*state*/) {}
+  /// Asked before every row and every few hundred steps; after a yes comes one more row.
   virtual bool stop_requested() { return false; }
 };
 

@@ -152,7 +152,8 @@ std::size_t peak_row(std::span<const StepRecord> records) {
   return static_cast<std::size_t>(peak - records.begin());
 }
 
-Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels) {
+Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
+                           HistoryPath path) {
   std::vector<CurvePoint> events;
   events.reserve(records.size());
   for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
@@ -164,7 +165,7 @@ Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels
   if (records.empty()) return svg;
 
   const PeakLabel label = label_of(frame, records[peak_row(records)], labels);
-  if (records.size() > events_for_envelope) {
+  if (path == HistoryPath::events && records.size() > events_for_envelope) {
     // Where events snap back far the mean of a window can lie beyond all of them.
     svg.clip_rect("frame", {frame.x.pixel_low, frame.y.pixel_high},
                   frame.x.pixel_high - frame.x.pixel_low, frame.y.pixel_low - frame.y.pixel_high);

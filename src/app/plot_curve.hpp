@@ -25,7 +25,11 @@ std::size_t envelope_window(std::size_t events);
 /// Row of the largest absolute load; `records` must not be empty.
 std::size_t peak_row(std::span<const StepRecord> records);
 
+/// What the rows of a history follow: one event after the other, or time.
+enum class HistoryPath { events, time };
+
 /// Load over displacement with the peak marked; beyond 200 events the envelope too.
-Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels);
+Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
+                           HistoryPath path = HistoryPath::events);
 
 }  // namespace perilink

@@ -224,6 +224,11 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
 
 std::string caption_text(const FieldsCaption& caption, const PlotBody& body,
                          const PlotLabels& labels, double scale) {
+  if (caption.time) {
+    return fmt::format("time {} · load factor {} · load {} · displacements × {}",
+                       short_number(*caption.time), short_number(caption.load_factor),
+                       in_unit(short_number(caption.load), labels.force), short_number(scale));
+  }
   const std::string broken = body.stress.empty()
                                  ? fmt::format("{} broken bond{} · ", caption.broken_bonds,
                                                caption.broken_bonds == 1 ? "" : "s")

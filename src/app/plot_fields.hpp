@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/plot_body.hpp"
@@ -13,6 +14,7 @@ struct FieldsCaption {
   Index broken_bonds = 0;
   double load_factor = 0.0;
   double load = 0.0;
+  std::optional<double> time = std::nullopt;  ///< of explicit analyses, which count no bonds
 };
 
 /// The deformed body: particles coloured by damage, or by the von Mises stress where the file has

@@ -31,39 +31,21 @@ std::string format_duration(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-Progress::Progress(bool quiet, std::optional<Index> last_broken_bonds,
-                   std::optional<double> last_displacement)
+ProgressBar::ProgressBar(bool quiet)
     : quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
-      last_broken_bonds_(last_broken_bonds),
-      last_displacement_(last_displacement),
       next_update_(terminal_ ? terminal_interval : log_interval) {}
 
-std::optional<double> Progress::fraction(const StepRecord& record) const {
-  std::optional<double> done;
-  if (last_broken_bonds_ && *last_broken_bonds_ > 0) {
-    done = static_cast<double>(record.broken_bonds) / *last_broken_bonds_;
-  }
-  if (last_displacement_ && *last_displacement_ > 0.0) {
-    done = std::max(done.value_or(0.0), std::abs(record.displacement) / *last_displacement_);
-  }
-  if (done) done = std::clamp(*done, 0.0, 1.0);
-  return done;
-}
-
-void Progress::update(const StepRecord& record) {
-  if (quiet_) return;
+bool ProgressBar::is_due() {
+  if (quiet_) return false;
   const double now = since_start_.seconds();
-  if (now < next_update_) return;
+  if (now < next_update_) return false;
   next_update_ = now + (terminal_ ? terminal_interval : log_interval);
-  draw(record);
+  return true;
 }
 
-void Progress::draw(const StepRecord& record) {
+void ProgressBar::draw(const std::string& state, std::optional<double> done) {
   const double now = since_start_.seconds();
-  const std::optional<double> done = fraction(record);
-  const std::string state = fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds,
-                                        record.load_factor);
   const std::string left =
       done && *done > 0.0 ? fmt::format(", {} left", format_duration(now / *done - now))
                           : fmt::format(", {} so far", format_duration(now));
@@ -80,10 +62,35 @@ void Progress::draw(const StepRecord& record) {
   drawn_ = true;
 }
 
-void Progress::finish() {
+void ProgressBar::finish() {
   if (drawn_) erase_line();
   drawn_ = false;
 }
+
+Progress::Progress(bool quiet, std::optional<Index> last_broken_bonds,
+                   std::optional<double> last_displacement)
+    : bar_(quiet), last_broken_bonds_(last_broken_bonds), last_displacement_(last_displacement) {}
+
+std::optional<double> Progress::fraction(const StepRecord& record) const {
+  std::optional<double> done;
+  if (last_broken_bonds_ && *last_broken_bonds_ > 0) {
+    done = static_cast<double>(record.broken_bonds) / *last_broken_bonds_;
+  }
+  if (last_displacement_ && *last_displacement_ > 0.0) {
+    done = std::max(done.value_or(0.0), std::abs(record.displacement) / *last_displacement_);
+  }
+  if (done) done = std::clamp(*done, 0.0, 1.0);
+  return done;
+}
+
+void Progress::update(const StepRecord& record) {
+  if (!bar_.is_due()) return;
+  bar_.draw(fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds,
+                        record.load_factor),
+            fraction(record));
+}
+
+void Progress::finish() { bar_.finish(); }
 
 CalibrationProgress::CalibrationProgress(bool quiet)
     : shown_(!quiet && isatty(STDERR_FILENO) != 0) {}

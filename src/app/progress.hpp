@@ -9,6 +9,27 @@ namespace perilink {
 
 /// Where a run stands, for people: a bar that is drawn over itself on a terminal, a plain line now
 /// and then elsewhere, nothing when quiet. Goes to standard error.
+class ProgressBar {
+ public:
+  explicit ProgressBar(bool quiet);
+
+  /// Whether it is time to draw again.
+  bool is_due();
+  /// \param state  in words
+  /// \param done   fraction of the run that is done, where it is known
+  void draw(const std::string& state, std::optional<double> done);
+  /// Ends the line of the bar.
+  void finish();
+
+ private:
+  bool quiet_;
+  bool terminal_;
+  Timer since_start_;
+  double next_update_ = 0.0;  ///< [s]
+  bool drawn_ = false;
+};
+
+/// The bar of a damage analysis.
 class Progress {
  public:
   /// \param last_broken_bonds  number of broken bonds at which the run stops, if it is known
@@ -23,15 +44,10 @@ class Progress {
  private:
   /// Fraction of the run that is done, where a stop rule tells.
   std::optional<double> fraction(const StepRecord& record) const;
-  void draw(const StepRecord& record);
 
-  bool quiet_;
-  bool terminal_;
+  ProgressBar bar_;
   std::optional<Index> last_broken_bonds_;
   std::optional<double> last_displacement_;
-  Timer since_start_;
-  double next_update_ = 0.0;  ///< [s]
-  bool drawn_ = false;
 };
 
 /// Where the calibration of bonds stands, for people at a terminal: a line drawn over itself on

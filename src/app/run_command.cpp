@@ -10,6 +10,9 @@
 
 #include "app/commands.hpp"
 #include "app/configure.hpp"
+#include "app/explicit_case.hpp"
+#include "app/explicit_observer.hpp"
+#include "app/explicit_summary.hpp"
 #include "app/mesh_input.hpp"
 #include "app/result_directory.hpp"
 #include "app/run_model.hpp"
@@ -56,6 +59,49 @@ int exit_status_of(Ending ending) {
   return ending == Ending::failed ? exit_solver : exit_done;
 }
 
+int run_explicit(const RunOptions& options, const CaseFile& input, const fs::path& directory,
+                 int threads) {
+  Timer timer;
+  ExplicitCase built = build_explicit_case(input);
+  built.options.threads = threads;
+  prepare_result_directory(directory, options.force);
+  catch_stop_signals();
+  write_resolved_case(directory, input);
+  const auto log = open_log(directory);
+  log->info("{} : {} particles, {} bonds, {} steps of {:.4g} (critical {:.4g}), {} threads",
+            input.path, built.model.lattice.particles(), built.bonds, built.steps, built.time_step,
+            built.critical_time_step, threads);
+
+  PhaseSeconds seconds;
+  seconds.set_up = timer.seconds();
+  timer.restart();
+  ExplicitRunObserver observer(input, built, directory, options.quiet);
+  ExplicitResult result;
+  try {
+    ExplicitState state(built.model);
+    result = run_explicit_analysis(built.model, state, built.options, observer);
+    observer.finish();
+  } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
+    result.ending = Ending::failed;
+    result.reason = error.what();
+  }
+  if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
+  seconds.output = observer.seconds_writing();
+  seconds.analysis = timer.seconds() - seconds.output;
+  const ExplicitSummary summary{input, built, result, observer, seconds, threads};
+  try {
+    write_summary(directory, summary);
+  } catch (const FileError& error) {
+    fmt::print(stderr, "perilink: {}\n", error.what());
+    result.ending = Ending::failed;
+  }
+  log->info("{}: {}; {} steps, {} cracked particles, energy to {:.2e} of the work",
+            to_string(result.ending), result.reason, result.steps, result.last.cracked_particles,
+            result.largest_surplus);
+  if (!options.quiet) print_summary(directory, summary);
+  return exit_status_of(result.ending);
+}
+
 }  // namespace
 
 int run_case(const RunOptions& options) {
@@ -69,6 +115,7 @@ int run_case(const RunOptions& options) {
                                                : default_result_directory(options.case_path);
   refuse_own_case(directory, options.case_path);
   refuse_old_results(directory, options.force);  // at once: the model may take minutes
+  if (input.analysis.type == "explicit") return run_explicit(options, input, directory, threads);
   Model model = build_model_visibly(input, options.quiet);
   prepare_result_directory(directory, options.force);
   catch_stop_signals();

@@ -253,6 +253,51 @@ TEST_F(Program, CheckOfAnElasticCaseSpeaksOfNoBreaks) {
   EXPECT_THAT(end.out, testing::Not(HasSubstr("each broken bond")));
 }
 
+TEST_F(Program, CheckOfAnExplicitCaseTellsItsSteps) {
+  write_case("strip.toml", lattice_strip_case());
+  const ProcessEnd end = run({"check", "strip.toml"});
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  for (const char* part :
+       {"model = \"lattice\"", "critical time step 0.00", "time step          0.00",
+        "steps              ", "about 100 rows", "bonds              ", "run "}) {
+    EXPECT_THAT(end.out, HasSubstr(part));
+  }
+  EXPECT_EQ(names(), std::set<std::string>{"strip.toml"});
+  write_case("again.toml", end.out);
+  EXPECT_EQ(run({"check", "again.toml"}).exit_status, 0);
+}
+
+TEST_F(Program, ExplicitRunsWriteTheFilesOfTheContract) {
+  write_case("strip.toml", lattice_strip_case(0.1, "\n[output]\nfields_times = [1]\n"));
+  const ProcessEnd end = run({"run", "strip.toml"});
+  EXPECT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_EQ(end.err, "");
+  for (const char* part : {"Lattice strip", "completed", "particle-steps/s", "results/strip"}) {
+    EXPECT_THAT(end.out, HasSubstr(part));
+  }
+  const std::string place = "results/strip/";
+  const auto summary = nlohmann::json::parse(read_text(work() / place / "summary.json"));
+  int fields = 0;
+  for (const std::string& name : names()) fields += name.ends_with(".vtu");
+  EXPECT_EQ(fields, 3);
+  for (const char* name : {"case.toml", "history.csv", "timing.csv", "summary.json", "fields.pvd",
+                           "fields_000000.vtu", "log.txt"}) {
+    EXPECT_TRUE(names().contains(place + name)) << name;
+  }
+  // Strain 0.04 over 1.8 between the grips, E = 100, height 1: the body is one half row stiffer.
+  EXPECT_NEAR(-summary["peak_reaction"].get<double>(), 100.0 * 0.04 / 1.8, 0.15 * 2.22);
+  EXPECT_LT(summary["energy_error"].get<double>(), 1e-3);
+  ASSERT_EQ(run({"run", place + "case.toml", "--out", "again"}).exit_status, 0);
+  EXPECT_EQ(read_text(work() / "again/history.csv"), read_text(work() / place / "history.csv"));
+  EXPECT_EQ(read_text(work() / "again/case.toml"), read_text(work() / place / "case.toml"));
+
+  const ProcessEnd plot = run({"plot", "again"});
+  EXPECT_EQ(plot.exit_status, 0) << plot.err;
+  EXPECT_THAT(read_text(work() / "again/fields_0.svg"), HasSubstr("time 0 "));
+  EXPECT_TRUE(fs::exists(work() / "again/load_displacement.svg"));
+  EXPECT_EQ(run({"run", "strip.toml"}).exit_status, 2) << "an earlier result";
+}
+
 TEST_F(Program, PlotDrawsWhatAResultHolds) {
   write_case("small.toml", small_ghost_case);
   ASSERT_EQ(run({"run", "small.toml", "--out", "r"}).exit_status, 0);

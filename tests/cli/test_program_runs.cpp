@@ -129,6 +129,44 @@ TEST_F(ProgramRuns, HistoriesDoNotDependOnThreads) {
   EXPECT_LT(summary("micropolar0")["largest_residual"].get<double>(), 1e-10);
 }
 
+/// A strip of some ten thousand particles: enough that every thread has work.
+TEST_F(ProgramRuns, HistoriesOfExplicitRunsDoNotDependOnThreads) {
+  write_text(work() / "strip.toml", lattice_strip_case(0.014));
+  write_text(
+      work() / "short.toml",
+      read_text(work() / "strip.toml")
+          .replace(read_text(work() / "strip.toml").find("duration = 2"), 12, "duration = 0.2"));
+  for (const char* threads : {"1", "2"}) {
+    const ProcessEnd end = run({"run", "short.toml", "--out", threads, "--threads", threads});
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+  }
+  EXPECT_GT(summary("1")["particles"].get<int>(), 8000) << "too small for two threads";
+  EXPECT_GT(history("1").size(), 5000u);
+  EXPECT_TRUE(history("1") == history("2"));
+}
+
+class ExplicitStopSignals : public ProgramRuns, public testing::WithParamInterface<int> {};
+
+TEST_P(ExplicitStopSignals, KeepTheResultsSoFar) {
+  write_text(work() / "long.toml", lattice_strip_case(0.02, "safety = 1e-4\n"));
+  ProgramProcess process(work(), {"run", "long.toml", "--out", "r", "--threads", "1"});
+  ASSERT_TRUE(process.wait_until([&] { return fs::exists(work() / "r/fields.pvd"); }));
+  process.send(GetParam());
+  const ProcessEnd end = process.wait();
+  EXPECT_EQ(end.exit_status, 4) << end.err;
+  const auto json = summary("r");
+  EXPECT_EQ(json["status"], "interrupted");
+  const std::string last = fmt::format("\n{},", json["steps"].get<int>());
+  EXPECT_NE(history("r").find(last), std::string::npos) << "the row of the last step";
+  EXPECT_TRUE(fs::exists(work() / "r" / fmt::format("fields_{:06}.vtu", json["steps"].get<int>())));
+  EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, ExplicitStopSignals, testing::Values(SIGINT, SIGTERM),
+                         [](const auto& signal) {
+                           return signal.param == SIGINT ? "Int" : "Term";
+                         });
+
 struct BarCase {
   const char* pattern;
   double coarse;   ///< spacing

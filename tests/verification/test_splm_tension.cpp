@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/explicit_case.hpp"
 #include "specimen.hpp"
 
 namespace perilink::verification {
@@ -16,6 +17,35 @@ TEST(SplmTension, CountsTheParticlesOfThePaper) {
   EXPECT_EQ(tension_specimen(LatticeRules::least_2018, 0.0).lattice.particles(), 605);
   EXPECT_EQ(tension_specimen(LatticeRules::least_2018, 15.0).lattice.particles(), 595);
   EXPECT_EQ(tension_specimen(LatticeRules::least_2018, 30.0).lattice.particles(), 569);
+}
+
+/// The case file, read and cut by regions, is the specimen built by hand.
+TEST(SplmTension, TheCaseFileIsTheSpecimen) {
+  const ExplicitCase built =
+      build_explicit_case(read_case_file(PERILINK_SOURCE_DIR "/meshes/splm_tension.toml"));
+  const ExplicitModel model = tension_specimen(LatticeRules::consistent, 0.0);
+  EXPECT_EQ(built.model.lattice.positions, model.lattice.positions);
+  EXPECT_EQ(built.model.lattice.present, model.lattice.present);
+  EXPECT_EQ(built.model.mass, model.mass);
+  EXPECT_EQ(built.model.moduli.own, model.moduli.own);
+  EXPECT_EQ(built.model.moduli.sum, model.moduli.sum);
+  EXPECT_EQ(built.model.bond_damping, model.bond_damping);
+  EXPECT_EQ(built.model.mass_damping, model.mass_damping);
+  EXPECT_EQ(built.model.load_component, model.load_component);
+  EXPECT_EQ(built.critical_time_step, critical_time_step(model));
+  EXPECT_NEAR(fracture_energy(built.model.material.softening),
+              fracture_energy(model.material.softening), 1e-12);
+  for (std::size_t r = 0; r < model.prescribed.size(); ++r) {
+    ASSERT_EQ(built.model.prescribed[r].size(), model.prescribed[r].size()) << r;
+    for (std::size_t k = 0; k < model.prescribed[r].size(); ++k) {
+      EXPECT_EQ(built.model.prescribed[r][k].slot, model.prescribed[r][k].slot);
+      EXPECT_EQ(built.model.prescribed[r][k].component, model.prescribed[r][k].component);
+      EXPECT_DOUBLE_EQ(built.model.prescribed[r][k].amplitude, model.prescribed[r][k].amplitude);
+    }
+  }
+  EXPECT_DOUBLE_EQ(built.options.reference, tension_drive);
+  EXPECT_DOUBLE_EQ(built.options.duration, tension_duration);
+  EXPECT_DOUBLE_EQ(built.options.ramp, 0.8 * tension_duration);
 }
 
 TEST(SplmTension, PrintedTimeStepIsStable) {

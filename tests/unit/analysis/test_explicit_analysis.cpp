@@ -53,6 +53,60 @@ double mean_displacement(const ExplicitModel& model, const ExplicitState& state,
   return sum / count;
 }
 
+/// Asks to stop after a number of rows.
+class Stopper final : public ExplicitObserver {
+ public:
+  void on_row(const ExplicitRecord& record, const ExplicitState& /*state*/) override {
+    last_row = record.step;
+    ++rows;
+  }
+  void on_end(const ExplicitRecord& last, const ExplicitState& /*state*/) override {
+    ++ends;
+    end = last.step;
+  }
+  bool stop_requested() override {
+    if (fails) throw std::runtime_error("disk full");
+    return rows >= wanted;
+  }
+  int rows = 0, wanted = 1, ends = 0;
+  Index last_row = 0, end = 0;
+  bool fails = false;
+};
+
+TEST(ExplicitAnalysis, StopsOnRequestBetweenRowsWithOneMoreRow) {
+  const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 0.0), elastic_concrete());
+  ExplicitState state(model);
+  ExplicitOptions options;
+  options.time_step = 0.5 * critical_time_step(model);
+  options.duration = 5000.0 * options.time_step;
+  options.rows = 1;
+  options.ramp = options.duration;
+  Stopper stopper;
+  const ExplicitResult result = run_explicit_analysis(model, state, options, stopper);
+  EXPECT_EQ(result.ending, Ending::interrupted);
+  EXPECT_EQ(stopper.rows, 2);
+  EXPECT_LT(result.steps, 1000) << "long before the next row";
+  EXPECT_EQ(stopper.last_row, result.steps);
+  EXPECT_EQ(stopper.ends, 1);
+  EXPECT_EQ(stopper.end, result.steps);
+}
+
+TEST(ExplicitAnalysis, TellsTheEndOnceAndPassesFailuresOn) {
+  const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 0.0), elastic_concrete());
+  ExplicitOptions options;
+  options.duration = 10.0 * critical_time_step(model);
+  options.ramp = options.duration;
+  Stopper stopper;
+  stopper.wanted = 1000;
+  ExplicitState state(model);
+  const ExplicitResult result = run_explicit_analysis(model, state, options, stopper);
+  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(stopper.ends, 1);
+  EXPECT_EQ(stopper.end, result.steps);
+  stopper.fails = true;
+  EXPECT_THROW(run_explicit_analysis(model, state, options, stopper), std::runtime_error);
+}
+
 TEST(ExplicitAnalysis, RampRisesSmoothlyToOne) {
   EXPECT_EQ(ramped_load_factor(0.0, 2.0), 0.0);
   EXPECT_NEAR(ramped_load_factor(1.0, 2.0), 0.5, 1e-15);

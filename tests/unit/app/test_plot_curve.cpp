@@ -137,5 +137,14 @@ TEST(LoadDisplacement, EmptyHistoryIsAnEmptyFrame) {
             std::string::npos);
 }
 
+/// Rows in time vibrate; no envelope of events has a meaning for them.
+TEST(LoadDisplacement, HistoriesInTimeHaveNoEnvelope) {
+  const std::vector<StepRecord> records = make_path(1000);
+  EXPECT_NE(draw_load_displacement(records, {}).str().find("envelope"), std::string::npos);
+  const std::string svg = draw_load_displacement(records, {}, HistoryPath::time).str();
+  EXPECT_EQ(svg.find("envelope"), std::string::npos);
+  EXPECT_NE(svg.find("peak"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace perilink

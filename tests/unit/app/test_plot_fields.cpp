@@ -49,6 +49,15 @@ TEST(PlotFields, ElasticBodiesAreColouredByStress) {
             std::string::npos);
 }
 
+TEST(PlotFields, ExplicitAnalysesTellTheTimeAndNoBonds) {
+  const FieldsCaption caption{0, 0.5, 12.345, 0.25};
+  const std::string svg = draw_fields(read_body(test::make_cracked_field({}, false), ""), caption,
+                                      {"Bar", "kip", "in"}, 1.0)
+                              .str();
+  EXPECT_NE(svg.find("time 0.25 · load factor 0.5 · load 12.35 kip"), std::string::npos);
+  EXPECT_EQ(svg.find("broken bond"), std::string::npos);
+}
+
 TEST(PlotFields, DotsAreAsWideAsTheirParticles) {
   VtuGrid grid = test::make_cracked_field({.nx = 4, .ny = 4, .hexagonal = true}, false);
   std::vector<double> volumes(16, std::sqrt(0.75) * 4.0);

@@ -1,0 +1,91 @@
+#include "app/explicit_fields.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "analysis/explicit_damage.hpp"
+#include "app/field_file.hpp"
+
+namespace perilink {
+namespace {
+
+/// A vector field of slots as rows of three numbers, one for each particle.
+std::vector<double> vectors_of(const LatticeRows& lattice, const std::vector<double>& field) {
+  std::vector<double> vectors(3 * lattice.particle_slot.size(), 0.0);
+  for (std::size_t i = 0; i < lattice.particle_slot.size(); ++i) {
+    for (int c = 0; c < lattice.dim; ++c) {
+      vectors[3 * i + c] = field[lattice.at(c, lattice.particle_slot[i])];
+    }
+  }
+  return vectors;
+}
+
+std::vector<double> numbers_of(const LatticeRows& lattice, const std::vector<double>& field) {
+  std::vector<double> numbers;
+  numbers.reserve(lattice.particle_slot.size());
+  for (const Index slot : lattice.particle_slot) numbers.push_back(field[slot]);
+  return numbers;
+}
+
+/// Six components for each particle of a body in the plane.
+std::vector<double> stresses(const ExplicitModel& model, const ExplicitState& state) {
+  const LatticeDamage damage(model);
+  const LatticeRows& lattice = model.lattice;
+  const bool strain = model.problem == Problem::plane_strain;
+  std::vector<double> values;
+  values.reserve(6 * lattice.particle_slot.size());
+  std::size_t row = 0;
+  for (const Index slot : lattice.particle_slot) {
+    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
+    const PlaneTensor s = damage.stress(state, static_cast<Index>(row), slot);
+    const double across = strain ? model.material.poissons_ratio * (s.xx + s.yy) : 0.0;
+    values.insert(values.end(), {s.xx, s.yy, across, s.xy, 0.0, 0.0});
+  }
+  return values;
+}
+
+void append_vertices(VtuGrid& grid, Index count) {
+  for (Index i = 0; i < count; ++i) {
+    grid.types.push_back(VtuCell::vertex);
+    grid.connectivity.push_back(i);
+    grid.offsets.push_back(i + 1);
+  }
+  const auto cells = static_cast<std::size_t>(count);
+  grid.cell_data = {
+      {"element", 1, std::vector<double>(cells, static_cast<double>(FieldElement::particle))},
+      {"broken_at", 1, std::vector<double>(cells, 0.0)}};
+}
+
+}  // namespace
+
+VtuGrid make_lattice_grid(const ExplicitModel& model, const ExplicitState& state,
+                          const ExplicitRecord& record) {
+  const LatticeRows& lattice = model.lattice;
+  const std::size_t count = lattice.particle_slot.size();
+  VtuGrid grid;
+  grid.points = vectors_of(lattice, lattice.positions);
+  append_vertices(grid, lattice.particles());
+  grid.point_data = {
+      {"displacement", 3, vectors_of(lattice, state.displacement)},
+      {"velocity", 3, vectors_of(lattice, state.velocity)},
+      {"damage", 1, numbers_of(lattice, state.damage)},
+      {"region", 1, std::vector<double>(count, 0.0)},
+      {"kind", 1, std::vector<double>(count, 0.0)},
+      {"volume", 1, numbers_of(lattice, model.volume)},
+  };
+  if (lattice.dim == 2 && !model.material.breakable) {
+    grid.point_data.push_back({"stress", 6, stresses(model, state)});
+  }
+  grid.field_data = {{"step", static_cast<double>(record.step)},
+                     {"time", record.time},
+                     {"load_factor", record.load_factor},
+                     {"load", record.load},
+                     {"dimension", static_cast<double>(lattice.dim)},
+                     {"spacing", lattice.spacing}};
+  if (lattice.dim == 2) grid.field_data.push_back({"thickness", model.thickness});
+  return grid;
+}
+
+}  // namespace perilink

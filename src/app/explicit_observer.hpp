@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "app/explicit_case.hpp"
+#include "app/explicit_history.hpp"
+#include "app/progress.hpp"
+#include "io/vtu.hpp"
+
+namespace perilink {
+
+/// Turns what happens in an explicit run into files and progress: every row into the history, the
+/// states at the times that the case asks for (and the first and the last) into field files.
+class ExplicitRunObserver final : public ExplicitObserver {
+ public:
+  ExplicitRunObserver(const CaseFile& input, const ExplicitCase& built,
+                      std::filesystem::path directory, bool quiet);
+
+  void on_row(const ExplicitRecord& record, const ExplicitState& state) override;
+  void on_end(const ExplicitRecord& last, const ExplicitState& state) override;
+  bool stop_requested() override;
+
+  /// Brings everything to the disk and ends the progress line.
+  void finish();
+  Index rows() const { return rows_; }
+  /// Largest |load| of all rows, with its sign [force].
+  double peak_load() const { return peak_load_; }
+  /// Of the driven particles in that row [length].
+  double peak_displacement() const { return peak_displacement_; }
+  double seconds_writing() const { return seconds_writing_; }
+
+ private:
+  void write_fields(const ExplicitRecord& record, const ExplicitState& state);
+
+  const CaseFile& input_;
+  const ExplicitCase& built_;
+  std::filesystem::path directory_;
+  ExplicitHistory history_;
+  ProgressBar bar_;
+  Index rows_ = 0;
+  double peak_load_ = 0.0, peak_displacement_ = 0.0;
+  std::size_t next_time_ = 0;  ///< of the case's output.fields_times
+  std::vector<PvdEntry> series_;
+  double seconds_writing_ = 0.0;
+};
+
+}  // namespace perilink

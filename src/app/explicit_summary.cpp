@@ -1,0 +1,84 @@
+#include "app/explicit_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/build_info.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+
+double ExplicitSummary::particle_steps_per_second() const {
+  if (!(seconds.analysis > 0.0)) return 0.0;
+  return static_cast<double>(built.model.lattice.particles()) * result.steps / seconds.analysis;
+}
+
+void write_summary(const std::filesystem::path& directory, const ExplicitSummary& summary) {
+  const ExplicitResult& result = summary.result;
+  const EnergyBalance& energy = result.last.energy;
+  nlohmann::ordered_json json;
+  json["title"] = summary.input.title;
+  json["units"] = summary.input.units;
+  json["status"] = to_string(result.ending);
+  json["reason"] = result.reason;
+  json["peak_load"] = summary.observer.peak_load();
+  json["peak_displacement"] = summary.observer.peak_displacement();
+  json["peak_reaction"] = result.peak_load;
+  json["steps"] = result.steps;
+  json["rows"] = summary.observer.rows();
+  json["time_step"] = result.time_step;
+  json["critical_time_step"] = result.critical_time_step;
+  json["time"] = result.last.time;
+  json["cracked_particles"] = result.last.cracked_particles;
+  json["external_work"] = energy.external_work;
+  json["kinetic_energy"] = energy.kinetic;
+  json["strain_energy"] = energy.stored;
+  json["damped_energy"] = energy.internal_damping + energy.external_damping;
+  json["dissipated_energy"] = energy.fractured;
+  json["energy_error"] = result.largest_surplus;
+  json["particles"] = summary.built.model.lattice.particles();
+  json["bonds"] = summary.built.bonds;
+  json["spacing"] = summary.built.model.lattice.spacing;
+  json["particle_steps_per_second"] = summary.particle_steps_per_second();
+  json["seconds"] = {{"set_up", summary.seconds.set_up},
+                     {"analysis", summary.seconds.analysis},
+                     {"output", summary.seconds.output}};
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  json["threads"] = summary.threads;
+  json["version"] = program_version();
+  json["commit"] = program_commit();
+
+  const std::filesystem::path path = directory / "summary.json";
+  std::ofstream file(path);
+  file << json.dump(2) << "\n";
+  file.close();
+  if (!file) throw FileError(fmt::format("{}: cannot be written", path.string()));
+}
+
+void print_summary(const std::filesystem::path& directory, const ExplicitSummary& summary) {
+  const ExplicitResult& result = summary.result;
+  const EnergyBalance& energy = result.last.energy;
+  const CaseFile& input = summary.input;
+  fmt::print("{}\n", input.title.empty() ? input.path : input.title);
+  fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
+  fmt::print("  {:<14} {:.6g} at displacement {:.6g}, reaction of supports {:.6g}{}\n", "peak load",
+             summary.observer.peak_load(), summary.observer.peak_displacement(), result.peak_load,
+             input.units.empty() ? "" : "  [" + input.units + "]");
+  fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
+             result.time_step, result.critical_time_step, summary.observer.rows());
+  fmt::print("  {:<14} {:.6g} work, {:.6g} dissipated by {} cracked particles, balance to {:.1e}\n",
+             "energy", energy.external_work, energy.fractured, result.last.cracked_particles,
+             result.largest_surplus);
+  fmt::print("  {:<14} {} particles, {} bonds\n", "size", summary.built.model.lattice.particles(),
+             summary.built.bonds);
+  fmt::print(
+      "  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} M particle-steps/s), "
+      "output {:.2f} s\n",
+      "time", summary.seconds.set_up, summary.seconds.analysis,
+      summary.particle_steps_per_second() / 1e6, summary.seconds.output);
+  fmt::print("  {:<14} {}\n", "results", directory.string());
+}
+
+}  // namespace perilink
