@@ -1,11 +1,9 @@
 #include "app/explicit_fields.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
-#include "analysis/explicit_damage.hpp"
 #include "app/field_file.hpp"
 
 namespace perilink {
@@ -29,19 +27,39 @@ std::vector<double> numbers_of(const LatticeRows& lattice, const std::vector<dou
   return numbers;
 }
 
-/// Six components for each particle of a body in the plane.
+/// Adds a bond of a particle of an unbreakable body to its stress, (1 / 2V) L F n n'.
+void add_bond(const ExplicitModel& model, int k, double force, double volume, double* stress) {
+  constexpr std::array<std::array<int, 2>, 6> axes = {
+      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+  const OwnBond& bond = model.lattice.bonds[k];
+  const double share = 0.5 * bond.length * force / volume;
+  for (std::size_t c = 0; c < axes.size(); ++c) {
+    stress[c] += share * bond.direction[axes[c][0]] * bond.direction[axes[c][1]];
+  }
+}
+
+/// Six components for each particle of an unbreakable body.
 std::vector<double> stresses(const ExplicitModel& model, const ExplicitState& state) {
-  const LatticeDamage damage(model);
   const LatticeRows& lattice = model.lattice;
-  const bool strain = model.problem == Problem::plane_strain;
-  std::vector<double> values;
-  values.reserve(6 * lattice.particle_slot.size());
+  const int own = lattice.own_bonds();
+  std::vector<double> values(6 * lattice.particle_slot.size(), 0.0);
   std::size_t row = 0;
-  for (const Index slot : lattice.particle_slot) {
+  for (std::size_t i = 0; i < lattice.particle_slot.size(); ++i) {
+    const Index slot = lattice.particle_slot[i];
     while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
-    const PlaneTensor s = damage.stress(state, static_cast<Index>(row), slot);
-    const double across = strain ? model.material.poissons_ratio * (s.xx + s.yy) : 0.0;
-    values.insert(values.end(), {s.xx, s.yy, across, s.xy, 0.0, 0.0});
+    double* stress = values.data() + 6 * i;
+    for (int k = 0; k < own; ++k) {
+      for (const Index owner : {slot, slot - lattice.shift_in[row * own + k]}) {
+        const Index at = lattice.at(k, owner);
+        if (lattice.present[at] == 0.0) continue;
+        const double force =
+            model.own_modulus(k) * state.stretch[at] + model.moduli.sum * state.sum[slot];
+        add_bond(model, k, force, model.volume[slot], stress);
+      }
+    }
+    if (model.problem == Problem::plane_strain) {
+      stress[2] = model.material.poissons_ratio * (stress[0] + stress[1]);
+    }
   }
   return values;
 }
@@ -75,7 +93,7 @@ VtuGrid make_lattice_grid(const ExplicitModel& model, const ExplicitState& state
       {"kind", 1, std::vector<double>(count, 0.0)},
       {"volume", 1, numbers_of(lattice, model.volume)},
   };
-  if (lattice.dim == 2 && !model.material.breakable) {
+  if (!model.material.breakable) {
     grid.point_data.push_back({"stress", 6, stresses(model, state)});
   }
   grid.field_data = {{"step", static_cast<double>(record.step)},

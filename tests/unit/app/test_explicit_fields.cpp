@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
 
 #include "analysis/explicit_kernels.hpp"
 #include "app/field_file.hpp"
@@ -88,6 +88,30 @@ TEST(ExplicitFields, StressesOfElasticBodiesFollowHooke) {
     }
     EXPECT_GT(inside, 20);
   }
+}
+
+TEST(ExplicitFields, StressesInSpaceFollowHooke) {
+  LatticeCut cut;
+  cut.spacing = 0.1;
+  cut.rotation = 0.3;
+  cut.upper = {0.5, 0.5, 0.5};
+  cut.inside = [](const Vector3&) { return true; };
+  const ExplicitModel model =
+      make_explicit_model(Problem::three_dimensional, LatticeRules::consistent,
+                          face_centred_rows(cut), elastic_concrete(), 1.0);
+  const double strain = 1e-7;
+  const VtuGrid grid = make_lattice_grid(model, stretched(model, strain), {});
+  const HookeConstants hooke = hooke_constants(Problem::three_dimensional, 25e9, 0.2);
+  int inside = 0;
+  for (std::size_t i = 0; i < model.lattice.particle_slot.size(); ++i) {
+    if (model.lattice.bond_count[model.lattice.particle_slot[i]] < 18) continue;
+    ++inside;
+    const double* stress = values(grid, "stress").data() + 6 * i;
+    const double xx = (hooke.lambda + 2.0 * hooke.mu) * strain;
+    const std::array<double, 6> expected = {xx, hooke.lambda * strain, hooke.lambda * strain};
+    for (int c = 0; c < 6; ++c) EXPECT_NEAR(stress[c], expected[c], 1e-6 * xx) << c;
+  }
+  EXPECT_GT(inside, 20);
 }
 
 TEST(ExplicitFields, BreakableBodiesHaveDamageInPlaceOfStress) {
