@@ -129,20 +129,35 @@ TEST_F(ProgramRuns, HistoriesDoNotDependOnThreads) {
   EXPECT_LT(summary("micropolar0")["largest_residual"].get<double>(), 1e-10);
 }
 
-/// A strip of some ten thousand particles: enough that every thread has work.
-TEST_F(ProgramRuns, HistoriesOfExplicitRunsDoNotDependOnThreads) {
-  write_text(work() / "strip.toml", lattice_strip_case(0.014));
-  write_text(
-      work() / "short.toml",
-      read_text(work() / "strip.toml")
-          .replace(read_text(work() / "strip.toml").find("duration = 2"), 12, "duration = 0.2"));
-  for (const char* threads : {"1", "2"}) {
-    const ProcessEnd end = run({"run", "short.toml", "--out", threads, "--threads", threads});
-    ASSERT_EQ(end.exit_status, 0) << end.err;
+/// Text with every `from` replaced.
+std::string all_replaced(std::string text, const std::string& from, const std::string& to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
   }
-  EXPECT_GT(summary("1")["particles"].get<int>(), 8000) << "too small for two threads";
-  EXPECT_GT(history("1").size(), 5000u);
-  EXPECT_TRUE(history("1") == history("2"));
+  return text;
+}
+
+/// The elastic strip, and the block in tension refined and torn fast: some ten thousand particles,
+/// enough that every thread has work.
+TEST_F(ProgramRuns, HistoriesOfExplicitRunsDoNotDependOnThreads) {
+  write_text(work() / "strip.toml",
+             all_replaced(lattice_strip_case(0.014), "duration = 2", "duration = 0.2"));
+  std::string block = read_text(PERILINK_SOURCE_DIR "/meshes/splm_tension.toml");
+  block = all_replaced(block, "spacing = 0.01", "spacing = 0.0025");
+  block = all_replaced(block, "duration = 0.0504", "duration = 1.5e-4");
+  block = all_replaced(block, "ramp_time = 0.04032", "ramp_time = 1.5e-4");
+  write_text(work() / "block.toml", all_replaced(block, "[0.01, 0.015, 0.02]", "[]"));
+  for (const std::string name : {"strip", "block"}) {
+    for (const char* threads : {"1", "2"}) {
+      const ProcessEnd end =
+          run({"run", name + ".toml", "--out", name + threads, "--threads", threads});
+      ASSERT_EQ(end.exit_status, 0) << end.err;
+    }
+    EXPECT_GT(summary(name + "1")["particles"].get<int>(), 8000) << "too small for two threads";
+    EXPECT_GT(history(name + "1").size(), 5000u);
+    EXPECT_TRUE(history(name + "1") == history(name + "2")) << name;
+  }
+  EXPECT_GT(summary("block1")["cracked_particles"].get<int>(), 1000);
 }
 
 class ExplicitStopSignals : public ProgramRuns, public testing::WithParamInterface<int> {};
