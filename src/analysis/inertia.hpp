@@ -28,8 +28,8 @@ enum class MassScaling {
 };
 
 /// Lumped masses. Rotations, for which the bonds of a body without size leave nothing, get the
-/// inertia with which they vibrate as fast as the displacements. Particles without a material (of bars, ghosts)
-/// are as heavy as they must be not to vibrate faster than the fastest solid one.
+/// inertia with which they vibrate as fast as the displacements. Particles without a material (of
+/// bars, ghosts) are as heavy as they must be not to vibrate faster than the fastest solid one.
 ///
 /// The bound of the frequency: a mode of a bond of stiffness k deforms by b_i.q_i + b_j.q_j, and
 /// k (b_i.q_i + b_j.q_j)^2 <= k (p_i + p_j) ((b_i.q_i)^2 / p_i + (b_j.q_j)^2 / p_j); with p_i the

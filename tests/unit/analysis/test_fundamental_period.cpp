@@ -22,7 +22,7 @@ TEST(FundamentalPeriod, OfAChainIsTheClosedForm) {
   inertia.mass.assign(body.unknowns.number.size(), mass);
   const double frequency = 2.0 * std::sqrt(stiffness / mass) *
                            std::sin(std::numbers::pi / (2.0 * (2.0 * columns + 1.0)));
-  // Three equal chains: the smallest eigenvalue comes three times, which the quotient does not mind.
+  // Three equal chains: the eigenvalue comes three times, which the quotient does not mind.
   EXPECT_NEAR(fundamental_period(body.network, body.unknowns, inertia, 1),
               2.0 * std::numbers::pi / frequency, 1e-7 / frequency);
 }
