@@ -10,6 +10,7 @@
 #include <string>
 
 #include "io/case_sections.hpp"
+#include "io/case_schema.hpp"
 #include "io/case_words.hpp"
 
 namespace perilink {
@@ -193,7 +194,12 @@ double read_fracture_energy(const CaseTable& table) {
                                     quoted(value->text)),
                    fmt::format("write the number without quotes: {} = {}", key, value->text));
     }
-    table.choice(key, {"infinite"});
+    if (value->text != "infinite") {
+      table.refuse(key, fmt::format("is {}, neither a number nor \"infinite\"",
+                                    quoted(value->text)),
+                   "write numbers without quotes and units. " +
+                       suggest(value->text, {"infinite"}));
+    }
     return std::numeric_limits<double>::infinity();
   }
   if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
