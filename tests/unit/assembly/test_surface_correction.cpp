@@ -167,9 +167,9 @@ double power_of_length(const Network& network, double horizon, double spacing) {
 }
 
 /// 1/xi^(d+1) where nothing can break: with 1/xi displacements on irregular meshes were up to 2.6
-/// times as far off as those of linear elements. Bodies that can break keep 1/xi, as lattices do. A
-/// cloud that is nearly a lattice has few kinds of neighbours, and its calibration changes the power
-/// by up to 0.8.
+/// times as far off as those of linear elements. Bodies that can break keep 1/xi, as lattices do.
+/// A cloud that is nearly a lattice has few kinds of neighbours, and its calibration changes the
+/// power by up to 0.8.
 TEST(SurfaceCorrection, ShortBondsOfUnbreakableCloudsAreStiffest) {
   for (const int dim : {2, 3}) {
     const int count = dim == 2 ? 20 : 8;
