@@ -158,6 +158,12 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.gripped = std::move(prescription.gripped);
   model.unknowns =
       number_unknowns(model.network.width(), prescription.held, std::move(prescription.value));
+  if (model.unknowns.count == 0) {
+    throw InputError(
+        input.where(input.displacements.empty() ? "supports" : "displacements"),
+        "every displacement of every particle is prescribed, which leaves nothing to solve",
+        "prescribe those of fewer particles; the surface of the body is region = \"surface\"");
+  }
 }
 
 }  // namespace perilink

@@ -33,6 +33,11 @@ double continuum_modulus(const NetworkInput& input, double micromodulus) {
   return std::numbers::pi / 3.0 * micromodulus * input.thickness * std::pow(delta, 3);
 }
 
+bool can_break(const NetworkInput& input) {
+  return std::any_of(input.materials.begin(), input.materials.end(),
+                     [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); });
+}
+
 class Correction {
  public:
   Correction(const Body& body, const NetworkInput& input, Network& network)
@@ -68,7 +73,8 @@ void Correction::fade_at_horizon() {
 }
 
 /// Stiffnesses like 1/xi^(d+1): bonds of each length carry the same part of the energy inside the
-/// body, and a wave is felt too soft by half as much as with 1/xi (docs/theory/calibration.md).
+/// body, and a wave is felt too soft by about half as much as with 1/xi. Cracks would be held back
+/// by the shortest bonds (docs/theory/calibration.md).
 void Correction::favor_short_bonds() {
   for (Index b = 0; b < network_.bonds.size(); ++b) {
     const double part = std::pow(input_.horizon / network_.bonds.lengths[b], network_.dim());
@@ -178,7 +184,7 @@ void Correction::calibrate() {
   if (on_lattice()) {
     families.emplace(body_, input_);
     take_bulk_families(*families);
-  } else {
+  } else if (!can_break(input_)) {
     favor_short_bonds();
   }
   const LatticeFamilies* family = families ? &*families : nullptr;

@@ -11,6 +11,7 @@
 
 #include "io/case_lattice.hpp"
 #include "io/case_sections.hpp"
+#include "io/case_schema.hpp"
 #include "io/case_words.hpp"
 
 namespace perilink {
@@ -215,7 +216,11 @@ double read_fracture_energy(const CaseTable& table) {
           fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
           fmt::format("write the number without quotes: {} = {}", key, value->text));
     }
-    table.choice(key, {"infinite"});
+    if (value->text != "infinite") {
+      table.refuse(key,
+                   fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
+                   "write numbers without quotes and units. " + suggest(value->text, {"infinite"}));
+    }
     return std::numeric_limits<double>::infinity();
   }
   if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {

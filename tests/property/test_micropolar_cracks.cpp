@@ -18,7 +18,7 @@ namespace {
 std::string pulled_plate(double poissons_ratio) {
   return R"([body]
 mesh = "full_plate_with_hole.msh"
-horizon_ratio = 2.5
+horizon_ratio = 3
 model = "micropolar"
 
 [[regions]]
@@ -68,8 +68,7 @@ TEST_P(PulledPlate, BreaksAcrossTheHoleOnly) {
   const CaseFile input =
       parse_case(pulled_plate(GetParam()), PERILINK_SOURCE_DIR "/meshes/plate.toml");
   const Model model = build_model(input);
-  const CalibrationReport& calibration = *model.network.calibration;
-  ASSERT_GT(calibration.largest_weight, 5.0 * calibration.smallest_weight);
+  ASSERT_LT(model.network.calibration->smallest_weight, 0.1);
   Recorder recorder;
   const DamageResult result =
       run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
@@ -77,7 +76,7 @@ TEST_P(PulledPlate, BreaksAcrossTheHoleOnly) {
   const auto peak =
       std::max_element(recorder.rows.begin(), recorder.rows.end(),
                        [](const StepRecord& a, const StepRecord& b) { return a.load < b.load; });
-  ASSERT_GT(recorder.rows.size(), 100U);
+  ASSERT_GT(peak->step, 10);
   ASSERT_LT(recorder.rows.back().load, 0.3 * peak->load);
   const Bonds& bonds = model.network.bonds;
   for (const StepRecord& row : recorder.rows) {
