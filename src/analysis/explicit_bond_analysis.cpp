@@ -197,6 +197,7 @@ class BondRun {
     }
     record_.energy = {all.kinetic, all.stored, 0.0, all.damping, all.fractured, all.external_work};
     check_growth(step);
+    guarded([&] { stop_on_request(); });
     if (!is_row(step) && !done_) return;
     record_.step = step;
     record_.time = step * dt_;
@@ -208,19 +209,26 @@ class BondRun {
     result_.last = record_;
     largest_surplus_ = std::max(largest_surplus_, std::abs(record_.energy.surplus()));
     result_.largest_surplus = largest_surplus_ / std::max(supplied_, smallest_);
-    tell_observer();
-    if (!done_ && stop_requested_) {
-      result_.ending = Ending::interrupted;
-      result_.reason = "interrupted";
-      done_ = true;
-    }
+    const bool last = done_ || step == steps_;
+    guarded([&] {
+      const BondRunState state{network_, motion_, *bonds_};
+      observer_.on_row(record_, state);
+      if (last) observer_.on_end(record_, state);
+    });
+  }
+
+  void stop_on_request() {
+    if (done_ || !observer_.stop_requested()) return;
+    result_.ending = Ending::interrupted;
+    result_.reason = "interrupted";
+    done_ = true;
   }
 
   /// Exceptions must not leave a parallel region: the run ends and run() throws them again.
-  void tell_observer() {
+  template <class Action>
+  void guarded(const Action& action) {
     try {
-      observer_.on_row(record_, {network_, motion_, *bonds_});
-      stop_requested_ = observer_.stop_requested();
+      action();
     } catch (...) {
       failure_ = std::current_exception();
       done_ = true;
@@ -260,7 +268,7 @@ class BondRun {
   double dt_ = 0.0, rate_ = 0.0, keep_ = 1.0, lose_ = 1.0;
   double supplied_ = 0.0, largest_surplus_ = 0.0;
   Index steps_ = 0, between_rows_ = 1;
-  bool done_ = false, stop_requested_ = false;
+  bool done_ = false;
   std::exception_ptr failure_;
 };
 

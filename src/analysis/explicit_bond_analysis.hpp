@@ -20,6 +20,9 @@ class BondRunObserver {
  public:
   virtual ~BondRunObserver() = default;
   virtual void on_row(const ExplicitRecord& record, const BondRunState& state) = 0;
+  /// Once, after the last row.
+  virtual void on_end(const ExplicitRecord& /*last*/, const BondRunState& /*state*/) {}
+  /// Asked before every row and every few hundred steps; after a yes comes one more row.
   virtual bool stop_requested() { return false; }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/bond_run.hpp"
 #include "app/calibration_text.hpp"
 #include "app/commands.hpp"
 #include "app/configure.hpp"
@@ -197,9 +198,39 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
 
 }  // namespace
 
+namespace {
+
+/// Rough rate of one core, for estimates only: meshes/notched_beam.toml.
+constexpr double bond_steps_per_second = 150e6;
+
+int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
+  const Timer timer;
+  const Model model = build_model_visibly(input, false);
+  const BondRunCase built = build_bond_run(input, model, 1);
+  const double set_up = timer.seconds();
+  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_sizes(model);
+  fmt::print("#   fundamental period {:.6g}\n", built.fundamental_period);
+  fmt::print("#   critical time step {:.6g}\n", built.inertia.critical_time_step());
+  fmt::print("#   time step          {:.6g}\n", built.options.time_step);
+  fmt::print("#   steps              {}, about {} rows of history\n", built.steps,
+             std::min<Index>(built.steps, built.options.rows));
+  const double run =
+      static_cast<double>(model.network.num_elements()) * built.steps / bond_steps_per_second;
+  fmt::print("# expected cost of a run\n");
+  fmt::print("#   set-up             {} (as it took now)\n", time_text(set_up));
+  fmt::print("#   run                about {} on one core\n", time_text(set_up + run));
+  return exit_done;
+}
+
+}  // namespace
+
 int check_case(const std::string& case_path) {
   const CaseFile input = read_case_file(case_path);
-  if (input.analysis.type == "explicit") return check_explicit(case_path, input);
+  if (input.analysis.type == "explicit") {
+    return input.body.model == "lattice" ? check_explicit(case_path, input)
+                                         : check_moving_bonds(case_path, input);
+  }
   const Timer timer;
   const Model model = build_model_visibly(input, false);
   const double set_up = timer.seconds();

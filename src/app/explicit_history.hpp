@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,21 +10,28 @@
 
 namespace perilink {
 
+/// What a history counts as cracked.
+enum class CrackCount { cracked_particles, broken_bonds };
+
 /// Columns of the history of an explicit analysis.
-std::vector<std::string> explicit_history_columns();
+std::vector<std::string> explicit_history_columns(CrackCount count);
 
 /// Writes DIR/history.csv, which depends on nothing but the case, and DIR/timing.csv with the wall
 /// time of each row; like HistoryFile for explicit analyses.
 class ExplicitHistory {
  public:
   /// \throws FileError
-  explicit ExplicitHistory(const std::string& directory);
+  /// \param gauges  names of further columns
+  ExplicitHistory(const std::string& directory, CrackCount count,
+                  const std::vector<std::string>& gauges = {});
 
-  void append(const ExplicitRecord& record);
+  /// \param gauges  values of the further columns
+  void append(const ExplicitRecord& record, std::span<const double> gauges = {});
   /// \throws FileError
   void flush();
 
  private:
+  CrackCount count_;
   CsvWriter history_;
   CsvWriter timing_;
   Timer since_row_;

@@ -22,7 +22,7 @@ ExplicitRunObserver::ExplicitRunObserver(const CaseFile& input, const ExplicitCa
     : input_(input),
       built_(built),
       directory_(std::move(directory)),
-      history_(directory_.string()),
+      history_(directory_.string(), CrackCount::cracked_particles),
       bar_(quiet) {}
 
 void ExplicitRunObserver::write_fields(const ExplicitRecord& record, const ExplicitState& state) {

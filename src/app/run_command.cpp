@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "app/bond_run.hpp"
 #include "app/commands.hpp"
 #include "app/configure.hpp"
 #include "app/explicit_case.hpp"
@@ -102,6 +103,51 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
   return exit_status_of(result.ending);
 }
 
+/// Bonds that move instead of going from equilibrium to equilibrium.
+int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs::path& directory,
+                     int threads) {
+  Timer timer;
+  const Model model = build_model_visibly(input, options.quiet);
+  BondRunCase built = build_bond_run(input, model, threads);
+  built.options.threads = threads;
+  prepare_result_directory(directory, options.force);
+  catch_stop_signals();
+  write_resolved_case(directory, seen_from(input, directory));
+  const auto log = open_log(directory);
+  log->info("{} : {} particles, {}, {} steps of {:.4g} (critical {:.4g}), {} threads", input.path,
+            model.network.particles.size(), elements_text(model), built.steps,
+            built.options.time_step, built.inertia.critical_time_step(), threads);
+  for (const std::string& note : model.notes) log->info("note: {}", note);
+
+  PhaseSeconds seconds;
+  seconds.set_up = timer.seconds();
+  timer.restart();
+  BondRunFiles files(input, model, built, directory, options.quiet);
+  ExplicitResult result;
+  try {
+    result = run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference,
+                                built.inertia, input.analysis.damping_rate, built.options, files);
+    files.finish();
+  } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
+    result.ending = Ending::failed;
+    result.reason = error.what();
+  }
+  if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
+  seconds.output = files.seconds_writing();
+  seconds.analysis = timer.seconds() - seconds.output;
+  try {
+    write_summary(directory, input, model, built, result, files, seconds, threads);
+  } catch (const FileError& error) {
+    fmt::print(stderr, "perilink: {}\n", error.what());
+    result.ending = Ending::failed;
+  }
+  log->info("{}: {}; {} steps, {} broken bonds, energy to {:.2e} of the work",
+            to_string(result.ending), result.reason, result.steps, result.last.broken_bonds,
+            result.largest_surplus);
+  if (!options.quiet) print_summary(directory, input, model, result, files, seconds);
+  return exit_status_of(result.ending);
+}
+
 }  // namespace
 
 int run_case(const RunOptions& options) {
@@ -115,7 +161,10 @@ int run_case(const RunOptions& options) {
                                                : default_result_directory(options.case_path);
   refuse_own_case(directory, options.case_path);
   refuse_old_results(directory, options.force);  // at once: the model may take minutes
-  if (input.analysis.type == "explicit") return run_explicit(options, input, directory, threads);
+  if (input.analysis.type == "explicit") {
+    return input.body.model == "lattice" ? run_explicit(options, input, directory, threads)
+                                         : run_moving_bonds(options, input, directory, threads);
+  }
   Model model = build_model_visibly(input, options.quiet);
   prepare_result_directory(directory, options.force);
   catch_stop_signals();

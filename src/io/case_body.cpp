@@ -289,6 +289,7 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
   refuse_lattice_material_keys(table);
   material.poissons_ratio = read_poissons_ratio(table, body);
   material.fracture_energy = read_fracture_energy(table);
+  material.density = table.positive("density");
   return material;
 }
 

@@ -70,6 +70,7 @@ struct MaterialSection {
   std::optional<double> poissons_ratio;  ///< of micropolar bonds; of others only to be refused with
                                          ///< an explanation, or confirmed
   double fracture_energy = 0.0;          ///< infinity: unbreakable ("infinite" in the file)
+  std::optional<double> density;         ///< of bonds in explicit analyses [mass/length^3]
   std::optional<LatticeMaterialSection> lattice;  ///< of bodies with model = lattice
 };
 
@@ -161,6 +162,8 @@ struct AnalysisSection {
   std::optional<double> time_step;           ///< [time]
   double safety = 0.9;                       ///< of the critical time step, without time_step
   int rows = 500;                            ///< of the history, about
+  double damping_rate = 0.0;                 ///< of bonds [1/time]
+  std::string masses = "volume";             ///< of bonds: volume | uniform
 };
 
 /// [stop]: the run ends at the first rule met (always at collapse).

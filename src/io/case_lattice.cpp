@@ -16,22 +16,18 @@ namespace {
 
 constexpr int most_rows = 1000000;
 constexpr std::array body_keys = {"rotation", "offset", "variant"};
-constexpr std::array material_keys = {"density",
-                                      "tensile_strength",
-                                      "critical_opening",
-                                      "knee_stress_ratio",
-                                      "knee_opening_ratio",
-                                      "compression_ratio",
-                                      "compression_threshold",
-                                      "boundary_factor",
-                                      "internal_damping",
-                                      "external_damping",
-                                      "fundamental_period"};
+constexpr std::array material_keys = {
+    "tensile_strength",  "critical_opening",      "knee_stress_ratio", "knee_opening_ratio",
+    "compression_ratio", "compression_threshold", "boundary_factor",   "internal_damping",
+    "external_damping",  "fundamental_period"};
 /// Of these, what an unbreakable material has no use for.
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
                                        "compression_threshold", "boundary_factor"};
-constexpr std::array explicit_keys = {"duration", "ramp_time", "time_step", "safety", "rows"};
+constexpr std::array explicit_keys = {"duration", "ramp_time",    "time_step", "safety",
+                                      "rows",     "damping_rate", "masses"};
+/// Of these and the other keys of [analysis], what only bonds have.
+constexpr std::array bond_keys = {"damping_rate", "masses", "rigid_body_modes"};
 
 /// A number above zero and below one.
 std::optional<double> proper_fraction(const CaseTable& table, const std::string& key) {
@@ -97,7 +93,8 @@ void check_output(const CaseFile& input, bool is_explicit) {
   }
   for (const char* key : {"output.fields_at", "output.fields_every"}) {
     if (input.lines.count(key) == 0) continue;
-    throw InputError(input.where(key), "counts broken bonds, of which a lattice body has none",
+    throw InputError(input.where(key),
+                     "counts broken bonds, but an explicit analysis writes fields at times",
                      "give `fields_times`");
   }
   for (const double time : output.fields_times) {
@@ -114,6 +111,30 @@ void check_stop(const CaseFile& input) {
   if (!stop.broken_bonds && !stop.load_fraction && !stop.displacement) return;
   throw InputError(input.where("stop"), "is given, but an explicit analysis ends by its duration",
                    "delete it, and give analysis.duration");
+}
+
+/// What explicit runs of bonds need.
+void check_explicit_bonds(const CaseFile& input) {
+  if (input.body.method == "linear_elements") {
+    throw InputError(input.where("analysis.type"),
+                     "is \"explicit\", but linear elements have no masses",
+                     "set method = \"bonds\" in [body], or type = \"elastic\"");
+  }
+  for (std::size_t i = 0; i < input.materials.size(); ++i) {
+    if (input.materials[i].density) continue;
+    throw InputError(input.where(item_key("materials", i)),
+                     "has no density, which resists the motion of an explicit analysis",
+                     "give `density`, mass per volume");
+  }
+}
+
+void refuse_bond_keys(const CaseFile& input) {
+  for (const char* key : bond_keys) {
+    const std::string path = std::string("analysis.") + key;
+    if (input.lines.count(path) == 0) continue;
+    throw InputError(input.where(path), "is given, but lattice particles do not have it",
+                     "delete it; damping of lattices is a matter of [[materials]]");
+  }
 }
 
 void refuse_surface_region(const CaseFile& input, const std::string& key,
@@ -207,7 +228,7 @@ void refuse_lattice_material_keys(const CaseTable& table) {
 }
 
 void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
-  for (const char* key : {"control", "load_factors", "rigid_body_modes", "factor"}) {
+  for (const char* key : {"control", "load_factors", "factor"}) {
     if (!table.has(key)) continue;
     table.refuse(key, "is given, but an explicit analysis goes through time and solves nothing",
                  "delete it; `duration` and `ramp_time` say how the body is loaded");
@@ -229,6 +250,9 @@ void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
         "give a number up to 1; 0.9 is the default");
   }
   assign(analysis.rows, table.integer("rows", 1, most_rows));
+  assign(analysis.damping_rate, not_negative(table, "damping_rate"));
+  assign(analysis.masses, table.choice("masses", {"volume", "uniform"}));
+  assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
 }
 
 void refuse_explicit_keys(const CaseTable& table, const AnalysisSection& analysis) {
@@ -264,7 +288,8 @@ void write_lattice_material(TomlWriter& out, const MaterialSection& material) {
   out.write("fundamental_period", section.fundamental_period);
 }
 
-void write_explicit_analysis(TomlWriter& out, const AnalysisSection& analysis) {
+void write_explicit_analysis(TomlWriter& out, const CaseFile& input) {
+  const AnalysisSection& analysis = input.analysis;
   out.write("duration", analysis.duration);
   out.write("ramp_time", analysis.ramp_time);
   if (analysis.time_step) {
@@ -273,6 +298,10 @@ void write_explicit_analysis(TomlWriter& out, const AnalysisSection& analysis) {
     out.write("safety", analysis.safety);
   }
   out.write("rows", analysis.rows);
+  if (is_lattice(input.body)) return;
+  out.write("damping_rate", analysis.damping_rate);
+  out.write("masses", analysis.masses);
+  out.write("rigid_body_modes", analysis.rigid_body_modes);
 }
 
 void check_lattice(const CaseFile& input) {
@@ -284,12 +313,12 @@ void check_lattice(const CaseFile& input) {
         fmt::format("is \"lattice\", but analysis.type is \"{}\"", input.analysis.type),
         "set type = \"explicit\" in [analysis], or take another model");
   }
-  if (!lattice && is_explicit) {
-    throw InputError(input.where("analysis.type"),
-                     fmt::format("is \"explicit\", but body.model is \"{}\"", input.body.model),
-                     "set model = \"lattice\" in [body], or take an implicit analysis");
+  if (is_explicit) check_stop(input);
+  if (!lattice) {
+    if (is_explicit) check_explicit_bonds(input);
+    return;
   }
-  if (!lattice) return;
+  refuse_bond_keys(input);
   if (input.materials.size() > 1) {
     throw InputError(input.where("materials[2]"),
                      "is a second material, but a body with model = \"lattice\" has one",
@@ -303,7 +332,6 @@ void check_lattice(const CaseFile& input) {
   refuse_table(input, "cracks", input.cracks);
   refuse_table(input, "rebar", input.rebar);
   refuse_table(input, "gauges", input.gauges);
-  check_stop(input);
   for (std::size_t i = 0; i < input.supports.size(); ++i) {
     refuse_surface_region(input, item_key("supports", i, "region"), input.supports[i].region);
   }

@@ -31,7 +31,7 @@ void refuse_explicit_keys(const CaseTable& table, const AnalysisSection& analysi
 
 void write_lattice_body(TomlWriter& out, const BodySection& body);
 void write_lattice_material(TomlWriter& out, const MaterialSection& material);
-void write_explicit_analysis(TomlWriter& out, const AnalysisSection& analysis);
+void write_explicit_analysis(TomlWriter& out, const CaseFile& input);
 
 /// Refuses what lattice bodies and explicit analyses cannot be combined with.
 void check_lattice(const CaseFile& input);

@@ -125,7 +125,7 @@ const std::vector<TableSchema>& case_schema() {
       {"analysis",
        false,
        {"type", "control", "load_factors", "rigid_body_modes", "factor", "duration", "ramp_time",
-        "time_step", "safety", "rows"}},
+        "time_step", "safety", "rows", "damping_rate", "masses"}},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}},
       {"output", false, {"fields_at", "fields_every", "fields_times"}},
   };

@@ -61,7 +61,11 @@ void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
     } else if (material.fracture_energy > 0.0) {
       out.write("fracture_energy", material.fracture_energy);
     }
-    if (material.lattice) write_lattice_material(out, material);
+    if (material.lattice) {
+      write_lattice_material(out, material);
+    } else {
+      out.write("density", material.density);
+    }
   }
 }
 
@@ -143,7 +147,7 @@ void write_run(TomlWriter& out, const CaseFile& input) {
   out.header("[analysis]");
   out.write("type", input.analysis.type);
   if (input.analysis.type == "explicit") {
-    write_explicit_analysis(out, input.analysis);
+    write_explicit_analysis(out, input);
     out.header("[output]");
     out.write("fields_times", input.output.fields_times);
     return;

@@ -20,9 +20,11 @@ class Recorder final : public BondRunObserver {
     motion = state.motion;
     secants = state.bonds.secants();
   }
+  void on_end(const ExplicitRecord&, const BondRunState&) override { ++ends; }
   bool stop_requested() override { return stop_after > 0 && rows.size() >= stop_after; }
 
   std::size_t stop_after = 0;
+  int ends = 0;
   std::vector<ExplicitRecord> rows;
   BondMotion motion;
   std::vector<double> secants;
@@ -184,7 +186,8 @@ TEST(ExplicitBondAnalysis, StopsWhenAsked) {
   options.rows = 10;
   const Outcome outcome = run(body, options, 0.0, 3);
   EXPECT_EQ(outcome.result.ending, Ending::interrupted);
-  EXPECT_EQ(outcome.recorder.rows.size(), 3U);
+  EXPECT_EQ(outcome.recorder.rows.size(), 4U) << "asked before a row, which is the last";
+  EXPECT_EQ(outcome.recorder.ends, 1);
 }
 
 }  // namespace

@@ -27,11 +27,11 @@ ExplicitRecord make_record() {
 TEST(ExplicitHistory, WritesEveryColumnOfARow) {
   const test::TemporaryDirectory work;
   {
-    ExplicitHistory history(work.path().string());
+    ExplicitHistory history(work.path().string(), CrackCount::cracked_particles);
     history.append(make_record());
   }
   const CsvTable table = read_csv((work / "history.csv").string());
-  EXPECT_EQ(table.columns, explicit_history_columns());
+  EXPECT_EQ(table.columns, explicit_history_columns(CrackCount::cracked_particles));
   EXPECT_EQ(table.columns, (std::vector<std::string>{
                                "step", "time", "load_factor", "load", "reaction", "displacement",
                                "cracked_particles", "kinetic_energy", "strain_energy",
@@ -43,7 +43,7 @@ TEST(ExplicitHistory, WritesEveryColumnOfARow) {
 
 TEST(ExplicitHistory, KeepsTheClockInAFileOfItsOwn) {
   const test::TemporaryDirectory work;
-  ExplicitHistory history(work.path().string());
+  ExplicitHistory history(work.path().string(), CrackCount::cracked_particles);
   history.append(make_record());
   history.flush();
   const CsvTable timing = read_csv((work / "timing.csv").string());
@@ -55,7 +55,7 @@ TEST(ExplicitHistory, KeepsTheClockInAFileOfItsOwn) {
 
 TEST(ExplicitHistory, OfADirectoryThatIsNotThereIsRefused) {
   const test::TemporaryDirectory work;
-  EXPECT_THROW(ExplicitHistory((work / "nowhere").string()), FileError);
+  EXPECT_THROW(ExplicitHistory((work / "nowhere").string(), CrackCount::broken_bonds), FileError);
 }
 
 }  // namespace

@@ -191,8 +191,8 @@ TEST(CaseLattice, RefusesMaterials) {
                     in_space,
                     {"materials[1].fracture_energy", "lattices in space are elastic"}}});
   expect_refusals(small_case, {{"fracture_energy",
-                                "density = 1\nfracture_energy",
-                                {"materials[1].density", "model = \"lattice\""}}});
+                                "tensile_strength = 1\nfracture_energy",
+                                {"materials[1].tensile_strength", "model = \"lattice\""}}});
 }
 
 TEST(CaseLattice, RefusesAnalyses) {
@@ -209,6 +209,8 @@ TEST(CaseLattice, RefusesAnalyses) {
        {"time_step", "load_factors = [1]\ntime_step", {"analysis.load_factors"}},
        {"time_step", "rigid_body_modes = \"pin\"\ntime_step", {"analysis.rigid_body_modes"}},
        {"time_step", "factor = \"in_place\"\ntime_step", {"analysis.factor"}},
+       {"time_step", "damping_rate = 1\ntime_step", {"analysis.damping_rate", "lattice"}},
+       {"time_step", "masses = \"uniform\"\ntime_step", {"analysis.masses", "lattice"}},
        {"fields_times = [0.5, 4]", "fields_times = [2, 1]", {"has 1 after 2"}},
        {"fields_times = [0.5, 4]", "fields_times = [0]", {"has 0 after 0"}},
        {"fields_times = [0.5, 4]", "fields_at = [1]", {"output.fields_at", "counts broken bonds"}},
@@ -220,9 +222,9 @@ TEST(CaseLattice, RefusesAnalyses) {
                              {"body.model", "analysis.type is \"elastic\""}}});
   const std::string explicit_bonds =
       std::string(small_case) + "[analysis]\ntype = \"explicit\"\nduration = 1\n";
-  EXPECT_THAT(message_of(explicit_bonds), HasSubstr("body.model is \"bond_based\""));
-  for (const char* key :
-       {"duration = 1", "ramp_time = 1", "time_step = 1", "safety = 1", "rows = 1"}) {
+  EXPECT_THAT(message_of(explicit_bonds), HasSubstr("has no density"));
+  for (const char* key : {"duration = 1", "ramp_time = 1", "time_step = 1", "safety = 1",
+                          "rows = 1", "damping_rate = 1", "masses = \"uniform\""}) {
     EXPECT_THAT(message_of(std::string(small_case) + "[analysis]\n" + key + "\n"),
                 HasSubstr("type is \"damage\""));
   }

@@ -1,0 +1,213 @@
+#include "app/bond_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "analysis/fundamental_period.hpp"
+#include "app/field_file.hpp"
+#include "app/gauges.hpp"
+#include "app/signals.hpp"
+#include "base/build_info.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double most_steps = 2e9;  ///< steps have 32-bit numbers
+/// By this part of itself the time of a step may fall short of the time that it stands for.
+constexpr double round_off = 1e-9;
+
+std::vector<double> densities(const CaseFile& input) {
+  std::vector<double> density;
+  for (const MaterialSection& material : input.materials) density.push_back(*material.density);
+  return density;
+}
+
+void choose_steps(const CaseFile& input, const Model& model, BondRunCase& built) {
+  const AnalysisSection& analysis = input.analysis;
+  const double critical = built.inertia.critical_time_step();
+  const double step = analysis.time_step.value_or(analysis.safety * critical);
+  if (step > critical) {
+    throw InputError(
+        input.where("analysis.time_step"),
+        fmt::format("is {:.6g}, larger than the critical time step {:.6g}", step, critical),
+        "take less, or leave it out: `safety` takes a part of the critical one");
+  }
+  const double steps = std::ceil(analysis.duration / step);
+  if (!(steps <= most_steps)) {
+    throw InputError(input.where("analysis.duration"),
+                     fmt::format("takes {:.1e} steps of {:.4g}", steps, step),
+                     fmt::format("at most {:.0e} are possible", most_steps));
+  }
+  built.steps = static_cast<Index>(steps);
+  built.options.duration = analysis.duration;
+  built.options.ramp = analysis.ramp_time;
+  built.options.time_step = step;
+  built.options.rows = analysis.rows;
+  built.options.reference = model.reference.value;
+}
+
+/// Fields and gauges take displacements as they are: the load factor is in them.
+StepState present_state(const BondRunState& state, const std::vector<double>& secants) {
+  return {state.network, secants, state.motion.displacement};
+}
+
+}  // namespace
+
+BondRunCase build_bond_run(const CaseFile& input, const Model& model, int threads) {
+  BondRunCase built;
+  const bool uniform = input.analysis.masses == "uniform";
+  built.inertia = lumped_inertia(model.network, densities(input),
+                                 uniform ? MassScaling::uniform : MassScaling::none);
+  choose_steps(input, model, built);
+  built.fundamental_period =
+      fundamental_period(model.network, model.unknowns, built.inertia, threads);
+  return built;
+}
+
+BondRunFiles::BondRunFiles(const CaseFile& input, const Model& model, const BondRunCase& built,
+                           std::filesystem::path directory, bool quiet)
+    : input_(input),
+      model_(model),
+      built_(built),
+      directory_(std::move(directory)),
+      history_(directory_.string(), CrackCount::broken_bonds, names_of(model.gauges)),
+      bar_(quiet),
+      families_(bonds_of_particles(model.network.bonds, model.network.particles.size())),
+      is_broken_(static_cast<std::size_t>(model.network.num_elements()), 0) {}
+
+void BondRunFiles::write_fields(const ExplicitRecord& record, const BondRunState& state) {
+  const std::string name = fmt::format("fields_{:06}.vtu", record.step);
+  if (!series_.empty() && series_.back().file == name) return;
+  const Timer timer;
+  const std::vector<double> secants = state.bonds.secants();
+  for (Index e = 0; e < model_.network.first_segment; ++e) {
+    if (secants[e] != 0.0 || is_broken_[e]) continue;
+    broken_.push_back(e);
+    is_broken_[e] = 1;
+  }
+  StepRecord at;  // with a load factor of one, since the displacements are those of this moment
+  at.step = record.step;
+  at.broken_bonds = record.broken_bonds;
+  at.load_factor = 1.0;
+  at.load = record.load;
+  VtuGrid grid = make_field_grid(model_.network, present_state(state, secants), at, broken_,
+                                 families_, model_.lattice.spacing);
+  for (auto& [key, value] : grid.field_data) {
+    if (key == "load_factor") value = record.load_factor;
+  }
+  grid.field_data.push_back({"time", record.time});
+  if (model_.network.dim() == 2) grid.field_data.push_back({"thickness", input_.body.thickness});
+  write_vtu((directory_ / name).string(), grid);
+  series_.push_back({record.time, name});
+  write_pvd((directory_ / "fields.pvd").string(), series_);
+  seconds_writing_ += timer.seconds();
+}
+
+void BondRunFiles::on_row(const ExplicitRecord& record, const BondRunState& state) {
+  std::vector<double> gauges;
+  if (!model_.gauges.empty()) {
+    const std::vector<double> secants = state.bonds.secants();
+    gauges = gauge_values(model_, present_state(state, secants), 1.0);
+  }
+  history_.append(record, gauges);
+  ++rows_;
+  if (std::abs(record.load) > std::abs(peak_load_)) {
+    peak_load_ = record.load;
+    peak_displacement_ = record.displacement;
+  }
+  const double now = record.time * (1.0 + round_off);
+  const std::vector<double>& times = input_.output.fields_times;
+  bool wanted = rows_ == 1;
+  for (; next_time_ < times.size() && times[next_time_] <= now; ++next_time_) wanted = true;
+  if (wanted) write_fields(record, state);
+  if (!bar_.is_due()) return;
+  bar_.draw(fmt::format("step {} of {}, load factor {:.4g}, {} broken bonds", record.step,
+                        built_.steps, record.load_factor, record.broken_bonds),
+            static_cast<double>(record.step) / built_.steps);
+}
+
+void BondRunFiles::on_end(const ExplicitRecord& last, const BondRunState& state) {
+  write_fields(last, state);
+}
+
+bool BondRunFiles::stop_requested() { return stop_signal_received(); }
+
+void BondRunFiles::finish() {
+  bar_.finish();
+  history_.flush();
+}
+
+void write_summary(const std::filesystem::path& directory, const CaseFile& input,
+                   const Model& model, const BondRunCase& built, const ExplicitResult& result,
+                   const BondRunFiles& files, const PhaseSeconds& seconds, int threads) {
+  const EnergyBalance& energy = result.last.energy;
+  nlohmann::ordered_json json;
+  json["title"] = input.title;
+  json["units"] = input.units;
+  json["status"] = to_string(result.ending);
+  json["reason"] = result.reason;
+  json["peak_load"] = files.peak_load();
+  json["peak_displacement"] = files.peak_displacement();
+  json["peak_reaction"] = result.peak_load;
+  json["steps"] = result.steps;
+  json["rows"] = files.rows();
+  json["time_step"] = result.time_step;
+  json["critical_time_step"] = result.critical_time_step;
+  json["fundamental_period"] = built.fundamental_period;
+  json["time"] = result.last.time;
+  json["broken_bonds"] = result.last.broken_bonds;
+  json["external_work"] = energy.external_work;
+  json["kinetic_energy"] = energy.kinetic;
+  json["strain_energy"] = energy.stored;
+  json["damped_energy"] = energy.external_damping;
+  json["dissipated_energy"] = energy.fractured;
+  json["energy_error"] = result.largest_surplus;
+  json["particles"] = model.network.particles.size();
+  json["bonds"] = model.network.first_segment;
+  json["spacing"] = model.lattice.spacing;
+  json["horizon"] = model.horizon;
+  json["notes"] = model.notes;
+  json["seconds"] = {
+      {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  json["threads"] = threads;
+  json["version"] = program_version();
+  json["commit"] = program_commit();
+  const std::filesystem::path path = directory / "summary.json";
+  std::ofstream file(path);
+  file << json.dump(2) << "\n";
+  file.close();
+  if (!file) throw FileError(fmt::format("{}: cannot be written", path.string()));
+}
+
+void print_summary(const std::filesystem::path& directory, const CaseFile& input,
+                   const Model& model, const ExplicitResult& result, const BondRunFiles& files,
+                   const PhaseSeconds& seconds) {
+  const EnergyBalance& energy = result.last.energy;
+  const double rate = seconds.analysis > 0.0
+                          ? 1.0 * model.network.num_elements() * result.steps / seconds.analysis
+                          : 0.0;
+  fmt::print("{}\n", input.title.empty() ? input.path : input.title);
+  fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
+  fmt::print("  {:<14} {:.6g} at displacement {:.6g}, reaction of supports {:.6g}{}\n", "peak load",
+             files.peak_load(), files.peak_displacement(), result.peak_load,
+             input.units.empty() ? "" : "  [" + input.units + "]");
+  fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
+             result.time_step, result.critical_time_step, files.rows());
+  fmt::print("  {:<14} {:.6g} work, {:.6g} dissipated by {} broken bonds, balance to {:.1e}\n",
+             "energy", energy.external_work, energy.fractured, result.last.broken_bonds,
+             result.largest_surplus);
+  fmt::print("  {:<14} {} particles, {}\n", "size", model.network.particles.size(),
+             elements_text(model));
+  fmt::print(
+      "  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} M bond-steps/s), output {:.2f} s\n",
+      "time", seconds.set_up, seconds.analysis, rate / 1e6, seconds.output);
+  fmt::print("  {:<14} {}\n", "results", directory.string());
+}
+
+}  // namespace perilink

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "analysis/explicit_bond_analysis.hpp"
+#include "app/configure.hpp"
+#include "app/explicit_history.hpp"
+#include "app/progress.hpp"
+#include "app/summary.hpp"
+#include "base/csr.hpp"
+#include "io/vtu.hpp"
+
+namespace perilink {
+
+/// What an explicit case of bonds adds to its model.
+struct BondRunCase {
+  Inertia inertia;
+  double fundamental_period = 0.0;  ///< of the intact body [time]
+  ExplicitOptions options;          ///< threads left at one
+  Index steps = 0;
+};
+
+/// Masses, period and steps of a case with type = "explicit" whose body has bonds.
+/// \throws InputError for a time step above the critical one, or too many steps
+BondRunCase build_bond_run(const CaseFile& input, const Model& model, int threads);
+
+/// Turns what happens in the run into files and progress: every row into the history, the states at
+/// the times that the case asks for (and the first and the last) into field files.
+class BondRunFiles final : public BondRunObserver {
+ public:
+  BondRunFiles(const CaseFile& input, const Model& model, const BondRunCase& built,
+               std::filesystem::path directory, bool quiet);
+
+  void on_row(const ExplicitRecord& record, const BondRunState& state) override;
+  void on_end(const ExplicitRecord& last, const BondRunState& state) override;
+  bool stop_requested() override;
+
+  /// Brings everything to the disk, ends the progress line.
+  void finish();
+  Index rows() const { return rows_; }
+  double peak_load() const { return peak_load_; }
+  double peak_displacement() const { return peak_displacement_; }
+  double seconds_writing() const { return seconds_writing_; }
+
+ private:
+  void write_fields(const ExplicitRecord& record, const BondRunState& state);
+
+  const CaseFile& input_;
+  const Model& model_;
+  const BondRunCase& built_;
+  std::filesystem::path directory_;
+  ExplicitHistory history_;
+  ProgressBar bar_;
+  Csr families_;
+  std::vector<Index> broken_;  ///< in the order of the rows, within a row in that of their numbers
+  std::vector<std::uint8_t> is_broken_;
+  Index rows_ = 0;
+  double peak_load_ = 0.0, peak_displacement_ = 0.0;
+  std::size_t next_time_ = 0;  ///< of the case's output.fields_times
+  std::vector<PvdEntry> series_;
+  double seconds_writing_ = 0.0;
+};
+
+/// Writes DIR/summary.json. \throws FileError
+void write_summary(const std::filesystem::path& directory, const CaseFile& input,
+                   const Model& model, const BondRunCase& built, const ExplicitResult& result,
+                   const BondRunFiles& files, const PhaseSeconds& seconds, int threads);
+
+/// The same for people, on standard output.
+void print_summary(const std::filesystem::path& directory, const CaseFile& input,
+                   const Model& model, const ExplicitResult& result, const BondRunFiles& files,
+                   const PhaseSeconds& seconds);
+
+}  // namespace perilink

@@ -1,0 +1,171 @@
+#include "app/bond_run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "io/csv.hpp"
+#include "io/vtu.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink {
+namespace {
+
+/// A block that is pulled until it breaks, with a gauge of its elongation.
+constexpr const char* pulled_block = R"([body]
+spacing = 0.1
+horizon_ratio = 3
+[[regions]]
+name = "block"
+x = [0, 1]
+y = [0, 1]
+[[regions]]
+name = "bottom"
+x = [0, 1]
+y = [0, 0]
+[[regions]]
+name = "top"
+x = [0, 1]
+y = [1, 1]
+[[materials]]
+region = "block"
+youngs_modulus = 30
+fracture_energy = 0.0001
+density = 2.5
+[[supports]]
+region = "bottom"
+fix = ["x", "y"]
+[[displacements]]
+region = "top"
+y = 0.05
+[[gauges]]
+name = "elongation"
+between = [[0.5, 0], [0.5, 1]]
+[analysis]
+type = "explicit"
+duration = 8
+damping_rate = 0.5
+rows = 40
+[output]
+fields_times = [4]
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+class BondRunTest : public testing::Test {
+ protected:
+  BondRunTest()
+      : input_(parse_case(pulled_block, "")),
+        model_(build_model(input_)),
+        built_(build_bond_run(input_, model_, 1)) {}
+
+  ExplicitResult run(BondRunFiles& files) {
+    ExplicitResult result =
+        run_explicit_bonds(model_.network, model_.unknowns, model_.loads, model_.reference,
+                           built_.inertia, input_.analysis.damping_rate, built_.options, files);
+    files.finish();
+    return result;
+  }
+
+  test::TemporaryDirectory work_;
+  CaseFile input_;
+  Model model_;
+  BondRunCase built_;
+};
+
+/// The slowest vibration of a block that is held below is about the shear wave four times its
+/// height long; a block as wide as high bends as well.
+TEST_F(BondRunTest, StepsAndPeriodFollowFromTheMaterial) {
+  const double shear_speed = std::sqrt(30.0 / (2.0 * (1.0 + 1.0 / 3.0)) / 2.5);
+  EXPECT_GT(built_.fundamental_period, 4.0 / shear_speed);
+  EXPECT_LT(built_.fundamental_period, 8.0 / shear_speed);
+  EXPECT_DOUBLE_EQ(built_.options.time_step, 0.9 * built_.inertia.critical_time_step());
+  EXPECT_EQ(built_.steps, static_cast<Index>(std::ceil(8.0 / built_.options.time_step)));
+  // A wave crosses a spacing in about a step.
+  const double wave = 0.1 / std::sqrt(30.0 / 2.5);
+  EXPECT_GT(built_.inertia.critical_time_step(), 0.3 * wave);
+  EXPECT_LT(built_.inertia.critical_time_step(), 2.0 * wave);
+}
+
+TEST_F(BondRunTest, UniformMassesAllowLongerSteps) {
+  const CaseFile uniform =
+      parse_case(replaced(pulled_block, "rows = 40", "masses = \"uniform\""), "");
+  EXPECT_GT(build_bond_run(uniform, model_, 1).inertia.critical_time_step(),
+            built_.inertia.critical_time_step());
+}
+
+TEST_F(BondRunTest, UnstableAndEndlessRunsAreRefused) {
+  const auto message = [&](const std::string& key) {
+    const CaseFile input = parse_case(replaced(pulled_block, "rows = 40", key), "");
+    try {
+      build_bond_run(input, model_, 1);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message("time_step = 1"), testing::HasSubstr("critical time step"));
+  EXPECT_THAT(message("time_step = 1e-12"), testing::HasSubstr("are possible"));
+}
+
+TEST_F(BondRunTest, HistoryHasARowForEveryRowAndTheGauge) {
+  BondRunFiles files(input_, model_, built_, work_.path(), true);
+  const ExplicitResult result = run(files);
+  EXPECT_EQ(result.ending, Ending::completed);
+  const CsvTable table = read_csv((work_ / "history.csv").string());
+  EXPECT_EQ(static_cast<Index>(table.rows.size()), files.rows());
+  const int broken = table.column("broken_bonds"), gauge = table.column("elongation");
+  const int displacement = table.column("displacement"), load = table.column("load");
+  ASSERT_GE(gauge, 0);
+  EXPECT_GT(table.rows.back()[broken], 0.0);
+  double peak = 0.0;
+  for (const auto& row : table.rows) {
+    EXPECT_NEAR(row[gauge], row[displacement], 1e-14) << "the top is driven, the bottom held";
+    peak = std::max(peak, std::abs(row[load]));
+  }
+  EXPECT_EQ(std::abs(files.peak_load()), peak);
+}
+
+TEST_F(BondRunTest, FieldsShowTheMomentTheyAreOf) {
+  BondRunFiles files(input_, model_, built_, work_.path(), true);
+  const ExplicitResult result = run(files);
+  const std::vector<PvdEntry> series = read_pvd((work_ / "fields.pvd").string());
+  ASSERT_EQ(series.size(), 3U) << "the first row, the time asked for, the last";
+  EXPECT_GE(series[1].time, 4.0 * (1.0 - 1e-9));
+  const VtuGrid last = read_vtu((work_ / series[2].file).string());
+  double largest = 0.0, damage = 0.0;
+  for (const VtuArray& data : last.point_data) {
+    for (const double value : data.values) {
+      if (data.name == "displacement") largest = std::max(largest, value);
+      if (data.name == "damage") damage = std::max(damage, value);
+    }
+  }
+  EXPECT_GE(largest, 0.05 * (1.0 - 1e-6)) << "as large as it is, not divided by a load factor";
+  EXPECT_GT(damage, 0.0);
+  EXPECT_GT(result.last.broken_bonds, 0);
+}
+
+TEST_F(BondRunTest, SummaryTellsHowItEnded) {
+  BondRunFiles files(input_, model_, built_, work_.path(), true);
+  const ExplicitResult result = run(files);
+  write_summary(work_.path(), input_, model_, built_, result, files, {}, 2);
+  std::ifstream file(work_ / "summary.json");
+  const nlohmann::json json = nlohmann::json::parse(file);
+  EXPECT_EQ(json["status"], "completed");
+  EXPECT_EQ(json["broken_bonds"], result.last.broken_bonds);
+  EXPECT_EQ(json["fundamental_period"], built_.fundamental_period);
+  EXPECT_EQ(json["bonds"], model_.network.num_elements());
+  EXPECT_LT(json["energy_error"], 1e-11) << "round-off of some hundred steps";
+  testing::internal::CaptureStdout();
+  print_summary(work_.path(), input_, model_, result, files, {});
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::HasSubstr("broken bonds"));
+}
+
+}  // namespace
+}  // namespace perilink
