@@ -16,7 +16,7 @@ struct ComparedQuantity {
   double b = std::numeric_limits<double>::quiet_NaN();
   double between = std::numeric_limits<double>::quiet_NaN();  ///< of what belongs to both
 
-  /// 100 (b − a) / |a|, 0 where both are zero.
+  /// 100 (b − a) / |a|, 0 where both are zero; not a number where a is none beside b.
   double difference_percent() const;
 };
 

@@ -127,6 +127,8 @@ TEST(Comparison, DifferencesAreRelativeToTheFirst) {
   EXPECT_EQ((ComparedQuantity{"", "", -4.0, -5.0}).difference_percent(), -25.0);
   EXPECT_EQ((ComparedQuantity{"", "", 0.0, 0.0}).difference_percent(), 0.0);
   EXPECT_TRUE(std::isnan((ComparedQuantity{"", "", 0.0, 1.0}).difference_percent()));
+  EXPECT_TRUE(std::isnan((ComparedQuantity{"", "", -1e-12, 1.0}).difference_percent()));
+  EXPECT_NEAR((ComparedQuantity{"", "", 1e-6, 1.0}).difference_percent(), 99999900.0, 1e-6);
   EXPECT_TRUE(std::isnan((ComparedQuantity{"", ""}).difference_percent()));
 }
 
