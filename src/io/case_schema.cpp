@@ -133,6 +133,10 @@ const std::vector<TableSchema>& case_schema() {
 }
 
 void check_against_schema(const TomlValue& document, const std::string& path) {
+  if (const TomlValue* vary = document.find("vary")) {
+    throw InputError({path, vary->line, "vary"}, "belongs to a study, and this is to be a case",
+                     fmt::format("run the study by `perilink converge {}`", path));
+  }
   check_against_schema(document, path, case_schema(), "case");
 }
 

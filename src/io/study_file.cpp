@@ -257,6 +257,10 @@ StudyFile parse_study(const std::string& text, const std::string& path) {
   const TomlValue root = parse_toml(text, path);
   const TomlValue* errors = root.find("error");
   const bool several = errors != nullptr && errors->kind == TomlValue::Kind::array;
+  if (const TomlValue* body = root.find("body")) {
+    throw InputError({path, body->line, "body"}, "belongs to a case, and this is to be a study",
+                     fmt::format("run the case by `perilink run {}`", path));
+  }
   check_against_schema(root, path, study_schema(several), "study");
 
   StudyFile study;
