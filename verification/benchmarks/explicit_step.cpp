@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "analysis/explicit_analysis.hpp"
+#include "analysis/explicit_bond_analysis.hpp"
+#include "assembly/network_builder.hpp"
+#include "assembly/unknowns.hpp"
+#include "base/timer.hpp"
+#include "discretization/lattice.hpp"
+
+using namespace perilink;
+
+/// Complete steps of explicit runs, forces to displacements with energies and reactions: lattices
+/// in the plane that cannot break, that could, and that do, and bonds with a horizon of three
+/// spacings. `explicit_step [THREADS]`
+namespace {
+
+constexpr double concrete = 25e9, density = 2323.0, spacing = 0.01;
+constexpr double updates = 6e7;  ///< particle-steps of one measurement
+constexpr int repeats = 3;       ///< of which the shortest counts: the machine may be shared
+
+enum class Damage { unbreakable, possible, everywhere };
+
+ExplicitModel square_lattice(double particles, Damage damage) {
+  LatticeCut cut;
+  cut.spacing = spacing;
+  const double side = std::sqrt(particles * 0.5 * std::sqrt(3.0)) * spacing;
+  cut.upper = {side, side, 0.0};
+  cut.inside = [](const Vector3&) { return true; };
+  LatticeMaterial material;
+  material.youngs_modulus = concrete;
+  material.poissons_ratio = 0.2;
+  material.density = density;
+  material.internal_damping = 0.2;
+  material.breakable = damage != Damage::unbreakable;
+  material.softening = {2.62e6, 0.25, 2e-5, 2e-4};
+  ExplicitModel model = make_explicit_model(Problem::plane_stress, LatticeRules::consistent,
+                                            hexagonal_rows(cut), material, 1.0);
+  // Everything moves: in proportion to y, below the strength or far beyond it.
+  const double strain = damage == Damage::everywhere ? 3e-4 : 3e-5;
+  std::vector<PrescribedMotion> motions;
+  for (const Index slot : model.lattice.particle_slot) {
+    const double y = model.lattice.positions[model.lattice.at(1, slot)];
+    if (y < spacing) motions.push_back({slot, 1, 0.0});
+    if (y > side - spacing) motions.push_back({slot, 1, strain * side});
+  }
+  prescribe(model, motions);
+  return model;
+}
+
+class Silent final : public ExplicitObserver {
+ public:
+  void on_row(const ExplicitRecord& /*record*/, const ExplicitState& /*state*/) override {}
+};
+
+class SilentBonds final : public BondRunObserver {
+ public:
+  void on_row(const ExplicitRecord& /*record*/, const BondRunState& /*state*/) override {}
+};
+
+ExplicitOptions options_of(double step, double steps, int threads) {
+  ExplicitOptions options;
+  options.time_step = 0.9 * step;
+  options.duration = steps * options.time_step;
+  options.ramp = options.duration;
+  options.rows = 10;
+  options.threads = threads;
+  return options;
+}
+
+/// Particle-steps per second.
+double rate_of_lattice(const ExplicitModel& model, int threads, Index& cracked) {
+  const double steps = std::max(20.0, updates / model.lattice.particles());
+  const ExplicitOptions options = options_of(critical_time_step(model), steps, threads);
+  double best = 0.0;
+  for (int k = 0; k < repeats; ++k) {
+    ExplicitState state(model);
+    Silent observer;
+    const Timer timer;
+    const ExplicitResult result = run_explicit_analysis(model, state, options, observer);
+    best = std::max(best, 1.0 * model.lattice.particles() * result.steps / timer.seconds());
+    cracked = result.last.cracked_particles;
+  }
+  return best;
+}
+
+Network square_of_bonds(double particles) {
+  LatticeInput input;
+  input.spacing = spacing;
+  input.horizon = 3.0 * spacing * (1.0 + 1e-9);
+  const double side = std::round(std::sqrt(particles)) * spacing;
+  input.solid = {{{0.0, 0.0, 0.0}, {side, side, 0.0}}};
+  input.material = {0};
+  NetworkInput constants;
+  constants.horizon = input.horizon;
+  constants.materials = {{concrete, 100.0}};
+  return build_network(make_body(input), constants);
+}
+
+/// Bond-steps per second of bonds that could break.
+double rate_of_bonds(const Network& network, int threads) {
+  const Inertia inertia = lumped_inertia(network, std::vector{density});
+  const int width = network.width();
+  std::vector<std::uint8_t> held(static_cast<std::size_t>(network.particles.size()) * width, 0);
+  held[0] = held[1] = 1;
+  const Unknowns unknowns = number_unknowns(width, held, std::vector<double>(held.size(), 0.0));
+  Loads loads;
+  loads.forces.assign(held.size(), 0.0);
+  loads.forces.back() = 1e-3;
+  const double steps = std::max(20.0, 5.0 * updates / network.num_elements());
+  const ExplicitOptions options = options_of(inertia.critical_time_step(), steps, threads);
+  double best = 0.0;
+  for (int k = 0; k < repeats; ++k) {
+    SilentBonds observer;
+    const Timer timer;
+    const ExplicitResult result = run_explicit_bonds(network, unknowns, loads, {false, 1e-3},
+                                                     inertia, 0.0, options, observer);
+    best = std::max(best, 1.0 * network.num_elements() * result.steps / timer.seconds());
+  }
+  return best;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const int threads = argc > 1 ? std::stoi(argv[1]) : 1;
+  fmt::print("threads {}\n{:<14}{:>12}{:>12}{:>16}\n", threads, "body", "particles", "cracked",
+             "M steps/s");
+  for (const double size : {600.0, 3e3, 1e5, 1e6}) {
+    for (const auto& [name, damage] :
+         {std::pair{"unbreakable", Damage::unbreakable}, std::pair{"uncracked", Damage::possible},
+          std::pair{"cracking", Damage::everywhere}}) {
+      const ExplicitModel model = square_lattice(size, damage);
+      Index cracked = 0;
+      const double rate = rate_of_lattice(model, threads, cracked);
+      fmt::print("{:<14}{:>12}{:>12}{:>16.1f}\n", name, model.lattice.particles(), cracked,
+                 rate / 1e6);
+      std::fflush(stdout);
+    }
+  }
+  fmt::print("{:<14}{:>12}{:>12}{:>16}\n", "bonds", "particles", "bonds", "M bond-steps/s");
+  for (const double size : {600.0, 3e3, 1e5}) {
+    const Network network = square_of_bonds(size);
+    fmt::print("{:<14}{:>12}{:>12}{:>16.1f}\n", "breakable", network.particles.size(),
+               network.num_elements(), rate_of_bonds(network, threads) / 1e6);
+    std::fflush(stdout);
+  }
+  return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "explicit_step: {}\n", error.what());
+  return 1;
+}
