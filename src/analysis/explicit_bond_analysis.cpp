@@ -180,7 +180,7 @@ class BondRun {
     record_.support_reaction = supports;
     if (std::abs(supports) > std::abs(result_.peak_load)) {
       result_.peak_load = supports;
-      result_.peak_displacement = factor * reference_.value;
+      result_.peak_displacement = reference_.driven ? factor * reference_.value : 0.0;
     }
   }
 

@@ -39,9 +39,11 @@ class BondRunObserver {
 /// the new velocity, the stored energy is u_(n-1)' K u_n / 2, and a bond that breaks at step n
 /// loses its own part of that.
 /// \param damping_rate  [1/time]
+/// \param options       `reference` is not looked at
 /// \throws std::invalid_argument where the time step exceeds the critical one (unless
 /// refuse_unstable is off) or the duration is not positive
-/// \returns ending = failed where energy grows from nothing
+/// \returns ending = failed where energy grows from nothing; peak_displacement is zero where loads
+/// drive the body
 ExplicitResult run_explicit_bonds(const Network& network, const Unknowns& unknowns,
                                   const Loads& loads, const ReferenceLoad& reference,
                                   const Inertia& inertia, double damping_rate,

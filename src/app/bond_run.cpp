@@ -27,7 +27,7 @@ std::vector<double> densities(const CaseFile& input) {
   return density;
 }
 
-void choose_steps(const CaseFile& input, const Model& model, BondRunCase& built) {
+void choose_steps(const CaseFile& input, BondRunCase& built) {
   const AnalysisSection& analysis = input.analysis;
   const double critical = built.inertia.critical_time_step();
   const double step = analysis.time_step.value_or(analysis.safety * critical);
@@ -48,7 +48,6 @@ void choose_steps(const CaseFile& input, const Model& model, BondRunCase& built)
   built.options.ramp = analysis.ramp_time;
   built.options.time_step = step;
   built.options.rows = analysis.rows;
-  built.options.reference = model.reference.value;
 }
 
 /// Fields and gauges take displacements as they are: the load factor is in them.
@@ -63,7 +62,7 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model, int thread
   const bool uniform = input.analysis.masses == "uniform";
   built.inertia = lumped_inertia(model.network, densities(input),
                                  uniform ? MassScaling::uniform : MassScaling::none);
-  choose_steps(input, model, built);
+  choose_steps(input, built);
   built.fundamental_period =
       fundamental_period(model.network, model.unknowns, built.inertia, threads);
   return built;

@@ -75,7 +75,6 @@ Outcome run_explicit(const Specimen& specimen, const Outcome& implicit, double s
   ExplicitOptions options;
   options.ramp = periods * period;
   options.duration = 1.25 * options.ramp;
-  options.reference = reference.value;
   options.rows = 1000;
   options.threads = threads;
   ExplicitRecorder recorder;
