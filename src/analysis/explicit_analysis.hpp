@@ -45,8 +45,8 @@ struct ExplicitRecord {
   double load = 0.0;              ///< of the driven particles, inertia included [force]
   double support_reaction = 0.0;  ///< along the load [force]
   double displacement = 0.0;      ///< of the driven particles [length]
-  Index cracked_particles = 0;  ///< of a lattice
-  Index broken_bonds = 0;       ///< of a network of bonds
+  Index cracked_particles = 0;    ///< of a lattice
+  Index broken_bonds = 0;         ///< of a network of bonds
   EnergyBalance energy;
 };
 

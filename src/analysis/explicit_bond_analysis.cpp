@@ -1,16 +1,13 @@
 #include "analysis/explicit_bond_analysis.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <stdexcept>
+
+#include "analysis/explicit_loop.hpp"
 
 namespace perilink {
 namespace {
 
-constexpr Index steps_between_checks = 200;
 /// Sums are made by blocks of particles, whose size depends on nothing else.
 constexpr Index particles_per_block = 256;
 constexpr Index blocks_per_thread = 4;
@@ -54,21 +51,12 @@ class BondRun {
         options_(options),
         observer_(observer),
         bonds_(make_explicit_bonds(network)),
-        component_(main_component(unknowns, loads)) {
-    if (options.duration <= 0.0) throw std::invalid_argument("the duration must be positive");
-    result_.critical_time_step = inertia.critical_time_step();
-    dt_ = options.time_step > 0.0 ? options.time_step : options.safety * result_.critical_time_step;
-    if (dt_ > result_.critical_time_step && options.refuse_unstable) {
-      throw std::invalid_argument(
-          fmt::format("the time step {:.4g} is larger than the critical one, {:.4g}; take less",
-                      dt_, result_.critical_time_step));
-    }
-    result_.time_step = dt_;
-    steps_ = static_cast<Index>(std::ceil(options.duration / dt_));
-    between_rows_ = std::max<Index>(1, steps_ / std::max(1, options.rows));
-    keep_ = 1.0 / (1.0 + 0.5 * dt_ * damping_rate);
-    lose_ = 1.0 - 0.5 * dt_ * damping_rate;
-    rate_ = damping_rate;
+        component_(main_component(unknowns, loads)),
+        loop_(options, inertia.critical_time_step()),
+        dt_(loop_.time_step()),
+        rate_(damping_rate),
+        keep_(1.0 / (1.0 + 0.5 * dt_ * damping_rate)),
+        lose_(1.0 - 0.5 * dt_ * damping_rate) {
     const std::size_t slots = unknowns.number.size();
     motion_.displacement.assign(slots, 0.0);
     motion_.velocity.assign(slots, 0.0);
@@ -77,20 +65,13 @@ class BondRun {
   }
 
   ExplicitResult run() {
-    result_.ending = Ending::completed;
-    result_.reason = "the whole duration";
     const auto blocks = static_cast<Index>(sums_.size());
     const int threads =
         std::min<Index>(options_.threads, std::max<Index>(1, blocks / blocks_per_thread));
-#pragma omp parallel num_threads(threads)
-    for (Index step = 0; step <= steps_ && !done_; ++step) one_step(step);
-    if (failure_) std::rethrow_exception(failure_);
-    return result_;
+    return loop_.run(threads, [this](Index step) { one_step(step); });
   }
 
  private:
-  double load_factor(Index step) const { return ramped_load_factor(step * dt_, options_.ramp); }
-  bool is_row(Index step) const { return step % between_rows_ == 0 || step == steps_; }
   Index begin(Index block) const { return block * particles_per_block; }
   Index end(Index block) const {
     return std::min(network_.particles.size(), begin(block) + particles_per_block);
@@ -99,15 +80,14 @@ class BondRun {
   /// Run by every thread; loops end in barriers.
   void one_step(Index step) {
     const auto blocks = static_cast<Index>(sums_.size());
-    const bool looked_at = is_row(step) || step % steps_between_checks == 0;
-    const double factor = load_factor(step), next = load_factor(step + 1);
+    const double factor = loop_.load_factor(step), next = loop_.load_factor(step + 1);
 #pragma omp for schedule(static)
     for (Index b = 0; b < blocks; ++b) {
       const BondLosses losses = bonds_->forces(begin(b), end(b), dt_, motion_, force_);
       sums_[b].fractured += losses.fractured;
       sums_[b].broken_halves += losses.broken_halves;
     }
-    if (looked_at) {
+    if (loop_.is_looked_at(step)) {
 #pragma omp for schedule(static)
       for (Index b = 0; b < blocks; ++b) measure(b);
 #pragma omp single
@@ -175,13 +155,10 @@ class BondRun {
       driven += block.driven;
       supports += block.supports;
     }
-    const double factor = load_factor(step);
+    const double factor = loop_.load_factor(step);
     record_.load = reference_.driven ? driven / reference_.value : factor * reference_.value;
     record_.support_reaction = supports;
-    if (std::abs(supports) > std::abs(result_.peak_load)) {
-      result_.peak_load = supports;
-      result_.peak_displacement = reference_.driven ? factor * reference_.value : 0.0;
-    }
+    loop_.note_reaction(supports, reference_.driven ? factor * reference_.value : 0.0);
   }
 
   void look(Index step) {
@@ -196,60 +173,13 @@ class BondRun {
       all.loaded += block.loaded;
     }
     record_.energy = {all.kinetic, all.stored, 0.0, all.damping, all.fractured, all.external_work};
-    check_growth(step);
-    guarded([&] { stop_on_request(); });
-    if (!is_row(step) && !done_) return;
-    record_.step = step;
-    record_.time = step * dt_;
-    record_.load_factor = load_factor(step);
-    record_.displacement =
-        reference_.driven ? record_.load_factor * reference_.value : all.loaded / reference_.value;
-    record_.broken_bonds = all.broken_halves / 2;
-    result_.steps = step;
-    result_.last = record_;
-    largest_surplus_ = std::max(largest_surplus_, std::abs(record_.energy.surplus()));
-    result_.largest_surplus = largest_surplus_ / std::max(supplied_, smallest_);
-    const bool last = done_ || step == steps_;
-    guarded([&] {
-      const BondRunState state{network_, motion_, *bonds_};
-      observer_.on_row(record_, state);
-      if (last) observer_.on_end(record_, state);
+    const BondRunState state{network_, motion_, *bonds_};
+    loop_.look(step, record_, observer_, state, [&](ExplicitRecord& record) {
+      record.displacement =
+          reference_.driven ? record.load_factor * reference_.value : all.loaded / reference_.value;
+      record.broken_bonds = all.broken_halves / 2;
     });
   }
-
-  void stop_on_request() {
-    if (done_ || !observer_.stop_requested()) return;
-    result_.ending = Ending::interrupted;
-    result_.reason = "interrupted";
-    done_ = true;
-  }
-
-  /// Exceptions must not leave a parallel region: the run ends and run() throws them again.
-  template <class Action>
-  void guarded(const Action& action) {
-    try {
-      action();
-    } catch (...) {
-      failure_ = std::current_exception();
-      done_ = true;
-    }
-  }
-
-  /// Only work from outside can raise kinetic and stored energy.
-  void check_growth(Index step) {
-    const EnergyBalance& energy = record_.energy;
-    const double held = energy.kinetic + energy.stored;
-    supplied_ = std::max(supplied_, std::abs(energy.external_work));
-    if (held <= 2.0 * supplied_ + smallest_) return;  // false for NaN
-    result_.ending = Ending::failed;
-    result_.reason = fmt::format(
-        "the motion grew out of nothing at step {} (energy {:.3g}, supplied {:.3g}): the time step "
-        "{:.4g} is too large; the critical one of the intact body is {:.4g}",
-        step, held, supplied_, dt_, result_.critical_time_step);
-    done_ = true;
-  }
-
-  static constexpr double smallest_ = 1e-290;  ///< keeps bodies at rest from dividing by zero
 
   const Network& network_;
   const Unknowns& unknowns_;
@@ -260,16 +190,12 @@ class BondRun {
   BondRunObserver& observer_;
   std::unique_ptr<ExplicitBonds> bonds_;
   int component_;
+  ExplicitLoop loop_;
+  double dt_, rate_, keep_, lose_;
   BondMotion motion_;
   std::vector<double> force_;  ///< K u
   std::vector<BlockSums> sums_;
-  ExplicitResult result_;
   ExplicitRecord record_;
-  double dt_ = 0.0, rate_ = 0.0, keep_ = 1.0, lose_ = 1.0;
-  double supplied_ = 0.0, largest_surplus_ = 0.0;
-  Index steps_ = 0, between_rows_ = 1;
-  bool done_ = false;
-  std::exception_ptr failure_;
 };
 
 }  // namespace

@@ -1,0 +1,122 @@
+#include "analysis/explicit_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace perilink {
+namespace {
+
+struct Nothing {};
+
+/// Counts what it is told of.
+struct Watcher {
+  void on_row(const ExplicitRecord& record, const Nothing&) {
+    if (throws) throw std::runtime_error("a full disk");
+    rows.push_back(record.step);
+  }
+  void on_end(const ExplicitRecord&, const Nothing&) { ++ends; }
+  bool stop_requested() { return stop_at >= 0 && now >= stop_at; }
+
+  std::vector<Index> rows;
+  int ends = 0;
+  Index now = 0, stop_at = -1;
+  bool throws = false;
+};
+
+/// Thousand steps of one with ten rows, energies from `energy`.
+template <class Energy>
+ExplicitResult run(Watcher& watcher, Energy energy, int rows = 10) {
+  ExplicitOptions options;
+  options.duration = 1000.0;
+  options.ramp = 500.0;
+  options.time_step = 1.0;
+  options.rows = rows;
+  ExplicitLoop loop(options, 2.0);
+  ExplicitRecord record;
+  return loop.run(1, [&](Index step) {
+    loop.note_reaction(step <= 300 ? step : 0.0, 0.5 * step);
+    if (!loop.is_looked_at(step)) return;
+    watcher.now = step;
+    record.energy = energy(step);
+    loop.look(step, record, watcher, Nothing{}, [](ExplicitRecord&) {});
+  });
+}
+
+EnergyBalance balanced(Index step) {
+  EnergyBalance energy;
+  energy.stored = energy.external_work = 1.0 * step;
+  return energy;
+}
+
+TEST(ExplicitLoop, RowsAreEvenAndTheLastStepIsOne) {
+  Watcher watcher;
+  const ExplicitResult result = run(watcher, balanced);
+  EXPECT_EQ(watcher.rows,
+            (std::vector<Index>{0, 100, 200, 300, 400, 500, 600, 700, 800, 900, 1000}));
+  EXPECT_EQ(watcher.ends, 1);
+  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.steps, 1000);
+  EXPECT_EQ(result.last.load_factor, 1.0);
+  EXPECT_EQ(result.peak_load, 300.0);
+  EXPECT_EQ(result.peak_displacement, 150.0);
+  EXPECT_EQ(result.largest_surplus, 0.0);
+}
+
+TEST(ExplicitLoop, LargestSurplusIsOverTheWork) {
+  Watcher watcher;
+  const ExplicitResult result = run(watcher, [](Index step) {
+    EnergyBalance energy = balanced(step);
+    energy.stored += step == 500 ? 4.0 : 1.0;  // two thousandths and less of the work at the end
+    return energy;
+  });
+  EXPECT_DOUBLE_EQ(result.largest_surplus, 4.0 / 1001.0) << "one is there at the beginning";
+}
+
+TEST(ExplicitLoop, EnergyOutOfNothingEndsTheRun) {
+  Watcher watcher;
+  const ExplicitResult result = run(
+      watcher,
+      [](Index step) {
+        EnergyBalance energy = balanced(step);
+        if (step >= 300) energy.kinetic = NAN;
+        return energy;
+      },
+      1);
+  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_NE(result.reason.find("grew out of nothing at step 400"), std::string::npos)
+      << "looked at every 200 steps: " << result.reason;
+  EXPECT_EQ(watcher.rows.back(), 400);
+  EXPECT_EQ(watcher.ends, 1);
+}
+
+TEST(ExplicitLoop, StopsBetweenRowsWhenAsked) {
+  Watcher watcher;
+  watcher.stop_at = 150;
+  const ExplicitResult result = run(watcher, balanced, 1);
+  EXPECT_EQ(result.ending, Ending::interrupted);
+  EXPECT_EQ(watcher.rows, (std::vector<Index>{0, 200}));
+  EXPECT_EQ(watcher.ends, 1);
+}
+
+TEST(ExplicitLoop, WhatObserversThrowComesThrough) {
+  Watcher watcher;
+  watcher.throws = true;
+  EXPECT_THROW(run(watcher, balanced), std::runtime_error);
+}
+
+TEST(ExplicitLoop, RefusesStepsThatAreNotStable) {
+  ExplicitOptions options;
+  EXPECT_THROW(ExplicitLoop(options, 1.0), std::invalid_argument) << "no duration";
+  options.duration = 10.0;
+  EXPECT_DOUBLE_EQ(ExplicitLoop(options, 1.0).time_step(), 0.9);
+  options.time_step = 1.01;
+  EXPECT_THROW(ExplicitLoop(options, 1.0), std::invalid_argument);
+  options.refuse_unstable = false;
+  EXPECT_EQ(ExplicitLoop(options, 1.0).time_step(), 1.01);
+}
+
+}  // namespace
+}  // namespace perilink
