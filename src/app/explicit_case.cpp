@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/lattice_shape.hpp"
 #include "app/position_field.hpp"
 #include "base/error.hpp"
 #include "io/case_sections.hpp"
@@ -19,9 +20,8 @@ namespace perilink {
 namespace {
 
 constexpr double most_particles = 3e7;
-constexpr double most_steps = 2e9;         ///< steps have 32-bit numbers
-constexpr double farthest_offset = 1e6;    ///< of the lattice point from the body [spacings]
-constexpr double region_tolerance = 1e-6;  ///< lattice points this close are inside [spacings]
+constexpr double most_steps = 2e9;       ///< steps have 32-bit numbers
+constexpr double farthest_offset = 1e6;  ///< of the lattice point from the body [spacings]
 /// Formulas for the same displacement, typed in two entries, may differ by round-off.
 constexpr double same_value = 1e-9;
 
@@ -35,16 +35,6 @@ LatticeRules rules_of(const CaseFile& input) {
   if (input.body.variant == "2017") return LatticeRules::mean_2017;
   if (input.body.variant == "2018") return LatticeRules::least_2018;
   return LatticeRules::consistent;
-}
-
-std::vector<Box> solid_boxes(const CaseFile& input) {
-  std::vector<Box> boxes;
-  for (const std::string& name : input.materials.front().regions) {
-    for (const Region& region : input.regions) {
-      if (region.name == name) boxes.push_back(region.box);
-    }
-  }
-  return boxes;
 }
 
 void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
@@ -66,29 +56,17 @@ void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
       fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_particles));
 }
 
-LatticeRows build_lattice(const CaseFile& input) {
+LatticeRows build_lattice(const CaseFile& input, const LatticeShape& shape) {
   const int dim = dimension_of(input.body);
-  const std::vector<Box> boxes = solid_boxes(input);
   LatticeCut cut;
   cut.spacing = *input.body.spacing;
   cut.rotation = input.body.rotation * std::numbers::pi / 180.0;
   cut.origin = input.body.offset;
   cut.thickness = input.body.thickness;
-  const double tolerance = region_tolerance * cut.spacing;
-  cut.lower = boxes.front().lower;
-  cut.upper = boxes.front().upper;
-  for (const Box& box : boxes) {
-    for (int a = 0; a < dim; ++a) {
-      cut.lower[a] = std::min(cut.lower[a], box.lower[a] - tolerance);
-      cut.upper[a] = std::max(cut.upper[a], box.upper[a] + tolerance);
-    }
-  }
+  cut.lower = shape.box().lower;
+  cut.upper = shape.box().upper;
   refuse_size(input, cut, dim);
-  cut.inside = [&](const Vector3& point) {
-    const std::span<const double> x(point.data(), static_cast<std::size_t>(dim));
-    return std::any_of(boxes.begin(), boxes.end(),
-                       [&](const Box& box) { return box.contains(x, tolerance); });
-  };
+  cut.inside = [&](const Vector3& point) { return shape.holds(point); };
   try {
     return dim == 2 ? hexagonal_rows(cut) : face_centred_rows(cut);
   } catch (const std::invalid_argument& error) {
@@ -115,8 +93,8 @@ LatticeMaterial lattice_material(const CaseFile& input) {
   return material;
 }
 
-ExplicitModel build_body(const CaseFile& input) {
-  LatticeRows lattice = build_lattice(input);
+ExplicitModel build_body(const CaseFile& input, const LatticeShape& shape) {
+  LatticeRows lattice = build_lattice(input, shape);
   try {
     return make_explicit_model(problem_of(input), rules_of(input), std::move(lattice),
                                lattice_material(input), input.body.thickness);
@@ -128,8 +106,8 @@ ExplicitModel build_body(const CaseFile& input) {
 /// Supports and driven displacements, each component of a particle once.
 class Prescriptions {
  public:
-  Prescriptions(const CaseFile& input, const LatticeRows& lattice)
-      : input_(input), lattice_(lattice) {}
+  Prescriptions(const CaseFile& input, const LatticeShape& shape, const LatticeRows& lattice)
+      : input_(input), shape_(shape), lattice_(lattice) {}
 
   void add(const std::string& table, std::size_t index, const std::string& region, int component,
            const Expression& value) {
@@ -175,12 +153,10 @@ class Prescriptions {
     if (name == body_region) return lattice_.particle_slot;
     const auto region = std::find_if(input_.regions.begin(), input_.regions.end(),
                                      [&](const Region& own) { return own.name == name; });
+    const PointTest is_inside = shape_.test_of(*region, key);
     std::vector<Index> inside;
     for (const Index slot : lattice_.particle_slot) {
-      const Vector3 x = position(slot);
-      if (region->box.contains(span_of(x), region_tolerance * lattice_.spacing)) {
-        inside.push_back(slot);
-      }
+      if (is_inside(position(slot))) inside.push_back(slot);
     }
     if (!inside.empty()) return inside;
     throw InputError(
@@ -190,14 +166,15 @@ class Prescriptions {
   }
 
   const CaseFile& input_;
+  const LatticeShape& shape_;
   const LatticeRows& lattice_;
   std::map<std::pair<Index, int>, double> values_;
 };
 
 /// \return the largest driven displacement [length]
-double prescribe_motions(const CaseFile& input, ExplicitModel& model) {
+double prescribe_motions(const CaseFile& input, const LatticeShape& shape, ExplicitModel& model) {
   const int dim = model.lattice.dim;
-  Prescriptions prescriptions(input, model.lattice);
+  Prescriptions prescriptions(input, shape, model.lattice);
   for (std::size_t k = 0; k < input.supports.size(); ++k) {
     for (int axis = 0; axis < dim; ++axis) {
       if (!input.supports[k].fix[axis]) continue;
@@ -263,8 +240,9 @@ CrackOpeningLaw softening_of(const MaterialSection& material) {
 
 ExplicitCase build_explicit_case(const CaseFile& input) {
   ExplicitCase built;
-  built.model = build_body(input);
-  built.options.reference = prescribe_motions(input, built.model);
+  const LatticeShape shape(input);
+  built.model = build_body(input, shape);
+  built.options.reference = prescribe_motions(input, shape, built.model);
   choose_steps(input, built);
   const LatticeRows& lattice = built.model.lattice;
   for (const Index slot : lattice.particle_slot) built.bonds += lattice.bond_count[slot];

@@ -64,14 +64,7 @@ Patches patches_of(const CaseFile& input, const Mesh& mesh) {
     for (const std::string& name : input.materials[m].regions) {
       const auto region = std::find_if(input.regions.begin(), input.regions.end(),
                                        [&](const Region& r) { return r.name == name; });
-      const MeshGroup* group = find_group(mesh, region->group);
-      if (!region->group.empty() && group->dim != mesh.dim) {
-        throw InputError(
-            input.where(item_key("materials", m)),
-            fmt::format("the region {} is a group of {}, which hold no material", quoted(name),
-                        group->dim == 2 ? "triangles" : group->dim == 1 ? "lines" : "points"),
-            fmt::format("name a physical {}", mesh.dim == 2 ? "surface" : "volume"));
-      }
+      if (!region->group.empty()) group_of_cells(input, mesh, *region, item_key("materials", m));
       patches.regions.push_back(*region);
       patches.material.push_back(static_cast<Index>(m));
     }
@@ -92,12 +85,30 @@ Mesh read_mesh(const CaseFile& input, int dim) {
 
 }  // namespace
 
+const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const Region& region,
+                                const std::string& key) {
+  const MeshGroup* group = find_group(mesh, region.group);
+  if (group->dim == mesh.dim) return *group;
+  throw InputError(
+      input.where(key),
+      fmt::format("the region {} is a group of {}, which hold no material", quoted(region.name),
+                  group->dim == 2   ? "triangles"
+                  : group->dim == 1 ? "lines"
+                                    : "points"),
+      fmt::format("name a physical {}", mesh.dim == 2 ? "surface" : "volume"));
+}
+
+MeshInput read_mesh_input(const CaseFile& input, int dim) {
+  MeshInput read;
+  read.mesh = read_mesh(input, dim);
+  refuse_unknown_groups(input, read.mesh);
+  const Patches patches = patches_of(input, read.mesh);
+  read.material = materials_of_cells(read.mesh, patches.regions, patches.material);
+  return read;
+}
+
 Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes) {
-  const Mesh mesh = read_mesh(input, dim);
-  refuse_unknown_groups(input, mesh);
-  const Patches patches = patches_of(input, mesh);
-  const std::vector<Index> material =
-      materials_of_cells(mesh, patches.regions, patches.material);
+  const auto [mesh, material] = read_mesh_input(input, dim);
   const auto left_out = std::count(material.begin(), material.end(), no_index);
   if (left_out > 0) {
     notes.push_back(fmt::format("{} of the {} cells of the mesh have no material and are left out",

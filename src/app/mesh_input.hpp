@@ -5,9 +5,26 @@
 #include <vector>
 
 #include "discretization/lattice.hpp"
+#include "discretization/mesh.hpp"
 #include "io/case_file.hpp"
 
 namespace perilink {
+
+/// The mesh that a case names.
+struct MeshInput {
+  Mesh mesh;
+  std::vector<Index> material;  ///< of every cell; no_index where no material covers it
+};
+
+/// Reads the mesh that a case names.
+/// \throws InputError  where the mesh cannot be read, or lacks a group or its cells
+MeshInput read_mesh_input(const CaseFile& input, int dim);
+
+/// The physical group of a region, which must consist of cells.
+/// \param key  of the case that asks, for the message
+/// \throws InputError  where it consists of what has no area (2D) or volume (3D)
+const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const Region& region,
+                                const std::string& key);
 
 /// Reads the mesh that a case names and makes its body.
 /// \param notes  gets a line where cells are left out because they have no material

@@ -44,17 +44,19 @@ std::vector<Index> particles_inside(const Model& model, const Region* region,
   std::vector<Index> inside;
   for (Index i = 0; i < particles.size(); ++i) {
     if (particles.kind[i] == ParticleKind::ghost) continue;
-    if (region == nullptr || region->box.contains(particles.position(i), tolerance)) {
+    if (region == nullptr || region->contains(particles.position(i), tolerance)) {
       inside.push_back(i);
     }
   }
   return inside;
 }
 
-double distance(const Box& box, std::span<const double> point) {
+double distance(const Region& region, std::span<const double> point) {
+  if (region.round && !region.round->axis) return region.round->distance(point);
   double square = 0.0;
   for (std::size_t a = 0; a < point.size(); ++a) {
-    const double outside = std::max({box.lower[a] - point[a], point[a] - box.upper[a], 0.0});
+    const double outside =
+        std::max({region.box.lower[a] - point[a], point[a] - region.box.upper[a], 0.0});
     square += outside * outside;
   }
   return std::sqrt(square);
@@ -75,7 +77,7 @@ double distance(const Box& box, std::span<const double> point) {
     if (!model.facets.on_surface(facet)) continue;
     const Vector3 centre = model.facets.centre(facet, model.network.particles.positions);
     const double away =
-        distance(region.box, {centre.data(), static_cast<std::size_t>(model.network.dim())});
+        distance(region, {centre.data(), static_cast<std::size_t>(model.network.dim())});
     if (away < least) {
       least = away;
       nearest = centre;
@@ -126,7 +128,7 @@ std::vector<Index> facets_of_region(const CaseFile& input, const Model& model,
       if (!facets.on_surface(facet)) continue;
       const Vector3 centre = facets.centre(facet, model.network.particles.positions);
       const std::span<const double> point(centre.data(), static_cast<std::size_t>(facets.dim));
-      if (own == nullptr || own->box.contains(point, tolerance)) inside.push_back(facet);
+      if (own == nullptr || own->contains(point, tolerance)) inside.push_back(facet);
     }
   }
   if (inside.empty()) refuse_without_facets(input, model, *own, key);

@@ -231,7 +231,7 @@ std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> 
         }
       }
       const std::span<const double> point(centre.data(), static_cast<std::size_t>(mesh.dim));
-      if (regions[r].box.contains(point, 0.0)) result[cell] = material[r];
+      if (regions[r].contains(point, 0.0)) result[cell] = material[r];
     }
   }
   return result;

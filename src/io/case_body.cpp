@@ -10,8 +10,8 @@
 #include <string>
 
 #include "io/case_lattice.hpp"
-#include "io/case_sections.hpp"
 #include "io/case_schema.hpp"
+#include "io/case_sections.hpp"
 #include "io/case_words.hpp"
 
 namespace perilink {
@@ -44,16 +44,7 @@ void read_lattice(const CaseTable& table, BodySection& body) {
 
 /// The mesh says where the particles are, and has no lattice for other keys to speak of.
 void read_mesh(const CaseTable& table, BodySection& body) {
-  body.mesh = table.path("mesh");
-  if (body.mesh->empty()) table.refuse("mesh", "is empty", "name the file of a gmsh mesh");
-  body.mesh_size = table.positive("mesh_size");
-  if (body.mesh_size && !is_geometry(*body.mesh)) {
-    table.refuse("mesh_size", "is given, but `mesh` is meshed already",
-                 "delete it, or name a geometry (.geo, .step, .stp, .brep) as `mesh`");
-  }
-  if (!body.mesh_size && is_geometry(*body.mesh) && !is_gmsh_script(*body.mesh)) {
-    table.refuse_missing("mesh_size", "the size of the cells of this geometry");
-  }
+  read_mesh_file(table, body);
   body.pattern = Pattern::irregular;
   body.micromodulus = body.critical_stretch = "continuum";
   if (table.has("pattern")) {
@@ -204,6 +195,23 @@ std::vector<std::string> read_material_regions(const CaseTable& table) {
 
 }  // namespace
 
+void read_mesh_file(const CaseTable& table, BodySection& body) {
+  if (!table.has("mesh")) {
+    if (!table.has("mesh_size")) return;
+    table.refuse("mesh_size", "is given, but the body has no `mesh`", "delete it");
+  }
+  body.mesh = table.path("mesh");
+  if (body.mesh->empty()) table.refuse("mesh", "is empty", "name the file of a gmsh mesh");
+  body.mesh_size = table.positive("mesh_size");
+  if (body.mesh_size && !is_geometry(*body.mesh)) {
+    table.refuse("mesh_size", "is given, but `mesh` is meshed already",
+                 "delete it, or name a geometry (.geo, .step, .stp, .brep) as `mesh`");
+  }
+  if (!body.mesh_size && is_geometry(*body.mesh) && !is_gmsh_script(*body.mesh)) {
+    table.refuse_missing("mesh_size", "the size of the cells of this geometry");
+  }
+}
+
 int dimension_of(const BodySection& body) { return body.problem == "three_dimensional" ? 3 : 2; }
 
 double read_fracture_energy(const CaseTable& table) {
@@ -261,9 +269,7 @@ BodySection read_body(const CaseTable& table) {
   if (table.has("mesh")) {
     read_mesh(table, body);
   } else {
-    if (table.has("mesh_size")) {
-      table.refuse("mesh_size", "is given, but the body has no `mesh`", "delete it");
-    }
+    read_mesh_file(table, body);
     read_lattice(table, body);
   }
   if (body.method == "bonds") read_horizon(table, body);

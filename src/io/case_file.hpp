@@ -66,6 +66,7 @@ struct LatticeMaterialSection {
 struct MaterialSection {
   std::string name;  ///< "material 2" for the second one where the file gives none
   std::vector<std::string> regions;
+  std::vector<std::string> holes;  ///< regions cut out of those, of bodies with model = lattice
   double youngs_modulus = 0.0;
   std::optional<double> poissons_ratio;  ///< of micropolar bonds; of others only to be refused with
                                          ///< an explanation, or confirmed

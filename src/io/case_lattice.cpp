@@ -16,10 +16,17 @@ namespace {
 
 constexpr int most_rows = 1000000;
 constexpr std::array body_keys = {"rotation", "offset", "variant"};
-constexpr std::array material_keys = {
-    "tensile_strength",  "critical_opening",      "knee_stress_ratio", "knee_opening_ratio",
-    "compression_ratio", "compression_threshold", "boundary_factor",   "internal_damping",
-    "external_damping",  "fundamental_period"};
+constexpr std::array material_keys = {"holes",
+                                      "tensile_strength",
+                                      "critical_opening",
+                                      "knee_stress_ratio",
+                                      "knee_opening_ratio",
+                                      "compression_ratio",
+                                      "compression_threshold",
+                                      "boundary_factor",
+                                      "internal_damping",
+                                      "external_damping",
+                                      "fundamental_period"};
 /// Of these, what an unbreakable material has no use for.
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
@@ -152,8 +159,8 @@ void refuse_surface_region(const CaseFile& input, const std::string& key,
 bool is_lattice(const BodySection& body) { return body.model == "lattice"; }
 
 void read_lattice_body(const CaseTable& table, BodySection& body) {
-  for (const char* key : {"torsion", "mesh", "mesh_size", "columns", "surface", "horizon",
-                          "horizon_level", "horizon_ratio", "micromodulus", "critical_stretch"}) {
+  for (const char* key : {"torsion", "columns", "surface", "horizon", "horizon_level",
+                          "horizon_ratio", "micromodulus", "critical_stretch"}) {
     if (!table.has(key)) continue;
     table.refuse(key,
                  "is given, but particles with model = \"lattice\" have their nearest "
@@ -161,6 +168,7 @@ void read_lattice_body(const CaseTable& table, BodySection& body) {
                  "delete it; `pattern`, `spacing`, `rotation` and `offset` say where they are");
   }
   const int dim = dimension_of(body);
+  read_mesh_file(table, body);
   body.surface = Surface::none;
   body.pattern = dim == 2 ? Pattern::hexagonal : Pattern::face_centred;
   const std::string_view only = word_of(body.pattern);
@@ -200,6 +208,10 @@ void read_lattice_material(const CaseTable& table, const BodySection& body,
         "0.2 is usual for concrete");
   }
   material.poissons_ratio = ratio;
+  if (const auto holes = table.texts("holes")) {
+    if (holes->empty()) table.refuse("holes", "names no region", "name one, or delete the key");
+    material.holes = *holes;
+  }
   LatticeMaterialSection& section = material.lattice.emplace();
   section.density = table.need("density", table.positive("density"), "mass per volume");
   table.need_one_of({"fracture_energy", "critical_opening"});
@@ -264,6 +276,8 @@ void refuse_explicit_keys(const CaseTable& table, const AnalysisSection& analysi
 }
 
 void write_lattice_body(TomlWriter& out, const BodySection& body) {
+  out.write("mesh", body.mesh);
+  out.write("mesh_size", body.mesh_size);
   out.write("pattern", word_of(body.pattern));
   out.write("spacing", body.spacing);
   out.write("rotation", body.rotation);

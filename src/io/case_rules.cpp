@@ -73,7 +73,10 @@ void check_groups(const CaseFile& input) {
         input.where(item_key("regions", i, "group")),
         fmt::format("is {}, a physical group of a mesh, but the body has no mesh",
                     quoted(input.regions[i].group)),
-        "give `mesh` in [body] instead of `spacing` or `columns`, or the intervals of a box here");
+        is_lattice(input.body)
+            ? "give `mesh` in [body], or the intervals of a box here"
+            : "give `mesh` in [body] instead of `spacing` or `columns`, or the intervals of a box "
+              "here");
   }
 }
 
@@ -86,10 +89,18 @@ void check_references(const CaseFile& input, const std::set<std::string>& names,
   }
 }
 
-/// A material fills space; a region that is a line or a point holds none.
-void check_extent(const CaseFile& input, const std::string& key, const std::string& name) {
+/// A material fills space; a region that is a line or a point holds none. The lattices of bonds
+/// are fitted to boxes.
+void check_shape(const CaseFile& input, const std::string& key, const std::string& name) {
   for (const Region& region : input.regions) {
     if (region.name != name || !region.group.empty()) continue;
+    if (region.round && !is_lattice(input.body) && !input.body.mesh) {
+      throw InputError(
+          input.where(key),
+          fmt::format("is {}, which is round, but a lattice of bonds fills boxes", quoted(name)),
+          "give the shape as a `mesh` in [body], or set model = \"lattice\" there; round regions "
+          "of this body are for supports, displacements and loads");
+    }
     for (int axis = 0; axis < dimension_of(input.body); ++axis) {
       if (region.box.lower[axis] < region.box.upper[axis]) continue;
       throw InputError(
@@ -110,7 +121,7 @@ void check_materials(const CaseFile& input, const std::set<std::string>& names) 
     const std::string key = input.lines.count(list) > 0 ? list : item_key("materials", i, "region");
     for (const std::string& region : input.materials[i].regions) {
       check_reference(input, names, key, region, Reserved::refused);
-      check_extent(input, key, region);
+      check_shape(input, key, region);
       const auto [at, is_new] = owner.emplace(region, i);
       if (is_new) continue;
       throw InputError(input.where(key),
@@ -118,6 +129,14 @@ void check_materials(const CaseFile& input, const std::set<std::string>& names) 
                                    quoted(input.materials[at->second].name)),
                        "give every region one material at most; a patch of another material is a "
                        "region of its own, and the later material counts");
+    }
+    for (const std::string& hole : input.materials[i].holes) {
+      const std::string where = item_key("materials", i, "holes");
+      check_reference(input, names, where, hole, Reserved::refused);
+      if (owner.count(hole) == 0) continue;
+      throw InputError(input.where(where),
+                       fmt::format("is {}, a region of the material", quoted(hole)),
+                       "a region is filled or cut out; delete one of the two");
     }
   }
 }

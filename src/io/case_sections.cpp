@@ -15,12 +15,6 @@ namespace {
 
 constexpr int largest_count = std::numeric_limits<int>::max();
 
-void refuse_third_axis(const CaseTable& table, const std::string& key, int dim) {
-  if (dim == 3) return;
-  table.refuse(key, "is an axis that a two-dimensional body does not have",
-               "delete it, or set problem = \"three_dimensional\" in [body]");
-}
-
 /// Rotations that the particles of the body do not have, or that go by another name.
 void refuse_rotations(const CaseTable& table, const BodySection& body) {
   const bool flat = dimension_of(body) == 2;
@@ -66,6 +60,12 @@ std::string need_region(const CaseTable& table, const std::string& use) {
 
 }  // namespace
 
+void refuse_third_axis(const CaseTable& table, const std::string& key, int dim) {
+  if (dim == 3) return;
+  table.refuse(key, "is an axis that a two-dimensional body does not have",
+               "delete it, or set problem = \"three_dimensional\" in [body]");
+}
+
 std::string why_nothing_rotates(const BodySection& body) {
   if (body.method == "linear_elements") return "the corners of linear elements do not rotate";
   return fmt::format("the particles of a {} body do not rotate",
@@ -76,42 +76,6 @@ std::string what_rotates(const BodySection& body) {
   return body.method == "linear_elements"
              ? "set model = \"micropolar\" in [body] instead of method = \"linear_elements\""
              : "set model = \"micropolar\" in [body]";
-}
-
-Region read_region(const CaseTable& table, int dim) {
-  Region region;
-  region.name = table.need("name", table.text("name"), "a name for other tables to refer to");
-  if (region.name.empty()) table.refuse("name", "is empty", "give the region a name");
-  if (table.has("z")) refuse_third_axis(table, "z", dim);
-  if (const auto group = table.text("group")) {
-    region.group = *group;
-    if (group->empty()) table.refuse("group", "is empty", "name a physical group of the mesh");
-    for (int axis = 0; axis < dim; ++axis) {
-      if (!table.has(axis_names[axis])) continue;
-      table.refuse(axis_names[axis], "is given beside `group`",
-                   "a region is a physical group or a box; delete one of the two");
-    }
-    return region;
-  }
-  for (int axis = 0; axis < dim; ++axis) {
-    const std::string key = axis_names[axis];
-    const std::vector<double> interval =
-        table.need(key, table.numbers(key), "the interval [lower, upper]");
-    if (interval.size() != 2) {
-      table.refuse(key, fmt::format("has {} values, but an interval has 2", interval.size()),
-                   "write [lower, upper]");
-    }
-    // Equal ends make a line or a point, as supports need them; materials ask for more.
-    if (interval[0] > interval[1]) {
-      table.refuse(key,
-                   fmt::format("is [{}, {}], but the lower end must be less than the upper",
-                               interval[0], interval[1]),
-                   "exchange the two ends");
-    }
-    region.box.lower[axis] = interval[0];
-    region.box.upper[axis] = interval[1];
-  }
-  return region;
 }
 
 SupportSection read_support(const CaseTable& table, const BodySection& body) {

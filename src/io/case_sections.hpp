@@ -5,6 +5,7 @@
 
 #include "io/case_file.hpp"
 #include "io/case_table.hpp"
+#include "io/toml_writer.hpp"
 
 /// \file
 /// Readers of the tables of a case. Each checks what is wrong within its table;
@@ -20,10 +21,17 @@ int dimension_of(const BodySection& body);
 std::string why_nothing_rotates(const BodySection& body);
 std::string what_rotates(const BodySection& body);
 
+/// Refuses a key for the third axis of a body in the plane.
+void refuse_third_axis(const CaseTable& table, const std::string& key, int dim);
+
+/// `mesh` and `mesh_size`, where the body has them.
+void read_mesh_file(const CaseTable& table, BodySection& body);
+
 BodySection read_body(const CaseTable& table);
 /// A positive number, or infinity for "infinite".
 double read_fracture_energy(const CaseTable& table);
 Region read_region(const CaseTable& table, int dim);
+void write_region(TomlWriter& out, const Region& region, int dim);
 /// \param index  zero-based, for the name of a nameless material
 MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index);
 SupportSection read_support(const CaseTable& table, const BodySection& body);

@@ -38,22 +38,12 @@ void write_body(TomlWriter& out, const BodySection& body) {
 }
 
 void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
-  for (const Region& region : input.regions) {
-    out.header("[[regions]]");
-    out.write("name", region.name);
-    if (!region.group.empty()) {
-      out.write("group", region.group);
-      continue;
-    }
-    for (int axis = 0; axis < dim; ++axis) {
-      out.write(axis_names[axis],
-                std::vector<double>{region.box.lower[axis], region.box.upper[axis]});
-    }
-  }
+  for (const Region& region : input.regions) write_region(out, region, dim);
   for (const MaterialSection& material : input.materials) {
     out.header("[[materials]]");
     out.write("name", material.name);
     out.write("regions", material.regions);
+    if (!material.holes.empty()) out.write("holes", material.holes);
     out.write("youngs_modulus", material.youngs_modulus);
     out.write("poissons_ratio", material.poissons_ratio);
     if (std::isinf(material.fracture_energy)) {
