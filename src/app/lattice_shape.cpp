@@ -49,7 +49,8 @@ void LatticeShape::read_mesh() {
   MeshInput mesh = read_mesh_input(input_, dimension_of(input_.body));
   for (const Region* hole : holes_) {
     if (hole->group.empty()) continue;
-    const MeshGroup& group = group_of_cells(input_, mesh.mesh, *hole, "materials[1].holes");
+    const MeshGroup& group =
+        group_of_cells(input_, mesh.mesh, *hole, "materials[1].holes", "material");
     for (const Index cell : group.elements) mesh.material[cell] = no_index;
   }
   try {
@@ -94,7 +95,7 @@ PointTest LatticeShape::test_of(const Region& region, const std::string& key) co
 }
 
 PointTest LatticeShape::test_of_group(const Region& region, const std::string& key) const {
-  const MeshGroup& group = group_of_cells(input_, mesh_, region, key);
+  const MeshGroup& group = group_of_cells(input_, mesh_, region, key, "particles");
   const auto search = std::make_shared<CellSearch>(mesh_, group.elements, tolerance_);
   return [search](const Vector3& point) { return search->contains(point); };
 }

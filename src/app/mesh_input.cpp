@@ -64,7 +64,9 @@ Patches patches_of(const CaseFile& input, const Mesh& mesh) {
     for (const std::string& name : input.materials[m].regions) {
       const auto region = std::find_if(input.regions.begin(), input.regions.end(),
                                        [&](const Region& r) { return r.name == name; });
-      if (!region->group.empty()) group_of_cells(input, mesh, *region, item_key("materials", m));
+      if (!region->group.empty()) {
+        group_of_cells(input, mesh, *region, item_key("materials", m), "material");
+      }
       patches.regions.push_back(*region);
       patches.material.push_back(static_cast<Index>(m));
     }
@@ -86,16 +88,17 @@ Mesh read_mesh(const CaseFile& input, int dim) {
 }  // namespace
 
 const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const Region& region,
-                                const std::string& key) {
+                                const std::string& key, const std::string& contents) {
   const MeshGroup* group = find_group(mesh, region.group);
   if (group->dim == mesh.dim) return *group;
   throw InputError(
       input.where(key),
-      fmt::format("the region {} is a group of {}, which hold no material", quoted(region.name),
+      fmt::format("the region {} is a group of {}, which hold no {}", quoted(region.name),
                   group->dim == 2   ? "triangles"
                   : group->dim == 1 ? "lines"
-                                    : "points"),
-      fmt::format("name a physical {}", mesh.dim == 2 ? "surface" : "volume"));
+                                    : "points",
+                  contents),
+      fmt::format("name a physical {}, or give a box", mesh.dim == 2 ? "surface" : "volume"));
 }
 
 MeshInput read_mesh_input(const CaseFile& input, int dim) {

@@ -21,10 +21,11 @@ struct MeshInput {
 MeshInput read_mesh_input(const CaseFile& input, int dim);
 
 /// The physical group of a region, which must consist of cells.
-/// \param key  of the case that asks, for the message
+/// \param key       of the case that asks, for the message
+/// \param contents  that the region is to hold, for the same
 /// \throws InputError  where it consists of what has no area (2D) or volume (3D)
 const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const Region& region,
-                                const std::string& key);
+                                const std::string& key, const std::string& contents);
 
 /// Reads the mesh that a case names and makes its body.
 /// \param notes  gets a line where cells are left out because they have no material
