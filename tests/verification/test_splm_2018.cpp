@@ -1,0 +1,95 @@
+// The study of the same name as a test: its specimens, and the runs that are quick enough.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/explicit_case.hpp"
+#include "tests.hpp"
+
+namespace perilink::verification {
+namespace {
+
+constexpr double strength_times_section = tension_strength * block_section;
+
+Index particles_of(const LatticeTest& test) {
+  return build_explicit_case(case_of(test)).model.lattice.particles();
+}
+
+/// Nikravesh & Gerstle 2018, section 3.1.
+TEST(Splm2018, CountsTheParticlesOfTheBlock) {
+  EXPECT_EQ(particles_of(tension_test("2018", 0.0)), 605);
+  EXPECT_EQ(particles_of(tension_test("2018", 15.0)), 595);
+  EXPECT_EQ(particles_of(tension_test("2018", 30.0)), 569);
+}
+
+/// Section 3.2 has 213, 839 and 3315. None of them fits a disc around a particle, which has one
+/// more than a multiple of six.
+TEST(Splm2018, CountsAboutTheParticlesOfTheDisc) {
+  EXPECT_NEAR(particles_of(disc_test("2018", 0.0, 0.01)), 213, 2.1);
+  EXPECT_NEAR(particles_of(disc_test("2018", 0.0, 0.005)), 839, 8.4);
+  EXPECT_NEAR(particles_of(disc_test("2018", 0.0, 0.0025)), 3315, 33.2);
+}
+
+TEST(Splm2018, PrintedTimeStepsAreStable) {
+  EXPECT_LT(printed_block_step,
+            build_explicit_case(case_of(tension_test("2018", 0.0))).critical_time_step);
+  EXPECT_LT(printed_disc_step,
+            build_explicit_case(case_of(disc_test("2018", 0.0, 0.005))).critical_time_step);
+}
+
+/// The case as it stands is the disc of the study.
+TEST(Splm2018, TheCaseFileIsTheDisc) {
+  LatticeTest plain;
+  plain.case_name = "brazilian_disc";
+  const ExplicitCase file = build_explicit_case(case_of(plain));
+  const ExplicitCase made = build_explicit_case(case_of(disc_test("consistent", 0.0, 0.005)));
+  EXPECT_EQ(file.model.lattice.positions, made.model.lattice.positions);
+  std::size_t prescribed = 0;
+  for (std::size_t r = 0; r < file.model.prescribed.size(); ++r) {
+    EXPECT_EQ(file.model.prescribed[r].size(), made.model.prescribed[r].size());
+    prescribed += file.model.prescribed[r].size();
+  }
+  // One row at either end: x = 0 or not, and two or three more on either side within r/6.
+  EXPECT_EQ(prescribed % 2, 0u);
+  EXPECT_GE(prescribed, 8u);
+}
+
+TEST(Splm2018, ConsistentRulesReachTheTensileStrengthAndKeepTheirEnergy) {
+  LatticeTest test = tension_test("consistent", 0.0);
+  test.speed = 4.0;
+  const LatticeTestRun run = run_lattice_test(test);
+  // The lattice has 15.5 to 16 columns on the width of 15: up to 6 % more section.
+  EXPECT_NEAR(run.peak_force, strength_times_section, 0.06 * strength_times_section);
+  EXPECT_LT(run.result.largest_surplus, 1e-4);
+}
+
+TEST(Splm2018, RulesOf2018LoseStrengthAndEnergy) {
+  LatticeTest test = tension_test("2018", 0.0);
+  test.speed = 4.0;
+  const LatticeTestRun run = run_lattice_test(test);
+  // Prototypes of the paper's rules reached 54.7 kN at a quarter of this speed.
+  EXPECT_NEAR(run.peak_force, 54.7e3, 0.03 * 54.7e3);
+  // The smaller of two forces is no derivative of an energy, even while nothing is damaged.
+  EXPECT_GT(run.result.largest_surplus, 1e-3);
+}
+
+/// The coarse disc splits along its vertical diameter, at about the paper's 98 kN.
+TEST(Splm2018, TheDiscSplits) {
+  const LatticeTestRun run = run_lattice_test(disc_test("consistent", 0.0, 0.01));
+  EXPECT_NEAR(run.peak_force, 98e3, 5e3);
+  EXPECT_LT(run.result.largest_surplus, 1e-4);
+  // Every row of particles but those near the platens has a hole within two spacings of the middle.
+  const double row = 0.01 * std::sqrt(0.75);
+  for (int j = -5; j <= 5; ++j) {
+    EXPECT_TRUE(std::any_of(run.cracked.begin(), run.cracked.end(),
+                            [&](const Vector3& x) {
+                              return std::abs(x[1] - j * row) < 1e-6 && std::abs(x[0]) < 0.021;
+                            }))
+        << "row " << j;
+  }
+}
+
+}  // namespace
+}  // namespace perilink::verification

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analysis/explicit_analysis.hpp"
+#include "io/case_file.hpp"
+
+namespace perilink::verification {
+
+/// A laboratory test by explicit lattices: a case of meshes/ with its lattice turned, and with
+/// other rules, spacing, size or material.
+struct LatticeTest {
+  std::string case_name;  ///< "brazilian_disc" is meshes/brazilian_disc.toml
+  std::string variant = "consistent";
+  double degrees = 0.0;
+  double spacing = 0.0;                   ///< zero: the case's [length]
+  double time_step = 0.0;                 ///< zero: nine tenths of the critical one [time]
+  double speed = 1.0;                     ///< of the loading over the case's
+  bool only_to_peak = false;              ///< ends where the force has fallen to half of its peak
+  std::function<void(CaseFile&)> change;  ///< whatever else differs from the case; may be empty
+};
+
+struct LatticeTestRun {
+  Index particles = 0;
+  double peak_force = 0.0;         ///< between the ends of the body [force]
+  double peak_displacement = 0.0;  ///< of one driven end [length]
+  ExplicitResult result;
+  std::vector<Vector3> cracked;  ///< particles with more damage than 0.9 [length]
+  double seconds = 0.0;
+};
+
+/// The case of a test.
+/// \throws InputError where the case does not allow what differs
+CaseFile case_of(const LatticeTest& test);
+
+LatticeTestRun run_lattice_test(const LatticeTest& test);
+
+/// Runs tests side by side, one on each core of the machine but at most `threads`; prints the row
+/// of each when it ends, and returns the table in the order of the tests.
+std::string run_lattice_tests(const std::vector<LatticeTest>& tests, int threads);
+
+}  // namespace perilink::verification

@@ -1,0 +1,46 @@
+// The concrete tests of Nikravesh & Gerstle (2018) by explicit lattices: peak forces, energies and
+// their balance by all three sets of rules. Writes a table of README.md for every kind of test, or
+// only those whose names are given.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "problems/result.hpp"
+#include "tests.hpp"
+
+namespace {
+
+using namespace perilink::verification;
+
+std::vector<LatticeTest> tension_tests() {
+  std::vector<LatticeTest> tests;
+  for (const std::string& variant : variants) {
+    for (const double degrees : {0.0, 15.0, 30.0}) tests.push_back(tension_test(variant, degrees));
+  }
+  return tests;
+}
+
+std::vector<LatticeTest> disc_tests() {
+  std::vector<LatticeTest> tests;
+  for (const std::string& variant : variants) {
+    for (const double degrees : {0.0, 15.0, 30.0}) {
+      tests.push_back(disc_test(variant, degrees, 0.005));
+    }
+    for (const double spacing : {0.01, 0.0025}) tests.push_back(disc_test(variant, 0.0, spacing));
+  }
+  return tests;
+}
+
+}  // namespace
+
+int main(int count, char** names) {
+  constexpr int threads = 2;
+  const auto run = [&](const std::string& name, const std::vector<LatticeTest>& tests) {
+    if (count > 1 && std::find(names + 1, names + count, name) == names + count) return;
+    write_result(PERILINK_STUDY_DIR, run_lattice_tests(tests, threads), name + ".csv");
+  };
+  run("tension", tension_tests());
+  run("disc", disc_tests());
+  return 0;
+}

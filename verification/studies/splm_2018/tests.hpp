@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "problems/lattice_test.hpp"
+
+/// \file
+/// The tests of Nikravesh & Gerstle (2018, section 3) in N, m, kg, s, with the parameters of their
+/// Table 1 by the case files of meshes/.
+
+namespace perilink::verification {
+
+inline constexpr double tension_strength = 2.62e6;     ///< f_t [N/m^2]
+inline constexpr double block_section = 0.15 * 0.15;   ///< of the block [m^2]
+inline constexpr double printed_block_step = 6.55e-7;  ///< at the spacing 0.01 m [s]
+inline constexpr double printed_disc_step = 3.27e-7;   ///< at 0.005 m [s]
+
+/// The rules of a run.
+inline const std::vector<std::string> variants = {"2017", "2018", "consistent"};
+
+/// Rules of the papers take their time step, the consistent ones nine tenths of the critical one.
+LatticeTest tension_test(const std::string& variant, double degrees);
+/// Cut a quarter of a spacing beyond the radius, held within the last spacing of what is cut.
+LatticeTest disc_test(const std::string& variant, double degrees, double spacing);
+
+}  // namespace perilink::verification
