@@ -4,13 +4,10 @@
 #include <cmath>
 
 #include "analysis/explicit_loop.hpp"
+#include "analysis/particle_blocks.hpp"
 
 namespace perilink {
 namespace {
-
-/// Sums are made by blocks of particles, whose size depends on nothing else.
-constexpr Index particles_per_block = 256;
-constexpr Index blocks_per_thread = 4;
 
 /// Sums over the particles of a block since the beginning.
 struct BlockSums {
@@ -23,25 +20,10 @@ struct BlockSums {
   double loaded = 0.0;                  // reference forces times displacements
 };
 
-/// Component whose motion or load is the largest, in which the reaction of supports is counted.
-int main_component(const Unknowns& unknowns, const Loads& loads) {
-  std::vector<double> driven(unknowns.width, 0.0), loaded(unknowns.width, 0.0);
-  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
-    double& largest = driven[slot % unknowns.width];
-    largest = std::max(largest, std::abs(unknowns.prescribed[slot]));
-    loaded[slot % unknowns.width] += loads.forces[slot];
-  }
-  const auto motion = std::max_element(driven.begin(), driven.end());
-  if (*motion > 0.0) return static_cast<int>(motion - driven.begin());
-  const auto force = std::max_element(loaded.begin(), loaded.end(),
-                                      [](double a, double b) { return std::abs(a) < std::abs(b); });
-  return static_cast<int>(force - loaded.begin());
-}
-
 class BondRun {
  public:
   BondRun(const Network& network, const Unknowns& unknowns, const Loads& loads,
-          const ReferenceLoad& reference, const Inertia& inertia, double damping_rate,
+          const ReferenceLoad& reference, const Inertia& inertia, const BondRunRules& rules,
           const ExplicitOptions& options, BondRunObserver& observer)
       : network_(network),
         unknowns_(unknowns),
@@ -50,40 +32,41 @@ class BondRun {
         inertia_(inertia),
         options_(options),
         observer_(observer),
-        bonds_(make_explicit_bonds(network)),
+        bonds_(make_explicit_bonds(network, rules.strain)),
         component_(main_component(unknowns, loads)),
+        blocks_(network.particles.size(), unknowns.width),
         loop_(options, inertia.critical_time_step()),
         dt_(loop_.time_step()),
-        rate_(damping_rate),
-        keep_(1.0 / (1.0 + 0.5 * dt_ * damping_rate)),
-        lose_(1.0 - 0.5 * dt_ * damping_rate) {
+        motion_end_(rules.constant_velocity ? options.duration : 0.0),
+        rate_(rules.damping_rate),
+        keep_(1.0 / (1.0 + 0.5 * dt_ * rate_)),
+        lose_(1.0 - 0.5 * dt_ * rate_) {
     const std::size_t slots = unknowns.number.size();
     motion_.displacement.assign(slots, 0.0);
     motion_.velocity.assign(slots, 0.0);
     force_.assign(slots, 0.0);
-    sums_.resize((network.particles.size() + particles_per_block - 1) / particles_per_block);
+    sums_.resize(static_cast<std::size_t>(blocks_.count()));
   }
 
   ExplicitResult run() {
-    const auto blocks = static_cast<Index>(sums_.size());
-    const int threads =
-        std::min<Index>(options_.threads, std::max<Index>(1, blocks / blocks_per_thread));
-    return loop_.run(threads, [this](Index step) { one_step(step); });
+    return loop_.run(blocks_.threads(options_.threads), [this](Index step) { one_step(step); });
   }
 
  private:
-  Index begin(Index block) const { return block * particles_per_block; }
-  Index end(Index block) const {
-    return std::min(network_.particles.size(), begin(block) + particles_per_block);
+  /// Part of the prescribed displacements that is reached.
+  double motion_factor(Index step) const {
+    return motion_end_ > 0.0 ? step * dt_ / motion_end_ : loop_.load_factor(step);
   }
 
   /// Run by every thread; loops end in barriers.
   void one_step(Index step) {
-    const auto blocks = static_cast<Index>(sums_.size());
-    const double factor = loop_.load_factor(step), next = loop_.load_factor(step + 1);
+    const Index blocks = blocks_.count();
+    const double factor = loop_.load_factor(step);
+    const double increment = motion_factor(step + 1) - motion_factor(step);
 #pragma omp for schedule(static)
     for (Index b = 0; b < blocks; ++b) {
-      const BondLosses losses = bonds_->forces(begin(b), end(b), dt_, motion_, force_);
+      const BondLosses losses =
+          bonds_->forces(blocks_.begin(b), blocks_.end(b), dt_, motion_, force_);
       sums_[b].fractured += losses.fractured;
       sums_[b].broken_halves += losses.broken_halves;
     }
@@ -94,16 +77,16 @@ class BondRun {
       look(step);
     }
 #pragma omp for schedule(static)
-    for (Index b = 0; b < blocks; ++b) advance(b, factor, next - factor);
+    for (Index b = 0; b < blocks; ++b) advance(b, factor, increment);
 #pragma omp single
     note_reactions(step);
   }
 
   void measure(Index block) {
     BlockSums& sums = sums_[block];
-    sums.stored = bonds_->stored(begin(block), end(block), dt_, motion_);
+    sums.stored = bonds_->stored(blocks_.begin(block), blocks_.end(block), dt_, motion_);
     sums.kinetic = sums.loaded = 0.0;
-    for_slots(block, [&](std::size_t slot) {
+    blocks_.for_slots(block, [&](std::size_t slot) {
       const double u = motion_.displacement[slot], v = motion_.velocity[slot];
       sums.kinetic += 0.5 * inertia_.mass[slot] * v * v;
       sums.loaded += loads_.forces[slot] * u;
@@ -112,16 +95,10 @@ class BondRun {
     });
   }
 
-  template <class Visit>
-  void for_slots(Index block, Visit visit) {
-    const auto width = static_cast<std::size_t>(unknowns_.width);
-    for (std::size_t slot = begin(block) * width; slot < end(block) * width; ++slot) visit(slot);
-  }
-
   void advance(Index block, double factor, double increment) {
     BlockSums& sums = sums_[block];
     sums.driven = sums.supports = 0.0;
-    for_slots(block, [&](std::size_t slot) {
+    blocks_.for_slots(block, [&](std::size_t slot) {
       double& u = motion_.displacement[slot];
       double& v = motion_.velocity[slot];
       const double mass = inertia_.mass[slot], applied = factor * loads_.forces[slot];
@@ -158,7 +135,7 @@ class BondRun {
     const double factor = loop_.load_factor(step);
     record_.load = reference_.driven ? driven / reference_.value : factor * reference_.value;
     record_.support_reaction = supports;
-    loop_.note_reaction(supports, reference_.driven ? factor * reference_.value : 0.0);
+    loop_.note_reaction(supports, reference_.driven ? motion_factor(step) * reference_.value : 0.0);
   }
 
   void look(Index step) {
@@ -175,8 +152,8 @@ class BondRun {
     record_.energy = {all.kinetic, all.stored, 0.0, all.damping, all.fractured, all.external_work};
     const BondRunState state{network_, motion_, *bonds_};
     loop_.look(step, record_, observer_, state, [&](ExplicitRecord& record) {
-      record.displacement =
-          reference_.driven ? record.load_factor * reference_.value : all.loaded / reference_.value;
+      record.displacement = reference_.driven ? motion_factor(step) * reference_.value
+                                              : all.loaded / reference_.value;
       record.broken_bonds = all.broken_halves / 2;
     });
   }
@@ -190,8 +167,11 @@ class BondRun {
   BondRunObserver& observer_;
   std::unique_ptr<ExplicitBonds> bonds_;
   int component_;
+  ParticleBlocks blocks_;
   ExplicitLoop loop_;
-  double dt_, rate_, keep_, lose_;
+  double dt_;
+  double motion_end_;  ///< of constant velocities; zero: none
+  double rate_, keep_, lose_;
   BondMotion motion_;
   std::vector<double> force_;  ///< K u
   std::vector<BlockSums> sums_;
@@ -200,12 +180,25 @@ class BondRun {
 
 }  // namespace
 
+int main_component(const Unknowns& unknowns, const Loads& loads) {
+  std::vector<double> driven(unknowns.width, 0.0), loaded(unknowns.width, 0.0);
+  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+    double& largest = driven[slot % unknowns.width];
+    largest = std::max(largest, std::abs(unknowns.prescribed[slot]));
+    loaded[slot % unknowns.width] += loads.forces[slot];
+  }
+  const auto motion = std::max_element(driven.begin(), driven.end());
+  if (*motion > 0.0) return static_cast<int>(motion - driven.begin());
+  const auto force = std::max_element(loaded.begin(), loaded.end(),
+                                      [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return static_cast<int>(force - loaded.begin());
+}
+
 ExplicitResult run_explicit_bonds(const Network& network, const Unknowns& unknowns,
                                   const Loads& loads, const ReferenceLoad& reference,
-                                  const Inertia& inertia, double damping_rate,
+                                  const Inertia& inertia, const BondRunRules& rules,
                                   const ExplicitOptions& options, BondRunObserver& observer) {
-  return BondRun(network, unknowns, loads, reference, inertia, damping_rate, options, observer)
-      .run();
+  return BondRun(network, unknowns, loads, reference, inertia, rules, options, observer).run();
 }
 
 }  // namespace perilink

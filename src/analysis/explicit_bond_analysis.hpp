@@ -22,8 +22,23 @@ class BondRunObserver {
   virtual void on_row(const ExplicitRecord& record, const BondRunState& state) = 0;
   /// Once, after the last row.
   virtual void on_end(const ExplicitRecord& /*last*/, const BondRunState& /*state*/) {}
+  /// Every few hundred iterations of a dynamic relaxation.
+  virtual void on_iteration(Index /*load_step*/, Index /*iteration*/, double /*residual*/) {}
   /// Asked before every row and every few hundred steps; after a yes comes one more row.
   virtual bool stop_requested() { return false; }
+};
+
+/// Component whose prescribed motion or load is the largest, in which the reaction of supports is
+/// counted.
+int main_component(const Unknowns& unknowns, const Loads& loads);
+
+/// What moves the bonds of a run and how.
+struct BondRunRules {
+  double damping_rate = 0.0;  ///< [1/time]
+  Strain strain = Strain::small;
+  /// Prescribed displacements are those at the end of the duration, reached at constant velocity;
+  /// else they follow the load factor.
+  bool constant_velocity = false;
 };
 
 /// Runs a network of bonds, truss or frame, from rest by Euler–Cromer: forces at step n change
@@ -37,16 +52,16 @@ class BondRunObserver {
 ///
 /// The energies of a row balance to round-off, since every force works over the mean of the old and
 /// the new velocity, the stored energy is u_(n-1)' K u_n / 2, and a bond that breaks at step n
-/// loses its own part of that.
-/// \param damping_rate  [1/time]
-/// \param options       `reference` is not looked at
+/// loses its own part of that. Of Green strains they balance but for a part of the kinetic energy
+/// as small as the stretches, docs/theory/explicit_bonds.md, section 3.
+/// \param options  `reference` is not looked at
 /// \throws std::invalid_argument where the time step exceeds the critical one (unless
 /// refuse_unstable is off) or the duration is not positive
 /// \returns ending = failed where energy grows from nothing; peak_displacement is zero where loads
 /// drive the body
 ExplicitResult run_explicit_bonds(const Network& network, const Unknowns& unknowns,
                                   const Loads& loads, const ReferenceLoad& reference,
-                                  const Inertia& inertia, double damping_rate,
+                                  const Inertia& inertia, const BondRunRules& rules,
                                   const ExplicitOptions& options, BondRunObserver& observer);
 
 }  // namespace perilink

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "analysis/explicit_halves.hpp"
 #include "material/bond_law.hpp"
@@ -19,7 +20,7 @@ enum class Limits {
   yielding,  ///< bars yield as well, either way
 };
 
-/// \tparam Half  TrussHalf or FrameHalf
+/// \tparam Half  TrussHalf, GreenHalf or FrameHalf
 template <class Half>
 class Halves final : public ExplicitBonds {
  public:
@@ -78,12 +79,12 @@ void Halves<Half>::add(const Network& network, Index element, bool first) {
   secant_.push_back(1.0);
   tooth_.push_back(0);
   const double length = network.bonds.lengths[element];
-  double limit = network.critical_stretch[element] * length;
+  double limit = network.critical_stretch[element];
   if (network.is_segment(element)) {
     const double yield = network.yield_strain[element - network.first_segment];
-    limit = std::isinf(yield) ? infinity : PlateauLaw{yield}.tooth(0).limit * length;
+    limit = std::isinf(yield) ? infinity : PlateauLaw{yield}.tooth(0).limit;
   }
-  limit_.push_back(Half::limit_of_demand(limit));
+  limit_.push_back(Half::limit_of_demand(limit, length));
 }
 
 template <class Half>
@@ -107,7 +108,7 @@ void Halves<Half>::give_way(std::size_t half, const double* own, const double* o
     Tooth tooth{};
     do {
       tooth = law.tooth(++tooth_[half]);
-      limit_[half] = Half::limit_of_demand(tooth.limit * length);
+      limit_[half] = Half::limit_of_demand(tooth.limit, length);
     } while (bond.size(own, far) > limit_[half]);
     next = tooth.secant;
   } else {
@@ -190,12 +191,20 @@ std::vector<double> Halves<Half>::secants() const {
 
 }  // namespace
 
-std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network) {
+std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain) {
+  const bool plane = network.dim() == 2;
   if (network.carries_moments()) {
-    if (network.dim() == 2) return std::make_unique<Halves<FrameHalf<2>>>(network);
+    if (strain == Strain::green) {
+      throw std::invalid_argument("bonds that carry moments know small strains only");
+    }
+    if (plane) return std::make_unique<Halves<FrameHalf<2>>>(network);
     return std::make_unique<Halves<FrameHalf<3>>>(network);
   }
-  if (network.dim() == 2) return std::make_unique<Halves<TrussHalf<2>>>(network);
+  if (strain == Strain::green) {
+    if (plane) return std::make_unique<Halves<GreenHalf<2>>>(network);
+    return std::make_unique<Halves<GreenHalf<3>>>(network);
+  }
+  if (plane) return std::make_unique<Halves<TrussHalf<2>>>(network);
   return std::make_unique<Halves<TrussHalf<3>>>(network);
 }
 

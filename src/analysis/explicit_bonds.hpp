@@ -15,6 +15,12 @@ struct BondMotion {
   std::vector<double> velocity;      ///< [length/time, 1/time]
 };
 
+/// How the deformation of a bond is measured.
+enum class Strain {
+  small,  ///< extension along its direction before loading, as in the implicit mode
+  green,  ///< Green–Lagrange stretch, with the force along its present direction; truss bonds only
+};
+
 /// What happened to the bonds of some particles in a step; halves of bonds count half.
 struct BondLosses {
   double fractured = 0.0;  ///< energy that breaking bonds and yielding bars gave up [force length]
@@ -26,20 +32,21 @@ struct BondLosses {
 /// sums are the same for any number of threads. Both halves of a bond measure its deformation from
 /// the same end and break in the same step.
 ///
-/// Small displacements as in the implicit mode: the same bonds, stiffnesses and critical stretches
-/// (docs/theory/bonds.md, micropolar.md), the same teeth of yielding bars.
+/// The bonds, stiffnesses and critical stretches of the implicit mode (docs/theory/bonds.md,
+/// micropolar.md), the same teeth of yielding bars.
 class ExplicitBonds {
  public:
   virtual ~ExplicitBonds() = default;
 
-  /// Internal force K u of the particles [begin, end), after the bonds that reach their limit at
-  /// this displacement have broken. Calls for different particles may run at once.
+  /// Internal force, K u of small strains, of the particles [begin, end), after the bonds that
+  /// reach their limit at this displacement have broken. Calls for different particles may run at once.
   /// \param force  shape (particles, width); these particles' part is overwritten
   virtual BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
                             std::span<double> force) = 0;
 
   /// u_(n-1)' K u_n / 2 of these particles' halves [force length]: with the kinetic energy half a
-  /// step ago what Euler–Cromer keeps exactly.
+  /// step ago what Euler–Cromer keeps exactly. Of Green strains the like with g_(n-1) g_n, which it
+  /// keeps but for a part of the kinetic energy as small as the stretches.
   virtual double stored(Index begin, Index end, double time_step,
                         const BondMotion& motion) const = 0;
 
@@ -47,6 +54,8 @@ class ExplicitBonds {
   virtual std::vector<double> secants() const = 0;
 };
 
-std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network);
+/// \throws std::invalid_argument for Green strains of bonds that carry moments
+std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network,
+                                                   Strain strain = Strain::small);
 
 }  // namespace perilink

@@ -28,7 +28,7 @@ struct TrussHalf {
     }
   }
 
-  static double limit_of_demand(double extension) { return extension; }
+  static double limit_of_demand(double stretch, double length) { return stretch * length; }
 
   double extension(const double* own, const double* far) const {
     double sum = 0.0;
@@ -50,6 +50,60 @@ struct TrussHalf {
   double energy(const double* own_before, const double* far_before, const double* own,
                 const double* far) const {
     return 0.5 * k * extension(own_before, far_before) * extension(own, far);
+  }
+
+  void scale(double factor) { k *= factor; }
+};
+
+/// An element that stretches by any amount and turns by any angle: with its present vector x, from
+/// the own end to the other, and X before loading the energy k |X|^2 g^2 / 2 of the Green–Lagrange
+/// stretch g = (x.x - X.X) / (2 X.X) = s + s^2 / 2 (Miranda, Williams & Orr 2016, Eqs. 6 and 7),
+/// whose derivative is the force k g x.
+template <int Dim>
+struct GreenHalf {
+  static constexpr int width = Dim;
+
+  double before[Dim];  ///< X [length]
+  double flexibility;  ///< 1 / X.X [1/length^2]
+  double k;            ///< present stiffness where g is small [force/length]
+  Index other;         ///< particle at the far end
+
+  GreenHalf(const Network& network, Index element, bool first)
+      : k(network.stiffness[element]),
+        other(first ? network.bonds.second[element] : network.bonds.first[element]) {
+    const double length = network.bonds.lengths[element];
+    flexibility = 1.0 / (length * length);
+    for (int a = 0; a < Dim; ++a) {
+      before[a] = (first ? length : -length) * network.bonds.direction(element)[a];
+    }
+  }
+
+  static double limit_of_demand(double stretch, double /*length*/) { return stretch; }
+
+  /// From the relative displacement d = x - X: differences of lengths would cancel.
+  double stretch(const double* own, const double* far) const {
+    double sum = 0.0;
+    for (int a = 0; a < Dim; ++a) {
+      const double d = far[a] - own[a];
+      sum += (before[a] + 0.5 * d) * d;
+    }
+    return flexibility * sum;
+  }
+
+  /// Adds `sign` times the internal force at the own end. \return the stretch g [-]
+  double add_force(const double* own, const double* far, double* sum, double sign = 1.0) const {
+    const double g = stretch(own, far);
+    for (int a = 0; a < Dim; ++a) sum[a] -= sign * k * g * (before[a] + far[a] - own[a]);
+    return g;
+  }
+
+  double size(const double* own, const double* far) const { return std::abs(stretch(own, far)); }
+
+  /// k |X|^2 g_before g_now / 2 [force length]: between two motions what Euler–Cromer keeps but for
+  /// a part of the kinetic energy as small as the stretches.
+  double energy(const double* own_before, const double* far_before, const double* own,
+                const double* far) const {
+    return 0.5 * k / flexibility * stretch(own_before, far_before) * stretch(own, far);
   }
 
   void scale(double factor) { k *= factor; }
@@ -86,7 +140,9 @@ struct FrameHalf {
     twist_share = network.torsion * bend_share;
   }
 
-  static double limit_of_demand(double extension) { return extension * extension; }
+  static double limit_of_demand(double stretch, double length) {
+    return stretch * length * stretch * length;
+  }
 
   /// How an element is deformed.
   struct Deformation {

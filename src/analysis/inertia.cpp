@@ -14,14 +14,20 @@ template <int Width>
 using Blocks = std::vector<Eigen::Matrix<double, Width, Width>,
                            Eigen::aligned_allocator<Eigen::Matrix<double, Width, Width>>>;
 
-/// Sum of k b b' of all modes that end at each particle.
+/// Sum of k b b' of all modes that end at each particle; with Green strains of what the tangents
+/// k ((1 + 2 g) n n' + g I) of bonds become before they break.
 template <int Dim>
-Blocks<Dim> own_trusses(const Network& network) {
+Blocks<Dim> own_trusses(const Network& network, Strain strain) {
   Blocks<Dim> blocks(static_cast<std::size_t>(network.particles.size()),
                      Eigen::Matrix<double, Dim, Dim>::Zero());
   for (Index e = 0; e < network.num_elements(); ++e) {
     const Eigen::Map<const Eigen::Matrix<double, Dim, 1>> n(network.bonds.direction(e).data());
-    const Eigen::Matrix<double, Dim, Dim> part = network.stiffness[e] * n * n.transpose();
+    Eigen::Matrix<double, Dim, Dim> part = network.stiffness[e] * n * n.transpose();
+    if (strain == Strain::green && std::isfinite(network.critical_stretch[e])) {
+      const double g = network.critical_stretch[e];
+      part *= 1.0 + 2.0 * g;
+      part.diagonal().array() += g * network.stiffness[e];
+    }
     blocks[network.bonds.first[e]] += part;
     blocks[network.bonds.second[e]] += part;
   }
@@ -137,14 +143,15 @@ Inertia inertia_of(const Network& network, const Blocks<Width>& blocks,
 
 }  // namespace
 
-Inertia lumped_inertia(const Network& network, std::span<const double> density,
-                       MassScaling scaling) {
+Inertia lumped_inertia(const Network& network, std::span<const double> density, MassScaling scaling,
+                       Strain strain) {
+  const bool plane = network.dim() == 2;
   if (network.carries_moments()) {
-    return network.dim() == 2 ? inertia_of<2, 3>(network, own_frames<2>(network), density, scaling)
-                              : inertia_of<3, 6>(network, own_frames<3>(network), density, scaling);
+    return plane ? inertia_of<2, 3>(network, own_frames<2>(network), density, scaling)
+                 : inertia_of<3, 6>(network, own_frames<3>(network), density, scaling);
   }
-  return network.dim() == 2 ? inertia_of<2, 2>(network, own_trusses<2>(network), density, scaling)
-                            : inertia_of<3, 3>(network, own_trusses<3>(network), density, scaling);
+  return plane ? inertia_of<2, 2>(network, own_trusses<2>(network, strain), density, scaling)
+               : inertia_of<3, 3>(network, own_trusses<3>(network, strain), density, scaling);
 }
 
 }  // namespace perilink

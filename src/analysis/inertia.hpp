@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/explicit_bonds.hpp"
 #include "assembly/network.hpp"
 
 namespace perilink {
@@ -36,9 +37,13 @@ enum class MassScaling {
 /// largest eigenvalue of the own stiffness sum k b_i b_i' of particle i against its mass the sum of
 /// the right sides is at most max (p_i + p_j) times the mass form, hence omega^2 <= max over bonds
 /// of p_i + p_j.
+///
+/// Of Green strains the tangent of a bond grows with its stretch: the bound is that of all bonds
+/// about to break, to the first order in their stretch, at any rotation; unbreakable bonds count as
+/// they are at rest, and their stretch costs three halves of itself of the critical step.
 /// \param density  by material [mass/length^3], positive
 /// \throws std::invalid_argument where a density is missing or not positive
 Inertia lumped_inertia(const Network& network, std::span<const double> density,
-                       MassScaling scaling = MassScaling::none);
+                       MassScaling scaling = MassScaling::none, Strain strain = Strain::small);
 
 }  // namespace perilink

@@ -57,22 +57,30 @@ StepState present_state(const BondRunState& state, const std::vector<double>& se
 
 }  // namespace
 
+Strain strain_of(const AnalysisSection& analysis) {
+  return analysis.strain == "green" ? Strain::green : Strain::small;
+}
+
 BondRunCase build_bond_run(const CaseFile& input, const Model& model, int threads) {
   BondRunCase built;
   const bool uniform = input.analysis.masses == "uniform";
-  built.inertia = lumped_inertia(model.network, densities(input),
-                                 uniform ? MassScaling::uniform : MassScaling::none);
+  built.rules.damping_rate = input.analysis.damping_rate;
+  built.rules.strain = strain_of(input.analysis);
+  built.rules.constant_velocity = !input.velocities.empty();
+  built.inertia =
+      lumped_inertia(model.network, densities(input),
+                     uniform ? MassScaling::uniform : MassScaling::none, built.rules.strain);
   choose_steps(input, built);
   built.fundamental_period =
       fundamental_period(model.network, model.unknowns, built.inertia, threads);
   return built;
 }
 
-BondRunFiles::BondRunFiles(const CaseFile& input, const Model& model, const BondRunCase& built,
+BondRunFiles::BondRunFiles(const CaseFile& input, const Model& model, Index steps,
                            std::filesystem::path directory, bool quiet)
     : input_(input),
       model_(model),
-      built_(built),
+      steps_(steps),
       directory_(std::move(directory)),
       history_(directory_.string(), CrackCount::broken_bonds, names_of(model.gauges)),
       bar_(quiet),
@@ -121,17 +129,24 @@ void BondRunFiles::on_row(const ExplicitRecord& record, const BondRunState& stat
   }
   const double now = record.time * (1.0 + round_off);
   const std::vector<double>& times = input_.output.fields_times;
-  bool wanted = rows_ == 1;
+  bool wanted = rows_ == 1 || input_.analysis.type == "relaxation";
   for (; next_time_ < times.size() && times[next_time_] <= now; ++next_time_) wanted = true;
   if (wanted) write_fields(record, state);
   if (!bar_.is_due()) return;
-  bar_.draw(fmt::format("step {} of {}, load factor {:.4g}, {} broken bonds", record.step,
-                        built_.steps, record.load_factor, record.broken_bonds),
-            static_cast<double>(record.step) / built_.steps);
+  bar_.draw(fmt::format("step {} of {}, load factor {:.4g}, {} broken bonds", record.step, steps_,
+                        record.load_factor, record.broken_bonds),
+            static_cast<double>(record.step) / steps_);
 }
 
 void BondRunFiles::on_end(const ExplicitRecord& last, const BondRunState& state) {
   write_fields(last, state);
+}
+
+void BondRunFiles::on_iteration(Index load_step, Index iteration, double residual) {
+  if (!bar_.is_due()) return;
+  bar_.draw(fmt::format("load step {} of {}, iteration {}, residual {:.1e}", load_step, steps_,
+                        iteration, residual),
+            static_cast<double>(load_step - 1) / steps_);
 }
 
 bool BondRunFiles::stop_requested() { return stop_signal_received(); }

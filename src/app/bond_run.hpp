@@ -16,24 +16,30 @@ namespace perilink {
 /// What an explicit case of bonds adds to its model.
 struct BondRunCase {
   Inertia inertia;
+  BondRunRules rules;
   double fundamental_period = 0.0;  ///< of the intact body [time]
   ExplicitOptions options;          ///< threads left at one
   Index steps = 0;
 };
+
+Strain strain_of(const AnalysisSection& analysis);
 
 /// Masses, period and steps of a case with type = "explicit" whose body has bonds.
 /// \throws InputError for a time step above the critical one, or too many steps
 BondRunCase build_bond_run(const CaseFile& input, const Model& model, int threads);
 
 /// Turns what happens in the run into files and progress: every row into the history, the states at
-/// the times that the case asks for (and the first and the last) into field files.
+/// the times that the case asks for (and the first and the last) into field files, of a dynamic
+/// relaxation those of all rows.
 class BondRunFiles final : public BondRunObserver {
  public:
-  BondRunFiles(const CaseFile& input, const Model& model, const BondRunCase& built,
+  /// \param steps  of the run, for the progress
+  BondRunFiles(const CaseFile& input, const Model& model, Index steps,
                std::filesystem::path directory, bool quiet);
 
   void on_row(const ExplicitRecord& record, const BondRunState& state) override;
   void on_end(const ExplicitRecord& last, const BondRunState& state) override;
+  void on_iteration(Index load_step, Index iteration, double residual) override;
   bool stop_requested() override;
 
   /// Brings everything to the disk, ends the progress line.
@@ -48,7 +54,7 @@ class BondRunFiles final : public BondRunObserver {
 
   const CaseFile& input_;
   const Model& model_;
-  const BondRunCase& built_;
+  Index steps_;
   std::filesystem::path directory_;
   ExplicitHistory history_;
   ProgressBar bar_;

@@ -9,6 +9,7 @@
 #include "app/configure.hpp"
 #include "app/explicit_case.hpp"
 #include "app/progress.hpp"
+#include "app/relaxation_run.hpp"
 #include "app/run_model.hpp"
 #include "app/summary.hpp"
 #include "assembly/stiffness.hpp"
@@ -224,6 +225,22 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   return exit_done;
 }
 
+int check_relaxation(const std::string& case_path, const CaseFile& input) {
+  const Timer timer;
+  const Model model = build_model_visibly(input, false);
+  const double set_up = timer.seconds();
+  const double iterations = expected_iterations(model, relaxation_options(input, 1));
+  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_sizes(model);
+  fmt::print("#   load steps         {}, the first of about {:.2g} iterations\n",
+             input.analysis.load_factors.size(), iterations);
+  const double step = model.network.num_elements() * iterations / bond_steps_per_second;
+  fmt::print("# expected cost of a run\n");
+  fmt::print("#   set-up             {} (as it took now)\n", time_text(set_up));
+  fmt::print("#   first load step    about {} on one core\n", time_text(step));
+  return exit_done;
+}
+
 }  // namespace
 
 int check_case(const std::string& case_path) {
@@ -232,6 +249,7 @@ int check_case(const std::string& case_path) {
     return input.body.model == "lattice" ? check_explicit(case_path, input)
                                          : check_moving_bonds(case_path, input);
   }
+  if (input.analysis.type == "relaxation") return check_relaxation(case_path, input);
   const Timer timer;
   const Model model = build_model_visibly(input, false);
   const double set_up = timer.seconds();

@@ -15,6 +15,7 @@
 #include "app/explicit_observer.hpp"
 #include "app/explicit_summary.hpp"
 #include "app/mesh_input.hpp"
+#include "app/relaxation_run.hpp"
 #include "app/result_directory.hpp"
 #include "app/run_model.hpp"
 #include "app/run_observer.hpp"
@@ -122,11 +123,11 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   PhaseSeconds seconds;
   seconds.set_up = timer.seconds();
   timer.restart();
-  BondRunFiles files(input, model, built, directory, options.quiet);
+  BondRunFiles files(input, model, built.steps, directory, options.quiet);
   ExplicitResult result;
   try {
     result = run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference,
-                                built.inertia, input.analysis.damping_rate, built.options, files);
+                                built.inertia, built.rules, built.options, files);
     files.finish();
   } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
     result.ending = Ending::failed;
@@ -148,23 +149,53 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   return exit_status_of(result.ending);
 }
 
-}  // namespace
-
-int run_case(const RunOptions& options) {
+/// Bonds that are brought to rest.
+int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::path& directory,
+                   int threads) {
   Timer timer;
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  omp_set_num_threads(threads);
-  const CaseFile input = read_case_file(options.case_path);
-  const fs::path directory = options.directory ? fs::path(*options.directory)
-                                               : default_result_directory(options.case_path);
-  refuse_own_case(directory, options.case_path);
-  refuse_old_results(directory, options.force);  // at once: the model may take minutes
-  if (input.analysis.type == "explicit") {
-    return input.body.model == "lattice" ? run_explicit(options, input, directory, threads)
-                                         : run_moving_bonds(options, input, directory, threads);
+  const Model model = build_model_visibly(input, options.quiet);
+  prepare_result_directory(directory, options.force);
+  catch_stop_signals();
+  write_resolved_case(directory, seen_from(input, directory));
+  const auto log = open_log(directory);
+  log->info("{} : {} particles, {}, {} load steps, {} threads", input.path,
+            model.network.particles.size(), elements_text(model),
+            input.analysis.load_factors.size(), threads);
+  for (const std::string& note : model.notes) log->info("note: {}", note);
+
+  PhaseSeconds seconds;
+  seconds.set_up = timer.seconds();
+  timer.restart();
+  BondRunFiles files(input, model, static_cast<Index>(input.analysis.load_factors.size()),
+                     directory, options.quiet);
+  RelaxationResult result;
+  try {
+    result = run_dynamic_relaxation(model.network, model.unknowns, model.loads, model.reference,
+                                    relaxation_options(input, threads), files);
+    files.finish();
+  } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
+    result.ending = Ending::failed;
+    result.reason = error.what();
   }
+  if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
+  seconds.output = files.seconds_writing();
+  seconds.analysis = timer.seconds() - seconds.output;
+  try {
+    write_summary(directory, input, model, result, files, seconds, threads);
+  } catch (const FileError& error) {
+    fmt::print(stderr, "perilink: {}\n", error.what());
+    result.ending = Ending::failed;
+  }
+  log->info("{}: {}; {} iterations, {} broken bonds, residual {:.2e}", to_string(result.ending),
+            result.reason, result.iterations, result.last.broken_bonds, result.residual);
+  if (!options.quiet) print_summary(directory, input, model, result, files, seconds);
+  return exit_status_of(result.ending);
+}
+
+/// Bonds that break one after the other, or a single elastic solution.
+int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::path& directory,
+                    int threads) {
+  Timer timer;
   Model model = build_model_visibly(input, options.quiet);
   prepare_result_directory(directory, options.force);
   catch_stop_signals();
@@ -206,6 +237,27 @@ int run_case(const RunOptions& options) {
             result.factor.factorizations, result.largest_residual);
   if (!options.quiet) print_summary(input, model, result, seconds, directory);
   return exit_status_of(result.ending);
+}
+
+}  // namespace
+
+int run_case(const RunOptions& options) {
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  omp_set_num_threads(threads);
+  const CaseFile input = read_case_file(options.case_path);
+  const fs::path directory = options.directory ? fs::path(*options.directory)
+                                               : default_result_directory(options.case_path);
+  refuse_own_case(directory, options.case_path);
+  refuse_old_results(directory, options.force);  // at once: the model may take minutes
+  const bool lattice = input.body.model == "lattice";
+  const std::string& type = input.analysis.type;
+  const auto run = type == "relaxation"            ? run_relaxation
+                   : type == "explicit" && lattice ? run_explicit
+                   : type == "explicit"            ? run_moving_bonds
+                                                   : run_quasistatic;
+  return run(options, input, directory, threads);
 }
 
 }  // namespace perilink

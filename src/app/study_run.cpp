@@ -230,9 +230,11 @@ std::vector<StudySeries> study_series(const StudyFile& study) {
 }
 
 void check_study(const StudyFile& study, const CaseFile& input) {
-  if (input.analysis.type == "explicit") {
-    throw InputError({study.path, 0, "case"}, "is an explicit analysis, which studies do not run",
-                     "name a case with analysis.type = \"elastic\" or \"damage\"");
+  if (input.analysis.type == "explicit" || input.analysis.type == "relaxation") {
+    throw InputError(
+        {study.path, 0, "case"},
+        fmt::format("has analysis.type = \"{}\", which studies do not run", input.analysis.type),
+        "name a case with analysis.type = \"elastic\" or \"damage\"");
   }
   check_refinement(study.vary, input.body);
   const int dim = dimension_of(input.body);

@@ -32,11 +32,11 @@ int component_of(const Network& network, int entry) {
 
 void prescribe(const CaseFile& input, const Model& model, Prescription& prescription,
                std::span<const Index> particles, const std::string& key, int component,
-               const PositionField& values) {
+               const PositionField& values, double factor = 1.0) {
   for (const Index i : particles) {
     const std::size_t slot = static_cast<std::size_t>(i) * model.network.width() + component;
     const std::span<const double> x = model.network.particles.position(i);
-    const double value = values.at(x)[0];
+    const double value = factor * values.at(x)[0];
     const double before = prescription.value[slot];
     if (prescription.held[slot]) {
       const double largest = std::max(std::abs(value), std::abs(before));
@@ -46,7 +46,8 @@ void prescribe(const CaseFile& input, const Model& model, Prescription& prescrip
           fmt::format(
               "sets the {} of the particle at ({}) to {}, where another entry sets it to {}",
               name_of_component(model.network, component), fmt::join(x, ", "), value, before),
-          "let the regions of [[supports]], [[symmetry]] and [[displacements]] not overlap");
+          "let the regions of [[supports]], [[symmetry]], [[displacements]] and [[velocities]] not "
+          "overlap");
     }
     prescription.held[slot] = 1;
     prescription.value[slot] = value;
@@ -75,10 +76,10 @@ std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model,
     if (std::abs(coordinate - *section.at) <= in_plane * model.lattice.spacing) inside.push_back(i);
   }
   if (inside.empty()) {
-    throw InputError(input.where(item_key("symmetry", k, "at")),
-                     fmt::format("is {}, but no particle lies in that plane", *section.at),
-                     fmt::format("the nearest particle has {} = {:.6g}", "xyz"[section.axis],
-                                 nearest));
+    throw InputError(
+        input.where(item_key("symmetry", k, "at")),
+        fmt::format("is {}, but no particle lies in that plane", *section.at),
+        fmt::format("the nearest particle has {} = {:.6g}", "xyz"[section.axis], nearest));
   }
   return inside;
 }
@@ -99,10 +100,29 @@ void hold_in_plane(const CaseFile& input, const Model& model, std::size_t k,
   }
 }
 
+/// \param factor  displacement over the values of the sections
+void drive(const CaseFile& input, const Model& model, Prescription& prescription,
+           const std::string& table, const std::vector<DisplacementSection>& sections,
+           double factor) {
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const std::vector<Index> particles =
+        particles_of_region(input, model, sections[k].region, item_key(table, k, "region"));
+    for (int entry = 0; entry < 6; ++entry) {
+      const auto& value = sections[k].value[entry];
+      if (!value) continue;
+      const std::string name = motion_name(model.network.dim(), entry);
+      const PositionField values(input, item_key(table, k, name), {&*value, 1});
+      const int component = component_of(model.network, entry);
+      prescribe(input, model, prescription, particles, item_key(table, k), component, values,
+                factor);
+      grip(model.network, prescription, particles, component);
+    }
+  }
+}
+
 }  // namespace
 
 Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
-  const int dim = model.network.dim();
   const std::size_t width = model.network.width();
   Prescription prescription;
   prescription.held.assign(width * model.network.particles.size(), 0);
@@ -111,8 +131,8 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
   for (std::size_t k = 0; k < input.supports.size(); ++k) {
     const Expression zero;
     const PositionField values(input, item_key("supports", k), {&zero, 1});
-    const std::vector<Index> particles = particles_of_region(
-        input, model, input.supports[k].region, item_key("supports", k, "region"));
+    const std::vector<Index> particles = particles_of_region(input, model, input.supports[k].region,
+                                                             item_key("supports", k, "region"));
     for (int entry = 0; entry < 6; ++entry) {
       if (!input.supports[k].fix[entry]) continue;
       const int component = component_of(model.network, entry);
@@ -123,20 +143,8 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
   for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
     hold_in_plane(input, model, k, prescription);
   }
-  for (std::size_t k = 0; k < input.displacements.size(); ++k) {
-    const std::vector<Index> particles = particles_of_region(
-        input, model, input.displacements[k].region, item_key("displacements", k, "region"));
-    for (int entry = 0; entry < 6; ++entry) {
-      const auto& value = input.displacements[k].value[entry];
-      if (!value) continue;
-      const PositionField values(input, item_key("displacements", k, motion_name(dim, entry)),
-                                 {&*value, 1});
-      const int component = component_of(model.network, entry);
-      prescribe(input, model, prescription, particles, item_key("displacements", k), component,
-                values);
-      grip(model.network, prescription, particles, component);
-    }
-  }
+  drive(input, model, prescription, "displacements", input.displacements, 1.0);
+  drive(input, model, prescription, "velocities", input.velocities, input.analysis.duration);
   return prescription;
 }
 

@@ -9,12 +9,13 @@ namespace perilink {
 
 /// Displacements and rotations that are prescribed.
 struct Prescription {
-  std::vector<std::uint8_t> held;  ///< shape (particles, width)
-  std::vector<double> value;       ///< at load factor 1 [length], of rotations [-]
+  std::vector<std::uint8_t> held;     ///< shape (particles, width)
+  std::vector<double> value;          ///< at load factor 1 [length], of rotations [-];
+                                      ///< of velocities at the end of the duration
   std::vector<std::uint8_t> gripped;  ///< see Model::gripped
 };
 
-/// Supports, planes of symmetry and driven displacements of a case.
+/// Supports, planes of symmetry, driven displacements and velocities of a case.
 /// \throws InputError  for regions without particles and entries that contradict each other
 Prescription collect_prescriptions(const CaseFile& input, const Model& model);
 

@@ -129,6 +129,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   };
   input.supports = document.list("supports", in_body(read_support));
   input.displacements = document.list("displacements", in_body(read_displacement));
+  input.velocities = document.list("velocities", in_body(read_displacement));
   input.loads = document.list("loads", in_dimension(read_load));
   input.tractions = document.list("tractions", in_dimension(read_traction));
   input.point_loads = document.list("point_loads", in_body(read_point_load));

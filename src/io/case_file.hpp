@@ -81,7 +81,8 @@ struct SupportSection {
   std::array<bool, 6> fix{};  ///< displacements along x, y, z, rotations about x, y, z
 };
 
-/// [[displacements]]: displacements and rotations driven in proportion to the load factor.
+/// [[displacements]]: displacements and rotations driven in proportion to the load factor; and
+/// [[velocities]], which move bodies of bonds in explicit analyses [per time].
 struct DisplacementSection {
   std::string region;
   /// At load factor 1 along x, y, z [length] and of rotations about x, y, z [-].
@@ -153,9 +154,9 @@ struct GaugeSection {
 
 /// [analysis]
 struct AnalysisSection {
-  std::string type = "damage";               ///< damage | elastic | explicit
+  std::string type = "damage";               ///< damage | elastic | explicit | relaxation
   std::string control = "events";            ///< events | steps
-  std::vector<double> load_factors;          ///< of control = steps
+  std::vector<double> load_factors;          ///< of control = steps and type = relaxation
   std::string rigid_body_modes = "refuse";   ///< refuse | pin
   std::string factor = "in_place";           ///< in_place | cholmod_updown | refactorize
   double duration = 0.0;                     ///< of type = explicit and below [time]
@@ -165,6 +166,9 @@ struct AnalysisSection {
   int rows = 500;                            ///< of the history, about
   double damping_rate = 0.0;                 ///< of bonds [1/time]
   std::string masses = "volume";             ///< of bonds: volume | uniform
+  std::string strain = "small";              ///< of bonds that move: small | green
+  double tolerance = 1e-6;                   ///< of type = relaxation: relative residual force
+  int iterations = 1000000;                  ///< of type = relaxation: most of a load step
 };
 
 /// [stop]: the run ends at the first rule met (always at collapse).
@@ -191,6 +195,7 @@ struct CaseFile {
   std::vector<MaterialSection> materials;
   std::vector<SupportSection> supports;
   std::vector<DisplacementSection> displacements;
+  std::vector<DisplacementSection> velocities;
   std::vector<LoadSection> loads;
   std::vector<TractionSection> tractions;
   std::vector<PointLoadSection> point_loads;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "io/case_moving_bonds.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
 
@@ -263,6 +264,7 @@ void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
   }
   assign(analysis.rows, table.integer("rows", 1, most_rows));
   assign(analysis.damping_rate, not_negative(table, "damping_rate"));
+  read_strain(table, analysis);
   assign(analysis.masses, table.choice("masses", {"volume", "uniform"}));
   assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
 }
@@ -315,6 +317,7 @@ void write_explicit_analysis(TomlWriter& out, const CaseFile& input) {
   if (is_lattice(input.body)) return;
   out.write("damping_rate", analysis.damping_rate);
   out.write("masses", analysis.masses);
+  out.write("strain", analysis.strain);
   out.write("rigid_body_modes", analysis.rigid_body_modes);
 }
 

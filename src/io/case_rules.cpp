@@ -11,6 +11,7 @@
 
 #include "io/case_gauges.hpp"
 #include "io/case_lattice.hpp"
+#include "io/case_moving_bonds.hpp"
 #include "io/case_schema.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
@@ -145,22 +146,18 @@ std::string shown(const Expression& value) {
   return value.is_constant() ? fmt::format("{}", value.number) : quoted(value.formula);
 }
 
-/// A displacement that is driven cannot be held or driven elsewhere too.
-void check_contradictions(const CaseFile& input) {
-  std::set<std::pair<std::string, int>> held;
-  for (const SupportSection& support : input.supports) {
-    for (int axis = 0; axis < 6; ++axis) {
-      if (support.fix[axis]) held.emplace(support.region, axis);
-    }
-  }
+using Held = std::set<std::pair<std::string, int>>;
+
+void check_driven_once(const CaseFile& input, const Held& held, const std::string& table,
+                       const std::vector<DisplacementSection>& sections) {
   std::map<std::pair<std::string, int>, Expression> driven;
-  for (std::size_t i = 0; i < input.displacements.size(); ++i) {
-    const DisplacementSection& section = input.displacements[i];
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const DisplacementSection& section = sections[i];
     for (int axis = 0; axis < 6; ++axis) {
       if (!section.value[axis]) continue;
       const Expression& value = *section.value[axis];
       const std::string name = motion_name(dimension_of(input.body), axis);
-      const SourceLocation where = input.where(item_key("displacements", i, name));
+      const SourceLocation where = input.where(item_key(table, i, name));
       if (!value.is_zero() && held.count({section.region, axis}) > 0) {
         throw InputError(where,
                          fmt::format("drives region {} by {}, but [[supports]] holds it in {}",
@@ -178,10 +175,24 @@ void check_contradictions(const CaseFile& input) {
   }
 }
 
+/// A displacement that is driven cannot be held or driven elsewhere too.
+void check_contradictions(const CaseFile& input) {
+  Held held;
+  for (const SupportSection& support : input.supports) {
+    for (int axis = 0; axis < 6; ++axis) {
+      if (support.fix[axis]) held.emplace(support.region, axis);
+    }
+  }
+  check_driven_once(input, held, "displacements", input.displacements);
+  check_driven_once(input, held, "velocities", input.velocities);
+}
+
 void check_driven(const CaseFile& input) {
   bool driven = !input.loads.empty() || !input.tractions.empty() || !input.point_loads.empty();
-  for (const DisplacementSection& section : input.displacements) {
-    for (const auto& value : section.value) driven = driven || (value && !value->is_zero());
+  for (const auto* sections : {&input.displacements, &input.velocities}) {
+    for (const DisplacementSection& section : *sections) {
+      for (const auto& value : section.value) driven = driven || (value && !value->is_zero());
+    }
   }
   if (driven) return;
   if (is_lattice(input.body)) {
@@ -227,6 +238,7 @@ void check_method(const CaseFile& input) {
 }  // namespace
 
 void check_rules(const CaseFile& input) {
+  check_moving_bonds(input);
   check_lattice(input);
   check_method(input);
   const std::set<std::string> names = check_region_names(input);
@@ -234,6 +246,7 @@ void check_rules(const CaseFile& input) {
   check_materials(input, names);
   check_references(input, names, "supports", input.supports);
   check_references(input, names, "displacements", input.displacements);
+  check_references(input, names, "velocities", input.velocities);
   check_references(input, names, "loads", input.loads);
   if (!input.tractions.empty()) refuse_on_ghosts(input, "tractions[1]");
   check_references(input, names, "tractions", input.tractions);

@@ -112,6 +112,7 @@ const std::vector<TableSchema>& case_schema() {
         "internal_damping", "external_damping", "fundamental_period"}},
       {"supports", true, {"region", "fix"}},
       {"displacements", true, {"region", "x", "y", "z", "rotation", "rx", "ry", "rz"}},
+      {"velocities", true, {"region", "x", "y", "z", "rotation", "rx", "ry", "rz"}},
       {"loads", true, {"region", "force", "body_force"}},
       {"tractions", true, {"region", "traction", "pressure"}},
       {"point_loads", true, {"at", "force", "moment"}},
@@ -125,7 +126,8 @@ const std::vector<TableSchema>& case_schema() {
       {"analysis",
        false,
        {"type", "control", "load_factors", "rigid_body_modes", "factor", "duration", "ramp_time",
-        "time_step", "safety", "rows", "damping_rate", "masses"}},
+        "time_step", "safety", "rows", "damping_rate", "masses", "strain", "tolerance",
+        "iterations"}},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}},
       {"output", false, {"fields_at", "fields_every", "fields_times"}},
   };

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/case_lattice.hpp"
+#include "io/case_moving_bonds.hpp"
 #include "io/case_schema.hpp"
 #include "io/case_words.hpp"
 
@@ -164,30 +165,9 @@ RebarSection read_rebar(const CaseTable& table, int dim) {
   return bar;
 }
 
-AnalysisSection read_analysis(const CaseTable& table) {
-  AnalysisSection analysis;
-  assign(analysis.type, table.choice("type", {"damage", "elastic", "explicit"}));
-  if (analysis.type == "explicit") {
-    read_explicit_analysis(table, analysis);
-    return analysis;
-  }
-  refuse_explicit_keys(table, analysis);
-  assign(analysis.control, table.choice("control", {"events", "steps"}));
-  assign(analysis.load_factors, table.numbers("load_factors"));
-  assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
-  assign(analysis.factor, table.choice("factor", {"in_place", "cholmod_updown", "refactorize"}));
-  const std::vector<double>& factors = analysis.load_factors;
-  if (analysis.control == "events") {
-    if (table.has("load_factors")) {
-      table.refuse("load_factors",
-                   "is given, but control = \"events\" finds the load factors itself",
-                   "set control = \"steps\", or delete `load_factors`");
-    }
-    return analysis;
-  }
-  if (!table.has("load_factors")) {
-    table.refuse_missing("load_factors", "the load factors of the steps: [0.1, 0.2, 0.3]");
-  }
+std::vector<double> read_load_factors(const CaseTable& table) {
+  const std::vector<double> factors = table.need("load_factors", table.numbers("load_factors"),
+                                                 "the load factors of the steps: [0.1, 0.2, 0.3]");
   if (factors.empty()) table.refuse("load_factors", "is empty", "give one number for each step");
   if (std::any_of(factors.begin(), factors.end(), [](double factor) { return factor < 0.0; })) {
     table.refuse(
@@ -198,6 +178,31 @@ AnalysisSection read_analysis(const CaseTable& table) {
   if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 0.0; })) {
     table.refuse("load_factors", "holds only zeros, so no step loads the body",
                  "give one number for each step: [0.1, 0.2, 0.3]");
+  }
+  return factors;
+}
+
+AnalysisSection read_analysis(const CaseTable& table) {
+  AnalysisSection analysis;
+  assign(analysis.type, table.choice("type", {"damage", "elastic", "explicit", "relaxation"}));
+  if (analysis.type != "relaxation") refuse_relaxation_keys(table, analysis);
+  if (analysis.type == "explicit") {
+    read_explicit_analysis(table, analysis);
+    return analysis;
+  }
+  refuse_explicit_keys(table, analysis);
+  assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
+  if (analysis.type == "relaxation") {
+    read_relaxation(table, analysis);
+    return analysis;
+  }
+  assign(analysis.control, table.choice("control", {"events", "steps"}));
+  assign(analysis.factor, table.choice("factor", {"in_place", "cholmod_updown", "refactorize"}));
+  if (analysis.control == "steps") {
+    analysis.load_factors = read_load_factors(table);
+  } else if (table.has("load_factors")) {
+    table.refuse("load_factors", "is given, but control = \"events\" finds the load factors itself",
+                 "set control = \"steps\", or delete `load_factors`");
   }
   return analysis;
 }

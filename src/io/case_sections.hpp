@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "io/case_file.hpp"
 #include "io/case_table.hpp"
@@ -44,6 +45,8 @@ SpringSection read_springs(const CaseTable& table, int dim);
 CrackSection read_crack(const CaseTable& table, int dim);
 RebarSection read_rebar(const CaseTable& table, int dim);
 GaugeSection read_gauge(const CaseTable& table, int dim);
+/// The load factors that an analysis must have.
+std::vector<double> read_load_factors(const CaseTable& table);
 AnalysisSection read_analysis(const CaseTable& table);
 StopSection read_stop(const CaseTable& table);
 OutputSection read_output(const CaseTable& table);

@@ -7,6 +7,7 @@
 #include "io/case_file.hpp"
 #include "io/case_gauges.hpp"
 #include "io/case_lattice.hpp"
+#include "io/case_moving_bonds.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
 #include "io/toml_writer.hpp"
@@ -59,6 +60,15 @@ void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
   }
 }
 
+void write_driven(TomlWriter& out, const std::string& header,
+                  const std::vector<DisplacementSection>& sections, int dim) {
+  for (const DisplacementSection& section : sections) {
+    out.header(header);
+    out.write("region", section.region);
+    for (std::size_t c = 0; c < 6; ++c) out.write(motion_name(dim, c), section.value[c]);
+  }
+}
+
 void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
   for (const SupportSection& support : input.supports) {
     out.header("[[supports]]");
@@ -72,11 +82,8 @@ void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
     }
     out.write("fix", axes);
   }
-  for (const DisplacementSection& section : input.displacements) {
-    out.header("[[displacements]]");
-    out.write("region", section.region);
-    for (std::size_t c = 0; c < 6; ++c) out.write(motion_name(dim, c), section.value[c]);
-  }
+  write_driven(out, "[[displacements]]", input.displacements, dim);
+  write_driven(out, "[[velocities]]", input.velocities, dim);
   for (const LoadSection& load : input.loads) {
     out.header("[[loads]]");
     out.write("region", load.region);
@@ -142,6 +149,7 @@ void write_run(TomlWriter& out, const CaseFile& input) {
     out.write("fields_times", input.output.fields_times);
     return;
   }
+  if (input.analysis.type == "relaxation") return write_relaxation(out, input);
   out.write("control", input.analysis.control);
   if (input.analysis.control == "steps") out.write("load_factors", input.analysis.load_factors);
   out.write("rigid_body_modes", input.analysis.rigid_body_modes);

@@ -119,7 +119,7 @@ double rate_of_bonds(const Network& network, int threads) {
     SilentBonds observer;
     const Timer timer;
     const ExplicitResult result = run_explicit_bonds(network, unknowns, loads, {false, 1e-3},
-                                                     inertia, 0.0, options, observer);
+                                                     inertia, {}, options, observer);
     best = std::max(best, 1.0 * network.num_elements() * result.steps / timer.seconds());
   }
   return best;

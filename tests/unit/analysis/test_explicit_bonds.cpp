@@ -149,5 +149,11 @@ TEST(ExplicitBonds, BarsYieldEitherWay) {
   }
 }
 
+TEST(ExplicitBonds, BondsWithMomentsHaveSmallStrainsOnly) {
+  const AnalysisBody body =
+      make_block({{"plane", Pattern::rectangular, Surface::none}, false, false, 6, 0.1, true});
+  EXPECT_THROW(make_explicit_bonds(body.network, Strain::green), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace perilink

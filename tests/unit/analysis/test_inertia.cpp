@@ -72,6 +72,24 @@ INSTANTIATE_TEST_SUITE_P(
         BlockCase{{"space", Pattern::cubic, Surface::none}, false, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
 
+/// The bound is that of all bonds stretched to their limit, k ((1 + 2 g) n n' + g I).
+TEST(Inertia, GreenStrainsAllowForTheStretchAtWhichBondsBreak) {
+  AnalysisBody body = make_block({{"plane", Pattern::rectangular, Surface::none}});
+  const Inertia small = lumped_inertia(body.network, std::vector{density});
+  const double stretch = 0.02;
+  std::fill(body.network.critical_stretch.begin(), body.network.critical_stretch.end(), stretch);
+  const Inertia green =
+      lumped_inertia(body.network, std::vector{density}, MassScaling::none, Strain::green);
+  // Along a bond 1 + 3 g, and across it g; at the edge across counts half as much as along.
+  const double square = std::pow(green.frequency_bound / small.frequency_bound, 2);
+  EXPECT_GT(square, 1.0 + 2.0 * stretch);
+  EXPECT_LT(square, 1.0 + 5.0 * stretch);
+  std::fill(body.network.critical_stretch.begin(), body.network.critical_stretch.end(), INFINITY);
+  EXPECT_EQ(lumped_inertia(body.network, std::vector{density}, MassScaling::none, Strain::green)
+                .frequency_bound,
+            small.frequency_bound);
+}
+
 /// Scaled masses differ from the true ones but for their sum, and allow a longer step.
 TEST(Inertia, ScalingKeepsTheMassOfTheBody) {
   const AnalysisBody body = make_block({{"plane", Pattern::rectangular, Surface::none}});

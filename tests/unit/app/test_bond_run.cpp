@@ -68,7 +68,7 @@ class BondRunTest : public testing::Test {
   ExplicitResult run(BondRunFiles& files) {
     ExplicitResult result =
         run_explicit_bonds(model_.network, model_.unknowns, model_.loads, model_.reference,
-                           built_.inertia, input_.analysis.damping_rate, built_.options, files);
+                           built_.inertia, built_.rules, built_.options, files);
     files.finish();
     return result;
   }
@@ -100,6 +100,18 @@ TEST_F(BondRunTest, UniformMassesAllowLongerSteps) {
             built_.inertia.critical_time_step());
 }
 
+TEST_F(BondRunTest, RulesAreThoseOfTheCase) {
+  EXPECT_EQ(built_.rules.damping_rate, 0.5);
+  EXPECT_EQ(built_.rules.strain, Strain::small);
+  EXPECT_FALSE(built_.rules.constant_velocity);
+  const std::string text = replaced(pulled_block, "[[displacements]]", "[[velocities]]");
+  const CaseFile input = parse_case(replaced(text, "rows = 40", "strain = \"green\""), "");
+  const BondRunCase built = build_bond_run(input, model_, 1);
+  EXPECT_EQ(built.rules.strain, Strain::green);
+  EXPECT_TRUE(built.rules.constant_velocity);
+  EXPECT_LT(built.inertia.critical_time_step(), built_.inertia.critical_time_step());
+}
+
 TEST_F(BondRunTest, UnstableAndEndlessRunsAreRefused) {
   const auto message = [&](const std::string& key) {
     const CaseFile input = parse_case(replaced(pulled_block, "rows = 40", key), "");
@@ -115,7 +127,7 @@ TEST_F(BondRunTest, UnstableAndEndlessRunsAreRefused) {
 }
 
 TEST_F(BondRunTest, HistoryHasARowForEveryRowAndTheGauge) {
-  BondRunFiles files(input_, model_, built_, work_.path(), true);
+  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
   const ExplicitResult result = run(files);
   EXPECT_EQ(result.ending, Ending::completed);
   const CsvTable table = read_csv((work_ / "history.csv").string());
@@ -133,7 +145,7 @@ TEST_F(BondRunTest, HistoryHasARowForEveryRowAndTheGauge) {
 }
 
 TEST_F(BondRunTest, FieldsShowTheMomentTheyAreOf) {
-  BondRunFiles files(input_, model_, built_, work_.path(), true);
+  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
   const ExplicitResult result = run(files);
   const std::vector<PvdEntry> series = read_pvd((work_ / "fields.pvd").string());
   ASSERT_EQ(series.size(), 3U) << "the first row, the time asked for, the last";
@@ -152,7 +164,7 @@ TEST_F(BondRunTest, FieldsShowTheMomentTheyAreOf) {
 }
 
 TEST_F(BondRunTest, SummaryTellsHowItEnded) {
-  BondRunFiles files(input_, model_, built_, work_.path(), true);
+  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
   const ExplicitResult result = run(files);
   write_summary(work_.path(), input_, model_, built_, result, files, {}, 2);
   std::ifstream file(work_ / "summary.json");

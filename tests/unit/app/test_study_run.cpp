@@ -169,13 +169,15 @@ TEST_F(StudyRun, ErrorsThatTheCaseCannotHaveAreRefused) {
 
 TEST_F(StudyRun, ExplicitAnalysesAreRefused) {
   CaseFile input = read_case_file((directory_ / "strip.toml").string());
-  input.analysis.type = "explicit";
-  try {
-    check_study(study(energy + "1\n"), input);
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.where().key, "case");
-    EXPECT_NE(std::string(error.what()).find("is an explicit analysis"), std::string::npos);
+  for (const std::string type : {"explicit", "relaxation"}) {
+    input.analysis.type = type;
+    try {
+      check_study(study(energy + "1\n"), input);
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.where().key, "case");
+      EXPECT_NE(std::string(error.what()).find(type), std::string::npos);
+    }
   }
 }
 

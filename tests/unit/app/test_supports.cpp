@@ -32,6 +32,27 @@ TEST(Supports, DisplacementsFollowTheirFormula) {
   EXPECT_DOUBLE_EQ(model.reference.value, 0.002 * 6400.0);
 }
 
+/// What a velocity comes to at the end of the duration.
+TEST(Supports, VelocitiesArePrescribedAsTheWayTheyGo) {
+  CaseFile input = strip_case();
+  input.loads.clear();
+  input.analysis.duration = 4.0;
+  DisplacementSection moved;
+  moved.region = "upper end";
+  moved.value[1] = Expression("0.5*x");
+  input.velocities.push_back(moved);
+  const Model model = build_model(input);
+  int found = 0;
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    const std::span<const double> x = model.network.particles.position(i);
+    if (model.unknowns.prescribed[2 * i + 1] == 0.0) continue;
+    EXPECT_DOUBLE_EQ(model.unknowns.prescribed[2 * i + 1], 4.0 * 0.5 * x[0]);
+    ++found;
+  }
+  EXPECT_GT(found, 0);
+  EXPECT_DOUBLE_EQ(model.reference.value, 4.0 * 0.5 * 40.0);
+}
+
 TEST(Supports, FormulasThatAgreeMayMeet) {
   CaseFile input = strip_case();
   input.supports.clear();

@@ -81,7 +81,7 @@ Outcome run_explicit(const Specimen& specimen, const Outcome& implicit, double s
   const Timer timer;
   const ExplicitResult result =
       run_explicit_bonds(specimen.network, unknowns, specimen.loads, reference, inertia,
-                         2.0 * 2.0 * std::numbers::pi / period, options, recorder);
+                         {2.0 * 2.0 * std::numbers::pi / period}, options, recorder);
   Outcome outcome;
   outcome.seconds = timer.seconds();
   outcome.peak_load = std::abs(result.peak_load);

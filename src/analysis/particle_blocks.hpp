@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "base/types.hpp"
+
+namespace perilink {
+
+/// Particles in blocks of a fixed size: sums over blocks do not depend on the number of threads.
+class ParticleBlocks {
+ public:
+  /// \param width  components of the motion of a particle
+  ParticleBlocks(Index particles, int width) : particles_(particles), width_(width) {}
+
+  Index count() const { return (particles_ + particles_per_block - 1) / particles_per_block; }
+  Index begin(Index block) const { return block * particles_per_block; }
+  Index end(Index block) const { return std::min(particles_, begin(block) + particles_per_block); }
+
+  /// As many threads as are wanted and have something to do.
+  int threads(int wanted) const {
+    return std::min<Index>(wanted, std::max<Index>(1, count() / blocks_per_thread));
+  }
+
+  /// visit(slot) for every component of every particle of a block.
+  template <class Visit>
+  void for_slots(Index block, Visit visit) const {
+    const std::size_t last = static_cast<std::size_t>(end(block)) * width_;
+    for (std::size_t slot = static_cast<std::size_t>(begin(block)) * width_; slot < last; ++slot) {
+      visit(slot);
+    }
+  }
+
+ private:
+  static constexpr Index particles_per_block = 256;
+  static constexpr Index blocks_per_thread = 4;
+
+  Index particles_;
+  int width_;
+};
+
+}  // namespace perilink

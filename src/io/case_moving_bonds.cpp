@@ -1,0 +1,115 @@
+#include "io/case_moving_bonds.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "io/case_sections.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr int most_iterations = 2000000000;
+
+void check_strain(const CaseFile& input) {
+  if (input.lines.count("analysis.strain") == 0) return;
+  const SourceLocation where = input.where("analysis.strain");
+  if (input.body.model == "lattice") {
+    throw InputError(where, "is given, but lattice particles stretch by their true lengths",
+                     "delete it");
+  }
+  if (input.analysis.strain == "green" && input.body.model != "bond_based") {
+    throw InputError(where,
+                     fmt::format("is \"green\", but model is \"{}\", whose moments know small "
+                                 "rotations only",
+                                 input.body.model),
+                     "set model = \"bond_based\" in [body], or strain = \"small\"");
+  }
+}
+
+void check_velocities(const CaseFile& input) {
+  if (input.velocities.empty()) return;
+  const std::string key = item_key("velocities", 0);
+  if (input.analysis.type != "explicit") {
+    throw InputError(input.where(key),
+                     fmt::format("is given, but analysis.type is \"{}\", which knows no time",
+                                 input.analysis.type),
+                     "give [[displacements]], or set type = \"explicit\"");
+  }
+  if (input.body.model == "lattice") {
+    throw InputError(input.where(key), "is given, but only regions of bonds have velocities",
+                     "give [[displacements]], which follow the smooth load factor");
+  }
+  for (std::size_t k = 0; k < input.displacements.size(); ++k) {
+    for (const auto& value : input.displacements[k].value) {
+      if (!value || value->is_zero()) continue;
+      throw InputError(input.where(key),
+                       fmt::format("is given beside [[displacements]] that drive region \"{}\"",
+                                   input.displacements[k].region),
+                       "drive all regions by one of the two");
+    }
+  }
+}
+
+void check_relaxation(const CaseFile& input) {
+  if (input.analysis.type != "relaxation") return;
+  for (const char* key : {"output.fields_at", "output.fields_every", "output.fields_times"}) {
+    if (input.lines.count(key) == 0) continue;
+    throw InputError(input.where(key),
+                     "is given, but dynamic relaxation writes fields at the end of every load step",
+                     "delete it; analysis.load_factors says which load steps there are");
+  }
+  if (input.lines.count("stop") == 0) return;
+  throw InputError(input.where("stop"), "is given, but dynamic relaxation takes every load step",
+                   "delete it, and give analysis.load_factors");
+}
+
+}  // namespace
+
+void read_strain(const CaseTable& table, AnalysisSection& analysis) {
+  assign(analysis.strain, table.choice("strain", {"small", "green"}));
+}
+
+void read_relaxation(const CaseTable& table, AnalysisSection& analysis) {
+  for (const char* key : {"control", "factor"}) {
+    if (!table.has(key)) continue;
+    table.refuse(key, "is given, but dynamic relaxation takes load steps and factorises nothing",
+                 "delete it; `load_factors` says which load steps there are");
+  }
+  analysis.load_factors = {1.0};
+  if (table.has("load_factors")) analysis.load_factors = read_load_factors(table);
+  read_strain(table, analysis);
+  assign(analysis.tolerance, table.positive("tolerance"));
+  if (analysis.tolerance >= 1.0) {
+    table.refuse("tolerance", fmt::format("is {}, but must be less than 1", analysis.tolerance),
+                 "1e-6 is the default");
+  }
+  assign(analysis.iterations, table.integer("iterations", 1, most_iterations));
+}
+
+void refuse_relaxation_keys(const CaseTable& table, const AnalysisSection& analysis) {
+  const auto refuse = [&](const char* key, const char* others) {
+    if (!table.has(key)) return;
+    table.refuse(key, fmt::format("is given, but type is \"{}\"", analysis.type),
+                 fmt::format("delete it, or set type = {}", others));
+  };
+  refuse("tolerance", "\"relaxation\"");
+  refuse("iterations", "\"relaxation\"");
+  if (analysis.type != "explicit") refuse("strain", "\"explicit\" or \"relaxation\"");
+}
+
+void write_relaxation(TomlWriter& out, const CaseFile& input) {
+  out.write("load_factors", input.analysis.load_factors);
+  out.write("strain", input.analysis.strain);
+  out.write("tolerance", input.analysis.tolerance);
+  out.write("iterations", input.analysis.iterations);
+  out.write("rigid_body_modes", input.analysis.rigid_body_modes);
+}
+
+void check_moving_bonds(const CaseFile& input) {
+  check_strain(input);
+  check_velocities(input);
+  check_relaxation(input);
+}
+
+}  // namespace perilink

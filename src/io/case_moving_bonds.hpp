@@ -1,0 +1,25 @@
+#pragma once
+
+#include "io/case_file.hpp"
+#include "io/case_table.hpp"
+#include "io/toml_writer.hpp"
+
+/// \file
+/// Bonds that move, in explicit analyses or towards equilibrium by dynamic relaxation: what their
+/// cases have of their own.
+
+namespace perilink {
+
+/// The key `strain` of [analysis].
+void read_strain(const CaseTable& table, AnalysisSection& analysis);
+
+/// The keys of [analysis] with type = "relaxation".
+void read_relaxation(const CaseTable& table, AnalysisSection& analysis);
+/// Refuses them with other types, and `strain` where bonds do not move.
+void refuse_relaxation_keys(const CaseTable& table, const AnalysisSection& analysis);
+void write_relaxation(TomlWriter& out, const CaseFile& input);
+
+/// Refuses what dynamic relaxation, Green strains and [[velocities]] cannot be combined with.
+void check_moving_bonds(const CaseFile& input);
+
+}  // namespace perilink
