@@ -39,7 +39,8 @@ class ExplicitBonds {
   virtual ~ExplicitBonds() = default;
 
   /// Internal force, K u of small strains, of the particles [begin, end), after the bonds that
-  /// reach their limit at this displacement have broken. Calls for different particles may run at once.
+  /// reach their limit at this displacement have broken. Calls for different particles may run at
+  /// once.
   /// \param force  shape (particles, width); these particles' part is overwritten
   virtual BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
                             std::span<double> force) = 0;
