@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "assembly/frame.hpp"
+#include "assembly/internal_force.hpp"
 
 namespace perilink {
 namespace {
@@ -134,9 +135,12 @@ std::vector<double> strain_energy_density(const Network& network, const Csr& fam
       : network.dim() == 2       ? frame_energies<2>(network, secants, motion)
                                  : frame_energies<3>(network, secants, motion);
   std::vector<double> density(static_cast<std::size_t>(families.rows()), 0.0);
+  std::vector<double> states;
+  if (network.has_states()) states = extension_sums(network, secants, motion);
   for (Index i = 0; i < families.rows(); ++i) {
     double sum = 0.0;
     for (const Index e : families.row(i)) sum += energies[e];
+    if (network.has_states()) sum += network.state_stiffness[i] * states[i] * states[i];
     density[i] = 0.5 * sum / network.particles.volumes[i];
   }
   return density;

@@ -23,7 +23,8 @@ std::vector<double> translations(const Network& network, std::span<const double>
 /// bond carries a moment.
 std::vector<double> rotations(const Network& network, std::span<const double> motion);
 
-/// Half of the energy of the bonds of each particle per volume [force/length^2].
+/// Half of the energy of the bonds of each particle, and that of its state, per volume
+/// [force/length^2].
 /// \param motion  shape (particles, width)
 std::vector<double> strain_energy_density(const Network& network, const Csr& families,
                                           std::span<const double> secants,

@@ -27,6 +27,27 @@ void add_elements(const Network& network, std::span<const double> secants,
   }
 }
 
+/// What the sums of the extensions add: the bond between i and j pulls with c_i s_i + c_j s_j more.
+template <int Dim>
+void add_states(const Network& network, std::span<const double> secants,
+                std::span<const double> displacement, InternalForce& result) {
+  const Bonds& bonds = network.bonds;
+  std::vector<double> tension = extension_sums(network, secants, displacement);
+  for (std::size_t i = 0; i < tension.size(); ++i) {
+    result.energy += 0.5 * network.state_stiffness[i] * tension[i] * tension[i];
+    tension[i] *= network.state_stiffness[i];
+  }
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
+    const std::size_t first = bonds.first[e], second = bonds.second[e];
+    const double pull = secants[e] * (tension[first] + tension[second]);
+    for (int axis = 0; axis < Dim; ++axis) {
+      result.forces[first * Dim + axis] -= pull * n[axis];
+      result.forces[second * Dim + axis] += pull * n[axis];
+    }
+  }
+}
+
 template <int Dim>
 void add_frames(const Network& network, std::span<const double> secants,
                 std::span<const double> displacement, InternalForce& result) {
@@ -63,6 +84,10 @@ void internal_force(const Network& network, std::span<const double> secants,
   } else {
     add_elements<3>(network, secants, displacement, result);
   }
+  if (network.has_states()) {
+    network.dim() == 2 ? add_states<2>(network, secants, displacement, result)
+                       : add_states<3>(network, secants, displacement, result);
+  }
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
     const double force = network.support_stiffness[slot] * displacement[slot];
     result.forces[slot] += force;
@@ -75,6 +100,24 @@ InternalForce internal_force(const Network& network, std::span<const double> sec
   InternalForce result;
   internal_force(network, secants, displacement, result);
   return result;
+}
+
+std::vector<double> extension_sums(const Network& network, std::span<const double> secants,
+                                   std::span<const double> displacement) {
+  const Bonds& bonds = network.bonds;
+  const std::size_t dim = network.dim();
+  std::vector<double> sums(static_cast<std::size_t>(network.particles.size()), 0.0);
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const auto n = bonds.direction(e);
+    const std::size_t first = bonds.first[e], second = bonds.second[e];
+    double extension = 0.0;
+    for (std::size_t axis = 0; axis < dim; ++axis) {
+      extension += n[axis] * (displacement[second * dim + axis] - displacement[first * dim + axis]);
+    }
+    sums[first] += secants[e] * extension;
+    sums[second] += secants[e] * extension;
+  }
+  return sums;
 }
 
 }  // namespace perilink

@@ -11,7 +11,7 @@ namespace perilink {
 struct InternalForce {
   std::vector<double> forces;  ///< K u: force needed to hold each particle, shape
                                ///< (particles, width), moments behind the forces
-  double energy = 0.0;         ///< sum of k e^2 / 2 [force length]
+  double energy = 0.0;         ///< sum of k e^2 / 2 (and of c s^2 / 2 of states) [force length]
 };
 
 /// \param displacement  of all particles, rotations included; shape (particles, width)
@@ -21,5 +21,10 @@ InternalForce internal_force(const Network& network, std::span<const double> sec
 /// The same with memory that is used again from call to call.
 void internal_force(const Network& network, std::span<const double> secants,
                     std::span<const double> displacement, InternalForce& result);
+
+/// Of every particle of a truss, the sum of the extensions of its bonds, each times its secant
+/// [length]; of a state-based lattice particle L_0 theta.
+std::vector<double> extension_sums(const Network& network, std::span<const double> secants,
+                                   std::span<const double> displacement);
 
 }  // namespace perilink

@@ -27,6 +27,10 @@ struct Network {
   /// Where micropolar bonds bent by a transverse force have their inflection, from the first end
   /// over the length [-], per element; empty: in the middle.
   std::vector<double> inflection;
+  /// Of state-based lattice particles: beside its bonds a particle stores c s^2 / 2, s the sum of
+  /// the extensions of all its bonds, c = b / (2 L_0) [force/length], per particle; negative where
+  /// Poisson's ratio is below that of the bonds alone. Empty: bonds only. Trusses alone have it.
+  std::vector<double> state_stiffness;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
   /// Stiffness of elastic supports between the components of particles and the ground
@@ -52,6 +56,7 @@ struct Network {
     return inflection.empty() ? 0.5 : inflection[element];
   }
   bool carries_moments() const { return !bending.empty(); }
+  bool has_states() const { return !state_stiffness.empty(); }
   Index num_elements() const { return bonds.size(); }
   bool is_segment(Index element) const { return element >= first_segment; }
 };

@@ -193,6 +193,35 @@ std::vector<Fragment> find_fragments(const Network& network,
   return fragments;
 }
 
+std::vector<std::vector<double>> free_motions(const Network& network, const Fragment& fragment,
+                                              const std::vector<std::uint8_t>& held) {
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  const RigidModes modes(network, rotating, fragment.particles);
+  Gram all = Gram::Zero(), constrained = Gram::Zero();
+  for (const Index i : fragment.particles) {
+    for (int a = 0; a < modes.components(i); ++a) {
+      const Row row = modes.row(i, a);
+      all += row * row.transpose();
+      if (held[modes.slot(i, a)]) constrained += row * row.transpose();
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Gram> solver(constrained);
+  std::vector<std::vector<double>> motions;
+  for (int m = 0; m < 6; ++m) {
+    const Row mode = solver.eigenvectors().col(m);
+    if (solver.eigenvalues()[m] > rank_tolerance * constrained.trace()) continue;
+    if (!(mode.dot(all * mode) > rank_tolerance * all.trace())) continue;  // moves nothing
+    std::vector<double>& motion = motions.emplace_back(held.size(), 0.0);
+    for (const Index i : fragment.particles) {
+      for (int a = 0; a < modes.components(i); ++a) {
+        const std::size_t slot = modes.slot(i, a);
+        if (!held[slot]) motion[slot] = modes.row(i, a).dot(mode);
+      }
+    }
+  }
+  return motions;
+}
+
 LoadResultant load_resultant(const Network& network, const Loads& loads) {
   const Particles& particles = network.particles;
   const int dim = particles.dim;

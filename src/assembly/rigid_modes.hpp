@@ -21,6 +21,12 @@ struct Fragment {
 /// particles that no bond turns hold nothing.
 std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held);
 
+/// The rigid-body motions of a fragment that `held` leaves free, each of shape (particles, width)
+/// with zeros at other particles and at what is held; linearly independent, not scaled. Springs of
+/// supports are not looked at.
+std::vector<std::vector<double>> free_motions(const Network& network, const Fragment& fragment,
+                                              const std::vector<std::uint8_t>& held);
+
 /// Sums of the applied loads.
 struct LoadResultant {
   std::vector<double> force;   ///< size dim [force]

@@ -7,6 +7,7 @@
 
 #include "assembly/frame.hpp"
 #include "assembly/internal_force.hpp"
+#include "assembly/state_stiffness.hpp"
 #include "base/csr.hpp"
 
 namespace perilink {
@@ -212,6 +213,7 @@ class StiffnessBuilder {
 SparseMatrix assemble_stiffness(const Network& network, std::span<const double> secants,
                                 const Unknowns& unknowns) {
   const bool plane = network.dim() == 2;
+  if (network.has_states()) return assemble_state_stiffness(network, secants, unknowns);
   if (network.carries_moments()) {
     return plane ? StiffnessBuilder<FrameBlocks<2>>(network, secants, unknowns).build()
                  : StiffnessBuilder<FrameBlocks<3>>(network, secants, unknowns).build();

@@ -12,7 +12,8 @@
 namespace perilink {
 
 /// Lower triangle of K = sum over elements of k n n' (trusses) or of k_m b_m b_m' over the modes of
-/// a frame (assembly/frame.hpp) between its free ends (unknown by unknown).
+/// a frame (assembly/frame.hpp) between its free ends (unknown by unknown), with the particles'
+/// states where they have some (assembly/state_stiffness.hpp).
 /// \param secants  present stiffness of each element as a fraction of the intact one; broken
 ///                 elements keep their place in the pattern (as zeros), so that the pattern does
 ///                 not change while bonds break

@@ -54,6 +54,28 @@ TEST(Fragments, AreThePartsThatElementsConnect) {
   EXPECT_EQ(fragments[2].free_modes, 2);  // one particle does not rotate
 }
 
+/// A body whose lower edge is held along y slides and does not turn.
+TEST(Fragments, MoveFreelyAsTheirSupportsLetThem) {
+  const Network network = make_network({"", Pattern::rectangular, Surface::none}, 4);
+  auto held = nothing_held(network);
+  const auto motions = [&] {
+    return free_motions(network, find_fragments(network, held).front(), held);
+  };
+  EXPECT_EQ(motions().size(), 3U);
+  for (std::size_t slot = 1; slot < held.size(); slot += 2) {
+    held[slot] = network.particles.positions[slot] < 0.01;
+  }
+  const auto sliding = motions();
+  ASSERT_EQ(sliding.size(), 1U);
+  const double size = sliding[0][0];
+  EXPECT_GT(std::abs(size), 0.1);
+  for (std::size_t slot = 0; slot < held.size(); ++slot) {
+    EXPECT_NEAR(sliding[0][slot], slot % 2 == 0 ? size : 0.0, 1e-12);
+  }
+  held[0] = 1;
+  EXPECT_TRUE(motions().empty());
+}
+
 TEST(Fragments, CountTheModesThatSupportsLeaveFree) {
   Network network = make_network({"", Pattern::rectangular, Surface::none}, 4);
   auto held = nothing_held(network);
