@@ -71,8 +71,7 @@ void set_damping(ExplicitModel& model) {
   if (material.fundamental_period <= 0.0) {
     throw std::invalid_argument("external damping needs the fundamental period of the body");
   }
-  model.mass_damping =
-      2.0 * material.external_damping * 2.0 * std::numbers::pi / material.fundamental_period;
+  model.mass_damping = mass_damping_rate(material.external_damping, material.fundamental_period);
 }
 
 void check_damage(const ExplicitModel& model) {
@@ -127,6 +126,10 @@ double largest_pair(const ExplicitModel& model, const std::vector<double>& stiff
 }
 
 }  // namespace
+
+double mass_damping_rate(double ratio, double period) {
+  return 2.0 * ratio * 2.0 * std::numbers::pi / period;
+}
 
 double ExplicitModel::own_modulus(int k) const {
   return moduli.own + (lattice.bonds[k].length > 1.2 * lattice.spacing ? moduli.far : 0.0);

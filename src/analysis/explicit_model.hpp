@@ -64,6 +64,10 @@ struct ExplicitModel {
   double own_modulus(int k) const;
 };
 
+/// Rate at which forces in proportion to the mass damp a vibration of a period with a ratio: twice
+/// the ratio times the frequency (Nikravesh 2017, Eq. 3.57) [1/time].
+double mass_damping_rate(double ratio, double period);
+
 /// Masses, moduli and damping of a body without supports.
 /// \throws std::invalid_argument where the material cannot be (see hexagonal_moduli), a lattice of
 /// another dimension than the problem's, damage in three dimensions, or a spacing at which the

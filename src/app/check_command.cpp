@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/lattice_statics.hpp"
 #include "app/bond_run.hpp"
 #include "app/calibration_text.hpp"
 #include "app/commands.hpp"
@@ -13,6 +14,7 @@
 #include "app/run_model.hpp"
 #include "app/summary.hpp"
 #include "assembly/stiffness.hpp"
+#include "base/error.hpp"
 #include "base/timer.hpp"
 #include "discretization/triangulate.hpp"
 #include "solver/factor.hpp"
@@ -111,7 +113,7 @@ void print_spacing(const Model& model) {
     const auto [shortest, longest] = std::minmax_element(edges.begin(), edges.end());
     fmt::print(", edges {:.4g} to {:.4g}", *shortest, *longest);
   }
-  if (!model.elements) {
+  if (model.horizon > 0.0) {
     fmt::print(", horizon {:.6g} = {:.4g} {}", model.horizon, model.horizon / model.lattice.spacing,
                mesh ? "mean edges" : "spacings");
   }
@@ -163,6 +165,26 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
 constexpr double elastic_particle_steps_per_second = 60e6;
 constexpr double breakable_particle_steps_per_second = 15e6;
 
+/// Bodies of more particles than this take a factorisation of minutes, which nobody asked for.
+constexpr Index most_particles_for_period = 200000, most_in_space_for_period = 10000;
+
+/// What loading times are measured by, where the case does not give it.
+void print_period(const ExplicitCase& built) {
+  double period = built.fundamental_period;
+  const LatticeRows& lattice = built.model.lattice;
+  const bool small = lattice.particles() <=
+                     (lattice.dim == 2 ? most_particles_for_period : most_in_space_for_period);
+  if (period == 0.0 && small) {
+    try {
+      period = fundamental_period(built.model, 1);
+    } catch (const SolverError&) {
+      fmt::print("#   fundamental period not found: parts of the body can move freely\n");
+      return;
+    }
+  }
+  if (period > 0.0) fmt::print("#   fundamental period {:.6g}\n", period);
+}
+
 int check_explicit(const std::string& case_path, const CaseFile& input) {
   const Timer timer;
   const ExplicitCase built = build_explicit_case(input);
@@ -183,6 +205,7 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
     fmt::print("#   softening          fracture energy {:.6g}, critical opening {:.6g}\n",
                fracture_energy(law), law.critical_opening);
   }
+  print_period(built);
   fmt::print("#   critical time step {:.6g}\n", built.critical_time_step);
   fmt::print("#   time step          {:.6g}\n", built.time_step);
   fmt::print("#   steps              {}, about {} rows of history\n", built.steps,

@@ -9,22 +9,18 @@
 #include "app/calibration_text.hpp"
 #include "app/element_model.hpp"
 #include "app/gauges.hpp"
+#include "app/lattice_model.hpp"
 #include "app/mesh_input.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
 #include "discretization/triangulate.hpp"
+#include "io/case_lattice.hpp"
 
 namespace perilink {
 namespace {
 
 /// More particles than this would overflow the 32-bit numbers of bonds at the usual horizons.
 constexpr double most_particles = 3e7;
-
-Problem problem_of(const CaseFile& input) {
-  if (input.body.problem == "plane_strain") return Problem::plane_strain;
-  if (input.body.problem == "three_dimensional") return Problem::three_dimensional;
-  return Problem::plane_stress;
-}
 
 const Region& region_named(const CaseFile& input, const std::string& name) {
   return *std::find_if(input.regions.begin(), input.regions.end(),
@@ -308,9 +304,8 @@ void build_bonds(const CaseFile& input, const CalibrationObserver& on_search, Bo
   body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
 }
 
-}  // namespace
-
-Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
+/// Particles, and bonds or elements, of every body but lattices of state-based particles.
+Model build_bodies_model(const CaseFile& input, const CalibrationObserver& on_search) {
   Model model;
   model.problem = problem_of(input);
   const int dim = dimension_of(model.problem);
@@ -325,6 +320,20 @@ Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
   model.facets = std::move(body.facets);
   model.cells = std::move(body.cells);
   model.groups = std::move(body.groups);
+  return model;
+}
+
+}  // namespace
+
+Problem problem_of(const CaseFile& input) {
+  if (input.body.problem == "plane_strain") return Problem::plane_strain;
+  if (input.body.problem == "three_dimensional") return Problem::three_dimensional;
+  return Problem::plane_stress;
+}
+
+Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
+  Model model =
+      is_lattice(input.body) ? build_lattice_model(input) : build_bodies_model(input, on_search);
   apply_boundary_conditions(input, model);
   model.gauges = build_gauges(input, model);
   for (const MaterialSection& material : input.materials) {

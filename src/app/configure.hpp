@@ -37,7 +37,7 @@ struct Model {
   Facets facets;              ///< of the body; corners are particles of the network
   Simplices cells;            ///< of a mesh
   std::vector<Group> groups;  ///< of a mesh
-  double horizon = 0.0;  ///< [length]
+  double horizon = 0.0;       ///< [length]
   /// Of linear elements the particles with the edges of the cells as bonds that stand for them in
   /// all questions of what holds what; their stiffness means nothing.
   Network network;
@@ -53,6 +53,8 @@ struct Model {
   LoadResultant resultant;
   std::vector<std::string> notes;  ///< what the user should know: pinned modes, unbalanced moments
 };
+
+Problem problem_of(const CaseFile& input);
 
 /// Builds the model of a case.
 /// \param on_search  told how the calibration of the bonds comes along; may be empty

@@ -12,16 +12,17 @@ struct ExplicitCase {
   ExplicitOptions options;          ///< threads left at one
   double critical_time_step = 0.0;  ///< [time]
   double time_step = 0.0;           ///< that the run takes [time]
+  /// That external damping refers to, given or computed; 0: not asked for [time].
+  double fundamental_period = 0.0;
   Index steps = 0;
   Index bonds = 0;
 };
 
 /// Builds the lattice of a case with type = "explicit".
 /// \throws InputError where the case makes no sense for its body: no lattice point in a region,
-/// contradictory supports, a spacing too large for the softening, a time step above the critical
-ExplicitCase build_explicit_case(const CaseFile& input);
-
-/// The softening that a material of the case asks for; strength zero where it is unbreakable.
-CrackOpeningLaw softening_of(const MaterialSection& material);
+/// contradictory supports, a spacing too large for the softening, a time step above the critical, a
+/// fundamental period that is needed but cannot be found
+/// \param threads  for the fundamental period
+ExplicitCase build_explicit_case(const CaseFile& input, int threads = 1);
 
 }  // namespace perilink

@@ -30,6 +30,9 @@ void write_summary(const std::filesystem::path& directory, const ExplicitSummary
   json["rows"] = summary.observer.rows();
   json["time_step"] = result.time_step;
   json["critical_time_step"] = result.critical_time_step;
+  if (summary.built.fundamental_period > 0.0) {
+    json["fundamental_period"] = summary.built.fundamental_period;
+  }
   json["time"] = result.last.time;
   json["cracked_particles"] = result.last.cracked_particles;
   json["external_work"] = energy.external_work;

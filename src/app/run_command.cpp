@@ -64,7 +64,7 @@ int exit_status_of(Ending ending) {
 int run_explicit(const RunOptions& options, const CaseFile& input, const fs::path& directory,
                  int threads) {
   Timer timer;
-  ExplicitCase built = build_explicit_case(input);
+  ExplicitCase built = build_explicit_case(input, threads);
   built.options.threads = threads;
   prepare_result_directory(directory, options.force);
   catch_stop_signals();

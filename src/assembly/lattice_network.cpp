@@ -71,8 +71,10 @@ std::vector<std::uint8_t> leave_out_loose(const LatticeRows& lattice,
   return stays;
 }
 
-Particles particles_at(const LatticeRows& lattice, const std::vector<Index>& slots,
-                       std::span<const double> volumes) {
+}  // namespace
+
+Particles lattice_particles(const LatticeRows& lattice, std::span<const Index> slots,
+                            std::span<const double> volumes) {
   Particles particles;
   particles.dim = lattice.dim;
   for (const Index slot : slots) {
@@ -85,8 +87,6 @@ Particles particles_at(const LatticeRows& lattice, const std::vector<Index>& slo
   particles.kind.assign(slots.size(), ParticleKind::solid);
   return particles;
 }
-
-}  // namespace
 
 LatticeNetwork lattice_network(const LatticeRows& lattice, std::span<const double> own_modulus,
                                double sum_modulus, std::span<const double> volumes) {
@@ -101,7 +101,7 @@ LatticeNetwork lattice_network(const LatticeRows& lattice, std::span<const doubl
   }
   result.left_out = lattice.particles() - static_cast<Index>(result.slots.size());
   Network& network = result.network;
-  network.particles = particles_at(lattice, result.slots, volumes);
+  network.particles = lattice_particles(lattice, result.slots, volumes);
   network.bonds.dim = lattice.dim;
   for (const LatticeBond& bond : bonds) {
     network.bonds.append(network.particles, number[bond.first], number[bond.second]);

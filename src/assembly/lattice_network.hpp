@@ -15,6 +15,11 @@ struct LatticeNetwork {
   Index left_out = 0;        ///< particles that bonds hold in fewer than dim directions
 };
 
+/// Solid particles at slots of a lattice, of material 0.
+/// \param volumes  of every slot [length^3]
+Particles lattice_particles(const LatticeRows& lattice, std::span<const Index> slots,
+                            std::span<const double> volumes);
+
 /// The intact lattice as a network for small displacements: bonds of stiffness a / L and particles
 /// with states of stiffness b / (2 L_0), whose energy is sum_i sum_j L_j F_j S_j / 4
 /// (docs/theory/lattice_particles.md, section 6). Particles that hang on a bond or a line of bonds,

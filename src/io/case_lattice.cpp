@@ -75,20 +75,16 @@ void read_damping(const CaseTable& table, LatticeMaterialSection& section) {
   assign(section.internal_damping, not_negative(table, "internal_damping"));
   assign(section.external_damping, not_negative(table, "external_damping"));
   section.fundamental_period = table.positive("fundamental_period");
-  if (section.external_damping == 0.0 || section.fundamental_period) return;
-  table.refuse_missing("fundamental_period",
-                       "the fundamental period of the body, to which external_damping refers");
 }
 
-/// Tables that a lattice body cannot have yet.
+/// Tables that a lattice body cannot have.
 template <class Section>
 void refuse_table(const CaseFile& input, const std::string& table,
-                  const std::vector<Section>& sections) {
+                  const std::vector<Section>& sections, const std::string& why = "knows none",
+                  const std::string& suggestion = "delete it, or take another model in [body]") {
   if (sections.empty()) return;
   throw InputError(input.where(item_key(table, 0)),
-                   "is given, but a body with model = \"lattice\" knows [[supports]] and "
-                   "[[displacements]] only",
-                   "delete it, or take another model in [body] with an implicit analysis");
+                   "is given, but a body with model = \"lattice\" " + why, suggestion);
 }
 
 void check_output(const CaseFile& input, bool is_explicit) {
@@ -153,6 +149,37 @@ void refuse_surface_region(const CaseFile& input, const std::string& key,
       "is \"surface\", but the lattice of a body with model = \"lattice\" does not end "
       "on the surface",
       "name a region of the case");
+}
+
+/// What explicit runs of lattices do not know yet.
+void refuse_explicit_tables(const CaseFile& input) {
+  const std::string why = "knows [[supports]] and [[displacements]] only in an explicit analysis";
+  refuse_table(input, "loads", input.loads, why);
+  refuse_table(input, "point_loads", input.point_loads, why);
+  refuse_table(input, "gauges", input.gauges, why);
+}
+
+template <class Section>
+void refuse_surfaces(const CaseFile& input, const std::string& table,
+                     const std::vector<Section>& sections) {
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    refuse_surface_region(input, item_key(table, i, "region"), sections[i].region);
+  }
+}
+
+void refuse_lattice_tables(const CaseFile& input) {
+  refuse_table(input, "tractions", input.tractions, "has no facets on its surface",
+               "give a total over a region, [[loads]] with `force`");
+  refuse_table(input, "symmetry", input.symmetry,
+               "has no mirror image: particles on a plane would lack half of their bonds",
+               "take the whole body");
+  refuse_table(input, "springs", input.springs);
+  refuse_table(input, "cracks", input.cracks);
+  refuse_table(input, "rebar", input.rebar);
+  refuse_surfaces(input, "supports", input.supports);
+  refuse_surfaces(input, "displacements", input.displacements);
+  refuse_surfaces(input, "loads", input.loads);
+  refuse_surfaces(input, "gauges", input.gauges);
 }
 
 }  // namespace
@@ -324,38 +351,23 @@ void write_explicit_analysis(TomlWriter& out, const CaseFile& input) {
 void check_lattice(const CaseFile& input) {
   const bool lattice = is_lattice(input.body), is_explicit = input.analysis.type == "explicit";
   check_output(input, is_explicit);
-  if (lattice && !is_explicit) {
-    throw InputError(
-        input.where("body.model"),
-        fmt::format("is \"lattice\", but analysis.type is \"{}\"", input.analysis.type),
-        "set type = \"explicit\" in [analysis], or take another model");
+  if (lattice && input.analysis.type == "damage") {
+    throw InputError(input.where("body.model"), "is \"lattice\", but analysis.type is \"damage\"",
+                     "set type = \"explicit\" or \"elastic\" in [analysis], or take another model");
   }
   if (is_explicit) check_stop(input);
   if (!lattice) {
     if (is_explicit) check_explicit_bonds(input);
     return;
   }
-  refuse_bond_keys(input);
+  if (is_explicit) refuse_bond_keys(input);
   if (input.materials.size() > 1) {
     throw InputError(input.where("materials[2]"),
                      "is a second material, but a body with model = \"lattice\" has one",
                      "delete it, or name its regions in the first");
   }
-  refuse_table(input, "loads", input.loads);
-  refuse_table(input, "tractions", input.tractions);
-  refuse_table(input, "point_loads", input.point_loads);
-  refuse_table(input, "symmetry", input.symmetry);
-  refuse_table(input, "springs", input.springs);
-  refuse_table(input, "cracks", input.cracks);
-  refuse_table(input, "rebar", input.rebar);
-  refuse_table(input, "gauges", input.gauges);
-  for (std::size_t i = 0; i < input.supports.size(); ++i) {
-    refuse_surface_region(input, item_key("supports", i, "region"), input.supports[i].region);
-  }
-  for (std::size_t i = 0; i < input.displacements.size(); ++i) {
-    refuse_surface_region(input, item_key("displacements", i, "region"),
-                          input.displacements[i].region);
-  }
+  if (is_explicit) refuse_explicit_tables(input);
+  refuse_lattice_tables(input);
 }
 
 }  // namespace perilink

@@ -267,6 +267,43 @@ TEST_F(Program, CheckOfAnExplicitCaseTellsItsSteps) {
   EXPECT_EQ(run({"check", "again.toml"}).exit_status, 0);
 }
 
+TEST_F(Program, CheckOfALatticeTellsItsPeriod) {
+  write_case("strip.toml", lattice_strip_case());
+  EXPECT_THAT(run({"check", "strip.toml"}).out,
+              testing::ContainsRegex("fundamental period 1\\.7[0-9]+\n"));
+}
+
+/// The strip at a strain of 2e-4, drawn slowly and damped, and its elastic answer.
+TEST_F(Program, ElasticLatticesAnswerAsSlowExplicitRunsDo) {
+  std::string text = lattice_strip_case();
+  text.replace(text.find("x = 0.04"), 8, "x = 0.0004");
+  text.replace(text.find("internal_damping = 0.1"), 22, "external_damping = 0.5");
+  text.replace(text.find("duration = 2"), 12, "duration = 30");
+  text.replace(text.find("ramp_time = 1"), 13, "ramp_time = 20");
+  write_case("moving.toml", text);
+  write_case("elastic.toml", text.substr(0, text.find("[analysis]")) +
+                                 "[[gauges]]\nname = \"middle\"\nat = [1, 0.5]\naxis = \"x\"\n"
+                                 "[analysis]\ntype = \"elastic\"\n");
+  EXPECT_EQ(run({"check", "elastic.toml"}).exit_status, 0);
+  for (const char* name : {"moving", "elastic"}) {
+    const ProcessEnd end = run({"run", std::string(name) + ".toml"});
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+  }
+  const auto summary_of = [&](const std::string& name) {
+    return nlohmann::json::parse(read_text(work() / "results" / name / "summary.json"));
+  };
+  const auto moving = summary_of("moving"), still = summary_of("elastic");
+  // What is left is the part of the true lengths, as large as the strain.
+  const double load = still["peak_load"];
+  EXPECT_NEAR(-moving["peak_reaction"].get<double>(), load, 1e-3 * load);
+  const double energy = still["strain_energy"];
+  EXPECT_NEAR(moving["strain_energy"].get<double>(), energy, 1e-3 * energy);
+  EXPECT_GT(moving["fundamental_period"].get<double>(), 0.0);
+  EXPECT_LT(still["largest_residual"].get<double>(), 1e-12);
+  EXPECT_THAT(read_text(work() / "results/elastic/history.csv"), HasSubstr(",middle\n"));
+  EXPECT_EQ(run({"plot", "results/elastic"}).exit_status, 0);
+}
+
 TEST_F(Program, ExplicitRunsWriteTheFilesOfTheContract) {
   write_case("strip.toml", lattice_strip_case(0.1, "\n[output]\nfields_times = [1]\n"));
   const ProcessEnd end = run({"run", "strip.toml"});

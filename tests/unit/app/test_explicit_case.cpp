@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "analysis/lattice_statics.hpp"
 #include "base/error.hpp"
 #include "support/program_cases.hpp"
 
@@ -116,18 +117,19 @@ TEST(ExplicitCase, TakesAPartOfTheCriticalStep) {
   EXPECT_EQ(built(text).steps, 20000);
 }
 
-TEST(ExplicitCase, FractureEnergyAndCriticalOpeningSayTheSame) {
-  MaterialSection material;
-  material.lattice.emplace();
-  EXPECT_EQ(softening_of(material).strength, 0.0) << "unbreakable";
-  material.lattice->tensile_strength = 2.62e6;
-  material.lattice->critical_opening = 2e-4;
-  const CrackOpeningLaw printed = softening_of(material);
-  EXPECT_NEAR(printed.knee_opening, 2e-5, 1e-19);
-  EXPECT_EQ(printed.knee_ratio, 0.25);
-  material.lattice->critical_opening.reset();
-  material.fracture_energy = fracture_energy(printed);
-  EXPECT_NEAR(softening_of(material).critical_opening, 2e-4, 1e-16);
+TEST(ExplicitCase, FindsThePeriodThatExternalDampingRefersTo) {
+  const std::string damped = replaced(test::lattice_strip_case(), "internal_damping",
+                                      "external_damping = 0.3\ninternal_damping");
+  const ExplicitCase found = built(damped);
+  EXPECT_EQ(found.fundamental_period, fundamental_period(found.model, 1));
+  EXPECT_EQ(found.model.mass_damping, mass_damping_rate(0.3, found.fundamental_period));
+  // Held at both ends against lateral motions; clamped, they vibrate slower than along it, 2 L / c.
+  EXPECT_GT(found.fundamental_period, 2.0 * 1.8 / 10.0);
+  const ExplicitCase given =
+      built(replaced(damped, "internal_damping", "fundamental_period = 0.5\ninternal_damping"));
+  EXPECT_EQ(given.fundamental_period, 0.5);
+  EXPECT_EQ(given.model.mass_damping, mass_damping_rate(0.3, 0.5));
+  EXPECT_EQ(built(test::lattice_strip_case()).fundamental_period, 0.0) << "nobody asks";
 }
 
 TEST(ExplicitCase, BuildsBodiesInSpace) {

@@ -190,7 +190,6 @@ TEST(CaseLattice, RefusesMaterials) {
        {"density", "knee_opening_ratio = 2\ndensity", {"must be less than 1"}},
        {"density", "compression_threshold = 1\ndensity", {"must be less than 1"}},
        {"density", "internal_damping = -0.1\ndensity", {"must not be negative"}},
-       {"fundamental_period = 0.7\n", "", {"materials[1].fundamental_period", "external_damping"}},
        {"[[displacements]]",
         "[[materials]]\nregion = \"top\"\nyoungs_modulus = 1\npoissons_ratio = 0.2\ndensity = 1\n"
         "fracture_energy = \"infinite\"\n[[displacements]]",
@@ -233,8 +232,11 @@ TEST(CaseLattice, RefusesAnalyses) {
        {"[output]", "[stop]\nbroken_bonds = 1\n[output]", {"stop", "ends by its duration"}}});
   const std::string elastic = replaced(lattice_case, "[output]\nfields_times = [0.5, 4]", "");
   expect_refusals(elastic, {{"type = \"explicit\"\nduration = 4\ntime_step = 0.001",
-                             "type = \"elastic\"",
-                             {"body.model", "analysis.type is \"elastic\""}}});
+                             "type = \"damage\"",
+                             {"body.model", "analysis.type is \"damage\""}}});
+  EXPECT_EQ(message_of(replaced(elastic, "type = \"explicit\"\nduration = 4\ntime_step = 0.001",
+                                "type = \"elastic\"")),
+            "accepted");
   const std::string explicit_bonds =
       std::string(small_case) + "[analysis]\ntype = \"explicit\"\nduration = 1\n";
   EXPECT_THAT(message_of(explicit_bonds), HasSubstr("has no density"));
