@@ -46,6 +46,8 @@ void ExplicitLoop::check_growth(Index step, const EnergyBalance& energy) {
   if (step == 0) initial_ = held;
   supplied_ = std::max(supplied_, initial_ + std::abs(energy.external_work));
   if (held <= 2.0 * supplied_ + smallest) return;  // false for NaN
+  result_.steps = step;
+  overflowed_ = !std::isfinite(energy.kinetic + energy.stored + energy.external_work);
   end(Ending::failed,
       fmt::format("the motion grew out of nothing at step {} (energy {:.3g}, supplied {:.3g}): the "
                   "time step {:.4g} is too large; the critical one of the intact body is {:.4g}",

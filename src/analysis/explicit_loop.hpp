@@ -31,7 +31,7 @@ class ExplicitLoop {
   }
 
   /// To be called by one thread, between barriers: ends runs whose energy grows, asks the observer
-  /// whether to stop, and tells it of rows.
+  /// whether to stop, and tells it of rows. Where energies are no numbers any more there is no row.
   /// \param record    has the energies of this step, and the reactions of the last
   /// \param complete  fills in what else a row of this body has
   template <class Observer, class State, class Complete>
@@ -42,6 +42,7 @@ class ExplicitLoop {
       if (!done_ && observer.stop_requested()) end(Ending::interrupted, "interrupted");
     });
     if (!is_row(step) && !done_) return;
+    if (overflowed_) return;
     record.step = step;
     record.time = step * time_step();
     record.load_factor = load_factor(step);
@@ -83,7 +84,7 @@ class ExplicitLoop {
   double ramp_;
   Index steps_ = 0, between_rows_ = 1;
   double initial_ = 0.0, supplied_ = 0.0, largest_surplus_ = 0.0;  ///< energies
-  bool done_ = false;
+  bool done_ = false, overflowed_ = false;
   std::exception_ptr failure_;
   ExplicitResult result_;
 };

@@ -76,20 +76,26 @@ TEST(ExplicitLoop, LargestSurplusIsOverTheWork) {
 }
 
 TEST(ExplicitLoop, EnergyOutOfNothingEndsTheRun) {
-  Watcher watcher;
-  const ExplicitResult result = run(
-      watcher,
-      [](Index step) {
-        EnergyBalance energy = balanced(step);
-        if (step >= 300) energy.kinetic = NAN;
-        return energy;
-      },
-      1);
-  EXPECT_EQ(result.ending, Ending::failed);
-  EXPECT_NE(result.reason.find("grew out of nothing at step 400"), std::string::npos)
-      << "looked at every 200 steps: " << result.reason;
-  EXPECT_EQ(watcher.rows.back(), 400);
-  EXPECT_EQ(watcher.ends, 1);
+  for (const double kinetic : {1e6, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    Watcher watcher;
+    const ExplicitResult result = run(
+        watcher,
+        [&](Index step) {
+          EnergyBalance energy = balanced(step);
+          if (step >= 300) energy.kinetic = kinetic;
+          return energy;
+        },
+        1);
+    EXPECT_EQ(result.ending, Ending::failed);
+    EXPECT_NE(result.reason.find("grew out of nothing at step 400"), std::string::npos)
+        << "looked at every 200 steps: " << result.reason;
+    EXPECT_EQ(result.steps, 400);
+    // A state that has overflowed is not a row.
+    const bool finite = std::isfinite(kinetic);
+    EXPECT_EQ(watcher.rows.back(), finite ? 400 : 0);
+    EXPECT_EQ(watcher.ends, finite ? 1 : 0);
+    EXPECT_TRUE(std::isfinite(result.last.energy.kinetic));
+  }
 }
 
 TEST(ExplicitLoop, StopsBetweenRowsWhenAsked) {
