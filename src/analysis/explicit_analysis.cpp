@@ -6,16 +6,33 @@
 #include <cmath>
 #include <exception>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
-#include "analysis/explicit_damage.hpp"
+#include "analysis/explicit_energy.hpp"
 #include "analysis/explicit_kernels.hpp"
 #include "analysis/explicit_loop.hpp"
+#include "analysis/lattice_changes.hpp"
 
 namespace perilink {
 namespace {
 
 constexpr Index particles_per_thread = 4000;
+
+Index yielded_particles(const ExplicitState& state) {
+  const LatticeFlow& flow = state.flow;
+  if (flow.stretch.empty()) return 0;
+  const std::size_t slots = state.sum.size();
+  Index count = 0;
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    bool yielded = false;
+    for (std::size_t at = slot; at < flow.stretch.size() && !yielded; at += slots) {
+      yielded = flow.stretch[at] != 0.0;
+    }
+    count += yielded ? 1 : 0;
+  }
+  return count;
+}
 
 class ExplicitRun {
  public:
@@ -25,8 +42,10 @@ class ExplicitRun {
         state_(state),
         options_(options),
         observer_(observer),
-        damage_(model),
-        loop_(options, critical_time_step(model)) {}
+        rows_(static_cast<Index>(model.lattice.rows.size())),
+        loop_(options, critical_time_step(model)) {
+    if (model.alters()) changes_.emplace(model);
+  }
 
   ExplicitResult run() {
     // Eight barriers per step: a thread pays only with enough particles of its own.
@@ -38,25 +57,49 @@ class ExplicitRun {
  private:
   /// Run by every thread; loops end in barriers.
   void one_step(Index step) {
-    const auto rows = static_cast<Index>(model_.lattice.rows.size());
     const double dt = loop_.time_step();
     const double increment = loop_.load_factor(step + 1) - loop_.load_factor(step);
-#pragma omp for schedule(static)
-    for (Index r = 0; r < rows; ++r) measure_bonds(model_, state_, r, dt);
-#pragma omp for schedule(static)
-    for (Index r = 0; r < rows; ++r) {
-      state_.sums[r].stored_before = state_.sums[r].stored;
-      sum_stretches(model_, state_, r);
-    }
+    each_row([&](Index r) { measure_bonds(model_, state_, r, dt); });
+    each_row([&](Index r) { sum_stretches(model_, state_, r); });
+    if (loop_.is_looked_at(step) || loop_.is_looked_at(step + 1)) store_energies();
 #pragma omp single
     look(step);
-    if (model_.material.breakable) damage_.grow(state_, dt);
-#pragma omp for schedule(static)
-    for (Index r = 0; r < rows; ++r) bond_forces(model_, state_, r);
-#pragma omp for schedule(static)
-    for (Index r = 0; r < rows; ++r) advance(model_, state_, r, dt, increment);
+    if (changes_) change(dt);
+    each_row([&](Index r) { bond_forces(model_, state_, r); });
+    each_row([&](Index r) { advance(model_, state_, r, dt, increment); });
 #pragma omp single
     note_reactions(step);
+  }
+
+  template <class Work>
+  void each_row(const Work& work) {
+#pragma omp for schedule(static)
+    for (Index r = 0; r < rows_; ++r) work(r);
+  }
+
+  void store_energies() {
+    each_row([&](Index r) {
+      state_.sums[r].stored_before = state_.sums[r].stored;
+      state_.sums[r].stored = stored_energy(model_, state_, r);
+    });
+  }
+
+  void change(double dt) {
+    each_row([&](Index r) { changes_->look(state_, r, dt); });
+    bool any = false;
+    for (Index r = 0; r < rows_ && !any; ++r) any = changes_->touches(state_, r);
+    if (!any) return;
+    const auto each_touched = [&](const auto& work) {
+      each_row([&](Index r) {
+        if (changes_->touches(state_, r)) work(r);
+      });
+    };
+    each_touched([&](Index r) { changes_->commit(state_, r, dt); });
+    each_touched([&](Index r) { changes_->update_bonds(state_, r); });
+    each_touched([&](Index r) {
+      changes_->update_sums(state_, r, dt);
+      state_.sums[r].stored = stored_energy(model_, state_, r);
+    });
   }
 
   void note_reactions(Index step) {
@@ -77,6 +120,7 @@ class ExplicitRun {
       record.displacement = record.load_factor * options_.reference;
       record.cracked_particles = static_cast<Index>(std::count_if(
           state_.damage.begin(), state_.damage.end(), [](double damage) { return damage > 0.0; }));
+      record.yielded_particles = yielded_particles(state_);
     });
   }
 
@@ -84,7 +128,8 @@ class ExplicitRun {
   ExplicitState& state_;
   const ExplicitOptions& options_;
   ExplicitObserver& observer_;
-  LatticeDamage damage_;
+  Index rows_;
+  std::optional<LatticeChanges> changes_;
   ExplicitLoop loop_;
   ExplicitRecord record_;
 };
@@ -103,6 +148,7 @@ EnergyBalance energy_balance(const ExplicitModel& model, const ExplicitState& st
     energy.internal_damping += row.internal_damping;
     energy.external_damping += row.external_damping;
     energy.fractured += row.fractured;
+    energy.plastic += row.plastic;
     energy.external_work += row.external_work;
   }
   for (const Index slot : model.lattice.particle_slot) {

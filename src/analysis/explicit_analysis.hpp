@@ -30,10 +30,12 @@ struct EnergyBalance {
   double external_damping = 0.0;
   double fractured = 0.0;
   double external_work = 0.0;
+  double plastic = 0.0;
 
   /// Energy that appeared (+) or vanished.
   double surplus() const {
-    return kinetic + stored + internal_damping + external_damping + fractured - external_work;
+    return kinetic + stored + internal_damping + external_damping + fractured + plastic -
+           external_work;
   }
 };
 
@@ -46,6 +48,7 @@ struct ExplicitRecord {
   double support_reaction = 0.0;  ///< along the load [force]
   double displacement = 0.0;      ///< of the driven particles [length]
   Index cracked_particles = 0;    ///< of a lattice
+  Index yielded_particles = 0;    ///< of a lattice
   Index broken_bonds = 0;         ///< of a network of bonds
   EnergyBalance energy;
 };
@@ -83,7 +86,7 @@ struct ExplicitResult {
 ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
                                      const ExplicitOptions& options, ExplicitObserver& observer);
 
-/// The energies of a state, after `sum_stretches` of a step and before its forces.
+/// The energies of a state, after the stored energies of a step and before its forces.
 EnergyBalance energy_balance(const ExplicitModel& model, const ExplicitState& state);
 
 }  // namespace perilink

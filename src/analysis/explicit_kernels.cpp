@@ -1,143 +1,275 @@
 #include "analysis/explicit_kernels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace perilink {
 namespace {
 
-/// An array of a slot-shaped field, from the first slot of a row.
+/// Bonds that one loop takes: all three of a hexagonal lattice, a third of a face-centred one.
+constexpr int group = 3;
+
+/// What a row of bonds may be.
+enum class Level {
+  elastic,  ///< of a body that never changes
+  watched,  ///< intact, but damage and flow look at its stretches
+  altered,  ///< with factors of damage, or plastic parts
+};
+
+Level level_of(const ExplicitModel& model, const ExplicitState& state, Index row) {
+  if (!model.alters()) return Level::elastic;
+  return (state.duty[row] & RowDuty::altered) != 0 ? Level::altered : Level::watched;
+}
+
+/// An array of a slot-shaped field, from the first slot of a row; null where there is none.
 const double* at(const std::vector<double>& field, const LatticeRows& lattice, Index part,
                  const LatticeRow& row) {
+  if (field.empty()) return nullptr;
   return field.data() + static_cast<std::size_t>(part) * lattice.slots + row.first;
 }
 double* at(std::vector<double>& field, const LatticeRows& lattice, Index part,
            const LatticeRow& row) {
+  if (field.empty()) return nullptr;
   return field.data() + static_cast<std::size_t>(part) * lattice.slots + row.first;
+}
+
+template <class Field, class Pointer>
+void at_bonds(Field& field, const LatticeRows& lattice, int first, const LatticeRow& row,
+              std::array<Pointer, group>& pointers) {
+  for (int g = 0; g < group; ++g) pointers[g] = at(field, lattice, first + g, row);
 }
 
 /// Bond vector of unit reference length: n + du / L. Elongation without cancellation:
 /// |y|^2 - 1 = 2 n.du/L + |du/L|^2 = e, |y| - 1 = e / (1 + sqrt(1 + e)).
-template <int Dim>
-double measure_bond(const ExplicitModel& model, ExplicitState& state, Index r, int k, double dt) {
+template <int Dim, Level Kind, bool Yields>
+void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, int first,
+                   double dt) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
-  const Index shift = lattice.shift_out[r * lattice.own_bonds() + k];
-  const Vector3 n = lattice.bonds[k].direction;
-  const double scale = 1.0 / lattice.bonds[k].length;
   const double *u[Dim], *v[Dim];
-  double* y[Dim];
   for (int c = 0; c < Dim; ++c) {
     u[c] = at(state.displacement, lattice, c, row);
     v[c] = at(state.velocity, lattice, c, row);
-    y[c] = at(state.direction, lattice, k * Dim + c, row);
   }
-  double* stretch = at(state.stretch, lattice, k, row);
-  double* effective = at(state.effective, lattice, k, row);
-  double* rate = at(state.rate, lattice, k, row);
-  const double* drag = at(state.drag, lattice, k, row);
-  const double* tension = at(state.in_tension, lattice, k, row);
-  const double* compression = at(state.in_compression, lattice, k, row);
-  double loss = 0.0;
-#pragma omp simd reduction(+ : loss)
+  std::array<double*, group> stretch, effective, rate;
+  std::array<const double*, group> present, drag, tension, compression, plastic;
+  at_bonds(state.stretch, lattice, first, row, stretch);
+  at_bonds(state.effective, lattice, first, row, effective);
+  at_bonds(state.rate, lattice, first, row, rate);
+  at_bonds(lattice.present, lattice, first, row, present);
+  at_bonds(std::as_const(state.drag), lattice, first, row, drag);
+  at_bonds(std::as_const(state.in_tension), lattice, first, row, tension);
+  at_bonds(std::as_const(state.in_compression), lattice, first, row, compression);
+  at_bonds(std::as_const(state.flow.mean), lattice, first, row, plastic);
+  double* y[group][Dim];
+  double n[group][Dim], scale[group];
+  Index shift[group];
+  for (int g = 0; g < group; ++g) {
+    const OwnBond& bond = lattice.bonds[first + g];
+    shift[g] = lattice.shift_out[r * lattice.own_bonds() + first + g];
+    scale[g] = 1.0 / bond.length;
+    for (int c = 0; c < Dim; ++c) {
+      n[g][c] = bond.direction[c];
+      y[g][c] = at(state.force, lattice, (first + g) * Dim + c, row);
+    }
+  }
+  const double half_step = 0.5 * dt, damping = model.bond_damping;
+  double loss = 0.0, fastest = 0.0;
+#pragma omp simd reduction(+ : loss) reduction(max : fastest)
   for (Index i = 0; i < row.size; ++i) {
-    double change[Dim];
-    double along = 0.0, square = 0.0;
-    for (int c = 0; c < Dim; ++c) {
-      change[c] = (u[c][i + shift] - u[c][i]) * scale;
-      along += n[c] * change[c];
-      square += change[c] * change[c];
+    for (int g = 0; g < group; ++g) {
+      double change[Dim];
+      double along = 0.0, square = 0.0;
+      for (int c = 0; c < Dim; ++c) {
+        change[c] = (u[c][i + shift[g]] - u[c][i]) * scale[g];
+        along += n[g][c] * change[c];
+        square += change[c] * change[c];
+      }
+      const double excess = 2.0 * along + square;
+      const double length = std::sqrt(1.0 + excess);
+      const double share = 1.0 / ((1.0 + length) * length);  // one division for two quotients
+      double s = excess * length * share;
+      const double shorten = (1.0 + length) * share;
+      double speed = 0.0;
+      for (int c = 0; c < Dim; ++c) {
+        const double direction = (n[g][c] + change[c]) * shorten;
+        y[g][c][i] = direction;
+        speed += direction * (v[c][i + shift[g]] - v[c][i]);
+      }
+      speed *= present[g][i];
+      if constexpr (Kind == Level::altered) {
+        if constexpr (Yields) s -= plastic[g][i];
+        stretch[g][i] = s;
+        effective[g][i] = s * (s >= 0.0 ? tension[g][i] : compression[g][i]);
+        loss += half_step * drag[g][i] * (rate[g][i] + speed);
+      } else {
+        effective[g][i] = s * present[g][i];
+        if constexpr (Kind == Level::watched) stretch[g][i] = s;
+        loss += half_step * damping * rate[g][i] * (rate[g][i] + speed);
+      }
+      rate[g][i] = speed;
+      if constexpr (Kind != Level::elastic) {
+        fastest = std::max(fastest, std::abs(speed) * scale[g]);
+      }
     }
-    const double excess = 2.0 * along + square;
-    const double length = std::sqrt(1.0 + excess);
-    const double share = 1.0 / ((1.0 + length) * length);  // one division for two quotients
-    const double s = excess * length * share;
-    const double shorten = (1.0 + length) * share;
-    double speed = 0.0;
-    for (int c = 0; c < Dim; ++c) {
-      const double direction = (n[c] + change[c]) * shorten;
-      y[c][i] = direction;
-      speed += direction * (v[c][i + shift] - v[c][i]);
-    }
-    stretch[i] = s;
-    effective[i] = s * (s >= 0.0 ? tension[i] : compression[i]);
-    loss += 0.5 * dt * drag[i] * (rate[i] + speed);
-    rate[i] = speed;
   }
-  return loss;
+  state.sums[r].internal_damping += loss;
+  if constexpr (Kind != Level::elastic) state.fastest[r] = std::max(state.fastest[r], dt * fastest);
 }
 
-template <LatticeRules Rules>
-void force_bond(const ExplicitModel& model, ExplicitState& state, Index r, int k) {
+template <int Dim, Level Kind, bool Yields>
+void measure(const ExplicitModel& model, ExplicitState& state, Index r, double dt) {
+  state.fastest[r] = 0.0;
+  for (int first = 0; first < model.lattice.own_bonds(); first += group) {
+    measure_group<Dim, Kind, Yields>(model, state, r, first, dt);
+  }
+}
+
+template <int Dim>
+void measure(const ExplicitModel& model, ExplicitState& state, Index r, double dt) {
+  switch (level_of(model, state, r)) {
+    case Level::elastic:
+      return measure<Dim, Level::elastic, false>(model, state, r, dt);
+    case Level::watched:
+      return measure<Dim, Level::watched, false>(model, state, r, dt);
+    case Level::altered:
+      return model.material.yields ? measure<Dim, Level::altered, true>(model, state, r, dt)
+                                   : measure<Dim, Level::altered, false>(model, state, r, dt);
+  }
+}
+
+/// Magnitudes of a group's bond forces times their directions.
+/// \param Yields  only where the two halves of a bond carry different forces (rules of 2018)
+template <int Dim, LatticeRules Rules, bool Altered, bool Yields>
+void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int first) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
-  const Index shift = lattice.shift_out[r * lattice.own_bonds() + k];
-  const double own = model.own_modulus(k), modulus = model.moduli.sum;
-  const double damping = model.bond_damping;
-  const double* stretch = at(state.stretch, lattice, k, row);
-  const double* effective = at(state.effective, lattice, k, row);
-  const double* tension = at(state.in_tension, lattice, k, row);
-  const double* compression = at(state.in_compression, lattice, k, row);
-  const double* present = at(lattice.present, lattice, k, row);
-  const double* rate = at(state.rate, lattice, k, row);
+  std::array<const double*, group> effective, present, rate, tension, compression, stretch, half;
+  std::array<double*, group> drag;
+  at_bonds(std::as_const(state.effective), lattice, first, row, effective);
+  at_bonds(std::as_const(lattice.present), lattice, first, row, present);
+  at_bonds(std::as_const(state.rate), lattice, first, row, rate);
+  at_bonds(std::as_const(state.in_tension), lattice, first, row, tension);
+  at_bonds(std::as_const(state.in_compression), lattice, first, row, compression);
+  at_bonds(std::as_const(state.stretch), lattice, first, row, stretch);
+  at_bonds(std::as_const(state.flow.half), lattice, first, row, half);
+  at_bonds(state.drag, lattice, first, row, drag);
+  double* force[group][Dim];
+  double own[group];
+  Index shift[group];
+  for (int g = 0; g < group; ++g) {
+    own[g] = model.own_modulus(first + g);
+    shift[g] = lattice.shift_out[r * lattice.own_bonds() + first + g];
+    for (int c = 0; c < Dim; ++c) {
+      force[g][c] = at(state.force, lattice, (first + g) * Dim + c, row);
+    }
+  }
   const double* sum = at(state.sum, lattice, 0, row);
-  double* drag = at(state.drag, lattice, k, row);
-  double* magnitude = at(state.force, lattice, k * lattice.dim, row);
+  const double modulus = model.moduli.sum, damping = model.bond_damping;
 #pragma omp simd
   for (Index i = 0; i < row.size; ++i) {
-    const double factor = stretch[i] >= 0.0 ? tension[i] : compression[i];
-    const double here = modulus * sum[i], there = modulus * sum[i + shift];
-    double force = own * effective[i];
-    if constexpr (Rules == LatticeRules::consistent) {
-      force += factor * 0.5 * (here + there);
-    } else if constexpr (Rules == LatticeRules::mean_2017) {
-      force = present[i] * (force + 0.5 * (here + there));
-    } else {
-      const double mine = force + here, other = force + there;
-      const double smaller = std::abs(mine) < std::abs(other) ? mine : other;
-      force = present[i] * (mine * other > 0.0 ? smaller : 0.5 * (mine + other));
+    for (int g = 0; g < group; ++g) {
+      double factor = present[g][i];
+      if constexpr (Altered) factor = stretch[g][i] >= 0.0 ? tension[g][i] : compression[g][i];
+      const double here = modulus * sum[i], there = modulus * sum[i + shift[g]];
+      double magnitude = own[g] * effective[g][i];
+      if constexpr (Rules == LatticeRules::consistent) {
+        magnitude += factor * 0.5 * (here + there);
+      } else if constexpr (Rules == LatticeRules::mean_2017) {
+        magnitude = present[g][i] * (magnitude + 0.5 * (here + there));
+      } else {
+        double excess = 0.0;
+        if constexpr (Yields) excess = own[g] * factor * half[g][i];
+        const double mine = magnitude + here + excess, other = magnitude + there - excess;
+        const double smaller = std::abs(mine) < std::abs(other) ? mine : other;
+        magnitude = present[g][i] * (mine * other > 0.0 ? smaller : 0.5 * (mine + other));
+      }
+      if constexpr (Altered) {
+        const double damper = damping * factor * rate[g][i];
+        drag[g][i] = damper;
+        magnitude += damper;
+      } else {
+        magnitude += damping * rate[g][i];
+      }
+      for (int c = 0; c < Dim; ++c) force[g][c][i] *= magnitude;
     }
-    drag[i] = damping * factor * rate[i];
-    magnitude[i] = force + drag[i];
   }
-  for (int c = lattice.dim - 1; c >= 0; --c) {
-    double* component = at(state.force, lattice, k * lattice.dim + c, row);
-    const double* direction = at(state.direction, lattice, k * lattice.dim + c, row);
-#pragma omp simd
-    for (Index i = 0; i < row.size; ++i) component[i] = magnitude[i] * direction[i];
+}
+
+template <int Dim, LatticeRules Rules>
+void forces(const ExplicitModel& model, ExplicitState& state, Index r) {
+  const bool altered = level_of(model, state, r) == Level::altered;
+  constexpr bool halves_differ = Rules == LatticeRules::least_2018;
+  for (int first = 0; first < model.lattice.own_bonds(); first += group) {
+    if (!altered) {
+      force_group<Dim, Rules, false, false>(model, state, r, first);
+    } else if (halves_differ && model.material.yields) {
+      force_group<Dim, Rules, true, halves_differ>(model, state, r, first);
+    } else {
+      force_group<Dim, Rules, true, false>(model, state, r, first);
+    }
+  }
+}
+
+template <int Dim>
+void forces(const ExplicitModel& model, ExplicitState& state, Index r) {
+  switch (model.rules) {
+    case LatticeRules::consistent:
+      return forces<Dim, LatticeRules::consistent>(model, state, r);
+    case LatticeRules::mean_2017:
+      return forces<Dim, LatticeRules::mean_2017>(model, state, r);
+    case LatticeRules::least_2018:
+      return forces<Dim, LatticeRules::least_2018>(model, state, r);
   }
 }
 
 /// New velocity of one component of a row, before prescribed motions.
+template <int Own>
 void accelerate(const ExplicitModel& model, const ExplicitState& state, Index r, int c, double dt,
                 double* speed) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
   const double* velocity = at(state.velocity, lattice, c, row);
   const double* inverse_mass = at(model.inverse_mass, lattice, 0, row);
-  std::fill(speed, speed + row.size, 0.0);
-  for (int k = 0; k < lattice.own_bonds(); ++k) {
-    const double* out = at(state.force, lattice, k * lattice.dim + c, row);
-    const double* in = out - lattice.shift_in[r * lattice.own_bonds() + k];
-#pragma omp simd
-    for (Index i = 0; i < row.size; ++i) speed[i] += out[i] - in[i];
+  const double *out[Own], *in[Own];
+  for (int k = 0; k < Own; ++k) {
+    out[k] = at(state.force, lattice, k * lattice.dim + c, row);
+    in[k] = out[k] - lattice.shift_in[r * Own + k];
   }
   const double keep = 1.0 - dt * model.mass_damping;
 #pragma omp simd
   for (Index i = 0; i < row.size; ++i) {
-    speed[i] = keep * velocity[i] + dt * inverse_mass[i] * speed[i];
+    double force = 0.0;
+    for (int k = 0; k < Own; ++k) force += out[k][i] - in[k][i];
+    speed[i] = keep * velocity[i] + dt * inverse_mass[i] * force;
   }
+}
+
+/// \return work of the motion of one component against a drag per mass of one, times 2 / dt
+template <bool Damped>
+double move(const ExplicitModel& model, ExplicitState& state, Index r, int c, double dt,
+            const double* speed) {
+  const LatticeRow& row = model.lattice.rows[r];
+  const double* mass = at(model.mass, model.lattice, 0, row);
+  double* velocity = at(state.velocity, model.lattice, c, row);
+  double* displacement = at(state.displacement, model.lattice, c, row);
+  double loss = 0.0;
+#pragma omp simd reduction(+ : loss)
+  for (Index i = 0; i < row.size; ++i) {
+    if constexpr (Damped) loss += mass[i] * velocity[i] * (velocity[i] + speed[i]);
+    velocity[i] = speed[i];
+    displacement[i] += dt * speed[i];
+  }
+  return loss;
 }
 
 }  // namespace
 
 void measure_bonds(const ExplicitModel& model, ExplicitState& state, Index row, double time_step) {
-  double loss = 0.0;
-  for (int k = 0; k < model.lattice.own_bonds(); ++k) {
-    loss += model.lattice.dim == 2 ? measure_bond<2>(model, state, row, k, time_step)
-                                   : measure_bond<3>(model, state, row, k, time_step);
-  }
-  state.sums[row].internal_damping += loss;
+  model.lattice.dim == 2 ? measure<2>(model, state, row, time_step)
+                         : measure<3>(model, state, row, time_step);
 }
 
 void apply_factors(const ExplicitModel& model, ExplicitState& state, Index r) {
@@ -158,70 +290,31 @@ void sum_stretches(const ExplicitModel& model, ExplicitState& state, Index r) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
   double* sum = at(state.sum, lattice, 0, row);
-  std::fill(sum, sum + row.size, 0.0);
-  double energy = 0.0;
-  for (int k = 0; k < lattice.own_bonds(); ++k) {
-    const double weight = lattice.bonds[k].length / lattice.spacing;
-    const double half = 0.5 * lattice.bonds[k].length * model.own_modulus(k);
-    const double* out = at(state.effective, lattice, k, row);
-    const double* in = out - lattice.shift_in[r * lattice.own_bonds() + k];
-    const double* stretch = at(state.stretch, lattice, k, row);
-#pragma omp simd reduction(+ : energy)
+  const double* plastic = at(std::as_const(state.flow.sum), lattice, 0, row);
+  const bool flowed = plastic != nullptr && level_of(model, state, r) == Level::altered;
+  for (int first = 0; first < lattice.own_bonds(); first += group) {
+    std::array<const double*, group> out, in;
+    std::array<double, group> weight;
+    at_bonds(std::as_const(state.effective), lattice, first, row, out);
+    for (int g = 0; g < group; ++g) {
+      in[g] = out[g] - lattice.shift_in[r * lattice.own_bonds() + first + g];
+      weight[g] = lattice.bonds[first + g].length / lattice.spacing;
+    }
+    const double keep = first == 0 ? 0.0 : 1.0;
+#pragma omp simd
     for (Index i = 0; i < row.size; ++i) {
-      sum[i] += weight * (out[i] + in[i]);
-      energy += half * out[i] * stretch[i];
+      double total = keep * sum[i];
+      for (int g = 0; g < group; ++g) total += weight[g] * (out[g][i] + in[g][i]);
+      sum[i] = total;
     }
   }
-  const double quarter = 0.25 * lattice.spacing * model.moduli.sum;
-#pragma omp simd reduction(+ : energy)
-  for (Index i = 0; i < row.size; ++i) energy += quarter * sum[i] * sum[i];
-  state.sums[r].stored = energy;
-}
-
-void bound_tension(const ExplicitModel& model, ExplicitState& state, Index r) {
-  // n n' has the eigenvalues 1 and 0: no principal stress exceeds the sum of pulling bonds.
-  const LatticeRows& lattice = model.lattice;
-  const LatticeRow& row = lattice.rows[r];
-  const double* sum = at(state.sum, lattice, 0, row);
-  const double* volume = at(model.volume, lattice, 0, row);
-  double largest = 0.0;
-  if (lattice.dim != 2) return;  // damage is for bodies in the plane
-  const double *out[3], *in[3], *out_present[3], *in_present[3];
-  for (int k = 0; k < 3; ++k) {
-    const Index shift = lattice.shift_in[r * 3 + k];
-    out[k] = at(state.effective, lattice, k, row);
-    out_present[k] = at(lattice.present, lattice, k, row);
-    in[k] = out[k] - shift;
-    in_present[k] = out_present[k] - shift;
-  }
-  const double own = model.moduli.own, half = 0.5 * lattice.spacing;
-#pragma omp simd reduction(max : largest)
-  for (Index i = 0; i < row.size; ++i) {
-    const double shared = model.moduli.sum * sum[i];
-    double pull = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      pull += out_present[k][i] * std::max(0.0, own * out[k][i] + std::max(0.0, shared));
-      pull += in_present[k][i] * std::max(0.0, own * in[k][i] + std::max(0.0, shared));
-    }
-    largest = std::max(largest, half * pull / volume[i]);
-  }
-  state.tension_bound[r] = largest;
+  if (!flowed) return;
+#pragma omp simd
+  for (Index i = 0; i < row.size; ++i) sum[i] += plastic[i];
 }
 
 void bond_forces(const ExplicitModel& model, ExplicitState& state, Index row) {
-  for (int k = 0; k < model.lattice.own_bonds(); ++k) {
-    switch (model.rules) {
-      case LatticeRules::consistent:
-        force_bond<LatticeRules::consistent>(model, state, row, k);
-        break;
-      case LatticeRules::mean_2017:
-        force_bond<LatticeRules::mean_2017>(model, state, row, k);
-        break;
-      case LatticeRules::least_2018:
-        force_bond<LatticeRules::least_2018>(model, state, row, k);
-        break;
-    }
-  }
+  model.lattice.dim == 2 ? forces<2>(model, state, row) : forces<3>(model, state, row);
 }
 
 void advance(const ExplicitModel& model, ExplicitState& state, Index r, double time_step,
@@ -235,9 +328,9 @@ void advance(const ExplicitModel& model, ExplicitState& state, Index r, double t
   RowReactions reactions;
   double loss = 0.0;
   for (int c = 0; c < lattice.dim; ++c) {
-    accelerate(model, state, r, c, time_step, speed);
-    double* velocity = at(state.velocity, lattice, c, row);
-    double* displacement = at(state.displacement, lattice, c, row);
+    lattice.dim == 2 ? accelerate<3>(model, state, r, c, time_step, speed)
+                     : accelerate<9>(model, state, r, c, time_step, speed);
+    const double* velocity = at(state.velocity, lattice, c, row);
     for (const PrescribedMotion& motion : model.prescribed[r]) {
       if (motion.component != c) continue;
       const Index i = motion.slot - row.first;
@@ -248,12 +341,8 @@ void advance(const ExplicitModel& model, ExplicitState& state, Index r, double t
       reactions.driven += reaction * motion.amplitude;
       if (motion.amplitude == 0.0 && c == model.load_component) reactions.supports += reaction;
     }
-#pragma omp simd reduction(+ : loss)
-    for (Index i = 0; i < row.size; ++i) {
-      loss += mass[i] * velocity[i] * (velocity[i] + speed[i]);
-      velocity[i] = speed[i];
-      displacement[i] += time_step * speed[i];
-    }
+    loss += model.mass_damping > 0.0 ? move<true>(model, state, r, c, time_step, speed)
+                                     : move<false>(model, state, r, c, time_step, speed);
   }
   state.reactions[r] = reactions;
   state.sums[r].external_damping += 0.5 * time_step * model.mass_damping * loss;

@@ -4,8 +4,9 @@
 
 /// \file
 /// The four passes of a time step, each over one row of particles. Every pass writes only what
-/// belongs to its row, so the rows of a pass may run in any order and on any thread; between passes
-/// all rows must be done.
+/// belongs to its row, so the rows of a pass may run in any order and on any thread. A row's sums
+/// need the bonds of the rows whose bonds end there, its forces the sums of the rows where its
+/// bonds end, its motion the forces of all these.
 
 namespace perilink {
 
@@ -13,14 +14,11 @@ namespace perilink {
 /// the damping forces of the last step over the motion that followed.
 void measure_bonds(const ExplicitModel& model, ExplicitState& state, Index row, double time_step);
 
-/// Sums of effective stretches of the particles, stored energy of the row.
+/// Sums of effective stretches of the particles.
 void sum_stretches(const ExplicitModel& model, ExplicitState& state, Index row);
 
 /// effective = stretch times the factor of the bond's damage.
 void apply_factors(const ExplicitModel& model, ExplicitState& state, Index row);
-
-/// A bound of the principal stresses of the row (state.tension_bound).
-void bound_tension(const ExplicitModel& model, ExplicitState& state, Index row);
 
 /// Forces of the own bonds on their owners, damping included.
 void bond_forces(const ExplicitModel& model, ExplicitState& state, Index row);

@@ -74,22 +74,48 @@ void set_damping(ExplicitModel& model) {
   model.mass_damping = mass_damping_rate(material.external_damping, material.fundamental_period);
 }
 
+/// Widest band that a crack can have: half-way between two directions of rows, along a face of the
+/// cube in space.
+double widest_band(const ExplicitModel& model) {
+  const LatticeRows& lattice = model.lattice;
+  if (lattice.dim == 3) return lattice.cell_volume / (0.5 * lattice.spacing * lattice.spacing);
+  return lattice.cell_volume / (model.thickness * lattice.spacing * 0.5 * std::numbers::sqrt3);
+}
+
 void check_damage(const ExplicitModel& model) {
   if (!model.material.breakable) return;
-  if (model.lattice.dim == 3) {
-    throw std::invalid_argument("damage of lattices in space is not available; make it elastic");
+  if (model.lattice.dim == 3 && model.rules == LatticeRules::least_2018) {
+    throw std::invalid_argument("the rules of 2018 have no damage in space");
   }
   if (model.rules != LatticeRules::consistent) return;
-  // The widest band belongs to a crack half-way between two directions of rows.
-  const double angle =
-      std::atan2(model.lattice.bonds[0].direction[1], model.lattice.bonds[0].direction[0]);
-  const double widest = band_width(model, {std::cos(angle), std::sin(angle), 0.0});
+  const double widest = widest_band(model);
   const double limit = max_band_width(model.material.softening, model.material.youngs_modulus);
   if (widest < limit) return;
   throw std::invalid_argument(fmt::format(
       "the spacing {} is too large for the softening: a crack would release more energy than its "
       "opening dissipates; take less than {}",
       model.lattice.spacing, model.lattice.spacing * limit / widest));
+}
+
+/// Softening of the consistent rules, by the energy of a band of one row.
+void set_softening(ExplicitModel& model) {
+  LatticeMaterial& material = model.material;
+  if (!material.yields) return;
+  if (model.lattice.dim == 3 && model.rules == LatticeRules::least_2018) {
+    throw std::invalid_argument("the rules of 2018 have no flow in space");
+  }
+  if (model.rules != LatticeRules::consistent) return;
+  YieldCurve& curve = material.yielding;
+  curve.failure_strain = failure_strain(curve, material.crushing_energy, widest_band(model));
+  // Flow must take back more stress than the surface shrinks by, with the shear modulus mu.
+  const double mu = material.youngs_modulus / (2.0 * (1.0 + material.poissons_ratio));
+  const double least = curve.ultimate / std::min(3.0 * mu, material.youngs_modulus);
+  const double softening = curve.failure_strain - curve.ultimate_strain;
+  if (softening > least) return;
+  throw std::invalid_argument(fmt::format(
+      "the spacing {} is too large for the softening of flow: a band would release more energy "
+      "than it dissipates; take less than {}",
+      model.lattice.spacing, model.lattice.spacing * softening / least));
 }
 
 /// Largest sum of two neighbours' p, with the stiffness of own bond k along its direction.
@@ -153,6 +179,7 @@ ExplicitModel make_explicit_model(Problem problem, LatticeRules rules, LatticeRo
                                         model.lattice.spacing, thickness);
   model.prescribed.resize(model.lattice.rows.size());
   check_damage(model);
+  set_softening(model);
   set_masses(model);
   set_damping(model);
   return model;
@@ -179,12 +206,33 @@ void prescribe(ExplicitModel& model, const std::vector<PrescribedMotion>& motion
 
 double band_width(const ExplicitModel& model, const Vector3& normal) {
   const LatticeRows& lattice = model.lattice;
-  double along = 0.0;  // cosine between the crack and the nearest direction of rows
-  for (const OwnBond& bond : lattice.bonds) {
-    along =
-        std::max(along, std::abs(bond.direction[1] * normal[0] - bond.direction[0] * normal[1]));
+  const auto cosine = [&](const Vector3& a) {
+    const double size = std::hypot(a[0], a[1], a[2]);
+    return std::abs(a[0] * normal[0] + a[1] * normal[1] + a[2] * normal[2]) / size;
+  };
+  double along = 0.0;  // cosine between the crack and the nearest rows or densest planes
+  if (lattice.dim == 2) {
+    for (const OwnBond& bond : lattice.bonds) {
+      along = std::max(along, cosine({-bond.direction[1], bond.direction[0], 0.0}));
+    }
+    return lattice.cell_volume / (model.thickness * lattice.spacing * along);
   }
-  return lattice.cell_volume / (model.thickness * lattice.spacing * along);
+  // Second neighbours lie along the edges of the cube, the densest planes across its diagonals.
+  std::vector<Vector3> edge;
+  for (const OwnBond& bond : lattice.bonds) {
+    if (bond.length > 1.2 * lattice.spacing) edge.push_back(bond.direction);
+  }
+  for (const double second : {-1.0, 1.0}) {
+    for (const double third : {-1.0, 1.0}) {
+      Vector3 diagonal{};
+      for (int c = 0; c < 3; ++c) {
+        diagonal[c] = edge[0][c] + second * edge[1][c] + third * edge[2][c];
+      }
+      along = std::max(along, cosine(diagonal));
+    }
+  }
+  const double area = 0.5 * std::numbers::sqrt3 * lattice.spacing * lattice.spacing;
+  return lattice.cell_volume / (area * along);
 }
 
 double frequency_bound_squared(const ExplicitModel& model) {

@@ -6,6 +6,7 @@
 #include "discretization/lattice_rows.hpp"
 #include "material/crack_opening.hpp"
 #include "material/elasticity.hpp"
+#include "material/j2_plasticity.hpp"
 #include "material/state_moduli.hpp"
 
 namespace perilink {
@@ -30,6 +31,12 @@ struct LatticeMaterial {
   /// minus this ratio times the strength.
   double tension_compression_ratio = 6.0;
   double compressive_threshold = 0.8;  ///< tensile damage at which damage in compression begins
+  bool yields = false;
+  /// Yield stress over plastic strain. Consistent rules: failure_strain follows from
+  /// crushing_energy; the papers' rules have their own softening.
+  YieldCurve yielding;
+  double crushing_energy = 0.0;        ///< dissipated by softening per area; infinite: none
+                                       ///< [force/length]
   double boundary_factor = 1.0;        ///< beta_1: on the stress of particles that lack bonds [-]
   double internal_damping = 0.0;       ///< ratio at the frequency of a particle's own vibration
   double external_damping = 0.0;       ///< ratio at the fundamental frequency of the body
@@ -62,6 +69,8 @@ struct ExplicitModel {
 
   /// Coefficient of the own stretch of own bond k [force].
   double own_modulus(int k) const;
+  /// Whether anything can happen to a particle but motion.
+  bool alters() const { return material.breakable || material.yields; }
 };
 
 /// Rate at which forces in proportion to the mass damp a vibration of a period with a ratio: twice
@@ -79,8 +88,8 @@ ExplicitModel make_explicit_model(Problem problem, LatticeRules rules, LatticeRo
 void prescribe(ExplicitModel& model, const std::vector<PrescribedMotion>& motions);
 
 /// Width of the crack band of a particle [length]: its volume over the area of a crack along rows
-/// of the lattice, which a crack at an angle crosses in steps.
-/// \param normal  of the crack, unit vector in the plane
+/// (in space: along densest planes) of the lattice, which a crack at an angle crosses in steps.
+/// \param normal  of the crack, unit vector
 double band_width(const ExplicitModel& model, const Vector3& normal);
 
 /// Square of the highest frequency that the body can have, from above, exact far from surfaces

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/explicit_model.hpp"
+#include "material/j2_plasticity.hpp"
 
 namespace perilink {
 
@@ -17,12 +18,37 @@ struct RowSums {
   double internal_damping = 0.0;
   double external_damping = 0.0;
   double fractured = 0.0;  ///< stored energy lost while damage grew at rest
+  double plastic = 0.0;    ///< stored energy lost while particles flowed at rest
 };
 
 /// Force on the prescribed particles of a row in one step.
 struct RowReactions {
   double driven = 0.0;    ///< sum of reaction times amplitude [force length]
   double supports = 0.0;  ///< of supports along the load [force]
+};
+
+/// What a row needs beyond the elastic work; bits of ExplicitState::duty.
+struct RowDuty {
+  static constexpr std::uint8_t damage_grew = 1, flowed = 2;  ///< of its particles, in this step
+  static constexpr std::uint8_t altered = 4;   ///< own bonds or sums have factors or plastic parts
+  static constexpr std::uint8_t weakened = 8;  ///< own bonds or incoming ones have factors
+  static constexpr std::uint8_t cracked = 16;  ///< particles have damage
+};
+
+/// Plastic stretches of particles and of bonds; empty where the material cannot yield. The stretch
+/// of a bond less `mean` is its elastic stretch; each particle's half differs from that by `half`,
+/// added by the owner, subtracted by the partner.
+struct LatticeFlow {
+  std::vector<double> stretch;  ///< of each particle's own halves, shape (2 own bonds, slots)
+  std::vector<double> mean;     ///< of the two halves of own bonds, shape (own bonds, slots)
+  std::vector<double> half;     ///< (partner's - owner's) / 2, same shape
+  std::vector<double> sum;      ///< what `half` adds to the sum of stretches of a particle
+  std::vector<double> locked;   ///< of each row: energy of `half` in its own bonds [force length]
+  std::vector<double> yield;    ///< present yield stress of particles [force/length^2]
+  std::vector<double> visit;    ///< von Mises stress at which a particle has to be looked at
+  std::vector<double> normal;   ///< Young's modulus times plastic strain out of the plane
+  std::vector<PlasticState> state;     ///< of each slot
+  std::vector<std::uint8_t> crushed;   ///< particles that carry no compression either
 };
 
 /// Everything of an explicit lattice run that changes with time: displacements at step n,
@@ -32,24 +58,30 @@ struct ExplicitState {
 
   std::vector<double> displacement;  ///< [length], shape (dim, slots)
   std::vector<double> velocity;      ///< [length/time], shape (dim, slots)
-  std::vector<double> stretch;       ///< of own bonds, shape (own bonds, slots)
+  std::vector<double> stretch;       ///< elastic, of own bonds, shape (own bonds, slots); only
+                                     ///< where something can break or flow
   std::vector<double> effective;     ///< stretch times factor of the bond's damage, same shape
-  std::vector<double> direction;     ///< present, of own bonds, shape (own bonds, dim, slots)
   std::vector<double> rate;          ///< velocity of the ends along the bond, (own bonds, slots)
-  std::vector<double> drag;          ///< damping force of own bonds [force], (own bonds, slots)
-  std::vector<double> force;         ///< on the owner [force], shape (own bonds, dim, slots)
+  std::vector<double> drag;          ///< damping force of own bonds of altered rows [force]
+  std::vector<double> force;         ///< present directions of own bonds until bond_forces, then
+                                     ///< the forces on the owner [force], (own bonds, dim, slots)
   std::vector<double> sum;           ///< of effective stretches over all bonds, weighted by length
   std::vector<double> in_tension;    ///< factor of own bonds that stretch, (own bonds, slots)
   std::vector<double> in_compression;  ///< factor of own bonds that shorten
+  std::vector<double> share_tension;   ///< stretch of the owner's half of an own bond that stretches
+                                       ///< over that of the bond; the partner's is two minus this
+  std::vector<double> share_compression;  ///< the same of own bonds that shorten
   std::vector<double> damage;          ///< tensile, of particles
   std::vector<double> next_damage;     ///< at the end of the step
   std::vector<double> crack_band;      ///< width [length]; zero where no crack began
-  std::vector<RowSums> sums;           ///< of each row
+  std::vector<double> crack_at;        ///< first principal stress at which a particle is looked at
+  std::vector<double> grow_at;         ///< strain that drives damage, the same
+  LatticeFlow flow;
+  std::vector<RowSums> sums;  ///< of each row
   std::vector<RowReactions> reactions;
-  std::vector<double> tension_bound;  ///< of each row: no principal stress is larger
-  std::vector<std::uint8_t> cracked;  ///< rows with damage
-  std::vector<std::uint8_t> changed;  ///< rows whose damage grew in this step
-  std::vector<std::uint8_t> touched;  ///< rows whose sums of stretches that changes
+  std::vector<double> fastest;      ///< of each row: largest change of an own stretch in a step
+  std::vector<double> slack;        ///< of each row: change of stretches that alters nothing yet
+  std::vector<std::uint8_t> duty;   ///< of each row, see RowDuty
 };
 
 }  // namespace perilink

@@ -1,9 +1,9 @@
 #include "app/explicit_fields.hpp"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
+#include "analysis/explicit_flow.hpp"
 #include "app/field_file.hpp"
 
 namespace perilink {
@@ -27,40 +27,35 @@ std::vector<double> numbers_of(const LatticeRows& lattice, const std::vector<dou
   return numbers;
 }
 
-/// Adds a bond of a particle of an unbreakable body to its stress, (1 / 2V) L F n n'.
-void add_bond(const ExplicitModel& model, int k, double force, double volume, double* stress) {
-  constexpr std::array<std::array<int, 2>, 6> axes = {
-      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
-  const OwnBond& bond = model.lattice.bonds[k];
-  const double share = 0.5 * bond.length * force / volume;
-  for (std::size_t c = 0; c < axes.size(); ++c) {
-    stress[c] += share * bond.direction[axes[c][0]] * bond.direction[axes[c][1]];
+/// Calls visit(row, slot) for every particle.
+template <class Visit>
+void each_particle(const LatticeRows& lattice, const Visit& visit) {
+  Index row = 0;
+  for (const Index slot : lattice.particle_slot) {
+    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
+    visit(row, slot);
   }
 }
 
-/// Six components for each particle of an unbreakable body.
+/// Six components for each particle, in the order xx, yy, zz, xy, yz, zx.
 std::vector<double> stresses(const ExplicitModel& model, const ExplicitState& state) {
-  const LatticeRows& lattice = model.lattice;
-  const int own = lattice.own_bonds();
-  std::vector<double> values(6 * lattice.particle_slot.size(), 0.0);
-  std::size_t row = 0;
-  for (std::size_t i = 0; i < lattice.particle_slot.size(); ++i) {
-    const Index slot = lattice.particle_slot[i];
-    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
-    double* stress = values.data() + 6 * i;
-    for (int k = 0; k < own; ++k) {
-      for (const Index owner : {slot, slot - lattice.shift_in[row * own + k]}) {
-        const Index at = lattice.at(k, owner);
-        if (lattice.present[at] == 0.0) continue;
-        const double force =
-            model.own_modulus(k) * state.stretch[at] + model.moduli.sum * state.sum[slot];
-        add_bond(model, k, force, model.volume[slot], stress);
-      }
-    }
-    if (model.problem == Problem::plane_strain) {
-      stress[2] = model.material.poissons_ratio * (stress[0] + stress[1]);
-    }
-  }
+  const LatticeParticles particles(model);
+  std::vector<double> values;
+  values.reserve(6 * model.lattice.particle_slot.size());
+  each_particle(model.lattice, [&](Index row, Index slot) {
+    const SymmetricTensor stress = particles.stress(state, particles.family(row, slot));
+    values.insert(values.end(), stress.begin(), stress.end());
+  });
+  return values;
+}
+
+std::vector<double> plastic_strains(const ExplicitModel& model, const ExplicitState& state) {
+  const LatticeParticles particles(model);
+  const LatticeYielding yielding(model, particles);
+  std::vector<double> values;
+  each_particle(model.lattice, [&](Index row, Index slot) {
+    values.push_back(yielding.plastic_strain(state, row, slot));
+  });
   return values;
 }
 
@@ -95,6 +90,9 @@ VtuGrid make_lattice_grid(const ExplicitModel& model, const ExplicitState& state
   };
   if (!model.material.breakable) {
     grid.point_data.push_back({"stress", 6, stresses(model, state)});
+  }
+  if (model.material.yields) {
+    grid.point_data.push_back({"plastic_strain", 1, plastic_strains(model, state)});
   }
   grid.field_data = {{"step", static_cast<double>(record.step)},
                      {"time", record.time},

@@ -176,6 +176,7 @@ class RowBuilder {
         const Row& in = table_.at(moved(key, step, -1));
         lattice_.shift_out.push_back(out.slot(row.first + step[0]) - row.slot(row.first));
         lattice_.row_out.push_back(out.number);
+        lattice_.row_in.push_back(in.number);
         lattice_.shift_in.push_back(row.slot(row.first) - in.slot(row.first - step[0]));
       }
       for (const int column : row.columns) {

@@ -6,7 +6,7 @@
 namespace perilink {
 namespace {
 
-constexpr int bisections = 200;  // each halves the interval: ends at neighbouring numbers
+constexpr int most_iterations = 200;  // of which Newton needs a few; bisection would end by then
 
 double product(const SymmetricTensor& a, const SymmetricTensor& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
@@ -27,16 +27,35 @@ SymmetricTensor hooke(const HookeConstants& constants, const SymmetricTensor& st
   return stress;
 }
 
-/// Zero of a function that falls from a positive value at zero, within (0, upper].
+/// A function's value and derivative.
+struct Sample {
+  double value = 0.0, slope = 0.0;
+};
+
+/// Zero of a function that falls from a positive value at zero, within (0, upper], by Newton's
+/// method from zero; halves the interval where that leaves it.
 template <typename Function>
 double falling_zero(const Function& function, double upper) {
-  double low = 0.0, high = upper;
-  for (int k = 0; k < bisections; ++k) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    (function(middle) > 0.0 ? low : high) = middle;
+  double low = 0.0, high = upper, x = 0.0;
+  for (int k = 0; k < most_iterations; ++k) {
+    const Sample at = function(x);
+    if (at.value == 0.0) return x;
+    (at.value > 0.0 ? low : high) = x;
+    double next = at.slope < 0.0 ? x - at.value / at.slope : high;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == low || next == high || next == x) return next;
+    x = next;
   }
-  return 0.5 * (low + high);
+  return x;
+}
+
+double yield_slope(const YieldCurve& curve, double plastic_strain) {
+  if (plastic_strain <= curve.ultimate_strain) {
+    return curve.ultimate_strain > 0.0 ? (curve.ultimate - curve.yield) / curve.ultimate_strain
+                                       : 0.0;
+  }
+  if (plastic_strain >= curve.failure_strain) return 0.0;
+  return -curve.ultimate / (curve.failure_strain - curve.ultimate_strain);
 }
 
 void flow(const SymmetricTensor& direction, double amount, double equivalent, PlasticState& state) {
@@ -49,9 +68,12 @@ SymmetricTensor return_radially(const HookeConstants& constants, const YieldCurv
   const double mises = mises_stress(trial), before = state.equivalent_strain;
   const SymmetricTensor s = deviator(trial);
   const double shear = 3.0 * constants.mu;
-  const double amount =
-      falling_zero([&](double de) { return mises - shear * de - yield_stress(curve, before + de); },
-                   mises / shear);
+  const double amount = falling_zero(
+      [&](double de) {
+        return Sample{mises - shear * de - yield_stress(curve, before + de),
+                      -shear - yield_slope(curve, before + de)};
+      },
+      mises / shear);
   SymmetricTensor stress = trial;
   const double scale = 1.5 * amount / mises;  // plastic strain = scale times trial deviator
   for (int k = 0; k < 6; ++k) stress[k] -= 2.0 * constants.mu * scale * s[k];
@@ -68,22 +90,29 @@ SymmetricTensor return_in_plane(double youngs_modulus, double poissons_ratio,
   const double mu = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
   const double bulk = youngs_modulus / (3.0 * (1.0 - poissons_ratio));
   const double before = state.equivalent_strain;
-  const auto stress_at = [&](double g) {
-    const double sum = (trial[0] + trial[1]) / (1.0 + bulk * g);
-    const double shrink = 1.0 / (1.0 + 2.0 * mu * g);
-    const double difference = (trial[0] - trial[1]) * shrink;
-    return SymmetricTensor{
-        0.5 * (sum + difference), 0.5 * (sum - difference), 0.0, trial[3] * shrink, 0.0, 0.0};
+  const double mean = 0.5 * (trial[0] + trial[1]), half = 0.5 * (trial[0] - trial[1]);
+  const double square = half * half + trial[3] * trial[3];
+  // Equivalent stress and its derivative at a multiplier.
+  const auto mises_at = [&](double g) {
+    const double grow = 1.0 + bulk * g, turn = 1.0 + 2.0 * mu * g;
+    const double a = mean * mean / (grow * grow), b = 3.0 * square / (turn * turn);
+    const double mises = std::sqrt(a + b);
+    return Sample{mises, -(bulk * a / grow + 2.0 * mu * b / turn) / mises};
   };
-  const auto equivalent_at = [&](double g) { return 2.0 / 3.0 * g * mises_stress(stress_at(g)); };
   const auto excess = [&](double g) {
-    return mises_stress(stress_at(g)) - yield_stress(curve, before + equivalent_at(g));
+    const Sample mises = mises_at(g);
+    const double strain = before + 2.0 / 3.0 * g * mises.value;
+    return Sample{mises.value - yield_stress(curve, strain),
+                  mises.slope - yield_slope(curve, strain) * 2.0 / 3.0 *
+                                    (mises.value + g * mises.slope)};
   };
   double upper = 1.0 / mu;
-  while (excess(upper) > 0.0 && upper < 1e12 / mu) upper *= 2.0;
+  while (excess(upper).value > 0.0 && upper < 1e12 / mu) upper *= 2.0;
   const double g = falling_zero(excess, upper);
-  const SymmetricTensor stress = stress_at(g);
-  flow(deviator(stress), g, equivalent_at(g), state);
+  const double sum = 2.0 * mean / (1.0 + bulk * g), shrink = 1.0 / (1.0 + 2.0 * mu * g);
+  const SymmetricTensor stress{0.5 * sum + half * shrink, 0.5 * sum - half * shrink, 0.0,
+                               trial[3] * shrink, 0.0, 0.0};
+  flow(deviator(stress), g, 2.0 / 3.0 * g * mises_stress(stress), state);
   return stress;
 }
 

@@ -4,19 +4,40 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/explicit_energy.hpp"
 #include "analysis/explicit_kernels.hpp"
+#include "analysis/lattice_changes.hpp"
 
 /// \file
 /// Forces and energies of a lattice body as functions of its displacements.
 
 namespace perilink::testing_support {
 
-/// Brings stretches, sums and forces up to date with the displacements of a state at rest.
+/// Brings stretches, sums and forces up to date with the displacements of a state at rest, to which
+/// it may have jumped.
 inline void evaluate(const ExplicitModel& model, ExplicitState& state) {
   const auto rows = static_cast<Index>(model.lattice.rows.size());
   for (Index r = 0; r < rows; ++r) measure_bonds(model, state, r, 0.0);
   for (Index r = 0; r < rows; ++r) sum_stretches(model, state, r);
+  for (Index r = 0; r < rows; ++r) state.sums[r].stored = stored_energy(model, state, r);
   for (Index r = 0; r < rows; ++r) bond_forces(model, state, r);
+  std::fill(state.slack.begin(), state.slack.end(), 0.0);
+}
+
+/// Damage and flow of a step of no length, after `evaluate`.
+inline void change(const ExplicitModel& model, const LatticeChanges& changes,
+                   ExplicitState& state) {
+  const auto rows = static_cast<Index>(model.lattice.rows.size());
+  const auto each_touched = [&](const auto& work) {
+    for (Index r = 0; r < rows; ++r) {
+      if (changes.touches(state, r)) work(r);
+    }
+  };
+  for (Index r = 0; r < rows; ++r) changes.look(state, r, 0.0);
+  each_touched([&](Index r) { changes.commit(state, r, 0.0); });
+  each_touched([&](Index r) { changes.update_bonds(state, r); });
+  each_touched([&](Index r) { changes.update_sums(state, r, 0.0); });
+  for (Index r = 0; r < rows; ++r) state.sums[r].stored = stored_energy(model, state, r);
 }
 
 inline double stored_energy(const ExplicitState& state) {

@@ -11,7 +11,9 @@ namespace {
 using namespace testing_support;
 
 TEST(ExplicitState, BeginsAtRestIntactAndUnloaded) {
-  const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 20.0), paper_concrete());
+  LatticeMaterial material = paper_concrete();
+  material.breakable = true;
+  const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 20.0), material);
   ExplicitState state(model);
   EXPECT_EQ(state.in_tension, model.lattice.present);
   evaluate(model, state);

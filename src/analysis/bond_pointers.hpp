@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "analysis/explicit_state.hpp"
+
+namespace perilink {
+
+/// The bonds of a row's particles in loops over the row: own ones first, then the incoming ones;
+/// null where the body has no such field.
+template <int Bonds>
+struct BondPointers {
+  std::array<const double*, Bonds> effective, stretch, rate, present, tension, compression, half;
+  std::array<const double*, Bonds> share_tension, share_compression;
+
+  BondPointers(const ExplicitModel& model, const ExplicitState& state, Index row) {
+    const LatticeRows& lattice = model.lattice;
+    const Index first = lattice.rows[row].first;
+    constexpr int own = Bonds / 2;
+    const auto fill = [&](auto& pointers, const std::vector<double>& field) {
+      for (int j = 0; j < Bonds; ++j) {
+        const int k = j % own;
+        const Index start = j < own ? first : first - lattice.shift_in[row * own + k];
+        const std::size_t part = static_cast<std::size_t>(k) * lattice.slots;
+        pointers[j] = field.empty() ? nullptr : field.data() + part + start;
+      }
+    };
+    fill(effective, state.effective);
+    fill(stretch, state.stretch);
+    fill(rate, state.rate);
+    fill(present, lattice.present);
+    fill(tension, state.in_tension);
+    fill(compression, state.in_compression);
+    fill(half, state.flow.half);
+    fill(share_tension, state.share_tension);
+    fill(share_compression, state.share_compression);
+  }
+};
+
+}  // namespace perilink

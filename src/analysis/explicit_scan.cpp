@@ -1,0 +1,225 @@
+#include "analysis/explicit_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/bond_pointers.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Change of the force states of a particle per change of its stretches, summed over its bonds.
+double stiffness_of(const ExplicitModel& model) {
+  double own = 0.0, weights = 0.0;
+  const int bonds = model.lattice.own_bonds();
+  for (int k = 0; k < bonds; ++k) {
+    const double length = model.lattice.bonds[k].length;
+    own += 2.0 * length * model.own_modulus(k);
+    weights += 2.0 * length;
+  }
+  return own + weights * std::abs(model.moduli.sum) * weights / model.lattice.spacing;
+}
+
+/// What each particle of a row has left, in stress times volume: negative where it is due.
+/// \param Altered  bonds of the row have factors or plastic parts
+template <bool Altered, bool Yields>
+double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index r, double* left) {
+  const LatticeRow& row = model.lattice.rows[r];
+  const BondPointers<6> bond(model, state, r);
+  const double* sum = state.sum.data() + row.first;
+  const double* volume = model.volume.data() + row.first;
+  const double* crack_at = state.crack_at.data() + row.first;
+  const double* visit = Yields ? state.flow.visit.data() + row.first : nullptr;
+  double xx[3], yy[3], xy[3];
+  for (int k = 0; k < 3; ++k) {
+    const Vector3& n = model.lattice.bonds[k].direction;
+    xx[k] = n[0] * n[0], yy[k] = n[1] * n[1], xy[k] = n[0] * n[1];
+  }
+  const double own = model.moduli.own, modulus = model.moduli.sum;
+  const double half_length = 0.5 * model.lattice.spacing;
+  const bool all_weakened = model.rules == LatticeRules::consistent;
+  const double nu =
+      model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
+  const double* normal = Yields ? state.flow.normal.data() + row.first : nullptr;
+  double least = never;
+#pragma omp simd reduction(min : least)
+  for (Index i = 0; i < row.size; ++i) {
+    const double shared = modulus * sum[i];
+    double sxx = 0.0, syy = 0.0, sxy = 0.0;
+    for (int j = 0; j < 6; ++j) {
+      const int k = j % 3;
+      double force = own * bond.effective[j][i];
+      if constexpr (Altered) {
+        const double factor =
+            bond.stretch[j][i] >= 0.0 ? bond.tension[j][i] : bond.compression[j][i];
+        if constexpr (Yields) force += (j < 3 ? own : -own) * factor * bond.half[j][i];
+        force += (all_weakened ? factor : bond.present[j][i]) * shared;
+      } else {
+        force += bond.present[j][i] * shared;
+      }
+      sxx += force * xx[k];
+      syy += force * yy[k];
+      sxy += force * xy[k];
+    }
+    const double mean = 0.5 * (sxx + syy), difference = 0.5 * (sxx - syy);
+    const double radius = std::sqrt(difference * difference + sxy * sxy);
+    double rest = crack_at[i] * volume[i] - half_length * (mean + radius);
+    if constexpr (Yields) {
+      // Mean stress in the plane over that out of it.
+      const double over = half_length * (1.0 - 2.0 * nu) * mean + normal[i] * volume[i];
+      const double shear = half_length * radius;
+      rest = std::min(rest, visit[i] * volume[i] - std::sqrt(over * over + 3.0 * shear * shear));
+    }
+    left[i] = rest;
+    least = std::min(least, rest);
+  }
+  return least;
+}
+
+/// In space: n n' has the eigenvalues 1 and 0, so neither a principal stress nor von Mises' exceeds
+/// the sum of the forces.
+double scan_space(const ExplicitModel& model, const ExplicitState& state, Index r, double* left) {
+  const LatticeRow& row = model.lattice.rows[r];
+  const BondPointers<18> bond(model, state, r);
+  const double* sum = state.sum.data() + row.first;
+  const double* volume = model.volume.data() + row.first;
+  const double* crack_at = state.crack_at.data() + row.first;
+  const double* visit = model.material.yields ? state.flow.visit.data() + row.first : nullptr;
+  double least = never;
+  for (Index i = 0; i < row.size; ++i) {
+    const double shared = model.moduli.sum * sum[i];
+    double pull = 0.0, size = 0.0;
+    for (int j = 0; j < 18; ++j) {
+      const int k = j % 9;
+      const double half_length = 0.5 * model.lattice.bonds[k].length;
+      const double plastic = visit != nullptr ? std::abs(bond.half[j][i]) : 0.0;
+      const double own = model.own_modulus(k) * bond.effective[j][i];
+      const double part = bond.present[j][i] * shared;
+      // A factor of damage may weaken the shared part as well.
+      const double excess = model.own_modulus(k) * plastic;
+      pull += half_length * std::max(0.0, std::max(own, own + part) + excess);
+      size += half_length * (std::max(std::abs(own), std::abs(own + part)) + excess);
+    }
+    left[i] = crack_at[i] * volume[i] - pull;
+    if (visit != nullptr) left[i] = std::min(left[i], visit[i] * volume[i] - size);
+    least = std::min(least, left[i]);
+  }
+  return least;
+}
+
+/// Makes particles due whose strain has passed the largest so far; in the plane.
+template <LatticeRules Rules, bool Yields>
+void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
+                 const ExplicitState& state, Index r, double* left) {
+  const LatticeRow& row = model.lattice.rows[r];
+  const BondPointers<6> bond(model, state, r);
+  const std::vector<double>& inverse = particles.whole_inverse();
+  const double* grow_at = state.grow_at.data() + row.first;
+  const HookeConstants hooke = hooke_constants(model.problem, 1.0, model.material.poissons_ratio);
+#pragma omp simd
+  for (Index i = 0; i < row.size; ++i) {
+    double xx = 0.0, yy = 0.0, xy = 0.0;
+    for (int j = 0; j < 6; ++j) {
+      const double whole = bond.stretch[j][i] * bond.present[j][i];
+      double half = whole;
+      if constexpr (Rules != LatticeRules::mean_2017) {
+        const double owners =
+            whole >= 0.0 ? bond.share_tension[j][i] : bond.share_compression[j][i];
+        half *= j < 3 ? owners : 2.0 - owners;
+        if constexpr (Yields) half += j < 3 ? bond.half[j][i] : -bond.half[j][i];
+      }
+      xx += inverse[3 * j] * half;
+      yy += inverse[3 * j + 1] * half;
+      xy += inverse[3 * j + 2] * half;
+    }
+    const double mean = 0.5 * (xx + yy), difference = 0.5 * (xx - yy);
+    const double radius = std::sqrt(difference * difference + xy * xy);
+    const double e1 = mean + radius, e2 = mean - radius;
+    double strain = e1;
+    if constexpr (Rules == LatticeRules::consistent) {
+      strain = hooke.lambda * (e1 + e2) + 2.0 * hooke.mu * e1;
+    } else if constexpr (Rules == LatticeRules::least_2018) {
+      strain = std::sqrt(e1 * e1 - e1 * e2 + e2 * e2);
+    }
+    left[i] = strain > grow_at[i] ? -1.0 : left[i];
+  }
+}
+
+void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
+                 const ExplicitState& state, Index r, double* left) {
+  const bool yields = model.material.yields;
+  switch (model.rules) {
+    case LatticeRules::consistent:
+      return yields ? scan_cracks<LatticeRules::consistent, true>(model, particles, state, r, left)
+                    : scan_cracks<LatticeRules::consistent, false>(model, particles, state, r,
+                                                                   left);
+    case LatticeRules::mean_2017:
+      return scan_cracks<LatticeRules::mean_2017, false>(model, particles, state, r, left);
+    case LatticeRules::least_2018:
+      return yields ? scan_cracks<LatticeRules::least_2018, true>(model, particles, state, r, left)
+                    : scan_cracks<LatticeRules::least_2018, false>(model, particles, state, r,
+                                                                   left);
+  }
+}
+
+double scan_stress(const ExplicitModel& model, const ExplicitState& state, Index r, bool altered,
+                   double* left) {
+  if (model.lattice.dim == 3) return scan_space(model, state, r, left);
+  if (!model.material.yields) {
+    return altered ? scan_plane<true, false>(model, state, r, left)
+                   : scan_plane<false, false>(model, state, r, left);
+  }
+  return altered ? scan_plane<true, true>(model, state, r, left)
+                 : scan_plane<false, true>(model, state, r, left);
+}
+
+/// Calls visit(row) for the row and those whose bonds end in it.
+template <class Visit>
+void with_incoming(const LatticeRows& lattice, Index r, const Visit& visit) {
+  visit(r);
+  for (int k = 0; k < lattice.own_bonds(); ++k) {
+    const Index in = lattice.row_in[r * lattice.own_bonds() + k];
+    if (in != no_index) visit(in);
+  }
+}
+
+}  // namespace
+
+bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row) {
+  double fastest = 0.0;
+  with_incoming(model.lattice, row,
+                [&](Index near) { fastest = std::max(fastest, state.fastest[near]); });
+  // Rates are those along the present directions, a hair more than the changes of stretches.
+  constexpr double margin = 1.01;
+  state.slack[row] -= margin * fastest;
+  return !(state.slack[row] > 0.0);
+}
+
+void scan_row(const ExplicitModel& model, const LatticeParticles& particles, ExplicitState& state,
+              Index r, std::vector<Index>& due) {
+  const LatticeRow& row = model.lattice.rows[r];
+  thread_local std::vector<double> left;
+  left.resize(row.size);
+  std::uint8_t duty = 0;
+  with_incoming(model.lattice, r, [&](Index near) { duty |= state.duty[near]; });
+  const bool altered = (duty & RowDuty::altered) != 0;
+  const double least = scan_stress(model, state, r, altered, left.data());
+  const bool cracked = (state.duty[r] & RowDuty::cracked) != 0;
+  if (cracked && model.lattice.dim == 2) {
+    scan_cracks(model, particles, state, r, left.data());
+  }
+  due.clear();
+  for (Index i = 0; i < row.size; ++i) {
+    const bool grows = cracked && model.lattice.dim == 3 && state.grow_at[row.first + i] < never;
+    if (left[i] < 0.0 || grows) due.push_back(row.first + i);
+  }
+  // Factors change with the sign of a stretch, at no distance that could be counted.
+  const bool weakened = (duty & RowDuty::weakened) != 0;
+  const double stiffness = 0.5 * stiffness_of(model);
+  state.slack[r] = weakened ? 0.0 : least / stiffness;
+}
+
+}  // namespace perilink

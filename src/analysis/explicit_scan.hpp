@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/lattice_particles.hpp"
+
+/// \file
+/// Which particles of a row have to be looked at. Damage and flow cost nothing until stretches have
+/// changed by as much as the particle nearest to a threshold had left when the row was last scanned.
+
+namespace perilink {
+
+/// Whether a row has to be scanned in this step; takes the change of its stretches off its slack.
+bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row);
+
+/// Slots of the row whose stress or strain has reached the thresholds that the state has for them
+/// (crack_at, grow_at, flow.visit), exact in the plane, on the safe side in space; and the row's
+/// slack. Stretches and sums must be up to date.
+void scan_row(const ExplicitModel& model, const LatticeParticles& particles, ExplicitState& state,
+              Index row, std::vector<Index>& due);
+
+}  // namespace perilink

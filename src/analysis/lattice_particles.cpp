@@ -1,0 +1,203 @@
+#include "analysis/lattice_particles.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <unordered_map>
+
+namespace perilink {
+namespace {
+
+/// Rows and columns of the entries of a SymmetricTensor.
+constexpr std::array<std::array<int, 2>, 6> axes = {
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+
+/// The entries that a body in the plane or in space has.
+std::vector<int> entries_of(int dim) {
+  return dim == 2 ? std::vector<int>{0, 1, 3} : std::vector<int>{0, 1, 2, 3, 4, 5};
+}
+
+double product_of(const Vector3& n, int entry) { return n[axes[entry][0]] * n[axes[entry][1]]; }
+
+Eigen::Matrix3d matrix_of(const SymmetricTensor& t) {
+  Eigen::Matrix3d matrix;
+  matrix << t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2];
+  return matrix;
+}
+
+}  // namespace
+
+PrincipalValues principal_values(const SymmetricTensor& tensor, int dim) {
+  if (dim == 2) {
+    const double mean = 0.5 * (tensor[0] + tensor[1]), half = 0.5 * (tensor[0] - tensor[1]);
+    const double radius = std::hypot(half, tensor[3]);
+    const double angle = 0.5 * std::atan2(tensor[3], half);
+    return {mean + radius, mean - radius, mean - radius, {std::cos(angle), std::sin(angle), 0.0}};
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(matrix_of(tensor));
+  const auto& values = solver.eigenvalues();
+  const Eigen::Vector3d axis = solver.eigenvectors().col(2);
+  return {values[2], values[1], values[0], {axis[0], axis[1], axis[2]}};
+}
+
+LatticeParticles::LatticeParticles(const ExplicitModel& model) : model_(model) {
+  const LatticeRows& lattice = model.lattice;
+  whole_ = (1U << (2 * lattice.own_bonds())) - 1U;
+  whole_inverse_ = invert(whole_);
+  kind_.assign(lattice.slots, 0);
+  std::unordered_map<std::uint32_t, std::uint32_t> known;
+  Index row = 0;
+  for (const Index slot : lattice.particle_slot) {
+    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
+    const std::uint32_t mask = family(row, slot).mask;
+    const auto [place, fresh] = known.emplace(mask, static_cast<std::uint32_t>(inverses_.size()));
+    if (fresh) inverses_.push_back(invert(mask));
+    kind_[slot] = place->second;
+  }
+}
+
+LatticeParticles::Inverse LatticeParticles::invert(std::uint32_t mask) const {
+  const std::vector<int> entries = entries_of(model_.lattice.dim);
+  const int own = model_.lattice.own_bonds();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2 * own, static_cast<Index>(entries.size()));
+  for (int j = 0; j < 2 * own; ++j) {
+    const Vector3& n = model_.lattice.bonds[j % own].direction;
+    for (std::size_t c = 0; c < entries.size() && (mask >> j & 1U) != 0U; ++c) {
+      // Entries off the diagonal count twice.
+      rows(j, static_cast<Index>(c)) = (entries[c] < 3 ? 1.0 : 2.0) * product_of(n, entries[c]);
+    }
+  }
+  const Eigen::MatrixXd inverse = rows.completeOrthogonalDecomposition().pseudoInverse();
+  return {inverse.data(), inverse.data() + inverse.size()};
+}
+
+LatticeParticles::Family LatticeParticles::family(Index row, Index slot) const {
+  const LatticeRows& lattice = model_.lattice;
+  const int own = lattice.own_bonds();
+  Family family;
+  family.slot = slot;
+  family.bonds = 2 * own;
+  for (int k = 0; k < own; ++k) {
+    const Index source = slot - lattice.shift_in[row * own + k];
+    family.at[k] = lattice.at(k, slot);
+    family.at[k + own] = lattice.at(k, source);
+    family.partner[k] = slot + lattice.shift_out[row * own + k];
+    family.partner[k + own] = source;
+    if (lattice.present[family.at[k]] > 0.0) family.mask |= 1U << k;
+    if (lattice.present[family.at[k + own]] > 0.0) family.mask |= 1U << (k + own);
+  }
+  return family;
+}
+
+LatticeParticles::Halves LatticeParticles::elastic(const ExplicitState& state,
+                                                   const Family& family) const {
+  Halves half{};
+  const std::vector<double>& stretch = state.stretch.empty() ? state.effective : state.stretch;
+  const bool own_halves = model_.material.yields && model_.rules != LatticeRules::mean_2017;
+  for (int j = 0; j < family.bonds; ++j) {
+    if (!family.has(j)) continue;
+    half[j] = stretch[family.at[j]];
+    if (own_halves) half[j] += family.side(j) * state.flow.half[family.at[j]];
+  }
+  return half;
+}
+
+LatticeParticles::Halves LatticeParticles::shared(const ExplicitState& state,
+                                                  const Family& family) const {
+  Halves half = elastic(state, family);
+  if (model_.rules == LatticeRules::mean_2017) return half;
+  for (int j = 0; j < family.bonds; ++j) {
+    if (!family.has(j)) continue;
+    const Index at = family.at[j];
+    const double whole = state.stretch[at];
+    const double owners = whole >= 0.0 ? state.share_tension[at] : state.share_compression[at];
+    half[j] += family.side(j) * (owners - 1.0) * whole;  // the partner has 2 - owners
+  }
+  return half;
+}
+
+double LatticeParticles::factor(const ExplicitState& state, Index at) {
+  if (state.stretch.empty()) return 1.0;
+  return state.stretch[at] >= 0.0 ? state.in_tension[at] : state.in_compression[at];
+}
+
+LatticeParticles::Halves LatticeParticles::forces_with(const ExplicitState& state,
+                                                       const Family& family,
+                                                       const Halves& elastic, double sum) const {
+  const double shared = model_.moduli.sum * sum;
+  Halves force{};
+  for (int j = 0; j < family.bonds; ++j) {
+    if (!family.has(j)) continue;
+    const double weaker = factor(state, family.at[j]);
+    const double part = model_.rules == LatticeRules::consistent ? weaker * shared : shared;
+    force[j] = model_.own_modulus(family.own_number(j)) * weaker * elastic[j] + part;
+  }
+  return force;
+}
+
+LatticeParticles::Halves LatticeParticles::forces(const ExplicitState& state,
+                                                  const Family& family) const {
+  return forces_with(state, family, elastic(state, family), state.sum[family.slot]);
+}
+
+LatticeParticles::Halves LatticeParticles::forces_of(const ExplicitState& state,
+                                                     const Family& family,
+                                                     const Halves& elastic) const {
+  double sum = 0.0;
+  for (int j = 0; j < family.bonds; ++j) {
+    const double length = model_.lattice.bonds[family.own_number(j)].length;
+    if (family.has(j)) {
+      sum += length / model_.lattice.spacing * factor(state, family.at[j]) * elastic[j];
+    }
+  }
+  return forces_with(state, family, elastic, sum);
+}
+
+SymmetricTensor LatticeParticles::stress(const ExplicitState& state, const Family& family) const {
+  const Halves force = forces(state, family);
+  SymmetricTensor stress{};
+  for (int j = 0; j < family.bonds; ++j) {
+    const OwnBond& bond = model_.lattice.bonds[family.own_number(j)];
+    const double share = 0.5 * bond.length * force[j] / model_.volume[family.slot];
+    for (int c = 0; c < 6; ++c) stress[c] += share * product_of(bond.direction, c);
+  }
+  if (model_.problem == Problem::plane_strain) {
+    const LatticeMaterial& material = model_.material;
+    stress[2] = material.poissons_ratio * (stress[0] + stress[1]);
+    if (material.yields) {
+      stress[2] -= material.youngs_modulus * state.flow.state[family.slot].strain[2];
+    }
+  }
+  return stress;
+}
+
+SymmetricTensor LatticeParticles::fit(const Halves& stretch, const Family& family) const {
+  const Inverse& inverse = inverse_of(family);
+  SymmetricTensor strain{};
+  if (family.bonds == 6) {
+    for (int j = 0; j < 6; ++j) {
+      strain[0] += inverse[3 * j] * stretch[j];
+      strain[1] += inverse[3 * j + 1] * stretch[j];
+      strain[3] += inverse[3 * j + 2] * stretch[j];
+    }
+    return strain;
+  }
+  for (int j = 0; j < family.bonds; ++j) {
+    for (int c = 0; c < 6; ++c) strain[c] += inverse[6 * j + c] * stretch[j];
+  }
+  return strain;
+}
+
+LatticeParticles::Halves LatticeParticles::project(const SymmetricTensor& strain,
+                                                   const Family& family) const {
+  Halves stretch{};
+  for (int j = 0; j < family.bonds; ++j) {
+    const Vector3& n = model_.lattice.bonds[family.own_number(j)].direction;
+    for (int c = 0; c < 6 && family.has(j); ++c) {
+      stretch[j] += (c < 3 ? 1.0 : 2.0) * strain[c] * product_of(n, c);
+    }
+  }
+  return stretch;
+}
+
+}  // namespace perilink
