@@ -29,10 +29,8 @@ double LatticeDamage::driving_strain(const ExplicitState& state,
   const PrincipalValues values = principal_values(strain, model_.lattice.dim);
   const double e1 = values.first, e2 = values.last;
   switch (model_.rules) {
-    case LatticeRules::mean_2017:
-      return e1;
-    case LatticeRules::least_2018:
-      return std::sqrt(e1 * e1 - e1 * e2 + e2 * e2);
+    case LatticeRules::mean_2017: return e1;
+    case LatticeRules::least_2018: return std::sqrt(e1 * e1 - e1 * e2 + e2 * e2);
     case LatticeRules::consistent: {
       const HookeConstants hooke =
           hooke_constants(model_.problem, 1.0, model_.material.poissons_ratio);
@@ -50,8 +48,7 @@ double LatticeDamage::damage_at(double strain, double band) const {
       return printed_damage(material.softening, e, strain, 2.0 * spacing * strain);
     case LatticeRules::least_2018:
       return printed_damage(material.softening, e, strain, spacing * strain);
-    case LatticeRules::consistent:
-      return band_damage(material.softening, e, strain, band);
+    case LatticeRules::consistent: return band_damage(material.softening, e, strain, band);
   }
   return 0.0;
 }
@@ -92,7 +89,8 @@ void LatticeDamage::update_factors(ExplicitState& state, Index r) const {
       const Index at = lattice.at(k, slot);
       if (lattice.present[at] == 0.0) continue;
       const double mine = state.damage[slot], other = state.damage[slot + shift];
-      const double mine_pressed = in_compression(slot), other_pressed = in_compression(slot + shift);
+      const double mine_pressed = in_compression(slot),
+                   other_pressed = in_compression(slot + shift);
       if (mine == 0.0 && other == 0.0 && mine_pressed == 0.0 && other_pressed == 0.0) continue;
       state.in_tension[at] = two_spring_factor(mine, other);
       state.in_compression[at] = two_spring_factor(mine_pressed, other_pressed);

@@ -7,7 +7,7 @@
 namespace perilink {
 namespace {
 
-constexpr double most_flow = 0.01;          ///< of a stretch in a step (2018, below Eq. 29)
+constexpr double most_flow = 0.01;           ///< of a stretch in a step (2018, below Eq. 29)
 constexpr double softening_per_step = 0.99;  ///< of the yield stress (2018, below Eq. 24)
 
 /// Strain of an isotropic solid under a stress.
@@ -79,8 +79,7 @@ LatticeYielding::Change LatticeYielding::flow_consistently(ExplicitState& state,
   state.flow.yield[slot] = yield_stress(material.yielding, plastic.equivalent_strain);
   state.flow.visit[slot] = state.flow.yield[slot];
   if (model_.problem == Problem::plane_strain) state.flow.normal[slot] = e * plastic.strain[2];
-  Halves change =
-      particles_.project(free_strain(model_.problem, nu, plastic.strain), family);
+  Halves change = particles_.project(free_strain(model_.problem, nu, plastic.strain), family);
   for (int j = 0; j < family.bonds; ++j) {
     if (family.has(j)) change[j] -= state.flow.stretch[model_.lattice.at(j, slot)];
   }
@@ -146,14 +145,13 @@ double LatticeYielding::printed_yield(const ExplicitState& state, const Family& 
   double e3 = values.last;
   if (model_.problem == Problem::plane_stress) e3 = -nu / (1.0 - nu) * (e1 + e2);
   if (model_.problem == Problem::plane_strain) e3 = 0.0;
-  const double strain = std::sqrt(
-      0.5 * ((e1 - e2) * (e1 - e2) + (e2 - e3) * (e2 - e3) + (e3 - e1) * (e3 - e1)));
+  const double strain =
+      std::sqrt(0.5 * ((e1 - e2) * (e1 - e2) + (e2 - e3) * (e2 - e3) + (e3 - e1) * (e3 - e1)));
   beyond = strain > curve.ultimate_strain;
   return curve.yield + slope * strain;
 }
 
-LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state,
-                                                         const Family& family,
+LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state, const Family& family,
                                                          double time_step) const {
   const bool of_2017 = model_.rules == LatticeRules::mean_2017;
   const Index slot = family.slot;

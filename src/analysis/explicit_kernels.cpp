@@ -130,10 +130,8 @@ void measure(const ExplicitModel& model, ExplicitState& state, Index r, double d
 template <int Dim>
 void measure(const ExplicitModel& model, ExplicitState& state, Index r, double dt) {
   switch (level_of(model, state, r)) {
-    case Level::elastic:
-      return measure<Dim, Level::elastic, false>(model, state, r, dt);
-    case Level::watched:
-      return measure<Dim, Level::watched, false>(model, state, r, dt);
+    case Level::elastic: return measure<Dim, Level::elastic, false>(model, state, r, dt);
+    case Level::watched: return measure<Dim, Level::watched, false>(model, state, r, dt);
     case Level::altered:
       return model.material.yields ? measure<Dim, Level::altered, true>(model, state, r, dt)
                                    : measure<Dim, Level::altered, false>(model, state, r, dt);
@@ -216,12 +214,9 @@ void forces(const ExplicitModel& model, ExplicitState& state, Index r) {
 template <int Dim>
 void forces(const ExplicitModel& model, ExplicitState& state, Index r) {
   switch (model.rules) {
-    case LatticeRules::consistent:
-      return forces<Dim, LatticeRules::consistent>(model, state, r);
-    case LatticeRules::mean_2017:
-      return forces<Dim, LatticeRules::mean_2017>(model, state, r);
-    case LatticeRules::least_2018:
-      return forces<Dim, LatticeRules::least_2018>(model, state, r);
+    case LatticeRules::consistent: return forces<Dim, LatticeRules::consistent>(model, state, r);
+    case LatticeRules::mean_2017: return forces<Dim, LatticeRules::mean_2017>(model, state, r);
+    case LatticeRules::least_2018: return forces<Dim, LatticeRules::least_2018>(model, state, r);
   }
 }
 

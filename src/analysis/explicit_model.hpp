@@ -35,12 +35,12 @@ struct LatticeMaterial {
   /// Yield stress over plastic strain. Consistent rules: failure_strain follows from
   /// crushing_energy; the papers' rules have their own softening.
   YieldCurve yielding;
-  double crushing_energy = 0.0;        ///< dissipated by softening per area; infinite: none
-                                       ///< [force/length]
-  double boundary_factor = 1.0;        ///< beta_1: on the stress of particles that lack bonds [-]
-  double internal_damping = 0.0;       ///< ratio at the frequency of a particle's own vibration
-  double external_damping = 0.0;       ///< ratio at the fundamental frequency of the body
-  double fundamental_period = 0.0;     ///< of the body [time]; needed for external damping
+  double crushing_energy = 0.0;     ///< dissipated by softening per area; infinite: none
+                                    ///< [force/length]
+  double boundary_factor = 1.0;     ///< beta_1: on the stress of particles that lack bonds [-]
+  double internal_damping = 0.0;    ///< ratio at the frequency of a particle's own vibration
+  double external_damping = 0.0;    ///< ratio at the fundamental frequency of the body
+  double fundamental_period = 0.0;  ///< of the body [time]; needed for external damping
 };
 
 /// A component of a particle's motion that is prescribed: amplitude times the load factor.

@@ -41,8 +41,7 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   const double own = model.moduli.own, modulus = model.moduli.sum;
   const double half_length = 0.5 * model.lattice.spacing;
   const bool all_weakened = model.rules == LatticeRules::consistent;
-  const double nu =
-      model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
+  const double nu = model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
   const double* normal = Yields ? state.flow.normal.data() + row.first : nullptr;
   double least = never;
 #pragma omp simd reduction(min : least)
@@ -153,15 +152,15 @@ void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
   const bool yields = model.material.yields;
   switch (model.rules) {
     case LatticeRules::consistent:
-      return yields ? scan_cracks<LatticeRules::consistent, true>(model, particles, state, r, left)
-                    : scan_cracks<LatticeRules::consistent, false>(model, particles, state, r,
-                                                                   left);
+      return yields
+                 ? scan_cracks<LatticeRules::consistent, true>(model, particles, state, r, left)
+                 : scan_cracks<LatticeRules::consistent, false>(model, particles, state, r, left);
     case LatticeRules::mean_2017:
       return scan_cracks<LatticeRules::mean_2017, false>(model, particles, state, r, left);
     case LatticeRules::least_2018:
-      return yields ? scan_cracks<LatticeRules::least_2018, true>(model, particles, state, r, left)
-                    : scan_cracks<LatticeRules::least_2018, false>(model, particles, state, r,
-                                                                   left);
+      return yields
+                 ? scan_cracks<LatticeRules::least_2018, true>(model, particles, state, r, left)
+                 : scan_cracks<LatticeRules::least_2018, false>(model, particles, state, r, left);
   }
 }
 

@@ -47,8 +47,8 @@ struct LatticeFlow {
   std::vector<double> yield;    ///< present yield stress of particles [force/length^2]
   std::vector<double> visit;    ///< von Mises stress at which a particle has to be looked at
   std::vector<double> normal;   ///< Young's modulus times plastic strain out of the plane
-  std::vector<PlasticState> state;     ///< of each slot
-  std::vector<std::uint8_t> crushed;   ///< particles that carry no compression either
+  std::vector<PlasticState> state;    ///< of each slot
+  std::vector<std::uint8_t> crushed;  ///< particles that carry no compression either
 };
 
 /// Everything of an explicit lattice run that changes with time: displacements at step n,
@@ -68,20 +68,20 @@ struct ExplicitState {
   std::vector<double> sum;           ///< of effective stretches over all bonds, weighted by length
   std::vector<double> in_tension;    ///< factor of own bonds that stretch, (own bonds, slots)
   std::vector<double> in_compression;  ///< factor of own bonds that shorten
-  std::vector<double> share_tension;   ///< stretch of the owner's half of an own bond that stretches
-                                       ///< over that of the bond; the partner's is two minus this
+  std::vector<double> share_tension;  ///< stretch of the owner's half of an own bond that stretches
+                                      ///< over that of the bond; the partner's is two minus this
   std::vector<double> share_compression;  ///< the same of own bonds that shorten
-  std::vector<double> damage;          ///< tensile, of particles
-  std::vector<double> next_damage;     ///< at the end of the step
-  std::vector<double> crack_band;      ///< width [length]; zero where no crack began
-  std::vector<double> crack_at;        ///< first principal stress at which a particle is looked at
-  std::vector<double> grow_at;         ///< strain that drives damage, the same
+  std::vector<double> damage;             ///< tensile, of particles
+  std::vector<double> next_damage;        ///< at the end of the step
+  std::vector<double> crack_band;         ///< width [length]; zero where no crack began
+  std::vector<double> crack_at;  ///< first principal stress at which a particle is looked at
+  std::vector<double> grow_at;   ///< strain that drives damage, the same
   LatticeFlow flow;
   std::vector<RowSums> sums;  ///< of each row
   std::vector<RowReactions> reactions;
-  std::vector<double> fastest;      ///< of each row: largest change of an own stretch in a step
-  std::vector<double> slack;        ///< of each row: change of stretches that alters nothing yet
-  std::vector<std::uint8_t> duty;   ///< of each row, see RowDuty
+  std::vector<double> fastest;     ///< of each row: largest change of an own stretch in a step
+  std::vector<double> slack;       ///< of each row: change of stretches that alters nothing yet
+  std::vector<std::uint8_t> duty;  ///< of each row, see RowDuty
 };
 
 }  // namespace perilink

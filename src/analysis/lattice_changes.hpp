@@ -10,7 +10,10 @@ namespace perilink {
 class LatticeChanges {
  public:
   explicit LatticeChanges(const ExplicitModel& model)
-      : model_(model), particles_(model), damage_(model, particles_), yielding_(model, particles_) {}
+      : model_(model),
+        particles_(model),
+        damage_(model, particles_),
+        yielding_(model, particles_) {}
 
   /// First: what happens to the particles of a row. After the sums of the row; before any later
   /// stage of it and of rows next to it.

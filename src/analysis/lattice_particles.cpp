@@ -122,8 +122,8 @@ double LatticeParticles::factor(const ExplicitState& state, Index at) {
 }
 
 LatticeParticles::Halves LatticeParticles::forces_with(const ExplicitState& state,
-                                                       const Family& family,
-                                                       const Halves& elastic, double sum) const {
+                                                       const Family& family, const Halves& elastic,
+                                                       double sum) const {
   const double shared = model_.moduli.sum * sum;
   Halves force{};
   for (int j = 0; j < family.bonds; ++j) {

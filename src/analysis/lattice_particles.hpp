@@ -28,10 +28,10 @@ class LatticeParticles {
   /// The bonds of a particle, own ones first, then the incoming ones; absent ones are in the mask.
   struct Family {
     Index slot = 0;
-    int bonds = 0;                           ///< 6 or 18
-    std::array<Index, most_bonds> at{};      ///< in arrays of shape (own bonds, slots)
+    int bonds = 0;                            ///< 6 or 18
+    std::array<Index, most_bonds> at{};       ///< in arrays of shape (own bonds, slots)
     std::array<Index, most_bonds> partner{};  ///< slot of the other particle
-    std::uint32_t mask = 0;                  ///< bit j: bond j exists
+    std::uint32_t mask = 0;                   ///< bit j: bond j exists
 
     bool has(int j) const { return (mask >> j & 1U) != 0U; }
     int own_number(int j) const { return j < bonds / 2 ? j : j - bonds / 2; }

@@ -29,7 +29,8 @@ constexpr std::array columns = {
            [](const ExplicitRecord& r) {
              return r.energy.internal_damping + r.energy.external_damping;
            }},
-    Column{"dissipated_energy", [](const ExplicitRecord& r) { return r.energy.fractured; }},
+    Column{"dissipated_energy",
+           [](const ExplicitRecord& r) { return r.energy.fractured + r.energy.plastic; }},
     Column{"external_work", [](const ExplicitRecord& r) { return r.energy.external_work; }},
 };
 

@@ -39,7 +39,11 @@ void write_summary(const std::filesystem::path& directory, const ExplicitSummary
   json["kinetic_energy"] = energy.kinetic;
   json["strain_energy"] = energy.stored;
   json["damped_energy"] = energy.internal_damping + energy.external_damping;
-  json["dissipated_energy"] = energy.fractured;
+  json["dissipated_energy"] = energy.fractured + energy.plastic;
+  if (summary.built.model.material.yields) {
+    json["yielded_particles"] = result.last.yielded_particles;
+    json["plastic_energy"] = energy.plastic;
+  }
   json["energy_error"] = result.largest_surplus;
   json["particles"] = summary.built.model.lattice.particles();
   json["bonds"] = summary.built.bonds;
@@ -71,9 +75,12 @@ void print_summary(const std::filesystem::path& directory, const ExplicitSummary
              input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
              result.time_step, result.critical_time_step, summary.observer.rows());
-  fmt::print("  {:<14} {:.6g} work, {:.6g} dissipated by {} cracked particles, balance to {:.1e}\n",
-             "energy", energy.external_work, energy.fractured, result.last.cracked_particles,
-             result.largest_surplus);
+  const std::string flow =
+      fmt::format(", {:.6g} by {} yielded ones", energy.plastic, result.last.yielded_particles);
+  fmt::print(
+      "  {:<14} {:.6g} work, {:.6g} dissipated by {} cracked particles{}, balance to {:.1e}\n",
+      "energy", energy.external_work, energy.fractured, result.last.cracked_particles,
+      summary.built.model.material.yields ? flow : "", result.largest_surplus);
   fmt::print("  {:<14} {} particles, {} bonds\n", "size", summary.built.model.lattice.particles(),
              summary.built.bonds);
   fmt::print(

@@ -76,6 +76,12 @@ LatticeMaterial lattice_material(const CaseFile& input) {
   material.tension_compression_ratio = own.compression_ratio;
   material.compressive_threshold = own.compression_threshold;
   material.boundary_factor = own.boundary_factor;
+  material.yields = own.yield_strength.has_value();
+  if (material.yields) {
+    material.yielding = {*own.yield_strength, *own.ultimate_strength, *own.ultimate_plastic_strain,
+                         0.0};
+    material.crushing_energy = own.crushing_energy.value_or(0.0);
+  }
   material.internal_damping = own.internal_damping;
   if (own.fundamental_period) {  // else build_explicit_case finds it
     material.external_damping = own.external_damping;

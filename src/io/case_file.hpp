@@ -33,12 +33,12 @@ struct BodySection {
   double thickness = 1.0;                ///< of two-dimensional bodies
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
   Surface surface = Surface::calibrated;
-  std::optional<int> columns;            ///< particles across the body in x: this, spacing or mesh
+  std::optional<int> columns;  ///< particles across the body in x: this, spacing or mesh
   std::optional<double> spacing;
   std::optional<double> horizon;         ///< exactly one of horizon, horizon_level, horizon_ratio
   std::optional<int> horizon_level;      ///< 0–8 of Gerstle, Sau & Silling 2005, Fig. 5
   std::optional<double> horizon_ratio;   ///< horizon / spacing
-  std::string micromodulus = "lattice";      ///< lattice | continuum, of a mesh always continuum
+  std::string micromodulus = "lattice";  ///< lattice | continuum, of a mesh always continuum
   std::string critical_stretch = "lattice";  ///< lattice | continuum, of a mesh always continuum
   double rotation = 0.0;  ///< of the rows of model = lattice against x, about z [degrees]
   Vector3 offset{};       ///< one of its lattice points [length]
@@ -51,13 +51,19 @@ struct LatticeMaterialSection {
   std::optional<double> tensile_strength;  ///< [force/length^2]; absent: unbreakable
   /// Crack opening at which the stress has fallen to zero [length]; absent: from fracture_energy.
   std::optional<double> critical_opening;
-  double knee_stress_ratio = 0.25;      ///< stress over strength where the softening bends
-  double knee_opening_ratio = 0.1;      ///< opening over the critical one there
-  double compression_ratio = 6.0;       ///< compression over tensile strength that forbids damage
-  double compression_threshold = 0.8;   ///< tensile damage where that in compression begins
-  double boundary_factor = 1.0;         ///< on the stress of particles that lack bonds
-  double internal_damping = 0.0;        ///< ratio at the frequency of a particle's own vibration
-  double external_damping = 0.0;        ///< ratio at the fundamental frequency of the body
+  double knee_stress_ratio = 0.25;       ///< stress over strength where the softening bends
+  double knee_opening_ratio = 0.1;       ///< opening over the critical one there
+  double compression_ratio = 6.0;        ///< compression over tensile strength that forbids damage
+  double compression_threshold = 0.8;    ///< tensile damage where that in compression begins
+  double boundary_factor = 1.0;          ///< on the stress of particles that lack bonds
+  std::optional<double> yield_strength;  ///< [force/length^2]; absent: no flow
+  std::optional<double> ultimate_strength;        ///< [force/length^2]
+  std::optional<double> ultimate_plastic_strain;  ///< at the ultimate strength
+  /// Dissipated by softening per area; infinite: none; absent in the papers' variants
+  /// [force/length].
+  std::optional<double> crushing_energy;
+  double internal_damping = 0.0;  ///< ratio at the frequency of a particle's own vibration
+  double external_damping = 0.0;  ///< ratio at the fundamental frequency of the body
   std::optional<double> fundamental_period;  ///< [time]
 };
 
@@ -92,7 +98,7 @@ struct DisplacementSection {
 /// [[loads]]: exactly one of force (total, shared by volume) and body_force (per volume).
 struct LoadSection {
   std::string region;
-  std::optional<Vector3> force;       ///< at load factor 1 [force]
+  std::optional<Vector3> force;                ///< at load factor 1 [force]
   std::optional<ExpressionVector> body_force;  ///< at load factor 1 [force/length^3]
 };
 
@@ -146,7 +152,7 @@ struct GaugeSection {
   std::string name;
   std::vector<Vector3> between;  ///< two points: displacement of the second relative to the first
   std::optional<Vector3> at;
-  std::string region;            ///< mean over its particles
+  std::string region;  ///< mean over its particles
   /// Of the displacement; between two points else that from one to the other.
   std::optional<int> axis;
   std::optional<std::array<int, 2>> stress;  ///< axes of a component of the stress, ascending
@@ -174,14 +180,14 @@ struct AnalysisSection {
 /// [stop]: the run ends at the first rule met (always at collapse).
 struct StopSection {
   std::optional<int> broken_bonds;
-  std::optional<double> load_fraction;   ///< of the peak load factor
+  std::optional<double> load_fraction;  ///< of the peak load factor
   std::optional<double> displacement;
 };
 
 /// [output]
 struct OutputSection {
-  std::vector<int> fields_at;      ///< numbers of broken bonds at which fields are written
-  std::optional<int> fields_every; ///< and after every so many
+  std::vector<int> fields_at;        ///< numbers of broken bonds at which fields are written
+  std::optional<int> fields_every;   ///< and after every so many
   std::vector<double> fields_times;  ///< of type = explicit: times of fields [time]
 };
 

@@ -245,10 +245,10 @@ void read_lattice_material(const CaseTable& table, const BodySection& body,
   table.need_one_of({"fracture_energy", "critical_opening"});
   material.fracture_energy = table.has("fracture_energy") ? read_fracture_energy(table) : 0.0;
   const bool breakable = !std::isinf(material.fracture_energy);
-  if (breakable && dimension_of(body) == 3) {
+  if (breakable && dimension_of(body) == 3 && body.variant == "2018") {
     table.refuse(table.has("fracture_energy") ? "fracture_energy" : "critical_opening",
-                 "lets the material break, but lattices in space are elastic",
-                 "write fracture_energy = \"infinite\", or take a body in the plane");
+                 "lets the material break, but the rules of 2018 have no damage in space",
+                 "write fracture_energy = \"infinite\", or take another variant in [body]");
   }
   if (breakable) read_softening(table, body, section);
   for (const char* key : softening_keys) {
@@ -256,6 +256,7 @@ void read_lattice_material(const CaseTable& table, const BodySection& body,
     table.refuse(key, "is given, but the material is unbreakable",
                  "delete it, or give a finite fracture_energy");
   }
+  read_lattice_yielding(table, body, section);
   read_damping(table, section);
 }
 
@@ -326,6 +327,7 @@ void write_lattice_material(TomlWriter& out, const MaterialSection& material) {
     out.write("compression_threshold", section.compression_threshold);
     out.write("boundary_factor", section.boundary_factor);
   }
+  write_lattice_yielding(out, section);
   out.write("internal_damping", section.internal_damping);
   out.write("external_damping", section.external_damping);
   out.write("fundamental_period", section.fundamental_period);

@@ -21,6 +21,9 @@ void refuse_lattice_keys(const CaseTable& table, const BodySection& body);
 /// Poisson's ratio, fracture_energy and what other bodies' materials lack.
 void read_lattice_material(const CaseTable& table, const BodySection& body,
                            MaterialSection& material);
+/// Yield strength and what goes with it.
+void read_lattice_yielding(const CaseTable& table, const BodySection& body,
+                           LatticeMaterialSection& section);
 /// Refuses keys of lattice materials in those of others.
 void refuse_lattice_material_keys(const CaseTable& table);
 
@@ -31,6 +34,7 @@ void refuse_explicit_keys(const CaseTable& table, const AnalysisSection& analysi
 
 void write_lattice_body(TomlWriter& out, const BodySection& body);
 void write_lattice_material(TomlWriter& out, const MaterialSection& material);
+void write_lattice_yielding(TomlWriter& out, const LatticeMaterialSection& section);
 void write_explicit_analysis(TomlWriter& out, const CaseFile& input);
 
 /// Refuses what lattice bodies and explicit analyses cannot be combined with.

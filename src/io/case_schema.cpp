@@ -109,6 +109,7 @@ const std::vector<TableSchema>& case_schema() {
        {"name", "region", "regions", "holes", "youngs_modulus", "poissons_ratio", "fracture_energy",
         "density", "tensile_strength", "critical_opening", "knee_stress_ratio",
         "knee_opening_ratio", "compression_ratio", "compression_threshold", "boundary_factor",
+        "yield_strength", "ultimate_strength", "ultimate_plastic_strain", "crushing_energy",
         "internal_damping", "external_damping", "fundamental_period"}},
       {"supports", true, {"region", "fix"}},
       {"displacements", true, {"region", "x", "y", "z", "rotation", "rx", "ry", "rz"}},

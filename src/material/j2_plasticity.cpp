@@ -102,16 +102,16 @@ SymmetricTensor return_in_plane(double youngs_modulus, double poissons_ratio,
   const auto excess = [&](double g) {
     const Sample mises = mises_at(g);
     const double strain = before + 2.0 / 3.0 * g * mises.value;
-    return Sample{mises.value - yield_stress(curve, strain),
-                  mises.slope - yield_slope(curve, strain) * 2.0 / 3.0 *
-                                    (mises.value + g * mises.slope)};
+    return Sample{
+        mises.value - yield_stress(curve, strain),
+        mises.slope - yield_slope(curve, strain) * 2.0 / 3.0 * (mises.value + g * mises.slope)};
   };
   double upper = 1.0 / mu;
   while (excess(upper).value > 0.0 && upper < 1e12 / mu) upper *= 2.0;
   const double g = falling_zero(excess, upper);
   const double sum = 2.0 * mean / (1.0 + bulk * g), shrink = 1.0 / (1.0 + 2.0 * mu * g);
-  const SymmetricTensor stress{0.5 * sum + half * shrink, 0.5 * sum - half * shrink, 0.0,
-                               trial[3] * shrink, 0.0, 0.0};
+  const SymmetricTensor stress{
+      0.5 * sum + half * shrink, 0.5 * sum - half * shrink, 0.0, trial[3] * shrink, 0.0, 0.0};
   flow(deviator(stress), g, 2.0 / 3.0 * g * mises_stress(stress), state);
   return stress;
 }
