@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/explicit_scan.hpp"
+
 namespace perilink {
 namespace {
 
@@ -11,20 +13,42 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-bool LatticeDamage::begins(const LatticeParticles::Family& family,
-                           const SymmetricTensor& stress) const {
-  const LatticeMaterial& material = model_.material;
-  const PrincipalValues principal = principal_values(stress, model_.lattice.dim);
-  const double scale = particles_.is_whole(family) ? 1.0 : material.boundary_factor;
-  double least = principal.last;
-  if (model_.lattice.dim == 2) least = std::min(least, stress[2]);
-  const double strength = material.softening.strength;
-  return scale * principal.first > strength &&
-         scale * least > -material.tension_compression_ratio * strength;
+bool LatticeDamage::has_weakened_neighbours(const ExplicitState& state, Index row) const {
+  const Index reach = model_.lattice.reach, rows = static_cast<Index>(state.duty.size());
+  const auto first = state.duty.begin() + std::max<Index>(0, row - 2 * reach);
+  const auto last = state.duty.begin() + std::min<Index>(rows - 1, row + reach) + 1;
+  return std::any_of(first, last, [](auto duty) { return (duty & RowDuty::weakened) != 0; });
 }
 
-double LatticeDamage::driving_strain(const ExplicitState& state,
-                                     const LatticeParticles::Family& family) const {
+bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family,
+                           Vector3& normal) const {
+  const LatticeMaterial& material = model_.material;
+  const double strength = material.softening.strength;
+  // A particle that lacks bonds has a stress of its own only together with its neighbours: along a
+  // jagged face the outer ones pull where the inner ones push.
+  const bool consistent = model_.rules == LatticeRules::consistent;
+  const bool averaged = consistent && particles_.is_near_face(family.slot);
+  double volume = 0.0;
+  int count = 0;
+  const SymmetricTensor stress = averaged
+                                     ? particles_.mean_stress(state, family, row, volume, count)
+                                     : particles_.stress(state, family);
+  const PrincipalValues principal = principal_values(stress, model_.lattice.dim);
+  const double scale = particles_.is_whole(family) ? 1.0 : material.boundary_factor;
+  normal = principal.direction;
+  double least = principal.last;
+  if (model_.lattice.dim == 2) least = std::min(least, stress[2]);
+  if (scale * principal.first > strength) {
+    return scale * least > -material.tension_compression_ratio * strength;
+  }
+  if (averaged && !has_weakened_neighbours(state, row)) {
+    const double rest = (strength / scale - principal.first) * volume;
+    state.wait[family.slot] = state.path[row] + rest / (count * stress_stiffness(model_));
+  }
+  return false;
+}
+
+double LatticeDamage::driving_strain(const ExplicitState& state, const Family& family) const {
   const SymmetricTensor strain = particles_.fit(particles_.shared(state, family), family);
   const PrincipalValues values = principal_values(strain, model_.lattice.dim);
   const double e1 = values.first, e2 = values.last;
@@ -55,12 +79,11 @@ double LatticeDamage::damage_at(double strain, double band) const {
 
 bool LatticeDamage::grow(ExplicitState& state, Index row, Index slot) const {
   if (state.damage[slot] >= 1.0) return false;
-  const LatticeParticles::Family family = particles_.family(row, slot);
+  const Family family = particles_.family(row, slot);
   if (state.crack_band[slot] == 0.0) {
-    const SymmetricTensor stress = particles_.stress(state, family);
-    if (!begins(family, stress)) return false;
-    state.crack_band[slot] =
-        band_width(model_, principal_values(stress, model_.lattice.dim).direction);
+    Vector3 normal{};
+    if (!begins(state, row, family, normal)) return false;
+    state.crack_band[slot] = band_width(model_, normal);
     state.crack_at[slot] = never;
     state.duty[row] |= RowDuty::cracked;
   }

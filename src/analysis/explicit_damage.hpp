@@ -20,10 +20,15 @@ class LatticeDamage {
   void update_factors(ExplicitState& state, Index row) const;
 
  private:
-  bool begins(const LatticeParticles::Family& family, const SymmetricTensor& stress) const;
+  using Family = LatticeParticles::Family;
+
+  /// Whether a crack begins; sets how long the particle can wait where it does not.
+  /// \param normal  becomes the direction of the first principal stress
+  bool begins(ExplicitState& state, Index row, const Family& family, Vector3& normal) const;
+  bool has_weakened_neighbours(const ExplicitState& state, Index row) const;
   /// Strain that drives the damage: consistent: the first principal stress that the particle would
   /// carry undamaged, over Young's modulus; 2017: the first principal strain; 2018: Eq. 38.
-  double driving_strain(const ExplicitState& state, const LatticeParticles::Family& family) const;
+  double driving_strain(const ExplicitState& state, const Family& family) const;
   double damage_at(double strain, double band) const;
 
   const ExplicitModel& model_;

@@ -11,18 +11,6 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Change of the force states of a particle per change of its stretches, summed over its bonds.
-double stiffness_of(const ExplicitModel& model) {
-  double own = 0.0, weights = 0.0;
-  const int bonds = model.lattice.own_bonds();
-  for (int k = 0; k < bonds; ++k) {
-    const double length = model.lattice.bonds[k].length;
-    own += 2.0 * length * model.own_modulus(k);
-    weights += 2.0 * length;
-  }
-  return own + weights * std::abs(model.moduli.sum) * weights / model.lattice.spacing;
-}
-
 /// What each particle of a row has left, in stress times volume: negative where it is due.
 /// \param Altered  bonds of the row have factors or plastic parts
 template <bool Altered, bool Yields>
@@ -43,6 +31,8 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   const bool all_weakened = model.rules == LatticeRules::consistent;
   const double nu = model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
   const double* normal = Yields ? state.flow.normal.data() + row.first : nullptr;
+  const double* wait = state.wait.data() + row.first;
+  const double path = state.path[r], stiffness = stress_stiffness(model);
   double least = never;
 #pragma omp simd reduction(min : least)
   for (Index i = 0; i < row.size; ++i) {
@@ -65,7 +55,8 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
     }
     const double mean = 0.5 * (sxx + syy), difference = 0.5 * (sxx - syy);
     const double radius = std::sqrt(difference * difference + sxy * sxy);
-    double rest = crack_at[i] * volume[i] - half_length * (mean + radius);
+    double rest = std::max(crack_at[i] * volume[i] - half_length * (mean + radius),
+                           (wait[i] - path) * stiffness);
     if constexpr (Yields) {
       // Mean stress in the plane over that out of it.
       const double over = half_length * (1.0 - 2.0 * nu) * mean + normal[i] * volume[i];
@@ -87,6 +78,8 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
   const double* volume = model.volume.data() + row.first;
   const double* crack_at = state.crack_at.data() + row.first;
   const double* visit = model.material.yields ? state.flow.visit.data() + row.first : nullptr;
+  const double* wait = state.wait.data() + row.first;
+  const double path = state.path[r], stiffness = stress_stiffness(model);
   double least = never;
   for (Index i = 0; i < row.size; ++i) {
     const double shared = model.moduli.sum * sum[i];
@@ -102,7 +95,7 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
       pull += half_length * std::max(0.0, std::max(own, own + part) + excess);
       size += half_length * (std::max(std::abs(own), std::abs(own + part)) + excess);
     }
-    left[i] = crack_at[i] * volume[i] - pull;
+    left[i] = std::max(crack_at[i] * volume[i] - pull, (wait[i] - path) * stiffness);
     if (visit != nullptr) left[i] = std::min(left[i], visit[i] * volume[i] - size);
     least = std::min(least, left[i]);
   }
@@ -188,13 +181,28 @@ void with_incoming(const LatticeRows& lattice, Index r, const Visit& visit) {
 }  // namespace
 
 bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row) {
-  double fastest = 0.0;
-  with_incoming(model.lattice, row,
-                [&](Index near) { fastest = std::max(fastest, state.fastest[near]); });
+  // Rows are numbered so that the bonds of a particle's neighbours belong to rows near its own.
+  const Index reach = model.lattice.reach, rows = static_cast<Index>(state.fastest.size());
+  const Index first = std::max<Index>(0, row - 2 * reach);
+  const Index last = std::min<Index>(rows - 1, row + reach);
+  const double fastest =
+      *std::max_element(state.fastest.begin() + first, state.fastest.begin() + last + 1);
   // Rates are those along the present directions, a hair more than the changes of stretches.
   constexpr double margin = 1.01;
   state.slack[row] -= margin * fastest;
+  state.path[row] += margin * fastest;
   return !(state.slack[row] > 0.0);
+}
+
+double stress_stiffness(const ExplicitModel& model) {
+  double own = 0.0, weights = 0.0;
+  const int bonds = model.lattice.own_bonds();
+  for (int k = 0; k < bonds; ++k) {
+    const double length = model.lattice.bonds[k].length;
+    own += length * model.own_modulus(k);
+    weights += length;
+  }
+  return own + 2.0 * weights * std::abs(model.moduli.sum) * weights / model.lattice.spacing;
 }
 
 void scan_row(const ExplicitModel& model, const LatticeParticles& particles, ExplicitState& state,
@@ -217,8 +225,7 @@ void scan_row(const ExplicitModel& model, const LatticeParticles& particles, Exp
   }
   // Factors change with the sign of a stretch, at no distance that could be counted.
   const bool weakened = (duty & RowDuty::weakened) != 0;
-  const double stiffness = 0.5 * stiffness_of(model);
-  state.slack[r] = weakened ? 0.0 : least / stiffness;
+  state.slack[r] = weakened ? 0.0 : least / stress_stiffness(model);
 }
 
 }  // namespace perilink

@@ -10,8 +10,13 @@
 
 namespace perilink {
 
-/// Whether a row has to be scanned in this step; takes the change of its stretches off its slack.
+/// Whether a row has to be scanned in this step; takes the change of the stretches of its particles
+/// and their neighbours off its slack.
 bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row);
+
+/// Change of the stress of a particle times its volume per change of its stretches, from above
+/// [force length].
+double stress_stiffness(const ExplicitModel& model);
 
 /// Slots of the row whose stress or strain has reached the thresholds that the state has for them
 /// (crack_at, grow_at, flow.visit), exact in the plane, on the safe side in space; and the row's

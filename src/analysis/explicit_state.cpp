@@ -38,6 +38,7 @@ ExplicitState::ExplicitState(const ExplicitModel& model) : flow(make_flow(model)
   reactions.resize(rows);
   fastest.assign(rows, 0.0);
   slack.assign(rows, 0.0);
+  path.assign(rows, 0.0);
   duty.assign(rows, 0);
   if (!model.alters()) return;
   for (auto* array : {&stretch, &drag}) array->assign(own * slots, 0.0);
@@ -48,6 +49,7 @@ ExplicitState::ExplicitState(const ExplicitModel& model) : flow(make_flow(model)
   const LatticeMaterial& material = model.material;
   crack_at.assign(slots, never);
   grow_at.assign(slots, never);
+  wait.assign(slots, -never);
   if (!material.breakable) return;
   for (const Index slot : lattice.particle_slot) {
     const bool whole = lattice.bond_count[slot] == static_cast<Index>(2 * own);

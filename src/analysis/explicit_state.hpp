@@ -76,11 +76,13 @@ struct ExplicitState {
   std::vector<double> crack_band;         ///< width [length]; zero where no crack began
   std::vector<double> crack_at;  ///< first principal stress at which a particle is looked at
   std::vector<double> grow_at;   ///< strain that drives damage, the same
+  std::vector<double> wait;      ///< path of the row before which no crack can begin at a particle
   LatticeFlow flow;
   std::vector<RowSums> sums;  ///< of each row
   std::vector<RowReactions> reactions;
   std::vector<double> fastest;     ///< of each row: largest change of an own stretch in a step
   std::vector<double> slack;       ///< of each row: change of stretches that alters nothing yet
+  std::vector<double> path;        ///< of each row: sum of all changes of stretches near it
   std::vector<std::uint8_t> duty;  ///< of each row, see RowDuty
 };
 

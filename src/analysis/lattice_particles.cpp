@@ -54,6 +54,21 @@ LatticeParticles::LatticeParticles(const ExplicitModel& model) : model_(model) {
     if (fresh) inverses_.push_back(invert(mask));
     kind_[slot] = place->second;
   }
+  find_faces();
+}
+
+void LatticeParticles::find_faces() {
+  const LatticeRows& lattice = model_.lattice;
+  near_face_.assign(lattice.slots, 0);
+  Index row = 0;
+  for (const Index slot : lattice.particle_slot) {
+    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
+    const Family around = family(row, slot);
+    near_face_[slot] = is_whole(around) ? 0 : 1;
+    for (int j = 0; j < around.bonds && near_face_[slot] == 0; ++j) {
+      near_face_[slot] = lattice.bond_count[around.partner[j]] < around.bonds ? 1 : 0;
+    }
+  }
 }
 
 LatticeParticles::Inverse LatticeParticles::invert(std::uint32_t mask) const {
@@ -153,7 +168,8 @@ LatticeParticles::Halves LatticeParticles::forces_of(const ExplicitState& state,
   return forces_with(state, family, elastic, sum);
 }
 
-SymmetricTensor LatticeParticles::stress(const ExplicitState& state, const Family& family) const {
+SymmetricTensor LatticeParticles::bond_stress(const ExplicitState& state,
+                                              const Family& family) const {
   const Halves force = forces(state, family);
   SymmetricTensor stress{};
   for (int j = 0; j < family.bonds; ++j) {
@@ -162,13 +178,41 @@ SymmetricTensor LatticeParticles::stress(const ExplicitState& state, const Famil
     for (int c = 0; c < 6; ++c) stress[c] += share * product_of(bond.direction, c);
   }
   if (model_.problem == Problem::plane_strain) {
-    const LatticeMaterial& material = model_.material;
-    stress[2] = material.poissons_ratio * (stress[0] + stress[1]);
-    if (material.yields) {
-      stress[2] -= material.youngs_modulus * state.flow.state[family.slot].strain[2];
-    }
+    stress[2] = model_.material.poissons_ratio * (stress[0] + stress[1]);
   }
   return stress;
+}
+
+SymmetricTensor LatticeParticles::stress(const ExplicitState& state, const Family& family) const {
+  SymmetricTensor stress = bond_stress(state, family);
+  if (model_.problem == Problem::plane_strain && model_.material.yields) {
+    stress[2] -= model_.material.youngs_modulus * state.flow.state[family.slot].strain[2];
+  }
+  return stress;
+}
+
+SymmetricTensor LatticeParticles::mean_stress(const ExplicitState& state, const Family& around,
+                                              Index row, double& volume, int& count) const {
+  const LatticeRows& lattice = model_.lattice;
+  const int own = lattice.own_bonds();
+  SymmetricTensor sum{};
+  volume = 0.0;
+  count = 0;
+  const auto add = [&](const Family& each) {
+    const double weight = model_.volume[each.slot];
+    const SymmetricTensor stress = bond_stress(state, each);
+    for (int c = 0; c < 6; ++c) sum[c] += weight * stress[c];
+    volume += weight;
+    ++count;
+  };
+  add(around);
+  for (int j = 0; j < around.bonds; ++j) {
+    if (!around.has(j)) continue;
+    const Index k = row * own + around.own_number(j);
+    add(family(j < own ? lattice.row_out[k] : lattice.row_in[k], around.partner[j]));
+  }
+  for (double& entry : sum) entry /= volume;
+  return sum;
 }
 
 SymmetricTensor LatticeParticles::fit(const Halves& stretch, const Family& family) const {

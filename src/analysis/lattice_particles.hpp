@@ -40,6 +40,8 @@ class LatticeParticles {
   };
   Family family(Index row, Index slot) const;
   bool is_whole(const Family& family) const { return family.mask == whole_; }
+  /// Whether a particle or one of its neighbours lacks bonds.
+  bool is_near_face(Index slot) const { return near_face_[slot] != 0; }
 
   /// Elastic stretches of the particle's own halves of its bonds, without shares of damage.
   Halves elastic(const ExplicitState& state, const Family& family) const;
@@ -55,6 +57,12 @@ class LatticeParticles {
   Halves forces_of(const ExplicitState& state, const Family& family, const Halves& elastic) const;
   /// (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain [force/length^2].
   SymmetricTensor stress(const ExplicitState& state, const Family& family) const;
+  /// Mean of the stresses of a particle and its neighbours, weighted with their volumes, without
+  /// plastic strains out of the plane.
+  /// \param volume  becomes the sum of the volumes
+  /// \param count   becomes the number of particles
+  SymmetricTensor mean_stress(const ExplicitState& state, const Family& family, Index row,
+                              double& volume, int& count) const;
 
   /// Strain that fits the stretches of the existing bonds best; in the plane xx, yy and xy only.
   SymmetricTensor fit(const Halves& stretch, const Family& family) const;
@@ -67,6 +75,8 @@ class LatticeParticles {
   /// Least-squares inverse of "stretch of bond j from strain", shape (bonds, 3 or 6).
   using Inverse = std::vector<double>;
   Inverse invert(std::uint32_t mask) const;
+  void find_faces();
+  SymmetricTensor bond_stress(const ExplicitState& state, const Family& family) const;
   Halves forces_with(const ExplicitState& state, const Family& family, const Halves& elastic,
                      double sum) const;
   const Inverse& inverse_of(const Family& family) const { return inverses_[kind_[family.slot]]; }
@@ -75,6 +85,7 @@ class LatticeParticles {
   std::uint32_t whole_ = 0;
   Inverse whole_inverse_;
   std::vector<Inverse> inverses_;
+  std::vector<std::uint8_t> near_face_;
   std::vector<std::uint32_t> kind_;  ///< number of the particle's inverse, of each slot
 };
 

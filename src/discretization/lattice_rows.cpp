@@ -176,6 +176,9 @@ class RowBuilder {
         const Row& in = table_.at(moved(key, step, -1));
         lattice_.shift_out.push_back(out.slot(row.first + step[0]) - row.slot(row.first));
         lattice_.row_out.push_back(out.number);
+        if (out.number != no_index) {
+          lattice_.reach = std::max(lattice_.reach, std::abs(out.number - row.number));
+        }
         lattice_.row_in.push_back(in.number);
         lattice_.shift_in.push_back(row.slot(row.first) - in.slot(row.first - step[0]));
       }
@@ -244,7 +247,7 @@ LatticeRows face_centred_rows(const LatticeCut& cut) {
                           {0, -1, 1},
                           {-1, 0, 1},
                           {1, -1, 1},
-                          {1, 1, -1},
+                          {-1, -1, 1},
                           {-1, 1, 1}}};
   LatticeRows lattice = build(pattern, cut);
   lattice.cell_volume = cut.spacing * cut.spacing * cut.spacing / sqrt2;

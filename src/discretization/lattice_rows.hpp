@@ -37,6 +37,7 @@ struct LatticeRows {
   std::vector<Index> shift_in;   ///< minus slot whose own bond k ends here, shape (rows, own bonds)
   std::vector<Index> row_out;    ///< row of own bond k's partners or no_index, same shape
   std::vector<Index> row_in;     ///< row whose own bonds k end here or no_index, same shape
+  Index reach = 0;               ///< largest difference between a row and a row_out of it
   Index slots = 0;
   std::vector<double> positions;     ///< [length], shape (dim, slots)
   std::vector<double> present;       ///< one where the own bond exists, shape (own bonds, slots)

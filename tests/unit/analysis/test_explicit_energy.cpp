@@ -1,0 +1,46 @@
+#include "analysis/explicit_energy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/lattice_models.hpp"
+#include "support/lattice_operator.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace testing_support;
+
+// With a step that moved nothing the two stretches are the same; with one that came from rest the
+// energy of the last step's stretches is zero.
+TEST(ExplicitEnergy, HalfStepEnergyLiesBetweenTheTwoSteps) {
+  LatticeMaterial material = elastic_concrete();
+  material.breakable = true;
+  const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 17.0), material);
+  const LatticeRows& lattice = model.lattice;
+  ExplicitState state(model);
+  const double dt = 1e-7, size = 1e-9;  // so small that stretches are linear in displacements
+  for (const Index slot : lattice.particle_slot) {
+    for (int c = 0; c < 2; ++c) {
+      const double u = size * std::sin(12.9898 * slot + 78.2 * c);
+      state.displacement[lattice.at(c, slot)] = u;
+      state.velocity[lattice.at(c, slot)] = 0.25 * u / dt;  // three quarters were there before
+    }
+  }
+  const auto rows = static_cast<Index>(lattice.rows.size());
+  for (Index r = 0; r < rows; ++r) measure_bonds(model, state, r, dt);
+  for (Index r = 0; r < rows; ++r) sum_stretches(model, state, r);
+  double stored = 0.0, half_step = 0.0, at_rest = 0.0;
+  for (Index r = 0; r < rows; ++r) {
+    stored += stored_energy(model, state, r);
+    half_step += half_step_energy(model, state, r, dt);
+    at_rest += half_step_energy(model, state, r, 0.0);
+  }
+  EXPECT_GT(stored, 0.0);
+  EXPECT_NEAR(at_rest, stored, 1e-13 * stored);
+  EXPECT_NEAR(half_step, 0.75 * stored, 1e-6 * stored);  // squares of stretches of 1e-7
+}
+
+}  // namespace
+}  // namespace perilink

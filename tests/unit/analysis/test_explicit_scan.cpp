@@ -1,0 +1,117 @@
+#include "analysis/explicit_scan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "support/lattice_models.hpp"
+#include "support/lattice_operator.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace testing_support;
+
+ExplicitModel block(Problem problem, LatticeRules rules) {
+  LatticeMaterial material = elastic_concrete(0.3);
+  material.breakable = material.yields = true;
+  material.boundary_factor = 0.7;
+  material.yielding = {2.0e6, 3.0e6, 0.003, 0.0};
+  material.crushing_energy = 1e5;
+  if (problem != Problem::three_dimensional) {
+    return plane_model(rectangle(0.05, 0.05, 0.01, 17.0), material, rules, problem);
+  }
+  LatticeCut cut = rectangle(0.03, 0.03, 0.01, 17.0, 1.0);
+  cut.lower[2] = -0.03;
+  cut.upper[2] = 0.03;
+  return make_explicit_model(problem, rules, face_centred_rows(cut), material, 1.0);
+}
+
+void shake(const ExplicitModel& model, ExplicitState& state, double size) {
+  for (const Index slot : model.lattice.particle_slot) {
+    for (int c = 0; c < model.lattice.dim; ++c) {
+      state.displacement[model.lattice.at(c, slot)] = size * std::sin(12.9898 * slot + 78.2 * c);
+    }
+  }
+  evaluate(model, state);
+}
+
+// One by one, every particle above a threshold is due; in the plane no other is.
+TEST(ExplicitScan, FindsTheParticlesAboveTheirThresholds) {
+  for (const auto& [problem, rules] :
+       {std::pair{Problem::plane_stress, LatticeRules::consistent},
+        std::pair{Problem::plane_strain, LatticeRules::consistent},
+        std::pair{Problem::plane_stress, LatticeRules::least_2018},
+        std::pair{Problem::three_dimensional, LatticeRules::consistent}}) {
+    const ExplicitModel model = block(problem, rules);
+    const LatticeParticles particles(model);
+    ExplicitState state(model);
+    shake(model, state, 1.2e-6);
+    std::vector<Index> due;
+    int above = 0, below = 0;
+    for (std::size_t r = 0; r < model.lattice.rows.size(); ++r) {
+      const auto row = static_cast<Index>(r);
+      scan_row(model, particles, state, row, due);
+      const std::set<Index> found(due.begin(), due.end());
+      const LatticeRow& slots = model.lattice.rows[r];
+      for (Index slot = slots.first; slot < slots.first + slots.size; ++slot) {
+        if (model.inverse_mass[slot] == 0.0) continue;
+        const SymmetricTensor stress = particles.stress(state, particles.family(row, slot));
+        const bool expected =
+            principal_values(stress, model.lattice.dim).first > state.crack_at[slot] ||
+            mises_stress(stress) > state.flow.visit[slot];
+        (expected ? above : below) += 1;
+        if (expected) {
+          EXPECT_TRUE(found.contains(slot));
+        } else if (model.lattice.dim == 2) {
+          EXPECT_FALSE(found.contains(slot));
+        }
+      }
+    }
+    EXPECT_GT(above, 10);
+    EXPECT_GT(below, 10);
+  }
+}
+
+// What the slack promises: no particle of the row reaches a threshold before its stretches have
+// changed by so much.
+TEST(ExplicitScan, NothingIsDueBeforeTheSlackIsUsedUp) {
+  for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
+    const ExplicitModel model = block(problem, LatticeRules::consistent);
+    const LatticeParticles particles(model);
+    const auto rows = static_cast<Index>(model.lattice.rows.size());
+    std::vector<Index> due;
+    int promised = 0;
+    for (const double first : {2e-8, 5e-8, 1e-7}) {
+      ExplicitState state(model);
+      shake(model, state, first);
+      std::vector<double> slack(rows);
+      const std::vector<double> before = state.stretch;
+      for (Index r = 0; r < rows; ++r) {
+        scan_row(model, particles, state, r, due);
+        slack[r] = state.slack[r];
+      }
+      for (const double factor : {-3.0, 1.5, 2.0, 4.0, 8.0}) {
+        shake(model, state, factor * first);
+        double change = 0.0;
+        for (std::size_t k = 0; k < before.size(); ++k) {
+          const double part = model.lattice.present[k] * std::abs(state.stretch[k] - before[k]);
+          change = std::max(change, part);
+        }
+        for (Index r = 0; r < rows; ++r) {
+          if (change >= slack[r]) continue;
+          scan_row(model, particles, state, r, due);
+          EXPECT_TRUE(due.empty());
+          ++promised;
+        }
+      }
+    }
+    EXPECT_GT(promised, 10);
+  }
+}
+
+}  // namespace
+}  // namespace perilink
