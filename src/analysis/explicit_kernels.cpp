@@ -41,50 +41,60 @@ void at_bonds(Field& field, const LatticeRows& lattice, int first, const Lattice
   for (int g = 0; g < group; ++g) pointers[g] = at(field, lattice, first + g, row);
 }
 
+/// What measuring a group of own bonds of a row reads and writes.
+template <int Dim>
+struct MeasuredGroup {
+  const double *u[Dim], *v[Dim];
+  std::array<double*, group> stretch, effective, rate;
+  std::array<const double*, group> present, drag, tension, compression, plastic;
+  double* direction[group][Dim];
+  double n[group][Dim], scale[group];
+  Index shift[group];
+
+  MeasuredGroup(const ExplicitModel& model, ExplicitState& state, Index r, int first) {
+    const LatticeRows& lattice = model.lattice;
+    const LatticeRow& row = lattice.rows[r];
+    for (int c = 0; c < Dim; ++c) {
+      u[c] = at(state.displacement, lattice, c, row);
+      v[c] = at(state.velocity, lattice, c, row);
+    }
+    at_bonds(state.stretch, lattice, first, row, stretch);
+    at_bonds(state.effective, lattice, first, row, effective);
+    at_bonds(state.rate, lattice, first, row, rate);
+    at_bonds(lattice.present, lattice, first, row, present);
+    at_bonds(std::as_const(state.drag), lattice, first, row, drag);
+    at_bonds(std::as_const(state.in_tension), lattice, first, row, tension);
+    at_bonds(std::as_const(state.in_compression), lattice, first, row, compression);
+    at_bonds(std::as_const(state.flow.mean), lattice, first, row, plastic);
+    for (int g = 0; g < group; ++g) {
+      const OwnBond& bond = lattice.bonds[first + g];
+      shift[g] = lattice.shift_out[r * lattice.own_bonds() + first + g];
+      scale[g] = 1.0 / bond.length;
+      for (int c = 0; c < Dim; ++c) {
+        n[g][c] = bond.direction[c];
+        direction[g][c] = at(state.force, lattice, (first + g) * Dim + c, row);
+      }
+    }
+  }
+};
+
 /// Bond vector of unit reference length: n + du / L. Elongation without cancellation:
 /// |y|^2 - 1 = 2 n.du/L + |du/L|^2 = e, |y| - 1 = e / (1 + sqrt(1 + e)).
 template <int Dim, Level Kind, bool Yields>
 void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, int first,
                    double dt) {
-  const LatticeRows& lattice = model.lattice;
-  const LatticeRow& row = lattice.rows[r];
-  const double *u[Dim], *v[Dim];
-  for (int c = 0; c < Dim; ++c) {
-    u[c] = at(state.displacement, lattice, c, row);
-    v[c] = at(state.velocity, lattice, c, row);
-  }
-  std::array<double*, group> stretch, effective, rate;
-  std::array<const double*, group> present, drag, tension, compression, plastic;
-  at_bonds(state.stretch, lattice, first, row, stretch);
-  at_bonds(state.effective, lattice, first, row, effective);
-  at_bonds(state.rate, lattice, first, row, rate);
-  at_bonds(lattice.present, lattice, first, row, present);
-  at_bonds(std::as_const(state.drag), lattice, first, row, drag);
-  at_bonds(std::as_const(state.in_tension), lattice, first, row, tension);
-  at_bonds(std::as_const(state.in_compression), lattice, first, row, compression);
-  at_bonds(std::as_const(state.flow.mean), lattice, first, row, plastic);
-  double* y[group][Dim];
-  double n[group][Dim], scale[group];
-  Index shift[group];
-  for (int g = 0; g < group; ++g) {
-    const OwnBond& bond = lattice.bonds[first + g];
-    shift[g] = lattice.shift_out[r * lattice.own_bonds() + first + g];
-    scale[g] = 1.0 / bond.length;
-    for (int c = 0; c < Dim; ++c) {
-      n[g][c] = bond.direction[c];
-      y[g][c] = at(state.force, lattice, (first + g) * Dim + c, row);
-    }
-  }
+  const MeasuredGroup<Dim> m(model, state, r, first);
+  const Index size = model.lattice.rows[r].size;
   const double half_step = 0.5 * dt, damping = model.bond_damping;
   double loss = 0.0, fastest = 0.0;
 #pragma omp simd reduction(+ : loss) reduction(max : fastest)
-  for (Index i = 0; i < row.size; ++i) {
+  for (Index i = 0; i < size; ++i) {
     for (int g = 0; g < group; ++g) {
       double change[Dim];
       double along = 0.0, square = 0.0;
       for (int c = 0; c < Dim; ++c) {
-        change[c] = (u[c][i + shift[g]] - u[c][i]) * scale[g];
-        along += n[g][c] * change[c];
+        change[c] = (m.u[c][i + m.shift[g]] - m.u[c][i]) * m.scale[g];
+        along += m.n[g][c] * change[c];
         square += change[c] * change[c];
       }
       const double excess = 2.0 * along + square;
@@ -94,24 +104,25 @@ void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, in
       const double shorten = (1.0 + length) * share;
       double speed = 0.0;
       for (int c = 0; c < Dim; ++c) {
-        const double direction = (n[g][c] + change[c]) * shorten;
-        y[g][c][i] = direction;
-        speed += direction * (v[c][i + shift[g]] - v[c][i]);
+        const double direction = (m.n[g][c] + change[c]) * shorten;
+        m.direction[g][c][i] = direction;
+        speed += direction * (m.v[c][i + m.shift[g]] - m.v[c][i]);
       }
-      speed *= present[g][i];
+      speed *= m.present[g][i];
+      const double twice = m.rate[g][i] + speed;
       if constexpr (Kind == Level::altered) {
-        if constexpr (Yields) s -= plastic[g][i];
-        stretch[g][i] = s;
-        effective[g][i] = s * (s >= 0.0 ? tension[g][i] : compression[g][i]);
-        loss += half_step * drag[g][i] * (rate[g][i] + speed);
+        if constexpr (Yields) s -= m.plastic[g][i];
+        m.stretch[g][i] = s;
+        m.effective[g][i] = s * (s >= 0.0 ? m.tension[g][i] : m.compression[g][i]);
+        loss += half_step * m.drag[g][i] * twice;
       } else {
-        effective[g][i] = s * present[g][i];
-        if constexpr (Kind == Level::watched) stretch[g][i] = s;
-        loss += half_step * damping * rate[g][i] * (rate[g][i] + speed);
+        m.effective[g][i] = s * m.present[g][i];
+        if constexpr (Kind == Level::watched) m.stretch[g][i] = s;
+        loss += half_step * damping * m.rate[g][i] * twice;
       }
-      rate[g][i] = speed;
+      m.rate[g][i] = speed;
       if constexpr (Kind != Level::elastic) {
-        fastest = std::max(fastest, std::abs(speed) * scale[g]);
+        fastest = std::max(fastest, std::abs(speed) * m.scale[g]);
       }
     }
   }

@@ -5,8 +5,9 @@
 #include "analysis/lattice_particles.hpp"
 
 /// \file
-/// Which particles of a row have to be looked at. Damage and flow cost nothing until stretches have
-/// changed by as much as the particle nearest to a threshold had left when the row was last scanned.
+/// Which particles of a row have to be looked at. Damage and flow cost nothing until stretches
+/// have changed by as much as the particle nearest to a threshold had left when the row was last
+/// scanned.
 
 namespace perilink {
 

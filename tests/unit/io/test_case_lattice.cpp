@@ -203,7 +203,8 @@ TEST(CaseLattice, RefusesMaterials) {
   expect_refusals(space_case(),
                   {{"fracture_energy = \"infinite\"",
                     in_space,
-                    {"materials[1].fracture_energy", "the rules of 2018 have no damage in space"}}});
+                    {"materials[1].fracture_energy",
+                     "the rules of 2018 have no damage in space"}}});
   expect_refusals(small_case, {{"fracture_energy",
                                 "tensile_strength = 1\nfracture_energy",
                                 {"materials[1].tensile_strength", "model = \"lattice\""}}});
