@@ -8,6 +8,12 @@
 
 namespace perilink {
 
+/// Of the two factors of a bond the one that its stretch asks for. Both are read, so that loops need
+/// no branches.
+inline double by_sign(double stretch, double in_tension, double in_compression) {
+  return stretch >= 0.0 ? in_tension : in_compression;
+}
+
 /// The bonds of a row's particles in loops over the row: own ones first, then the incoming ones;
 /// null where the body has no such field.
 template <int Bonds>

@@ -30,11 +30,12 @@ double half_step_energy(const ExplicitModel& model, const ExplicitState& state, 
 #pragma omp simd reduction(+ : energy)
   for (Index i = 0; i < row.size; ++i) {
     double sum = 0.0, sum_before = 0.0;
+#pragma GCC unroll 18
     for (int j = 0; j < Bonds; ++j) {
       const int k = j % own;
       const double stretch = bond.stretch[j][i];
       const double before = stretch - back[k] * bond.rate[j][i];
-      const double factor = stretch >= 0.0 ? bond.tension[j][i] : bond.compression[j][i];
+      const double factor = by_sign(stretch, bond.tension[j][i], bond.compression[j][i]);
       sum += weight[k] * factor * stretch;
       sum_before += weight[k] * factor * before;
       if (j < own) energy += half[k] * factor * stretch * before;

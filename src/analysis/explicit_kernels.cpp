@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/bond_pointers.hpp"
+
 namespace perilink {
 namespace {
 
@@ -89,31 +91,38 @@ void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, in
   double loss = 0.0, fastest = 0.0;
 #pragma omp simd reduction(+ : loss) reduction(max : fastest)
   for (Index i = 0; i < size; ++i) {
+#pragma GCC unroll 6
     for (int g = 0; g < group; ++g) {
-      double change[Dim];
-      double along = 0.0, square = 0.0;
-      for (int c = 0; c < Dim; ++c) {
-        change[c] = (m.u[c][i + m.shift[g]] - m.u[c][i]) * m.scale[g];
-        along += m.n[g][c] * change[c];
-        square += change[c] * change[c];
+      // Component by component: arrays in here would keep the loop from being vectorised.
+      const Index other = i + m.shift[g];
+      const double x = (m.u[0][other] - m.u[0][i]) * m.scale[g];
+      const double y = (m.u[1][other] - m.u[1][i]) * m.scale[g];
+      double along = m.n[g][0] * x + m.n[g][1] * y, square = x * x + y * y, z = 0.0;
+      if constexpr (Dim == 3) {
+        z = (m.u[2][other] - m.u[2][i]) * m.scale[g];
+        along += m.n[g][2] * z;
+        square += z * z;
       }
       const double excess = 2.0 * along + square;
       const double length = std::sqrt(1.0 + excess);
       const double share = 1.0 / ((1.0 + length) * length);  // one division for two quotients
       double s = excess * length * share;
       const double shorten = (1.0 + length) * share;
-      double speed = 0.0;
-      for (int c = 0; c < Dim; ++c) {
-        const double direction = (m.n[g][c] + change[c]) * shorten;
-        m.direction[g][c][i] = direction;
-        speed += direction * (m.v[c][i + m.shift[g]] - m.v[c][i]);
+      const double nx = (m.n[g][0] + x) * shorten, ny = (m.n[g][1] + y) * shorten;
+      m.direction[g][0][i] = nx;
+      m.direction[g][1][i] = ny;
+      double speed = nx * (m.v[0][other] - m.v[0][i]) + ny * (m.v[1][other] - m.v[1][i]);
+      if constexpr (Dim == 3) {
+        const double nz = (m.n[g][2] + z) * shorten;
+        m.direction[g][2][i] = nz;
+        speed += nz * (m.v[2][other] - m.v[2][i]);
       }
       speed *= m.present[g][i];
       const double twice = m.rate[g][i] + speed;
       if constexpr (Kind == Level::altered) {
         if constexpr (Yields) s -= m.plastic[g][i];
         m.stretch[g][i] = s;
-        m.effective[g][i] = s * (s >= 0.0 ? m.tension[g][i] : m.compression[g][i]);
+        m.effective[g][i] = s * by_sign(s, m.tension[g][i], m.compression[g][i]);
         loss += half_step * m.drag[g][i] * twice;
       } else {
         m.effective[g][i] = s * m.present[g][i];
@@ -179,9 +188,10 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
   const double modulus = model.moduli.sum, damping = model.bond_damping;
 #pragma omp simd
   for (Index i = 0; i < row.size; ++i) {
+#pragma GCC unroll 6
     for (int g = 0; g < group; ++g) {
       double factor = present[g][i];
-      if constexpr (Altered) factor = stretch[g][i] >= 0.0 ? tension[g][i] : compression[g][i];
+      if constexpr (Altered) factor = by_sign(stretch[g][i], tension[g][i], compression[g][i]);
       const double here = modulus * sum[i], there = modulus * sum[i + shift[g]];
       double magnitude = own[g] * effective[g][i];
       if constexpr (Rules == LatticeRules::consistent) {
@@ -248,6 +258,7 @@ void accelerate(const ExplicitModel& model, const ExplicitState& state, Index r,
 #pragma omp simd
   for (Index i = 0; i < row.size; ++i) {
     double force = 0.0;
+#pragma GCC unroll 18
     for (int k = 0; k < Own; ++k) force += out[k][i] - in[k][i];
     speed[i] = keep * velocity[i] + dt * inverse_mass[i] * force;
   }
@@ -287,7 +298,7 @@ void apply_factors(const ExplicitModel& model, ExplicitState& state, Index r) {
     double* effective = at(state.effective, model.lattice, k, row);
 #pragma omp simd
     for (Index i = 0; i < row.size; ++i) {
-      effective[i] = stretch[i] * (stretch[i] >= 0.0 ? tension[i] : compression[i]);
+      effective[i] = stretch[i] * by_sign(stretch[i], tension[i], compression[i]);
     }
   }
 }
@@ -310,6 +321,7 @@ void sum_stretches(const ExplicitModel& model, ExplicitState& state, Index r) {
 #pragma omp simd
     for (Index i = 0; i < row.size; ++i) {
       double total = keep * sum[i];
+#pragma GCC unroll 6
       for (int g = 0; g < group; ++g) total += weight[g] * (out[g][i] + in[g][i]);
       sum[i] = total;
     }

@@ -38,12 +38,13 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   for (Index i = 0; i < row.size; ++i) {
     const double shared = modulus * sum[i];
     double sxx = 0.0, syy = 0.0, sxy = 0.0;
+#pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
       const int k = j % 3;
       double force = own * bond.effective[j][i];
       if constexpr (Altered) {
         const double factor =
-            bond.stretch[j][i] >= 0.0 ? bond.tension[j][i] : bond.compression[j][i];
+            by_sign(bond.stretch[j][i], bond.tension[j][i], bond.compression[j][i]);
         if constexpr (Yields) force += (j < 3 ? own : -own) * factor * bond.half[j][i];
         force += (all_weakened ? factor : bond.present[j][i]) * shared;
       } else {
@@ -114,12 +115,13 @@ void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
 #pragma omp simd
   for (Index i = 0; i < row.size; ++i) {
     double xx = 0.0, yy = 0.0, xy = 0.0;
+#pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
       const double whole = bond.stretch[j][i] * bond.present[j][i];
       double half = whole;
       if constexpr (Rules != LatticeRules::mean_2017) {
         const double owners =
-            whole >= 0.0 ? bond.share_tension[j][i] : bond.share_compression[j][i];
+            by_sign(whole, bond.share_tension[j][i], bond.share_compression[j][i]);
         half *= j < 3 ? owners : 2.0 - owners;
         if constexpr (Yields) half += j < 3 ? bond.half[j][i] : -bond.half[j][i];
       }
