@@ -57,7 +57,7 @@ class ExplicitLoop {
 
   /// \param displacement  of the driven particles at this step [length]
   void note_reaction(double supports, double displacement) {
-    if (std::abs(supports) <= std::abs(result_.peak_load)) return;
+    if (!(std::abs(supports) > std::abs(result_.peak_load))) return;  // nor for what is no number
     result_.peak_load = supports;
     result_.peak_displacement = displacement;
   }

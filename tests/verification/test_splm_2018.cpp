@@ -75,6 +75,25 @@ TEST(Splm2018, RulesOf2018LoseStrengthAndEnergy) {
   EXPECT_GT(run.result.largest_surplus, 1e-3);
 }
 
+TEST(Splm2018, TheBlockInCompressionFlowsAtItsStrength) {
+  LatticeTest test = compression_test("consistent", 0.0);
+  test.speed = 4.0;
+  const LatticeTestRun run = run_lattice_test(test);
+  const double yield = 22.98e6 * block_section, ultimate = 27.58e6 * block_section;
+  EXPECT_GT(run.peak_force, yield);
+  // Six per cent more section, as in tension.
+  EXPECT_LT(run.peak_force, 1.06 * ultimate);
+  EXPECT_LT(run.result.largest_surplus, 1e-4);
+  EXPECT_GT(run.result.last.energy.external_work, yield * 0.5e-3) << "it takes plastic work";
+}
+
+/// The papers' rules soften by a factor per step and know no crushing energy.
+TEST(Splm2018, CasesOfThePapersRulesHaveNoCrushingEnergy) {
+  EXPECT_FALSE(case_of(compression_test("2018", 0.0)).materials.front().lattice->crushing_energy);
+  EXPECT_TRUE(
+      case_of(compression_test("consistent", 0.0)).materials.front().lattice->crushing_energy);
+}
+
 /// The coarse disc splits along its vertical diameter, at about the paper's 98 kN.
 TEST(Splm2018, TheDiscSplits) {
   const LatticeTestRun run = run_lattice_test(disc_test("consistent", 0.0, 0.01));

@@ -44,6 +44,7 @@ int main(int count, char** names) {
     write_result(PERILINK_STUDY_DIR, run_lattice_tests(tests, threads), name + ".csv");
   };
   run("tension", turned(tension_test));
+  run("compression", turned(compression_test));
   run("cylinder", turned(cylinder_test));
   run("dog_bone", dog_bones());
   return 0;

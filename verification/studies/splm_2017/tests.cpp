@@ -26,6 +26,7 @@ void set_material(CaseFile& input, double period) {
   concrete.lattice->critical_opening =
       2.0 * 33.49 * std::pow(energy_ratio, 0.7) / (strength * (0.1 + 0.25));
   concrete.lattice->fundamental_period = period;
+  if (concrete.lattice->yield_strength) concrete.lattice->yield_strength = 22.983e6;
 }
 
 void drive(CaseFile& input, double factor) {
@@ -47,6 +48,12 @@ LatticeTest tension_test(const std::string& variant, double degrees) {
     set_material(input, 0.00042);
     drive(input, *input.materials.front().lattice->critical_opening / opening);
   };
+  return test;
+}
+
+LatticeTest compression_test(const std::string& variant, double degrees) {
+  LatticeTest test = tension_test(variant, degrees);
+  test.case_name = "splm_compression";
   return test;
 }
 

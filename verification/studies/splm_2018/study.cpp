@@ -21,6 +21,28 @@ std::vector<LatticeTest> tension_tests() {
   return tests;
 }
 
+std::vector<LatticeTest> compression_tests() {
+  std::vector<LatticeTest> tests;
+  for (const std::string& variant : variants) {
+    for (const double degrees : {0.0, 15.0, 30.0}) {
+      tests.push_back(compression_test(variant, degrees));
+    }
+  }
+  return tests;
+}
+
+/// All whole degrees that differ, to the peak force.
+std::vector<LatticeTest> rotation_tests() {
+  std::vector<LatticeTest> tests;
+  for (const std::string& variant : variants) {
+    for (int degrees = 0; degrees <= 30; ++degrees) {
+      tests.push_back(compression_test(variant, degrees));
+      tests.back().only_to_peak = true;
+    }
+  }
+  return tests;
+}
+
 std::vector<LatticeTest> disc_tests() {
   std::vector<LatticeTest> tests;
   for (const std::string& variant : variants) {
@@ -41,6 +63,8 @@ int main(int count, char** names) {
     write_result(PERILINK_STUDY_DIR, run_lattice_tests(tests, threads), name + ".csv");
   };
   run("tension", tension_tests());
+  run("compression", compression_tests());
+  run("rotations", rotation_tests());
   run("disc", disc_tests());
   return 0;
 }

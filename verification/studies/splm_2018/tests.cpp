@@ -36,6 +36,12 @@ LatticeTest tension_test(const std::string& variant, double degrees) {
   return test;
 }
 
+LatticeTest compression_test(const std::string& variant, double degrees) {
+  LatticeTest test = tension_test(variant, degrees);
+  test.case_name = "splm_compression";
+  return test;
+}
+
 LatticeTest disc_test(const std::string& variant, double degrees, double spacing) {
   LatticeTest test;
   test.case_name = "brazilian_disc";

@@ -21,6 +21,7 @@ inline const std::vector<std::string> variants = {"2017", "2018", "consistent"};
 
 /// Rules of the papers take their time step, the consistent ones nine tenths of the critical one.
 LatticeTest tension_test(const std::string& variant, double degrees);
+LatticeTest compression_test(const std::string& variant, double degrees);
 /// Cut a quarter of a spacing beyond the radius, held within the last spacing of what is cut.
 LatticeTest disc_test(const std::string& variant, double degrees, double spacing);
 
