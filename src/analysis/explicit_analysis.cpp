@@ -11,6 +11,7 @@
 
 #include "analysis/explicit_energy.hpp"
 #include "analysis/explicit_kernels.hpp"
+#include "analysis/explicit_loads.hpp"
 #include "analysis/explicit_loop.hpp"
 #include "analysis/lattice_changes.hpp"
 
@@ -58,7 +59,8 @@ class ExplicitRun {
   /// Run by every thread; loops end in barriers.
   void one_step(Index step) {
     const double dt = loop_.time_step();
-    const double increment = loop_.load_factor(step + 1) - loop_.load_factor(step);
+    const double factor = loop_.load_factor(step);
+    const double increment = loop_.load_factor(step + 1) - factor;
     each_row([&](Index r) { measure_bonds(model_, state_, r, dt); });
     each_row([&](Index r) { sum_stretches(model_, state_, r); });
     if (loop_.is_looked_at(step) || loop_.is_looked_at(step + 1)) store_energies();
@@ -66,7 +68,7 @@ class ExplicitRun {
     look(step);
     if (changes_) change(dt);
     each_row([&](Index r) { bond_forces(model_, state_, r); });
-    each_row([&](Index r) { advance(model_, state_, r, dt, increment); });
+    each_row([&](Index r) { advance(model_, state_, r, dt, factor, increment); });
 #pragma omp single
     note_reactions(step);
   }
@@ -108,16 +110,18 @@ class ExplicitRun {
       driven += row.driven;
       supports += row.supports;
     }
-    record_.load = driven / options_.reference;
+    const double factor = loop_.load_factor(step);
+    record_.load = options_.driven ? driven / options_.reference : factor * options_.reference;
     record_.support_reaction = supports;
-    loop_.note_reaction(supports, loop_.load_factor(step) * options_.reference);
+    loop_.note_reaction(supports, options_.driven ? factor * options_.reference : 0.0);
   }
 
   void look(Index step) {
     if (!loop_.is_looked_at(step)) return;
     record_.energy = energy_balance(model_, state_);
     loop_.look(step, record_, observer_, state_, [this](ExplicitRecord& record) {
-      record.displacement = record.load_factor * options_.reference;
+      record.displacement = options_.driven ? record.load_factor * options_.reference
+                                            : loaded_work(model_, state_) / options_.reference;
       record.cracked_particles = static_cast<Index>(std::count_if(
           state_.damage.begin(), state_.damage.end(), [](double damage) { return damage > 0.0; }));
       record.yielded_particles = yielded_particles(state_);

@@ -16,8 +16,11 @@ struct ExplicitOptions {
   double ramp = 0.0;       ///< time in which the load factor rises from zero to one [time]
   double time_step = 0.0;  ///< zero: `safety` times the critical one [time]
   double safety = 0.9;
-  int rows = 500;          ///< of the history
-  double reference = 1.0;  ///< displacement of the driven particles at load factor 1 [length]
+  int rows = 500;  ///< of the history
+  /// Displacement of the driven particles at load factor 1 [length]; where nothing is driven
+  /// (`driven` is false) the load there [force].
+  double reference = 1.0;
+  bool driven = true;
   int threads = 1;
   bool refuse_unstable = true;  ///< false: a step beyond the critical one runs until it is noticed
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/bond_pointers.hpp"
+#include "analysis/explicit_loads.hpp"
 
 namespace perilink {
 namespace {
@@ -336,7 +337,7 @@ void bond_forces(const ExplicitModel& model, ExplicitState& state, Index row) {
 }
 
 void advance(const ExplicitModel& model, ExplicitState& state, Index r, double time_step,
-             double load_increment) {
+             double load_factor, double load_increment) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
   thread_local std::vector<double> buffer;
@@ -348,6 +349,7 @@ void advance(const ExplicitModel& model, ExplicitState& state, Index r, double t
   for (int c = 0; c < lattice.dim; ++c) {
     lattice.dim == 2 ? accelerate<3>(model, state, r, c, time_step, speed)
                      : accelerate<9>(model, state, r, c, time_step, speed);
+    if (!model.applied.empty()) push(model, r, c, time_step * load_factor, speed);
     const double* velocity = at(state.velocity, lattice, c, row);
     for (const PrescribedMotion& motion : model.prescribed[r]) {
       if (motion.component != c) continue;
@@ -358,6 +360,10 @@ void advance(const ExplicitModel& model, ExplicitState& state, Index r, double t
       state.sums[r].external_work += 0.5 * time_step * reaction * (wanted + velocity[i]);
       reactions.driven += reaction * motion.amplitude;
       if (motion.amplitude == 0.0 && c == model.load_component) reactions.supports += reaction;
+    }
+    if (!model.applied.empty()) {
+      state.sums[r].external_work +=
+          0.5 * time_step * load_factor * power(model, r, c, velocity, speed);
     }
     loss += model.mass_damping > 0.0 ? move<true>(model, state, r, c, time_step, speed)
                                      : move<false>(model, state, r, c, time_step, speed);

@@ -23,9 +23,10 @@ void apply_factors(const ExplicitModel& model, ExplicitState& state, Index row);
 /// Forces of the own bonds on their owners, damping included.
 void bond_forces(const ExplicitModel& model, ExplicitState& state, Index row);
 
-/// Euler–Cromer: velocities from forces, then displacements from velocities. Prescribed components
-/// move by amplitude times `load_increment`; their reactions and work are summed.
+/// Euler–Cromer: velocities from forces, then displacements from velocities. Forces act times
+/// `load_factor`, prescribed components move by amplitude times `load_increment`; reactions and
+/// work are summed.
 void advance(const ExplicitModel& model, ExplicitState& state, Index row, double time_step,
-             double load_increment);
+             double load_factor, double load_increment);
 
 }  // namespace perilink

@@ -50,6 +50,13 @@ struct PrescribedMotion {
   double amplitude = 0.0;  ///< at load factor 1 [length]; zero: a support
 };
 
+/// A force on a component of a particle: value times the load factor.
+struct AppliedForce {
+  Index slot = 0;
+  int component = 0;
+  double value = 0.0;  ///< at load factor 1 [force]
+};
+
 /// Everything of an explicit lattice run that does not change with time.
 struct ExplicitModel {
   Problem problem = Problem::plane_stress;
@@ -62,6 +69,7 @@ struct ExplicitModel {
   std::vector<double> inverse_mass;  ///< zero where a slot is empty
   std::vector<double> volume;        ///< over which a particle's stress is taken [length^3]
   std::vector<std::vector<PrescribedMotion>> prescribed;  ///< of each row, by slot
+  std::vector<std::vector<AppliedForce>> applied;         ///< the same; empty: no forces
   int load_component = 1;  ///< along which the reaction of supports is summed: that of the largest
                            ///< amplitude
   double bond_damping = 0.0;  ///< force of a bond per velocity of its ends [force time/length]

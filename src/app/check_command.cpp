@@ -205,6 +205,10 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
     fmt::print("#   softening          fracture energy {:.6g}, critical opening {:.6g}\n",
                fracture_energy(law), law.critical_opening);
   }
+  std::size_t loaded = 0;
+  for (const auto& row : model.applied) loaded += row.size();
+  if (loaded > 0) fmt::print("#   forces             {} on components of particles\n", loaded);
+  for (const std::string& note : built.notes) fmt::print("#   note               {}\n", note);
   print_period(built);
   fmt::print("#   critical time step {:.6g}\n", built.critical_time_step);
   fmt::print("#   time step          {:.6g}\n", built.time_step);

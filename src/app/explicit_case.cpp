@@ -6,8 +6,11 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/explicit_loads.hpp"
 #include "analysis/lattice_statics.hpp"
+#include "app/gauges.hpp"
 #include "app/lattice_model.hpp"
+#include "app/loads.hpp"
 #include "app/supports.hpp"
 #include "base/error.hpp"
 
@@ -16,7 +19,7 @@ namespace {
 
 constexpr double most_steps = 2e9;  ///< steps have 32-bit numbers
 
-/// Supports and driven displacements. \return the largest driven displacement [length]
+/// Supports and driven displacements. \return the largest driven displacement [length]; zero: none
 double prescribe_motions(const CaseFile& input, const Model& places, ExplicitModel& model) {
   const Prescription prescription = collect_prescriptions(input, places);
   const std::size_t dim = model.lattice.dim;
@@ -30,9 +33,37 @@ double prescribe_motions(const CaseFile& input, const Model& places, ExplicitMod
     largest = std::max(largest, std::abs(amplitude));
   }
   prescribe(model, motions);
-  if (largest > 0.0) return largest;
-  throw InputError(input.where("displacements"),
-                   "nothing moves the body: all formulas are zero on their particles", "");
+  return largest;
+}
+
+/// Forces on the particles. \return the reference load [force]; zero: none
+double load_particles(const CaseFile& input, const Model& places, ExplicitCase& built) {
+  const LatticeRows& lattice = built.model.lattice;
+  const AppliedLoads applied = collect_loads(input, places, lattice.dim);
+  const std::size_t dim = lattice.dim;
+  std::vector<AppliedForce> forces;
+  for (std::size_t slot = 0; slot < applied.loads.forces.size(); ++slot) {
+    if (applied.loads.forces[slot] == 0.0) continue;
+    forces.push_back({lattice.particle_slot[slot / dim], static_cast<int>(slot % dim),
+                      applied.loads.forces[slot]});
+  }
+  if (!forces.empty()) apply_forces(built.model, forces);
+  built.notes = applied.notes;
+  return applied.reference;
+}
+
+/// What moves the body, and what is measured.
+void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& built) {
+  const Model places = lattice_places(input, shape, built.model, built.model.lattice.particle_slot);
+  const double driven = prescribe_motions(input, places, built.model);
+  const double loaded = load_particles(input, places, built);
+  built.options.driven = driven > 0.0;
+  built.options.reference = built.options.driven ? driven : loaded;
+  if (built.options.reference == 0.0) {
+    throw InputError(input.where(input.displacements.empty() ? "loads" : "displacements"),
+                     "nothing moves the body: all formulas are zero on their particles", "");
+  }
+  built.gauges = build_gauges(input, places);
 }
 
 /// External damping of a material that does not say what the fundamental period is.
@@ -84,8 +115,7 @@ ExplicitCase build_explicit_case(const CaseFile& input, int threads) {
   const LatticeShape shape(input);
   built.model = build_lattice(input, shape);
   const LatticeRows& lattice = built.model.lattice;
-  const Model places = lattice_places(input, shape, built.model, lattice.particle_slot);
-  built.options.reference = prescribe_motions(input, places, built.model);
+  load_body(input, shape, built);
   damp_externally(input, threads, built);
   choose_steps(input, built);
   for (const Index slot : lattice.particle_slot) built.bonds += lattice.bond_count[slot];

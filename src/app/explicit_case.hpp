@@ -1,7 +1,11 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "analysis/explicit_analysis.hpp"
 #include "analysis/explicit_model.hpp"
+#include "app/configure.hpp"
 #include "io/case_file.hpp"
 
 namespace perilink {
@@ -16,6 +20,8 @@ struct ExplicitCase {
   double fundamental_period = 0.0;
   Index steps = 0;
   Index bonds = 0;
+  std::vector<Gauge> gauges;       ///< of particles in the order of their slots
+  std::vector<std::string> notes;  ///< what the user should know: point loads that had to move
 };
 
 /// Builds the lattice of a case with type = "explicit".

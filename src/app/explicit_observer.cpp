@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/explicit_fields.hpp"
+#include "app/gauges.hpp"
 #include "app/signals.hpp"
 #include "base/timer.hpp"
 
@@ -22,7 +23,7 @@ ExplicitRunObserver::ExplicitRunObserver(const CaseFile& input, const ExplicitCa
     : input_(input),
       built_(built),
       directory_(std::move(directory)),
-      history_(directory_.string(), CrackCount::cracked_particles),
+      history_(directory_.string(), CrackCount::cracked_particles, names_of(built.gauges)),
       bar_(quiet) {}
 
 void ExplicitRunObserver::write_fields(const ExplicitRecord& record, const ExplicitState& state) {
@@ -35,8 +36,24 @@ void ExplicitRunObserver::write_fields(const ExplicitRecord& record, const Expli
   seconds_writing_ += timer.seconds();
 }
 
+std::vector<double> ExplicitRunObserver::gauge_values(const ExplicitState& state) const {
+  const LatticeRows& lattice = built_.model.lattice;
+  std::vector<double> values;
+  for (const Gauge& gauge : built_.gauges) {
+    double value = 0.0;
+    for (const Gauge::Term& term : gauge.terms) {
+      const Index slot = lattice.particle_slot[term.particle];
+      for (int c = 0; c < lattice.dim; ++c) {
+        value += term.weight * gauge.direction[c] * state.displacement[lattice.at(c, slot)];
+      }
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
 void ExplicitRunObserver::on_row(const ExplicitRecord& record, const ExplicitState& state) {
-  history_.append(record);
+  history_.append(record, gauge_values(state));
   ++rows_;
   if (std::abs(record.load) > std::abs(peak_load_)) {
     peak_load_ = record.load;

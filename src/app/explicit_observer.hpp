@@ -31,6 +31,8 @@ class ExplicitRunObserver final : public ExplicitObserver {
   double seconds_writing() const { return seconds_writing_; }
 
  private:
+  /// Displacements of the case's gauges.
+  std::vector<double> gauge_values(const ExplicitState& state) const;
   void write_fields(const ExplicitRecord& record, const ExplicitState& state);
 
   const CaseFile& input_;

@@ -49,6 +49,7 @@ void write_summary(const std::filesystem::path& directory, const ExplicitSummary
   json["bonds"] = summary.built.bonds;
   json["spacing"] = summary.built.model.lattice.spacing;
   json["particle_steps_per_second"] = summary.particle_steps_per_second();
+  json["notes"] = summary.built.notes;
   json["seconds"] = {{"set_up", summary.seconds.set_up},
                      {"analysis", summary.seconds.analysis},
                      {"output", summary.seconds.output}};
@@ -88,6 +89,7 @@ void print_summary(const std::filesystem::path& directory, const ExplicitSummary
       "output {:.2f} s\n",
       "time", summary.seconds.set_up, summary.seconds.analysis,
       summary.particle_steps_per_second() / 1e6, summary.seconds.output);
+  for (const std::string& note : summary.built.notes) fmt::print("  {:<14} {}\n", "note", note);
   fmt::print("  {:<14} {}\n", "results", directory.string());
 }
 

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/explicit_history.hpp"
 #include "app/history_file.hpp"
 #include "app/model_regions.hpp"
 #include "assembly/fields.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
+#include "io/case_lattice.hpp"
 
 namespace perilink {
 namespace {
@@ -72,7 +74,11 @@ std::size_t number_of(const std::array<int, 2>& axes) {
 
 std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
   std::vector<Gauge> gauges;
-  const std::vector<std::string> taken = history_columns();
+  const std::vector<std::string> taken =
+      input.analysis.type != "explicit"
+          ? history_columns()
+          : explicit_history_columns(is_lattice(input.body) ? CrackCount::cracked_particles
+                                                            : CrackCount::broken_bonds);
   for (std::size_t k = 0; k < input.gauges.size(); ++k) {
     const GaugeSection& section = input.gauges[k];
     if (std::find(taken.begin(), taken.end(), section.name) != taken.end()) {

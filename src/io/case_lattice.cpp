@@ -151,14 +151,6 @@ void refuse_surface_region(const CaseFile& input, const std::string& key,
       "name a region of the case");
 }
 
-/// What explicit runs of lattices do not know yet.
-void refuse_explicit_tables(const CaseFile& input) {
-  const std::string why = "knows [[supports]] and [[displacements]] only in an explicit analysis";
-  refuse_table(input, "loads", input.loads, why);
-  refuse_table(input, "point_loads", input.point_loads, why);
-  refuse_table(input, "gauges", input.gauges, why);
-}
-
 template <class Section>
 void refuse_surfaces(const CaseFile& input, const std::string& table,
                      const std::vector<Section>& sections) {
@@ -368,7 +360,6 @@ void check_lattice(const CaseFile& input) {
                      "is a second material, but a body with model = \"lattice\" has one",
                      "delete it, or name its regions in the first");
   }
-  if (is_explicit) refuse_explicit_tables(input);
   refuse_lattice_tables(input);
 }
 

@@ -195,10 +195,6 @@ void check_driven(const CaseFile& input) {
     }
   }
   if (driven) return;
-  if (is_lattice(input.body) && input.analysis.type == "explicit") {
-    throw InputError(input.where("displacements"), "nothing moves the body",
-                     "add [[displacements]] that are not zero");
-  }
   throw InputError(
       input.where("loads"), "nothing loads the body",
       "add [[loads]], [[tractions]], [[point_loads]], or [[displacements]] that are not zero");

@@ -304,6 +304,35 @@ TEST_F(Program, ElasticLatticesAnswerAsSlowExplicitRunsDo) {
   EXPECT_EQ(run({"plot", "results/elastic"}).exit_status, 0);
 }
 
+/// The strip under a force and its own weight, slowly and at once.
+TEST_F(Program, LoadsOfLatticesMoveThemToTheElasticAnswer) {
+  const std::string text = lattice_strip_case();
+  const std::string body = text.substr(0, text.find("[[displacements]]"));
+  const std::string loads =
+      "[[loads]]\nregion = \"right side\"\nforce = [1e-3, 0]\n"
+      "[[loads]]\nregion = \"strip\"\nbody_force = [1e-4, \"-1e-4*x\"]\n"
+      "[[point_loads]]\nat = [1.01, 0.5]\nforce = [0, 2e-4]\n"
+      "[[gauges]]\nname = \"tip\"\nregion = \"right side\"\naxis = \"y\"\n";
+  const std::string damped = body.substr(0, body.find("internal_damping")) +
+                             "external_damping = 0.7\n" + body.substr(body.find("[[supports]]"));
+  write_case("moving.toml",
+             damped + loads + "[analysis]\ntype = \"explicit\"\nduration = 40\nramp_time = 20\n");
+  write_case("elastic.toml", damped + loads + "[analysis]\ntype = \"elastic\"\n");
+  const ProcessEnd check = run({"check", "moving.toml"});
+  EXPECT_THAT(check.out, HasSubstr("forces             "));
+  EXPECT_THAT(check.out, HasSubstr("the point load at (1.01, 0.5) acts on the particle at"));
+  for (const char* name : {"moving", "elastic"}) {
+    const ProcessEnd end = run({"run", std::string(name) + ".toml"});
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+  }
+  const auto last_value = [&](const std::string& name) {
+    const std::string history = read_text(work() / "results" / name / "history.csv");
+    return std::stod(history.substr(history.rfind(',') + 1));
+  };
+  EXPECT_NEAR(last_value("moving"), last_value("elastic"), 1e-3 * std::abs(last_value("elastic")));
+  EXPECT_EQ(run({"compare", "results/moving", "results/elastic"}).exit_status, 0);
+}
+
 TEST_F(Program, ExplicitRunsWriteTheFilesOfTheContract) {
   write_case("strip.toml", lattice_strip_case(0.1, "\n[output]\nfields_times = [1]\n"));
   const ProcessEnd end = run({"run", "strip.toml"});

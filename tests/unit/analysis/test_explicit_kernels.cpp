@@ -164,7 +164,7 @@ TEST(ExplicitKernels, PrescribedMotionsAreMetExactly) {
   ExplicitState state(model);
   const auto rows = static_cast<Index>(model.lattice.rows.size());
   evaluate(model, state);
-  for (Index r = 0; r < rows; ++r) advance(model, state, r, 1e-7, 0.25);
+  for (Index r = 0; r < rows; ++r) advance(model, state, r, 1e-7, 0.0, 0.25);
   for (const auto& row : model.prescribed) {
     for (const PrescribedMotion& motion : row) {
       const double u = state.displacement[model.lattice.at(motion.component, motion.slot)];

@@ -250,13 +250,10 @@ TEST(CaseLattice, RefusesAnalyses) {
 
 TEST(CaseLattice, RefusesTablesThatOnlyImplicitBodiesHave) {
   for (const char* table :
-       {"[[loads]]\nregion = \"top\"\nforce = [0, 1]\n",
-        "[[tractions]]\nregion = \"top\"\npressure = 1\n",
-        "[[point_loads]]\nat = [0, 1]\nforce = [0, 1]\n", "[[symmetry]]\naxis = \"x\"\nat = 0\n",
+       {"[[tractions]]\nregion = \"top\"\npressure = 1\n", "[[symmetry]]\naxis = \"x\"\nat = 0\n",
         "[[springs]]\nregion = \"top\"\ntotal = [0, 1]\n",
         "[[cracks]]\npoints = [[0, 1], [1, 1]]\n",
-        "[[rebar]]\nfrom = [0, 0]\nto = [0, 1]\nyoungs_modulus = 1\narea = 1\n",
-        "[[gauges]]\nname = \"a\"\nat = [0, 1]\naxis = \"x\"\n"}) {
+        "[[rebar]]\nfrom = [0, 0]\nto = [0, 1]\nyoungs_modulus = 1\narea = 1\n"}) {
     const std::string name = std::string(table).substr(2, std::string(table).find(']') - 2);
     EXPECT_THAT(message_of(std::string(lattice_case) + table), HasSubstr(name + "[1]: is given"));
   }
@@ -267,7 +264,22 @@ TEST(CaseLattice, RefusesTablesThatOnlyImplicitBodiesHave) {
         "[[supports]]\nregion = \"surface\"\nfix = [\"x\"]\n[[displacements]]",
         {"supports[1].region", "does not end on the surface"}},
        {"y = \"0.001*x\"", "rotation = 1", {"a lattice body do not rotate"}},
-       {"y = \"0.001*x\"", "y = 0", {"nothing moves the body"}}});
+       {"y = \"0.001*x\"", "y = 0", {"nothing loads the body"}},
+       {"[output]",
+        "[[gauges]]\nname = \"a\"\nat = [0, 1]\nstress = \"xx\"\n[output]",
+        {"gauges[1].stress", "elastic"}},
+       {"[output]",
+        "[[loads]]\nregion = \"surface\"\nforce = [0, 1]\n[output]",
+        {"loads[1].region", "does not end on the surface"}}});
+}
+
+TEST(CaseLattice, TakesLoadsAndGauges) {
+  const CaseFile input = parse_case(std::string(lattice_case) +
+                                        "[[loads]]\nregion = \"top\"\nforce = [0, 1]\n"
+                                        "[[point_loads]]\nat = [0, 1]\nforce = [0, 1]\n"
+                                        "[[gauges]]\nname = \"a\"\nat = [0, 1]\naxis = \"x\"\n",
+                                    "");
+  EXPECT_EQ(input.loads.size() + input.point_loads.size() + input.gauges.size(), 3U);
 }
 
 }  // namespace
