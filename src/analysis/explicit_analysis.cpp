@@ -87,7 +87,7 @@ class ExplicitRun {
   }
 
   void change(double dt) {
-    each_row([&](Index r) { changes_->look(state_, r, dt); });
+    each_row([&](Index r) { changes_->look(state_, r); });
     bool any = false;
     for (Index r = 0; r < rows_ && !any; ++r) any = changes_->touches(state_, r);
     if (!any) return;
@@ -97,7 +97,11 @@ class ExplicitRun {
       });
     };
     each_touched([&](Index r) { changes_->commit(state_, r, dt); });
-    each_touched([&](Index r) { changes_->update_bonds(state_, r); });
+    if (model_.material.yields) {
+      each_touched([&](Index r) { changes_->update_plastic_bonds(state_, r); });
+      each_touched([&](Index r) { changes_->update_plastic_sums(state_, r, dt); });
+    }
+    each_touched([&](Index r) { changes_->update_factors(state_, r); });
     each_touched([&](Index r) {
       changes_->update_sums(state_, r, dt);
       state_.sums[r].stored = stored_energy(model_, state_, r);

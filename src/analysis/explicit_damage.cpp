@@ -2,17 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/explicit_scan.hpp"
 
 namespace perilink {
-namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 bool LatticeDamage::has_weakened_neighbours(const ExplicitState& state, Index row) const {
   const Index reach = model_.lattice.reach, rows = static_cast<Index>(state.duty.size());
   const auto first = state.duty.begin() + std::max<Index>(0, row - 2 * reach);
@@ -85,7 +78,7 @@ bool LatticeDamage::grow(ExplicitState& state, Index row, Index slot) const {
     if (!begins(state, row, family, normal)) return false;
     state.crack_band[slot] = band_width(model_, normal);
     state.crack_at[slot] = never;
-    state.duty[row] |= RowDuty::cracked;
+    state.news[row] |= RowNews::cracked;
   }
   const double strain = driving_strain(state, family);
   const double damage = damage_at(strain, state.crack_band[slot]);

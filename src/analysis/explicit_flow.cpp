@@ -31,61 +31,38 @@ SymmetricTensor free_strain(Problem problem, double nu, SymmetricTensor plastic)
 
 }  // namespace
 
-LatticeYielding::Change LatticeYielding::flow(ExplicitState& state, Index row, Index slot,
-                                              double time_step) const {
+LatticeYielding::Change LatticeYielding::flow(ExplicitState& state, Index row, Index slot) const {
   const Family family = particles_.family(row, slot);
-  return model_.rules == LatticeRules::consistent ? flow_consistently(state, family, time_step)
-                                                  : flow_as_printed(state, family, time_step);
-}
-
-/// Work of the force states against the change of the plastic stretches, sum_j L_j F_j dp_j / 2,
-/// with the mean of the forces of this and the last step (as the integrator sees them), less what
-/// the change itself takes off them.
-double LatticeYielding::dissipation(const ExplicitState& state, const Family& family,
-                                    const Halves& change, double time_step) const {
-  const LatticeRows& lattice = model_.lattice;
-  Halves middle = particles_.elastic(state, family);  // of the three
-  for (int j = 0; j < family.bonds; ++j) {
-    if (!family.has(j)) continue;
-    const double length = lattice.bonds[family.own_number(j)].length;
-    middle[j] -= 0.5 * (time_step * state.rate[family.at[j]] / length + change[j]);
-  }
-  const Halves force = particles_.forces_of(state, family, middle);
-  double work = 0.0;
-  for (int j = 0; j < family.bonds; ++j) {
-    work += 0.5 * lattice.bonds[family.own_number(j)].length * force[j] * change[j];
-  }
-  return work;
-}
-
-void LatticeYielding::add(ExplicitState& state, const Family& family, const Halves& change) const {
-  for (int j = 0; j < family.bonds; ++j) {
-    if (family.has(j)) state.flow.stretch[model_.lattice.at(j, family.slot)] += change[j];
-  }
+  return model_.rules == LatticeRules::consistent ? flow_consistently(state, family)
+                                                  : flow_as_printed(state, family);
 }
 
 LatticeYielding::Change LatticeYielding::flow_consistently(ExplicitState& state,
-                                                           const Family& family,
-                                                           double time_step) const {
+                                                           const Family& family) const {
   const LatticeMaterial& material = model_.material;
   const double e = material.youngs_modulus, nu = material.poissons_ratio;
   const Index slot = family.slot;
   const SymmetricTensor stress = particles_.stress(state, family);
   if (mises_stress(stress) <= state.flow.yield[slot]) return {};
-  PlasticState& plastic = state.flow.state[slot];
+  PlasticState plastic;
+  plastic.equivalent_strain = state.flow.equivalent[slot];
   SymmetricTensor strain = elastic_strain(e, nu, stress);
-  for (int c = 0; c < 6; ++c) strain[c] += plastic.strain[c];
+  for (int c = 0; c < 6; ++c) {
+    plastic.strain[c] = state.flow.strain[model_.lattice.at(c, slot)];
+    strain[c] += plastic.strain[c];
+  }
   return_stress(model_.problem, e, nu, material.yielding, strain, plastic);
+  for (int c = 0; c < 6; ++c) state.flow.strain[model_.lattice.at(c, slot)] = plastic.strain[c];
+  state.flow.equivalent[slot] = plastic.equivalent_strain;
   state.flow.yield[slot] = yield_stress(material.yielding, plastic.equivalent_strain);
   state.flow.visit[slot] = state.flow.yield[slot];
   if (model_.problem == Problem::plane_strain) state.flow.normal[slot] = e * plastic.strain[2];
-  Halves change = particles_.project(free_strain(model_.problem, nu, plastic.strain), family);
+  const Halves stretch =
+      particles_.project(free_strain(model_.problem, nu, plastic.strain), family);
   for (int j = 0; j < family.bonds; ++j) {
-    if (family.has(j)) change[j] -= state.flow.stretch[model_.lattice.at(j, slot)];
+    if (family.has(j)) state.flow.stretch[model_.lattice.at(j, slot)] = stretch[j];
   }
-  const Change result{true, false, dissipation(state, family, change, time_step)};
-  add(state, family, change);
-  return result;
+  return {true, false};
 }
 
 /// The smaller one of the two force states where they agree in sign, else their mean.
@@ -120,7 +97,7 @@ double LatticeYielding::printed_strain(const ExplicitState& state, const Family&
 
 double LatticeYielding::plastic_strain(const ExplicitState& state, Index row, Index slot) const {
   return model_.rules == LatticeRules::consistent
-             ? state.flow.state[slot].equivalent_strain
+             ? state.flow.equivalent[slot]
              : printed_strain(state, particles_.family(row, slot));
 }
 
@@ -151,8 +128,8 @@ double LatticeYielding::printed_yield(const ExplicitState& state, const Family& 
   return curve.yield + slope * strain;
 }
 
-LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state, const Family& family,
-                                                         double time_step) const {
+LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state,
+                                                         const Family& family) const {
   const bool of_2017 = model_.rules == LatticeRules::mean_2017;
   const Index slot = family.slot;
   bool beyond = false;
@@ -187,55 +164,10 @@ LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state, c
   if (!of_2017) amount = std::min(amount, most_flow);
   for (double& entry : change) entry *= amount / std::sqrt(square);
   result.flowed = true;
-  result.dissipated = dissipation(state, family, change, time_step);
-  add(state, family, change);
+  for (int j = 0; j < family.bonds; ++j) {
+    if (family.has(j)) state.flow.stretch[model_.lattice.at(j, slot)] += change[j];
+  }
   return result;
-}
-
-void LatticeYielding::update_bonds(ExplicitState& state, Index r) const {
-  const LatticeRows& lattice = model_.lattice;
-  const LatticeRow& row = lattice.rows[r];
-  const int own = lattice.own_bonds();
-  const bool own_halves = model_.rules != LatticeRules::mean_2017;
-  double locked = 0.0;
-  for (int k = 0; k < own; ++k) {
-    const Index shift = lattice.shift_out[r * own + k];
-    double energy = 0.0;
-    for (Index slot = row.first; slot < row.first + row.size; ++slot) {
-      const Index at = lattice.at(k, slot);
-      if (lattice.present[at] == 0.0) continue;
-      const double mine = state.flow.stretch[at];
-      const double other = state.flow.stretch[lattice.at(k + own, slot + shift)];
-      const double mean = 0.5 * (mine + other);
-      state.stretch[at] += state.flow.mean[at] - mean;
-      state.flow.mean[at] = mean;
-      if (!own_halves) continue;
-      const double half = 0.5 * (other - mine);
-      state.flow.half[at] = half;
-      energy += state.in_tension[at] * half * half;
-    }
-    locked += 0.5 * lattice.bonds[k].length * model_.own_modulus(k) * energy;
-  }
-  state.flow.locked[r] = locked;
-  state.duty[r] |= RowDuty::altered;
-}
-
-void LatticeYielding::update_sums(ExplicitState& state, Index r) const {
-  state.duty[r] |= RowDuty::altered;
-  if (model_.rules == LatticeRules::mean_2017) return;
-  const LatticeRows& lattice = model_.lattice;
-  const LatticeRow& row = lattice.rows[r];
-  const int own = lattice.own_bonds();
-  std::fill_n(state.flow.sum.begin() + row.first, row.size, 0.0);
-  for (int k = 0; k < own; ++k) {
-    const double weight = lattice.bonds[k].length / lattice.spacing;
-    const Index back = lattice.shift_in[r * own + k];
-    for (Index slot = row.first; slot < row.first + row.size; ++slot) {
-      const Index out = lattice.at(k, slot), in = out - back;
-      state.flow.sum[slot] += weight * (state.in_tension[out] * state.flow.half[out] -
-                                        state.in_tension[in] * state.flow.half[in]);
-    }
-  }
 }
 
 }  // namespace perilink

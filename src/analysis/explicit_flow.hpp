@@ -12,33 +12,25 @@ class LatticeYielding {
 
   /// What flow did to a particle.
   struct Change {
-    bool flowed = false;      ///< its plastic stretches changed
-    bool crushed = false;     ///< it lost its strength in compression (rules of 2017)
-    double dissipated = 0.0;  ///< stored energy lost at rest [force length]
+    bool flowed = false;   ///< its plastic stretches changed
+    bool crushed = false;  ///< it lost its strength in compression (rules of 2017)
   };
 
   /// Lets a particle flow whose von Mises stress is above the yield stress. Consistent rules:
   /// backward Euler with the associated flow; the papers' rules: their one step along the deviator
   /// of the bond forces (2018, Eqs. 26–30) or force states (2017, Eqs. 3.44–3.48).
-  Change flow(ExplicitState& state, Index row, Index slot, double time_step) const;
+  Change flow(ExplicitState& state, Index row, Index slot) const;
 
   /// Equivalent plastic strain of a particle: the sum of sqrt(2/3 de : de); by the rules of 2018
   /// and 2017 that of the plastic stretches that it has (2018, Eq. 25).
   double plastic_strain(const ExplicitState& state, Index row, Index slot) const;
 
-  /// Plastic parts of the own bonds of a row from those of their particles' halves; the stretches
-  /// follow.
-  void update_bonds(ExplicitState& state, Index row) const;
-  /// What the halves of its bonds add to the sums of a row's particles, after `update_bonds` of
-  /// the row and of those whose bonds end in it.
-  void update_sums(ExplicitState& state, Index row) const;
-
  private:
   using Family = LatticeParticles::Family;
   using Halves = LatticeParticles::Halves;
 
-  Change flow_consistently(ExplicitState& state, const Family& family, double time_step) const;
-  Change flow_as_printed(ExplicitState& state, const Family& family, double time_step) const;
+  Change flow_consistently(ExplicitState& state, const Family& family) const;
+  Change flow_as_printed(ExplicitState& state, const Family& family) const;
   Halves bond_forces(const ExplicitState& state, const Family& family, const Halves& own) const;
   /// Present yield stress by the papers' rules, and whether the particle is beyond its ultimate
   /// plastic strain.
@@ -46,7 +38,6 @@ class LatticeYielding {
   double printed_strain(const ExplicitState& state, const Family& family) const;
   double dissipation(const ExplicitState& state, const Family& family, const Halves& change,
                      double time_step) const;
-  void add(ExplicitState& state, const Family& family, const Halves& change) const;
 
   const ExplicitModel& model_;
   const LatticeParticles& particles_;

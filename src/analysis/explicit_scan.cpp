@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/bond_pointers.hpp"
 
 namespace perilink {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+/// What the particles of a row have left before a crack begins and before they flow, in stress times
+/// volume: negative where they are due.
+struct Left {
+  std::vector<double> damage, flow;
+};
 
 /// What each particle of a row has left, in stress times volume: negative where it is due.
 /// \param Altered  bonds of the row have factors or plastic parts
 template <bool Altered, bool Yields>
-double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index r, double* left) {
+double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index r, Left& left) {
   const LatticeRow& row = model.lattice.rows[r];
   const BondPointers<6> bond(model, state, r);
   const double* sum = state.sum.data() + row.first;
@@ -34,6 +37,7 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   const double* wait = state.wait.data() + row.first;
   const double path = state.path[r], stiffness = stress_stiffness(model);
   double least = never;
+  double *damage = left.damage.data(), *flow = left.flow.data();
 #pragma omp simd reduction(min : least)
   for (Index i = 0; i < row.size; ++i) {
     const double shared = modulus * sum[i];
@@ -56,15 +60,17 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
     }
     const double mean = 0.5 * (sxx + syy), difference = 0.5 * (sxx - syy);
     const double radius = std::sqrt(difference * difference + sxy * sxy);
-    double rest = std::max(crack_at[i] * volume[i] - half_length * (mean + radius),
-                           (wait[i] - path) * stiffness);
+    const double rest = std::max(crack_at[i] * volume[i] - half_length * (mean + radius),
+                                 (wait[i] - path) * stiffness);
     if constexpr (Yields) {
       // Mean stress in the plane over that out of it.
       const double over = half_length * (1.0 - 2.0 * nu) * mean + normal[i] * volume[i];
       const double shear = half_length * radius;
-      rest = std::min(rest, visit[i] * volume[i] - std::sqrt(over * over + 3.0 * shear * shear));
+      const double other = visit[i] * volume[i] - std::sqrt(over * over + 3.0 * shear * shear);
+      flow[i] = other;
+      least = std::min(least, other);
     }
-    left[i] = rest;
+    damage[i] = rest;
     least = std::min(least, rest);
   }
   return least;
@@ -72,7 +78,7 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
 
 /// In space: n n' has the eigenvalues 1 and 0, so neither a principal stress nor von Mises' exceeds
 /// the sum of the forces.
-double scan_space(const ExplicitModel& model, const ExplicitState& state, Index r, double* left) {
+double scan_space(const ExplicitModel& model, const ExplicitState& state, Index r, Left& left) {
   const LatticeRow& row = model.lattice.rows[r];
   const BondPointers<18> bond(model, state, r);
   const double* sum = state.sum.data() + row.first;
@@ -96,9 +102,9 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
       pull += half_length * std::max(0.0, std::max(own, own + part) + excess);
       size += half_length * (std::max(std::abs(own), std::abs(own + part)) + excess);
     }
-    left[i] = std::max(crack_at[i] * volume[i] - pull, (wait[i] - path) * stiffness);
-    if (visit != nullptr) left[i] = std::min(left[i], visit[i] * volume[i] - size);
-    least = std::min(least, left[i]);
+    left.damage[i] = std::max(crack_at[i] * volume[i] - pull, (wait[i] - path) * stiffness);
+    if (visit != nullptr) left.flow[i] = visit[i] * volume[i] - size;
+    least = std::min({least, left.damage[i], left.flow[i]});
   }
   return least;
 }
@@ -160,7 +166,7 @@ void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
 }
 
 double scan_stress(const ExplicitModel& model, const ExplicitState& state, Index r, bool altered,
-                   double* left) {
+                   Left& left) {
   if (model.lattice.dim == 3) return scan_space(model, state, r, left);
   if (!model.material.yields) {
     return altered ? scan_plane<true, false>(model, state, r, left)
@@ -208,22 +214,25 @@ double stress_stiffness(const ExplicitModel& model) {
 }
 
 void scan_row(const ExplicitModel& model, const LatticeParticles& particles, ExplicitState& state,
-              Index r, std::vector<Index>& due) {
+              Index r, DueParticles& due) {
   const LatticeRow& row = model.lattice.rows[r];
-  thread_local std::vector<double> left;
-  left.resize(row.size);
+  thread_local Left left;
+  left.damage.resize(row.size);
+  left.flow.assign(row.size, never);
   std::uint8_t duty = 0;
   with_incoming(model.lattice, r, [&](Index near) { duty |= state.duty[near]; });
   const bool altered = (duty & RowDuty::altered) != 0;
-  const double least = scan_stress(model, state, r, altered, left.data());
-  const bool cracked = (state.duty[r] & RowDuty::cracked) != 0;
+  const double least = scan_stress(model, state, r, altered, left);
+  const bool cracked = (state.news[r] & RowNews::cracked) != 0;
   if (cracked && model.lattice.dim == 2) {
-    scan_cracks(model, particles, state, r, left.data());
+    scan_cracks(model, particles, state, r, left.damage.data());
   }
-  due.clear();
+  due.damage.clear();
+  due.flow.clear();
   for (Index i = 0; i < row.size; ++i) {
     const bool grows = cracked && model.lattice.dim == 3 && state.grow_at[row.first + i] < never;
-    if (left[i] < 0.0 || grows) due.push_back(row.first + i);
+    if (left.damage[i] < 0.0 || grows) due.damage.push_back(row.first + i);
+    if (left.flow[i] < 0.0) due.flow.push_back(row.first + i);
   }
   // Factors change with the sign of a stretch, at no distance that could be counted.
   const bool weakened = (duty & RowDuty::weakened) != 0;

@@ -19,10 +19,15 @@ bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row);
 /// [force length].
 double stress_stiffness(const ExplicitModel& model);
 
-/// Slots of the row whose stress or strain has reached the thresholds that the state has for them
-/// (crack_at, grow_at, flow.visit), exact in the plane, on the safe side in space; and the row's
-/// slack. Stretches and sums must be up to date.
+/// Slots of a row that have to be looked at.
+struct DueParticles {
+  std::vector<Index> damage;  ///< first principal stress above crack_at, or strain above grow_at
+  std::vector<Index> flow;    ///< von Mises stress above flow.visit
+};
+
+/// Finds the particles that have reached the thresholds that the state has for them, exact in the
+/// plane, on the safe side in space; and the row's slack. Stretches and sums must be up to date.
 void scan_row(const ExplicitModel& model, const LatticeParticles& particles, ExplicitState& state,
-              Index row, std::vector<Index>& due);
+              Index row, DueParticles& due);
 
 }  // namespace perilink

@@ -1,7 +1,5 @@
 #include "analysis/explicit_state.hpp"
 
-#include <limits>
-
 namespace perilink {
 namespace {
 
@@ -18,7 +16,10 @@ LatticeFlow make_flow(const ExplicitModel& model) {
   flow.locked.assign(model.lattice.rows.size(), 0.0);
   flow.yield.assign(slots, model.material.yielding.yield);
   flow.visit = flow.yield;
-  flow.state.resize(slots);
+  if (model.rules == LatticeRules::consistent) {
+    flow.strain.assign(6 * slots, 0.0);
+    flow.equivalent.assign(slots, 0.0);
+  }
   flow.crushed.assign(slots, 0);
   return flow;
 }
@@ -40,12 +41,12 @@ ExplicitState::ExplicitState(const ExplicitModel& model) : flow(make_flow(model)
   slack.assign(rows, 0.0);
   path.assign(rows, 0.0);
   duty.assign(rows, 0);
+  news.assign(rows, 0);
   if (!model.alters()) return;
   for (auto* array : {&stretch, &drag}) array->assign(own * slots, 0.0);
   in_tension = in_compression = lattice.present;
   for (auto* array : {&share_tension, &share_compression}) array->assign(own * slots, 1.0);
   for (auto* array : {&next_damage, &crack_band}) array->assign(slots, 0.0);
-  constexpr double never = std::numeric_limits<double>::infinity();
   const LatticeMaterial& material = model.material;
   crack_at.assign(slots, never);
   grow_at.assign(slots, never);

@@ -9,6 +9,10 @@
 
 namespace perilink {
 
+/// Larger than any stress, strain or path: the threshold of particles to which nothing can happen.
+/// A number like others, unlike infinity, of which fast loops know nothing.
+inline constexpr double never = 1e200;
+
 /// Sums over a row of particles. Rows are summed in their own order and then one after the other,
 /// so that no sum depends on the number of threads. Work and loss are sums since the beginning.
 struct RowSums {
@@ -27,12 +31,15 @@ struct RowReactions {
   double supports = 0.0;  ///< of supports along the load [force]
 };
 
-/// What a row needs beyond the elastic work; bits of ExplicitState::duty.
+/// What a row needs beyond the elastic work: bits of ExplicitState::duty, which change with its
+/// bonds only, and of ExplicitState::news, which change while its own particles are looked at.
 struct RowDuty {
+  static constexpr std::uint8_t altered = 1;   ///< own bonds or sums have factors or plastic parts
+  static constexpr std::uint8_t weakened = 2;  ///< own bonds have factors
+};
+struct RowNews {
   static constexpr std::uint8_t damage_grew = 1, flowed = 2;  ///< of its particles, in this step
-  static constexpr std::uint8_t altered = 4;   ///< own bonds or sums have factors or plastic parts
-  static constexpr std::uint8_t weakened = 8;  ///< own bonds or incoming ones have factors
-  static constexpr std::uint8_t cracked = 16;  ///< particles have damage
+  static constexpr std::uint8_t cracked = 4;                  ///< particles have damage
 };
 
 /// Plastic stretches of particles and of bonds; empty where the material cannot yield. The stretch
@@ -47,7 +54,9 @@ struct LatticeFlow {
   std::vector<double> yield;    ///< present yield stress of particles [force/length^2]
   std::vector<double> visit;    ///< von Mises stress at which a particle has to be looked at
   std::vector<double> normal;   ///< Young's modulus times plastic strain out of the plane
-  std::vector<PlasticState> state;    ///< of each slot
+  std::vector<double>
+      strain;  ///< plastic, as a SymmetricTensor, shape (6, slots); consistent rules
+  std::vector<double> equivalent;     ///< plastic strain of particles; consistent rules
   std::vector<std::uint8_t> crushed;  ///< particles that carry no compression either
 };
 
@@ -84,6 +93,7 @@ struct ExplicitState {
   std::vector<double> slack;       ///< of each row: change of stretches that alters nothing yet
   std::vector<double> path;        ///< of each row: sum of all changes of stretches near it
   std::vector<std::uint8_t> duty;  ///< of each row, see RowDuty
+  std::vector<std::uint8_t> news;  ///< of each row, see RowNews
 };
 
 }  // namespace perilink

@@ -15,24 +15,30 @@ class LatticeChanges {
         damage_(model, particles_),
         yielding_(model, particles_) {}
 
-  /// First: what happens to the particles of a row. After the sums of the row; before any later
-  /// stage of it and of rows next to it.
-  void look(ExplicitState& state, Index row, double time_step) const;
+  /// First: what happens to the particles of a row. After the sums of the row and those next to
+  /// it; before any later stage of them.
+  void look(ExplicitState& state, Index row) const;
   /// Whether bonds or sums of the row change; after `look` at it and the rows next to it.
   bool touches(const ExplicitState& state, Index row) const;
-  /// Second, where touched: damage becomes what was noted, and the energy before the change is
-  /// counted. After `look` at the row and those next to it.
+  /// The later stages, where touched, each after the one before of the row and those next to it:
+  /// damage becomes what was noted, and the energy before the change is counted;
   void commit(ExplicitState& state, Index row, double time_step) const;
-  /// Third, where touched: own bonds. After the commits of the row and those next to it.
-  void update_bonds(ExplicitState& state, Index row) const;
-  /// Fourth, where touched: sums, and the energy lost. After `update_bonds` of the row and those
-  /// whose bonds end in it.
+  /// own bonds take the plastic stretches of their particles;
+  void update_plastic_bonds(ExplicitState& state, Index row) const;
+  /// sums take them, and the energy that flow cost is counted;
+  void update_plastic_sums(ExplicitState& state, Index row, double time_step) const;
+  /// own bonds take the factors of the damage of their particles;
+  void update_factors(ExplicitState& state, Index row) const;
+  /// sums take these, and the energy that damage cost is counted.
   void update_sums(ExplicitState& state, Index row, double time_step) const;
 
  private:
-  static constexpr std::uint8_t changed = RowDuty::damage_grew | RowDuty::flowed;
-  /// Bits of the row and of those where its bonds end.
+  static constexpr std::uint8_t changed = RowNews::damage_grew | RowNews::flowed;
+  /// News of the row and of those where its bonds end.
   std::uint8_t outgoing(const ExplicitState& state, Index row) const;
+  /// News of the row and of those next to it.
+  std::uint8_t around(const ExplicitState& state, Index row) const;
+  void flow_at(ExplicitState& state, Index row, Index slot) const;
 
   const ExplicitModel& model_;
   LatticeParticles particles_;

@@ -186,7 +186,7 @@ SymmetricTensor LatticeParticles::bond_stress(const ExplicitState& state,
 SymmetricTensor LatticeParticles::stress(const ExplicitState& state, const Family& family) const {
   SymmetricTensor stress = bond_stress(state, family);
   if (model_.problem == Problem::plane_strain && model_.material.yields) {
-    stress[2] -= model_.material.youngs_modulus * state.flow.state[family.slot].strain[2];
+    stress[2] -= state.flow.normal[family.slot];
   }
   return stress;
 }

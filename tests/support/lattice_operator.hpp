@@ -33,9 +33,11 @@ inline void change(const ExplicitModel& model, const LatticeChanges& changes,
       if (changes.touches(state, r)) work(r);
     }
   };
-  for (Index r = 0; r < rows; ++r) changes.look(state, r, 0.0);
+  for (Index r = 0; r < rows; ++r) changes.look(state, r);
   each_touched([&](Index r) { changes.commit(state, r, 0.0); });
-  each_touched([&](Index r) { changes.update_bonds(state, r); });
+  each_touched([&](Index r) { changes.update_plastic_bonds(state, r); });
+  each_touched([&](Index r) { changes.update_plastic_sums(state, r, 0.0); });
+  each_touched([&](Index r) { changes.update_factors(state, r); });
   each_touched([&](Index r) { changes.update_sums(state, r, 0.0); });
   for (Index r = 0; r < rows; ++r) state.sums[r].stored = stored_energy(model, state, r);
 }
