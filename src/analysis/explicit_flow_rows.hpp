@@ -10,8 +10,8 @@ namespace perilink {
 /// Whether flow_row does what LatticeYielding does: consistent rules in the plane.
 bool flows_in_rows(const ExplicitModel& model);
 
-/// Returns the particles of a row to the yield surface that are above it, by backward Euler with the
-/// associated flow: projected in plane stress, radial in plane strain.
+/// Returns the particles of a row to the yield surface that are above it, by backward Euler with
+/// the associated flow: projected in plane stress, radial in plane strain.
 /// \returns whether any was
 bool flow_row(const ExplicitModel& model, ExplicitState& state, Index row);
 

@@ -8,8 +8,8 @@
 namespace perilink {
 namespace {
 
-/// What the particles of a row have left before a crack begins and before they flow, in stress times
-/// volume: negative where they are due.
+/// What the particles of a row have left before a crack begins and before they flow, in stress
+/// times volume: negative where they are due.
 struct Left {
   std::vector<double> damage, flow;
 };

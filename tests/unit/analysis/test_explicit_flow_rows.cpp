@@ -1,0 +1,79 @@
+#include "analysis/explicit_flow_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "analysis/explicit_flow.hpp"
+#include "support/lattice_models.hpp"
+#include "support/lattice_operator.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace testing_support;
+
+ExplicitModel block(Problem problem, double crushing_energy) {
+  LatticeMaterial material = elastic_concrete();
+  material.yields = true;
+  material.yielding = {22.98e6, 27.58e6, 0.003, 0.0};
+  material.crushing_energy = crushing_energy;
+  return plane_model(rectangle(0.05, 0.05, 0.01, 23.0), material, LatticeRules::consistent,
+                     problem);
+}
+
+// Two ways to the same returns: loops over rows, and one particle after the other. Repeated, so that
+// particles go through hardening, softening and what is left after it.
+TEST(ExplicitFlowRows, FlowAsParticlesDoOneByOne) {
+  for (const Problem problem : {Problem::plane_stress, Problem::plane_strain}) {
+    for (const double energy : {2e3, std::numeric_limits<double>::infinity()}) {
+      const ExplicitModel model = block(problem, energy);
+      const LatticeRows& lattice = model.lattice;
+      const LatticeParticles particles(model);
+      const LatticeYielding yielding(model, particles);
+      ExplicitState state(model);
+      int flowed = 0;
+      for (int step = 1; step <= 12; ++step) {
+        for (const Index slot : lattice.particle_slot) {
+          for (int c = 0; c < 2; ++c) {
+            state.displacement[lattice.at(c, slot)] =
+                3e-3 * step * lattice.spacing * std::sin(12.9898 * slot + 78.2 * c);
+          }
+        }
+        evaluate(model, state);
+        ExplicitState other = state;
+        for (std::size_t r = 0; r < lattice.rows.size(); ++r) {
+          const auto row = static_cast<Index>(r);
+          bool any = false;
+          const LatticeRow& slots = lattice.rows[r];
+          for (Index slot = slots.first; slot < slots.first + slots.size; ++slot) {
+            if (model.inverse_mass[slot] == 0.0) continue;
+            any = yielding.flow(other, row, slot).flowed || any;
+          }
+          EXPECT_EQ(flow_row(model, state, row), any);
+          flowed += any ? 1 : 0;
+        }
+        for (const Index slot : lattice.particle_slot) {
+          // Both end within round-off of the surface; strains are of the order 1e-3.
+          EXPECT_NEAR(state.flow.equivalent[slot], other.flow.equivalent[slot], 1e-13);
+          for (int c = 0; c < 6; ++c) {
+            const Index at = lattice.at(c, slot);
+            EXPECT_NEAR(state.flow.strain[at], other.flow.strain[at], 1e-13);
+          }
+          for (int j = 0; j < 6 && lattice.bond_count[slot] == 6; ++j) {
+            const Index at = lattice.at(j, slot);
+            EXPECT_NEAR(state.flow.stretch[at], other.flow.stretch[at], 1e-13);
+          }
+        }
+        const auto rows = static_cast<Index>(lattice.rows.size());
+        for (Index r = 0; r < rows; ++r) update_plastic_parts(model, state, r);
+        for (Index r = 0; r < rows; ++r) add_plastic_halves(model, state, r);
+      }
+      EXPECT_GT(flowed, 20);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace perilink
