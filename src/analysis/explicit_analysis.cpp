@@ -63,7 +63,9 @@ class ExplicitRun {
     const double increment = loop_.load_factor(step + 1) - factor;
     each_row([&](Index r) { measure_bonds(model_, state_, r, dt); });
     each_row([&](Index r) { sum_stretches(model_, state_, r); });
-    if (loop_.is_looked_at(step) || loop_.is_looked_at(step + 1)) store_energies();
+    if (loop_.is_looked_at(step)) {
+      each_row([&](Index r) { state_.sums[r].stored = half_step_energy(model_, state_, r, dt); });
+    }
 #pragma omp single
     look(step);
     if (changes_) change(dt);
@@ -77,13 +79,6 @@ class ExplicitRun {
   void each_row(const Work& work) {
 #pragma omp for schedule(static)
     for (Index r = 0; r < rows_; ++r) work(r);
-  }
-
-  void store_energies() {
-    each_row([&](Index r) {
-      state_.sums[r].stored_before = state_.sums[r].stored;
-      state_.sums[r].stored = stored_energy(model_, state_, r);
-    });
   }
 
   void change(double dt) {
@@ -102,10 +97,7 @@ class ExplicitRun {
       each_touched([&](Index r) { changes_->update_plastic_sums(state_, r, dt); });
     }
     each_touched([&](Index r) { changes_->update_factors(state_, r); });
-    each_touched([&](Index r) {
-      changes_->update_sums(state_, r, dt);
-      state_.sums[r].stored = stored_energy(model_, state_, r);
-    });
+    each_touched([&](Index r) { changes_->update_sums(state_, r, dt); });
   }
 
   void note_reactions(Index step) {
@@ -151,8 +143,7 @@ double ramped_load_factor(double time, double ramp) {
 EnergyBalance energy_balance(const ExplicitModel& model, const ExplicitState& state) {
   EnergyBalance energy;
   for (const RowSums& row : state.sums) {
-    // Velocities are half a step behind the displacements.
-    energy.stored += 0.5 * (row.stored_before + row.stored);
+    energy.stored += row.stored;
     energy.internal_damping += row.internal_damping;
     energy.external_damping += row.external_damping;
     energy.fractured += row.fractured;

@@ -85,7 +85,7 @@ struct ExplicitResult {
 /// \throws std::invalid_argument where the time step exceeds the critical one (unless
 /// refuse_unstable is off) or duration is not positive
 /// \returns ending = failed where energy grows from nothing: kinetic and stored energy exceed twice
-/// all work done so far
+/// all work done so far, or the kinetic one a hundred times
 ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
                                      const ExplicitOptions& options, ExplicitObserver& observer);
 

@@ -6,13 +6,6 @@
 #include "analysis/explicit_scan.hpp"
 
 namespace perilink {
-bool LatticeDamage::has_weakened_neighbours(const ExplicitState& state, Index row) const {
-  const Index reach = model_.lattice.reach, rows = static_cast<Index>(state.duty.size());
-  const auto first = state.duty.begin() + std::max<Index>(0, row - 2 * reach);
-  const auto last = state.duty.begin() + std::min<Index>(rows - 1, row + reach) + 1;
-  return std::any_of(first, last, [](auto duty) { return (duty & RowDuty::weakened) != 0; });
-}
-
 bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family,
                            Vector3& normal) const {
   const LatticeMaterial& material = model_.material;
@@ -34,7 +27,7 @@ bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family
   if (scale * principal.first > strength) {
     return scale * least > -material.tension_compression_ratio * strength;
   }
-  if (averaged && !has_weakened_neighbours(state, row)) {
+  if (averaged && !has_weakened_rows(model_, state, row)) {
     const double rest = (strength / scale - principal.first) * volume;
     state.wait[family.slot] = state.path[row] + rest / (count * stress_stiffness(model_));
   }

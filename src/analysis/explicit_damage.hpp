@@ -25,7 +25,6 @@ class LatticeDamage {
   /// Whether a crack begins; sets how long the particle can wait where it does not.
   /// \param normal  becomes the direction of the first principal stress
   bool begins(ExplicitState& state, Index row, const Family& family, Vector3& normal) const;
-  bool has_weakened_neighbours(const ExplicitState& state, Index row) const;
   /// Strain that drives the damage: consistent: the first principal stress that the particle would
   /// carry undamaged, over Young's modulus; 2017: the first principal strain; 2018: Eq. 38.
   double driving_strain(const ExplicitState& state, const Family& family) const;

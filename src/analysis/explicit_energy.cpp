@@ -5,11 +5,7 @@
 namespace perilink {
 namespace {
 
-double locked_energy(const ExplicitState& state, Index row) {
-  return state.flow.locked.empty() ? 0.0 : state.flow.locked[row];
-}
-
-template <int Bonds>
+template <int Bonds, bool Alters>
 double half_step_energy(const ExplicitModel& model, const ExplicitState& state, Index r,
                         double dt) {
   constexpr int own = Bonds / 2;
@@ -33,9 +29,12 @@ double half_step_energy(const ExplicitModel& model, const ExplicitState& state, 
 #pragma GCC unroll 18
     for (int j = 0; j < Bonds; ++j) {
       const int k = j % own;
-      const double stretch = bond.stretch[j][i];
+      const double stretch = Alters ? bond.stretch[j][i] : bond.effective[j][i];
       const double before = stretch - back[k] * bond.rate[j][i];
-      const double factor = by_sign(stretch, bond.tension[j][i], bond.compression[j][i]);
+      double factor = 1.0;  // what does not exist has neither effective stretch nor rate
+      if constexpr (Alters) {
+        factor = by_sign(stretch, bond.tension[j][i], bond.compression[j][i]);
+      }
       sum += weight[k] * factor * stretch;
       sum_before += weight[k] * factor * before;
       if (j < own) energy += half[k] * factor * stretch * before;
@@ -43,29 +42,17 @@ double half_step_energy(const ExplicitModel& model, const ExplicitState& state, 
     const double added = yields ? plastic[i] : 0.0;
     energy += quarter * (sum + added) * (sum_before + added);
   }
-  return energy + locked_energy(state, r);
+  return energy + (yields ? state.flow.locked[r] : 0.0);
+}
+
+template <int Bonds>
+double half_step_energy(const ExplicitModel& model, const ExplicitState& state, Index row,
+                        double dt) {
+  return model.alters() ? half_step_energy<Bonds, true>(model, state, row, dt)
+                        : half_step_energy<Bonds, false>(model, state, row, dt);
 }
 
 }  // namespace
-
-double stored_energy(const ExplicitModel& model, const ExplicitState& state, Index r) {
-  const LatticeRows& lattice = model.lattice;
-  const LatticeRow& row = lattice.rows[r];
-  const auto& stretches = model.alters() ? state.stretch : state.effective;
-  double energy = locked_energy(state, r);
-  for (int k = 0; k < lattice.own_bonds(); ++k) {
-    const double half = 0.5 * lattice.bonds[k].length * model.own_modulus(k);
-    const double* effective = state.effective.data() + lattice.at(k, row.first);
-    const double* stretch = stretches.data() + lattice.at(k, row.first);
-#pragma omp simd reduction(+ : energy)
-    for (Index i = 0; i < row.size; ++i) energy += half * effective[i] * stretch[i];
-  }
-  const double quarter = 0.25 * lattice.spacing * model.moduli.sum;
-  const double* sum = state.sum.data() + row.first;
-#pragma omp simd reduction(+ : energy)
-  for (Index i = 0; i < row.size; ++i) energy += quarter * sum[i] * sum[i];
-  return energy;
-}
 
 double half_step_energy(const ExplicitModel& model, const ExplicitState& state, Index row,
                         double time_step) {

@@ -57,12 +57,16 @@ LatticeYielding::Change LatticeYielding::flow_consistently(ExplicitState& state,
   state.flow.yield[slot] = yield_stress(material.yielding, plastic.equivalent_strain);
   state.flow.visit[slot] = state.flow.yield[slot];
   if (model_.problem == Problem::plane_strain) state.flow.normal[slot] = e * plastic.strain[2];
+  Change result{true, false, 0.0};
   const Halves stretch =
       particles_.project(free_strain(model_.problem, nu, plastic.strain), family);
   for (int j = 0; j < family.bonds; ++j) {
-    if (family.has(j)) state.flow.stretch[model_.lattice.at(j, slot)] = stretch[j];
+    if (!family.has(j)) continue;
+    double& present = state.flow.stretch[model_.lattice.at(j, slot)];
+    result.largest = std::max(result.largest, std::abs(stretch[j] - present));
+    present = stretch[j];
   }
-  return {true, false};
+  return result;
 }
 
 /// The smaller one of the two force states where they agree in sign, else their mean.

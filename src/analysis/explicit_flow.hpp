@@ -14,6 +14,7 @@ class LatticeYielding {
   struct Change {
     bool flowed = false;   ///< its plastic stretches changed
     bool crushed = false;  ///< it lost its strength in compression (rules of 2017)
+    double largest = 0.0;  ///< change of its plastic stretches; consistent rules
   };
 
   /// Lets a particle flow whose von Mises stress is above the yield stress. Consistent rules:
@@ -36,8 +37,6 @@ class LatticeYielding {
   /// plastic strain.
   double printed_yield(const ExplicitState& state, const Family& family, bool& beyond) const;
   double printed_strain(const ExplicitState& state, const Family& family) const;
-  double dissipation(const ExplicitState& state, const Family& family, const Halves& change,
-                     double time_step) const;
 
   const ExplicitModel& model_;
   const LatticeParticles& particles_;

@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-constexpr int most_iterations = 60;
+constexpr int most_iterations = 30;  // of which a few are needed
 constexpr double round_off = 1e-14;  ///< of the yield stress: where the returns end
 
 /// The yield curve and its slope without branches: hardening up to a strain, then softening.
@@ -81,27 +81,34 @@ void find_trial(const ExplicitModel& model, const ExplicitState& state, Index r,
   }
 }
 
-/// One iteration of Newton's method for the multipliers of all particles.
-/// \returns the largest excess over the yield stress, as a part of it or of `least`
+/// How far the particles of a row are above the yield surface, as functions of their multipliers.
 ///
 /// Plane stress: in axes of sum and difference the return decouples,
 ///   mean' = mean / (1 + E g / (3 (1 - nu))), difference and shear / (1 + 2 mu g),
 /// where the plastic strain is g times the stress deviator. Plane strain: the deviator shrinks, the
 /// multiplier is the equivalent plastic strain.
 template <bool Flat>
-double improve(const ExplicitModel& model, const Scratch& trial, const double* equivalent,
-               Index size, double* multiplier) {
-  const LatticeMaterial& material = model.material;
-  const Curve curve(material.yielding);
-  const double mu = material.youngs_modulus / (2.0 * (1.0 + material.poissons_ratio));
-  const double bulk = material.youngs_modulus / (3.0 * (1.0 - material.poissons_ratio));
-  const double least = 1e-3 * material.yielding.yield;  // where softening has left nothing
-  const double *means = trial.mean.data(), *halves = trial.half.data(), *shears = trial.xy.data(),
-               *normals = trial.normal.data();
-  double worst = 0.0;
-#pragma omp simd reduction(max : worst)
-  for (Index i = 0; i < size; ++i) {
-    const double g = multiplier[i];
+struct Surface {
+  Curve curve;
+  double mu, bulk;
+  double least;  ///< stress to compare with where softening has left nothing
+  const double *means, *halves, *shears, *normals, *equivalent;
+
+  Surface(const LatticeMaterial& material, const Scratch& trial, const double* strains)
+      : curve(material.yielding),
+        mu(material.youngs_modulus / (2.0 * (1.0 + material.poissons_ratio))),
+        bulk(material.youngs_modulus / (3.0 * (1.0 - material.poissons_ratio))),
+        least(1e-3 * material.yielding.yield),
+        means(trial.mean.data()),
+        halves(trial.half.data()),
+        shears(trial.xy.data()),
+        normals(trial.normal.data()),
+        equivalent(strains) {}
+
+  struct Sample {
+    double excess = 0.0, slope = 0.0, yield = 0.0;
+  };
+  Sample at(Index i, double g) const {
     const double square = 3.0 * (halves[i] * halves[i] + shears[i] * shears[i]);
     double mises = 0.0, slope = 0.0, strain = 0.0, growth = 1.0;
     if constexpr (Flat) {
@@ -118,13 +125,44 @@ double improve(const ExplicitModel& model, const Scratch& trial, const double* e
       strain = equivalent[i] + g;
     }
     const double yield = curve.stress(strain);
-    const double excess = mises - yield;
-    const double down = slope - curve.slope(strain) * growth;
-    const bool flows = g > 0.0 || excess > 0.0;
-    multiplier[i] = flows ? std::max(0.0, g - excess / down) : 0.0;
-    worst = std::max(worst, flows ? std::abs(excess) / std::max(yield, least) : 0.0);
+    return {mises - yield, slope - curve.slope(strain) * growth, yield};
+  }
+  double error(const Sample& sample) const {
+    return std::abs(sample.excess) / std::max(sample.yield, least);
+  }
+};
+
+/// One iteration of Newton's method for the multipliers of all particles.
+/// \returns the largest excess over the yield stress, as a part of it, before
+template <bool Flat>
+double improve(const Surface<Flat>& surface, Index size, double* multiplier) {
+  double worst = 0.0;
+#pragma omp simd reduction(max : worst)
+  for (Index i = 0; i < size; ++i) {
+    const double g = multiplier[i];
+    const auto sample = surface.at(i, g);
+    const bool flows = g > 0.0 || sample.excess > 0.0;
+    multiplier[i] = flows ? std::max(0.0, g - sample.excess / sample.slope) : 0.0;
+    worst = std::max(worst, flows ? surface.error(sample) : 0.0);
   }
   return worst;
+}
+
+/// Halves intervals for the particles that Newton's method did not bring to the surface: the excess
+/// falls with the multiplier, but its slope jumps where softening begins and ends.
+template <bool Flat>
+void bisect(const Surface<Flat>& surface, Index size, double* multiplier) {
+  for (Index i = 0; i < size; ++i) {
+    if (surface.at(i, 0.0).excess <= 0.0) continue;
+    if (surface.error(surface.at(i, multiplier[i])) <= round_off) continue;
+    double low = 0.0, high = Flat ? 1.0 / surface.mu : 1.0;
+    while (surface.at(i, high).excess > 0.0 && high < 1e12 / surface.mu) high *= 2.0;
+    for (int k = 0; k < 4 * most_iterations; ++k) {
+      const double middle = 0.5 * (low + high);
+      (surface.at(i, middle).excess > 0.0 ? low : high) = middle;
+    }
+    multiplier[i] = high;
+  }
 }
 
 /// Plastic strains, thresholds and halves of bonds from the multipliers.
@@ -176,22 +214,27 @@ void settle(const ExplicitModel& model, const Scratch& trial, Index r, ExplicitS
 
 /// Halves of bonds from the plastic strains; in plane strain the part out of the plane presses the
 /// sides apart.
-void project_strains(const ExplicitModel& model, ExplicitState& state, Index r) {
+/// \returns their largest change
+double project_strains(const ExplicitModel& model, ExplicitState& state, Index r) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
   const double* strain = state.flow.strain.data() + row.first;
   const Index slots = lattice.slots;
   const double nu = model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
+  double change = 0.0;
   for (int j = 0; j < 6; ++j) {
     const Vector3& n = lattice.bonds[j % 3].direction;
     const double xx = n[0] * n[0], yy = n[1] * n[1], xy = 2.0 * n[0] * n[1];
     double* stretch = state.flow.stretch.data() + lattice.at(j, row.first);
-#pragma omp simd
+#pragma omp simd reduction(max : change)
     for (Index i = 0; i < row.size; ++i) {
-      stretch[i] = xx * strain[i] + yy * strain[slots + i] + nu * strain[2 * slots + i] +
-                   xy * strain[3 * slots + i];
+      const double next = xx * strain[i] + yy * strain[slots + i] + nu * strain[2 * slots + i] +
+                          xy * strain[3 * slots + i];
+      change = std::max(change, std::abs(next - stretch[i]));
+      stretch[i] = next;
     }
   }
+  return change;
 }
 
 template <bool Flat>
@@ -201,15 +244,16 @@ bool flow_row(const ExplicitModel& model, ExplicitState& state, Index r) {
   trial.resize(row.size);
   find_trial(model, state, r, trial);
   std::fill(trial.multiplier.begin(), trial.multiplier.end(), 0.0);
-  const double* equivalent = state.flow.equivalent.data() + row.first;
-  const auto iterate = [&] {
-    return improve<Flat>(model, trial, equivalent, row.size, trial.multiplier.data());
-  };
-  double worst = iterate();
+  const Surface<Flat> surface(model.material, trial, state.flow.equivalent.data() + row.first);
+  double* multiplier = trial.multiplier.data();
+  double worst = improve(surface, row.size, multiplier);
   if (worst == 0.0) return false;
-  for (int k = 0; k < most_iterations && worst > round_off; ++k) worst = iterate();
+  for (int k = 0; k < most_iterations && worst > round_off; ++k) {
+    worst = improve(surface, row.size, multiplier);
+  }
+  if (!(worst <= round_off)) bisect(surface, row.size, multiplier);
   settle<Flat>(model, trial, r, state);
-  project_strains(model, state, r);
+  state.flow.change[r] = project_strains(model, state, r);
   return true;
 }
 

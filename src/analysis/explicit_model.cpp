@@ -107,9 +107,11 @@ void set_softening(ExplicitModel& model) {
   if (model.rules != LatticeRules::consistent) return;
   YieldCurve& curve = material.yielding;
   curve.failure_strain = failure_strain(curve, material.crushing_energy, widest_band(model));
-  // Flow must take back more stress than the surface shrinks by, with the shear modulus mu.
-  const double mu = material.youngs_modulus / (2.0 * (1.0 + material.poissons_ratio));
-  const double least = curve.ultimate / std::min(3.0 * mu, material.youngs_modulus);
+  // Flow must take back more stress than the surface shrinks by: 3 mu per equivalent strain, under
+  // equal stresses in plane stress E / (2 (1 - nu)); and a bar of a band no less than it unloads.
+  const double e = material.youngs_modulus, nu = material.poissons_ratio;
+  const double equal = model.problem == Problem::plane_stress ? e / (2.0 * (1.0 - nu)) : e;
+  const double least = curve.ultimate / std::min({1.5 * e / (1.0 + nu), equal, e});
   const double softening = curve.failure_strain - curve.ultimate_strain;
   if (softening > least) return;
   throw std::invalid_argument(fmt::format(

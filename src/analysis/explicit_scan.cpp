@@ -14,6 +14,12 @@ struct Left {
   std::vector<double> damage, flow;
 };
 
+/// Path that the row's stretches have gone, for particles that wait; where factors are near nobody
+/// can, since they change with the sign of a stretch.
+double path_of(const ExplicitModel& model, const ExplicitState& state, Index r) {
+  return has_weakened_rows(model, state, r) ? never : state.path[r];
+}
+
 /// What each particle of a row has left, in stress times volume: negative where it is due.
 /// \param Altered  bonds of the row have factors or plastic parts
 template <bool Altered, bool Yields>
@@ -35,7 +41,7 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   const double nu = model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
   const double* normal = Yields ? state.flow.normal.data() + row.first : nullptr;
   const double* wait = state.wait.data() + row.first;
-  const double path = state.path[r], stiffness = stress_stiffness(model);
+  const double path = path_of(model, state, r), stiffness = stress_stiffness(model);
   double least = never;
   double *damage = left.damage.data(), *flow = left.flow.data();
 #pragma omp simd reduction(min : least)
@@ -86,7 +92,7 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
   const double* crack_at = state.crack_at.data() + row.first;
   const double* visit = model.material.yields ? state.flow.visit.data() + row.first : nullptr;
   const double* wait = state.wait.data() + row.first;
-  const double path = state.path[r], stiffness = stress_stiffness(model);
+  const double path = path_of(model, state, r), stiffness = stress_stiffness(model);
   double least = never;
   for (Index i = 0; i < row.size; ++i) {
     const double shared = model.moduli.sum * sum[i];
@@ -187,6 +193,13 @@ void with_incoming(const LatticeRows& lattice, Index r, const Visit& visit) {
 }
 
 }  // namespace
+
+bool has_weakened_rows(const ExplicitModel& model, const ExplicitState& state, Index row) {
+  const Index reach = model.lattice.reach, rows = static_cast<Index>(state.duty.size());
+  const auto first = state.duty.begin() + std::max<Index>(0, row - 2 * reach);
+  const auto last = state.duty.begin() + std::min<Index>(rows - 1, row + reach) + 1;
+  return std::any_of(first, last, [](auto duty) { return (duty & RowDuty::weakened) != 0; });
+}
 
 bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row) {
   // Rows are numbered so that the bonds of a particle's neighbours belong to rows near its own.

@@ -15,6 +15,9 @@ namespace perilink {
 /// and their neighbours off its slack.
 bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row);
 
+/// Whether bonds of the particles of a row or of their neighbours have factors of damage.
+bool has_weakened_rows(const ExplicitModel& model, const ExplicitState& state, Index row);
+
 /// Change of the stress of a particle times its volume per change of its stretches, from above
 /// [force length].
 double stress_stiffness(const ExplicitModel& model);

@@ -14,6 +14,7 @@ LatticeFlow make_flow(const ExplicitModel& model) {
   flow.sum.assign(slots, 0.0);
   flow.normal.assign(slots, 0.0);
   flow.locked.assign(model.lattice.rows.size(), 0.0);
+  flow.change.assign(model.lattice.rows.size(), 0.0);
   flow.yield.assign(slots, model.material.yielding.yield);
   flow.visit = flow.yield;
   if (model.rules == LatticeRules::consistent) {

@@ -16,8 +16,8 @@ inline constexpr double never = 1e200;
 /// Sums over a row of particles. Rows are summed in their own order and then one after the other,
 /// so that no sum depends on the number of threads. Work and loss are sums since the beginning.
 struct RowSums {
-  double stored = 0.0;         ///< energy of the bonds and of the sums of stretches [force length]
-  double stored_before = 0.0;  ///< the same in the last step
+  double stored = 0.0;  ///< between the last step and this (half_step_energy) [force length]; of
+                        ///< steps that are looked at
   double external_work = 0.0;  ///< of the prescribed motions
   double internal_damping = 0.0;
   double external_damping = 0.0;
@@ -50,6 +50,7 @@ struct LatticeFlow {
   std::vector<double> mean;     ///< of the two halves of own bonds, shape (own bonds, slots)
   std::vector<double> half;     ///< (partner's - owner's) / 2, same shape
   std::vector<double> sum;      ///< what `half` adds to the sum of stretches of a particle
+  std::vector<double> change;   ///< of each row: largest change of a plastic stretch in a step
   std::vector<double> locked;   ///< of each row: energy of `half` in its own bonds [force length]
   std::vector<double> yield;    ///< present yield stress of particles [force/length^2]
   std::vector<double> visit;    ///< von Mises stress at which a particle has to be looked at
@@ -89,7 +90,7 @@ struct ExplicitState {
   LatticeFlow flow;
   std::vector<RowSums> sums;  ///< of each row
   std::vector<RowReactions> reactions;
-  std::vector<double> fastest;     ///< of each row: largest change of an own stretch in a step
+  std::vector<double> fastest;     ///< of each row: largest change of an elastic stretch in a step
   std::vector<double> slack;       ///< of each row: change of stretches that alters nothing yet
   std::vector<double> path;        ///< of each row: sum of all changes of stretches near it
   std::vector<std::uint8_t> duty;  ///< of each row, see RowDuty

@@ -12,9 +12,8 @@ namespace perilink {
 void LatticeChanges::flow_at(ExplicitState& state, Index row, Index slot) const {
   const LatticeYielding::Change change = yielding_.flow(state, row, slot);
   if (change.flowed) state.news[row] |= RowNews::flowed;
-  if (!change.crushed) return;
-  state.news[row] |= RowNews::damage_grew;
-  state.next_damage[slot] = state.damage[slot];
+  state.flow.change[row] = std::max(state.flow.change[row], change.largest);
+  if (change.crushed) state.news[row] |= RowNews::damage_grew;
 }
 
 void LatticeChanges::look(ExplicitState& state, Index row) const {

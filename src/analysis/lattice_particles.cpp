@@ -136,36 +136,18 @@ double LatticeParticles::factor(const ExplicitState& state, Index at) {
   return state.stretch[at] >= 0.0 ? state.in_tension[at] : state.in_compression[at];
 }
 
-LatticeParticles::Halves LatticeParticles::forces_with(const ExplicitState& state,
-                                                       const Family& family, const Halves& elastic,
-                                                       double sum) const {
-  const double shared = model_.moduli.sum * sum;
+LatticeParticles::Halves LatticeParticles::forces(const ExplicitState& state,
+                                                  const Family& family) const {
+  const Halves half = elastic(state, family);
+  const double shared = model_.moduli.sum * state.sum[family.slot];
   Halves force{};
   for (int j = 0; j < family.bonds; ++j) {
     if (!family.has(j)) continue;
     const double weaker = factor(state, family.at[j]);
     const double part = model_.rules == LatticeRules::consistent ? weaker * shared : shared;
-    force[j] = model_.own_modulus(family.own_number(j)) * weaker * elastic[j] + part;
+    force[j] = model_.own_modulus(family.own_number(j)) * weaker * half[j] + part;
   }
   return force;
-}
-
-LatticeParticles::Halves LatticeParticles::forces(const ExplicitState& state,
-                                                  const Family& family) const {
-  return forces_with(state, family, elastic(state, family), state.sum[family.slot]);
-}
-
-LatticeParticles::Halves LatticeParticles::forces_of(const ExplicitState& state,
-                                                     const Family& family,
-                                                     const Halves& elastic) const {
-  double sum = 0.0;
-  for (int j = 0; j < family.bonds; ++j) {
-    const double length = model_.lattice.bonds[family.own_number(j)].length;
-    if (family.has(j)) {
-      sum += length / model_.lattice.spacing * factor(state, family.at[j]) * elastic[j];
-    }
-  }
-  return forces_with(state, family, elastic, sum);
 }
 
 SymmetricTensor LatticeParticles::bond_stress(const ExplicitState& state,

@@ -53,8 +53,6 @@ class LatticeParticles {
   /// Force states of the particle: own modulus times the stretch times the factor of damage, plus
   /// the part of the sum [force].
   Halves forces(const ExplicitState& state, const Family& family) const;
-  /// The same of other elastic stretches, with the sum that belongs to them.
-  Halves forces_of(const ExplicitState& state, const Family& family, const Halves& elastic) const;
   /// (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain [force/length^2].
   SymmetricTensor stress(const ExplicitState& state, const Family& family) const;
   /// Mean of the stresses of a particle and its neighbours, weighted with their volumes, without
@@ -77,8 +75,6 @@ class LatticeParticles {
   Inverse invert(std::uint32_t mask) const;
   void find_faces();
   SymmetricTensor bond_stress(const ExplicitState& state, const Family& family) const;
-  Halves forces_with(const ExplicitState& state, const Family& family, const Halves& elastic,
-                     double sum) const;
   const Inverse& inverse_of(const Family& family) const { return inverses_[kind_[family.slot]]; }
 
   const ExplicitModel& model_;

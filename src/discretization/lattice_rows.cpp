@@ -16,6 +16,10 @@ using Step = std::array<int, 3>;
 using Basis = std::array<Vector3, 3>;
 using RowKey = std::pair<int, int>;  ///< second and third lattice coordinate
 
+/// Rows end with empty slots, up to a multiple of this: what is left of a loop in vectors would run
+/// one particle at a time.
+constexpr int lanes = 8;
+
 Vector3 turned(const Vector3& v, double angle) {
   return {v[0] * std::cos(angle) - v[1] * std::sin(angle),
           v[0] * std::sin(angle) + v[1] * std::cos(angle), v[2]};
@@ -78,7 +82,7 @@ class RowBuilder {
 
  private:
   struct Row {
-    int first = 0, last = -1;   ///< particles
+    int first = 0, last = -1;   ///< particles and the padding after them
     int lower = 0, upper = -1;  ///< slots
     Index begin = 0;            ///< slot of `lower`
     Index number = no_index;    ///< among the rows with particles
@@ -134,7 +138,8 @@ class RowBuilder {
     if (table_.empty()) throw std::invalid_argument("no lattice point lies in the body");
     for (auto& [key, row] : table_) {
       row.first = row.columns.front();
-      row.last = row.columns.back();
+      const int size = row.columns.back() - row.first + 1;
+      row.last = row.first + (size + lanes - 1) / lanes * lanes - 1;
     }
   }
 

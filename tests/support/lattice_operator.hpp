@@ -19,7 +19,7 @@ inline void evaluate(const ExplicitModel& model, ExplicitState& state) {
   const auto rows = static_cast<Index>(model.lattice.rows.size());
   for (Index r = 0; r < rows; ++r) measure_bonds(model, state, r, 0.0);
   for (Index r = 0; r < rows; ++r) sum_stretches(model, state, r);
-  for (Index r = 0; r < rows; ++r) state.sums[r].stored = stored_energy(model, state, r);
+  for (Index r = 0; r < rows; ++r) state.sums[r].stored = half_step_energy(model, state, r, 0.0);
   for (Index r = 0; r < rows; ++r) bond_forces(model, state, r);
   std::fill(state.slack.begin(), state.slack.end(), 0.0);
 }
@@ -39,7 +39,7 @@ inline void change(const ExplicitModel& model, const LatticeChanges& changes,
   each_touched([&](Index r) { changes.update_plastic_sums(state, r, 0.0); });
   each_touched([&](Index r) { changes.update_factors(state, r); });
   each_touched([&](Index r) { changes.update_sums(state, r, 0.0); });
-  for (Index r = 0; r < rows; ++r) state.sums[r].stored = stored_energy(model, state, r);
+  for (Index r = 0; r < rows; ++r) state.sums[r].stored = half_step_energy(model, state, r, 0.0);
 }
 
 inline double stored_energy(const ExplicitState& state) {

@@ -104,7 +104,7 @@ TEST(LatticeYielding, StoredEnergyThatIsLostIsPlastic) {
   }
 }
 
-// Where a body can break as well, what particles lose is counted one by one.
+// Also where a body could break: nothing of it is counted as fractured.
 TEST(LatticeYielding, WorkOfTheForcesAgainstTheFlowIsTheEnergyLost) {
   LatticeMaterial material = yielding_concrete();
   material.breakable = true;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "analysis/explicit_flow.hpp"
 #include "support/lattice_models.hpp"
@@ -76,6 +77,39 @@ TEST(ExplicitFlowRows, FlowAsParticlesDoOneByOne) {
       EXPECT_GT(flowed, 20);
     }
   }
+}
+
+// Equal stresses soften steepest against what the return takes back: a yield stress that falls
+// nearly as fast as that, and one that would fall faster.
+TEST(ExplicitFlowRows, EqualStressesEndOnASteeplyFallingSurface) {
+  EXPECT_THROW(block(Problem::plane_stress, 230.0), std::invalid_argument);
+  const ExplicitModel model = block(Problem::plane_stress, 255.0);
+  const LatticeRows& lattice = model.lattice;
+  const LatticeParticles particles(model);
+  ExplicitState state(model);
+  for (const Index slot : lattice.particle_slot) {
+    for (int c = 0; c < 2; ++c) {
+      const Index at = lattice.at(c, slot);
+      state.displacement[at] = -5e-3 * lattice.positions[at];
+    }
+  }
+  evaluate(model, state);
+  const auto rows = static_cast<Index>(lattice.rows.size());
+  for (Index r = 0; r < rows; ++r) EXPECT_TRUE(flow_row(model, state, r));
+  for (Index r = 0; r < rows; ++r) update_plastic_parts(model, state, r);
+  for (Index r = 0; r < rows; ++r) add_plastic_halves(model, state, r);
+  evaluate(model, state);
+  int interior = 0;
+  for (Index r = 0; r < rows; ++r) {
+    const LatticeRow& row = lattice.rows[r];
+    for (Index slot = row.first; slot < row.first + row.size; ++slot) {
+      if (lattice.bond_count[slot] < 6) continue;
+      ++interior;
+      const double mises = mises_stress(particles.stress(state, particles.family(r, slot)));
+      EXPECT_NEAR(mises, state.flow.yield[slot], 1e-9 * model.material.yielding.yield);
+    }
+  }
+  EXPECT_GT(interior, 20);
 }
 
 }  // namespace
