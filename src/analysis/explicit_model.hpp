@@ -87,8 +87,8 @@ double mass_damping_rate(double ratio, double period);
 
 /// Masses, moduli and damping of a body without supports.
 /// \throws std::invalid_argument where the material cannot be (see hexagonal_moduli), a lattice of
-/// another dimension than the problem's, damage in three dimensions, or a spacing at which the
-/// stress of a band falls faster than it unloads
+/// another dimension than the problem's, damage or flow by the rules of 2018 in three dimensions,
+/// or a spacing at which the stress of a band falls faster than it unloads
 ExplicitModel make_explicit_model(Problem problem, LatticeRules rules, LatticeRows lattice,
                                   const LatticeMaterial& material, double thickness);
 

@@ -61,7 +61,8 @@ void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& b
   built.options.reference = built.options.driven ? driven : loaded;
   if (built.options.reference == 0.0) {
     throw InputError(input.where(input.displacements.empty() ? "loads" : "displacements"),
-                     "nothing moves the body: all formulas are zero on their particles", "");
+                     "nothing moves the body: all formulas are zero on their particles",
+                     "change a formula, or the region that it is for");
   }
   built.gauges = build_gauges(input, places);
 }
@@ -69,7 +70,9 @@ void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& b
 /// External damping of a material that does not say what the fundamental period is.
 void damp_externally(const CaseFile& input, int threads, ExplicitCase& built) {
   const LatticeMaterialSection& material = *input.materials.front().lattice;
-  built.fundamental_period = built.model.material.fundamental_period;
+  if (material.external_damping > 0.0) {
+    built.fundamental_period = built.model.material.fundamental_period;
+  }
   if (material.external_damping == 0.0 || material.fundamental_period) return;
   try {
     built.fundamental_period = fundamental_period(built.model, threads);

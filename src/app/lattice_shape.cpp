@@ -56,7 +56,8 @@ void LatticeShape::read_mesh() {
   try {
     cells_.emplace(mesh.mesh, cells_with_material(mesh), tolerance_);
   } catch (const std::invalid_argument& error) {
-    throw InputError(input_.where("body.mesh"), error.what(), "");
+    throw InputError(input_.where("body.mesh"), error.what(),
+                     "mesh the body again, or give the material a group that has cells");
   }
   mesh_ = std::move(mesh.mesh);
 }

@@ -17,8 +17,8 @@ struct OwnBond {
   double length = 0.0;        ///< [length]
 };
 
-/// Slots first, ..., first + size - 1 hold a row of particles, with gaps where the body has some and
-/// empty slots at the end up to a whole number of vectors.
+/// Slots first, ..., first + size - 1 hold a row of particles, with gaps where the body has some
+/// and empty slots at the end up to a whole number of vectors.
 struct LatticeRow {
   Index first = 0;
   Index size = 0;

@@ -28,7 +28,7 @@ TEST(ExplicitBeams, ComeToRestWhereTheImplicitModeIs) {
 TEST(ExplicitBeams, CalibratedBondsHaveTheDeflectionOfTheBeam) {
   const double reference = timoshenko(Structure::cantilever, short_beam, short_beam.x());
   const Specimen calibrated = make_specimen(Structure::cantilever, short_beam, "calibrated");
-  // 1.3 % in the study, of ten cells in height.
+  // 1.1 % in the study, of ten cells in height.
   EXPECT_NEAR(solve(calibrated).deflection / reference, 1.0, 0.1);
   const Specimen fibres = make_specimen(Structure::cantilever, short_beam, "fibres");
   const Solution soft = solve(fibres);
