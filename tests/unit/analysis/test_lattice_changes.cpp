@@ -48,6 +48,41 @@ TEST(LatticeChanges, EnergyThatIsLostIsCounted) {
   EXPECT_NEAR(stored_energy(state), updated, 1e-12 * before);
 }
 
+TEST(LatticeChanges, EnergyOfCracksInSpaceIsCounted) {
+  LatticeCut cut = rectangle(0.03, 0.05, 0.01, 20.0, 1.0);
+  cut.lower[2] = -0.03;
+  cut.upper[2] = 0.03;
+  for (const LatticeRules rules : {LatticeRules::consistent, LatticeRules::mean_2017}) {
+    const ExplicitModel model = make_explicit_model(
+        Problem::three_dimensional, rules, face_centred_rows(cut), changing_concrete(), 1.0);
+    const LatticeRows& lattice = model.lattice;
+    const LatticeChanges changes(model);
+    ExplicitState state(model);
+    for (const Index slot : lattice.particle_slot) {  // three times the strength at the upper end
+      const double y = lattice.positions[lattice.at(1, slot)];
+      state.displacement[lattice.at(1, slot)] = 3e-3 * (y + 0.05) * (y + 0.05);
+    }
+    evaluate(model, state);
+    const double before = stored_energy(state);
+    change(model, changes, state);
+    double fractured = 0.0;
+    for (const RowSums& row : state.sums) fractured += row.fractured + row.plastic;
+    int lower = 0, upper = 0;
+    for (const Index slot : lattice.particle_slot) {
+      const bool cracked = state.damage[slot] > 0.0;
+      (lattice.positions[lattice.at(1, slot)] < -0.042 ? lower : upper) += cracked ? 1 : 0;
+    }
+    EXPECT_EQ(lower, 0) << "half of the strain at which the stress reaches the strength";
+    EXPECT_GT(upper, 50);
+    const double updated = stored_energy(state);
+    evaluate(model, state);
+    EXPECT_NEAR(stored_energy(state), updated, 1e-12 * before);
+    if (rules == LatticeRules::mean_2017) continue;  // what they store is no energy
+    EXPECT_GT(fractured, 1e-3 * before);
+    EXPECT_NEAR(fractured, before - updated, 1e-12 * before);
+  }
+}
+
 // Along the jagged sides of a column under pressure, outer particles alone seem to be pulled apart.
 TEST(LatticeChanges, SidesOfAPressedColumnDoNotSplit) {
   const ExplicitModel model =
