@@ -14,6 +14,7 @@
 #include "analysis/explicit_loads.hpp"
 #include "analysis/explicit_loop.hpp"
 #include "analysis/lattice_changes.hpp"
+#include "analysis/row_sweep.hpp"
 
 namespace perilink {
 namespace {
@@ -62,16 +63,22 @@ class ExplicitRun {
     const double dt = loop_.time_step();
     const double factor = loop_.load_factor(step);
     const double increment = loop_.load_factor(step + 1) - factor;
-    each_row([&](Index r) { measure_bonds(model_, state_, r, dt); });
-    each_row([&](Index r) { sum_stretches(model_, state_, r); });
-    if (loop_.is_looked_at(step)) {
-      each_row([&](Index r) { state_.sums[r].stored = half_step_energy(model_, state_, r, dt); });
+    // Own bonds end in the row itself or in later ones: sums take in the bonds of rows before,
+    // forces the sums of rows after, motion the forces of rows before.
+    const Index reach = model_.lattice.reach;
+    const RowStage measure{0, 0, [&](Index r) { measure_bonds(model_, state_, r, dt); }};
+    const RowStage sum{reach, 0, [&](Index r) { sum_stretches(model_, state_, r); }};
+    const RowStage force{0, reach, [&](Index r) { bond_forces(model_, state_, r); }};
+    const RowStage move{reach, 0,
+                        [&](Index r) { advance(model_, state_, r, dt, factor, increment); }};
+    if (!changes_ && !loop_.is_looked_at(step)) {
+      sweep_rows(rows_, measure, sum, force, move);
+    } else {
+      sweep_rows(rows_, measure, sum);
+      look(step);
+      if (changes_) change(dt);
+      sweep_rows(rows_, force, move);
     }
-#pragma omp single
-    look(step);
-    if (changes_) change(dt);
-    each_row([&](Index r) { bond_forces(model_, state_, r); });
-    each_row([&](Index r) { advance(model_, state_, r, dt, factor, increment); });
 #pragma omp single
     note_reactions(step);
   }
@@ -115,6 +122,13 @@ class ExplicitRun {
 
   void look(Index step) {
     if (!loop_.is_looked_at(step)) return;
+    const double dt = loop_.time_step();
+    each_row([&](Index r) { state_.sums[r].stored = half_step_energy(model_, state_, r, dt); });
+#pragma omp single
+    note_row(step);
+  }
+
+  void note_row(Index step) {
     record_.energy = energy_balance(model_, state_);
     loop_.look(step, record_, observer_, state_, [this](ExplicitRecord& record) {
       record.displacement = options_.driven ? record.load_factor * options_.reference

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "analysis/explicit_kernels.hpp"
 #include "support/lattice_models.hpp"
 
 namespace perilink {
@@ -245,6 +246,71 @@ TEST(ExplicitAnalysis, ResultsDoNotDependOnTheNumberOfThreads) {
       EXPECT_EQ(state.displacement, displacement);
       EXPECT_EQ(result.last.energy.surplus(), energy.surplus());
       EXPECT_EQ(result.last.energy.fractured, energy.fractured);
+    }
+  }
+}
+
+/// Steps of a body that never changes, one pass over all rows after the other.
+void step_by_passes(const ExplicitModel& model, ExplicitState& state,
+                    const ExplicitOptions& options, Index steps) {
+  const double dt = options.time_step;
+  const auto each_row = [&](const auto& work) {
+    for (Index r = 0; r < static_cast<Index>(model.lattice.rows.size()); ++r) work(r);
+  };
+  for (Index step = 0; step <= steps; ++step) {
+    const double factor = ramped_load_factor(step * dt, options.ramp);
+    const double increment = ramped_load_factor((step + 1) * dt, options.ramp) - factor;
+    each_row([&](Index r) { measure_bonds(model, state, r, dt); });
+    each_row([&](Index r) { sum_stretches(model, state, r); });
+    each_row([&](Index r) { bond_forces(model, state, r); });
+    each_row([&](Index r) { advance(model, state, r, dt, factor, increment); });
+  }
+}
+
+/// A plate or a block, both with a hole and driven at one end.
+ExplicitModel perforated(Problem problem) {
+  const bool space = problem == Problem::three_dimensional;
+  const double half = space ? 0.1 : 0.5;
+  LatticeCut cut = rectangle(half, half, 0.01, 17.0, 1.0);
+  cut.lower[2] = -half;
+  cut.upper[2] = half;
+  cut.inside = [half](const Vector3& x) {
+    return std::hypot(x[0] - 0.2 * half, x[1]) > 0.3 * half;
+  };
+  LatticeMaterial material = paper_concrete();
+  ExplicitModel model = make_explicit_model(problem, LatticeRules::consistent,
+                                            space ? face_centred_rows(cut) : hexagonal_rows(cut),
+                                            material, cut.thickness);
+  grip_ends(model, 0.01, 1e-6);
+  return model;
+}
+
+TEST(ExplicitAnalysis, RowAfterRowIsTheSameToTheByteAsPassAfterPass) {
+  for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
+    const ExplicitModel model = perforated(problem);
+    ASSERT_GT(model.lattice.particles(), 8000) << "enough for two threads";
+    constexpr Index steps = 30;
+    ExplicitOptions options;
+    options.time_step = 0.9 * critical_time_step(model);
+    options.duration = (steps - 0.5) * options.time_step;
+    options.ramp = 0.5 * options.duration;
+    options.rows = 3;
+    ExplicitState wanted(model);
+    shake(model, wanted);
+    step_by_passes(model, wanted, options, steps);
+    for (const int threads : {1, 2, 3}) {
+      options.threads = threads;
+      ExplicitState state(model);
+      shake(model, state);
+      ASSERT_EQ(run(model, state, options).steps, steps);
+      EXPECT_EQ(state.displacement, wanted.displacement);
+      EXPECT_EQ(state.velocity, wanted.velocity);
+      EXPECT_EQ(state.rate, wanted.rate);
+      for (std::size_t r = 0; r < wanted.sums.size(); ++r) {
+        ASSERT_EQ(state.sums[r].internal_damping, wanted.sums[r].internal_damping);
+        ASSERT_EQ(state.sums[r].external_work, wanted.sums[r].external_work);
+        ASSERT_EQ(state.reactions[r].driven, wanted.reactions[r].driven);
+      }
     }
   }
 }
