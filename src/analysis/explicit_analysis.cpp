@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 
 #include "analysis/explicit_energy.hpp"
 #include "analysis/explicit_kernels.hpp"
@@ -58,54 +59,45 @@ class ExplicitRun {
   }
 
  private:
-  /// Run by every thread; loops end in barriers.
+  /// Damage and flow, between stretches and forces; nothing in bodies that never change.
+  auto changes(double dt) {
+    const Index reach = model_.lattice.reach;
+    const auto stage = [this](Index behind, Index ahead, const auto& work) {
+      return RowStage{changes_ ? behind : 0, changes_ ? ahead : 0, [this, work](Index r) {
+                        if (changes_) work(r);
+                      }};
+    };
+    return std::tuple{
+        stage(reach, reach, [this](Index r) { changes_->look(state_, r); }),
+        stage(reach, reach, [this, dt](Index r) { changes_->commit(state_, r, dt); }),
+        stage(0, reach, [this](Index r) { changes_->update_plastic_bonds(state_, r); }),
+        stage(reach, 0, [this, dt](Index r) { changes_->update_plastic_sums(state_, r, dt); }),
+        stage(0, reach, [this](Index r) { changes_->update_factors(state_, r); }),
+        stage(reach, 0, [this, dt](Index r) { changes_->update_sums(state_, r, dt); })};
+  }
+
+  /// Run by every thread. Own bonds end in the row itself or in rows after it, so sums take in the
+  /// bonds of rows before, forces the sums of rows after, and motion the forces of rows before.
   void one_step(Index step) {
     const double dt = loop_.time_step();
     const double factor = loop_.load_factor(step);
     const double increment = loop_.load_factor(step + 1) - factor;
-    // Own bonds end in the row itself or in later ones: sums take in the bonds of rows before,
-    // forces the sums of rows after, motion the forces of rows before.
     const Index reach = model_.lattice.reach;
-    const RowStage measure{0, 0, [&](Index r) { measure_bonds(model_, state_, r, dt); }};
-    const RowStage sum{reach, 0, [&](Index r) { sum_stretches(model_, state_, r); }};
-    const RowStage force{0, reach, [&](Index r) { bond_forces(model_, state_, r); }};
-    const RowStage move{reach, 0,
-                        [&](Index r) { advance(model_, state_, r, dt, factor, increment); }};
-    if (!changes_ && !loop_.is_looked_at(step)) {
-      sweep_rows(rows_, measure, sum, force, move);
-    } else {
-      sweep_rows(rows_, measure, sum);
+    const std::tuple stretches{
+        RowStage{0, 0, [&](Index r) { measure_bonds(model_, state_, r, dt); }},
+        RowStage{reach, 0, [&](Index r) { sum_stretches(model_, state_, r); }}};
+    const std::tuple motion{
+        RowStage{0, reach, [&](Index r) { bond_forces(model_, state_, r); }},
+        RowStage{reach, 0, [&](Index r) { advance(model_, state_, r, dt, factor, increment); }}};
+    if (loop_.is_looked_at(step)) {
+      sweep_rows(rows_, stretches);
       look(step);
-      if (changes_) change(dt);
-      sweep_rows(rows_, force, move);
+      sweep_rows(rows_, std::tuple_cat(changes(dt), motion));
+    } else {
+      sweep_rows(rows_, std::tuple_cat(stretches, changes(dt), motion));
     }
 #pragma omp single
     note_reactions(step);
-  }
-
-  template <class Work>
-  void each_row(const Work& work) {
-#pragma omp for schedule(static)
-    for (Index r = 0; r < rows_; ++r) work(r);
-  }
-
-  void change(double dt) {
-    each_row([&](Index r) { changes_->look(state_, r); });
-    bool any = false;
-    for (Index r = 0; r < rows_ && !any; ++r) any = changes_->touches(state_, r);
-    if (!any) return;
-    const auto each_touched = [&](const auto& work) {
-      each_row([&](Index r) {
-        if (changes_->touches(state_, r)) work(r);
-      });
-    };
-    each_touched([&](Index r) { changes_->commit(state_, r, dt); });
-    if (model_.material.yields) {
-      each_touched([&](Index r) { changes_->update_plastic_bonds(state_, r); });
-      each_touched([&](Index r) { changes_->update_plastic_sums(state_, r, dt); });
-    }
-    each_touched([&](Index r) { changes_->update_factors(state_, r); });
-    each_touched([&](Index r) { changes_->update_sums(state_, r, dt); });
   }
 
   void note_reactions(Index step) {
@@ -121,9 +113,11 @@ class ExplicitRun {
   }
 
   void look(Index step) {
-    if (!loop_.is_looked_at(step)) return;
     const double dt = loop_.time_step();
-    each_row([&](Index r) { state_.sums[r].stored = half_step_energy(model_, state_, r, dt); });
+#pragma omp for schedule(static)
+    for (Index r = 0; r < rows_; ++r) {
+      state_.sums[r].stored = half_step_energy(model_, state_, r, dt);
+    }
 #pragma omp single
     note_row(step);
   }

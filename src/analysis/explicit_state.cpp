@@ -43,6 +43,7 @@ ExplicitState::ExplicitState(const ExplicitModel& model) : flow(make_flow(model)
   path.assign(rows, 0.0);
   duty.assign(rows, 0);
   news.assign(rows, 0);
+  near_news.assign(rows, 0);
   if (!model.alters()) return;
   for (auto* array : {&stretch, &drag}) array->assign(own * slots, 0.0);
   in_tension = in_compression = lattice.present;

@@ -95,6 +95,7 @@ struct ExplicitState {
   std::vector<double> path;        ///< of each row: sum of all changes of stretches near it
   std::vector<std::uint8_t> duty;  ///< of each row, see RowDuty
   std::vector<std::uint8_t> news;  ///< of each row, see RowNews
+  std::vector<std::uint8_t> near_news;  ///< what grew or flowed in the row or next to it
 };
 
 }  // namespace perilink

@@ -53,13 +53,11 @@ std::uint8_t LatticeChanges::around(const ExplicitState& state, Index row) const
   return bits & changed;
 }
 
-bool LatticeChanges::touches(const ExplicitState& state, Index row) const {
-  return around(state, row) != 0;
-}
-
 void LatticeChanges::commit(ExplicitState& state, Index r, double time_step) const {
+  state.near_news[r] = around(state, r);
+  if (state.near_news[r] == 0) return;
   const double before = half_step_energy(model_, state, r, time_step);
-  const bool flows = (around(state, r) & RowNews::flowed) != 0;
+  const bool flows = (state.near_news[r] & RowNews::flowed) != 0;
   (flows ? state.sums[r].plastic : state.sums[r].fractured) += before;
   if ((state.news[r] & RowNews::damage_grew) == 0) return;
   const LatticeRow& row = model_.lattice.rows[r];
@@ -67,13 +65,13 @@ void LatticeChanges::commit(ExplicitState& state, Index r, double time_step) con
 }
 
 void LatticeChanges::update_plastic_bonds(ExplicitState& state, Index row) const {
-  if ((outgoing(state, row) & RowNews::flowed) == 0) return;
+  if (state.near_news[row] == 0 || (outgoing(state, row) & RowNews::flowed) == 0) return;
   update_plastic_parts(model_, state, row);
   apply_factors(model_, state, row);
 }
 
 void LatticeChanges::update_plastic_sums(ExplicitState& state, Index row, double time_step) const {
-  const std::uint8_t bits = around(state, row);
+  const std::uint8_t bits = state.near_news[row];
   if ((bits & RowNews::flowed) == 0) return;
   add_plastic_halves(model_, state, row);
   const double after = half_step_energy(model_, state, row, time_step);
@@ -87,14 +85,14 @@ void LatticeChanges::update_plastic_sums(ExplicitState& state, Index row, double
 }
 
 void LatticeChanges::update_factors(ExplicitState& state, Index row) const {
-  if ((outgoing(state, row) & RowNews::damage_grew) == 0) return;
+  if (state.near_news[row] == 0 || (outgoing(state, row) & RowNews::damage_grew) == 0) return;
   damage_.update_factors(state, row);
   if (model_.material.yields) lock_energy(model_, state, row);
   apply_factors(model_, state, row);
 }
 
 void LatticeChanges::update_sums(ExplicitState& state, Index row, double time_step) const {
-  if ((around(state, row) & RowNews::damage_grew) == 0) return;
+  if ((state.near_news[row] & RowNews::damage_grew) == 0) return;
   if (model_.material.yields) add_plastic_halves(model_, state, row);
   sum_stretches(model_, state, row);
   state.sums[row].fractured -= half_step_energy(model_, state, row, time_step);

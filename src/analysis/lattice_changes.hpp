@@ -5,8 +5,9 @@
 
 namespace perilink {
 
-/// Damage and flow of a step, in stages over rows. A row's stage may run on any thread; which rows
-/// must be done before is said with each.
+/// Damage and flow of a step, in stages over rows, each for all rows once. A row's stage may run on
+/// any thread after the stage before it of the row itself and of those rows that are said with
+/// each; `near` means within the lattice's reach.
 class LatticeChanges {
  public:
   explicit LatticeChanges(const ExplicitModel& model)
@@ -15,21 +16,19 @@ class LatticeChanges {
         damage_(model, particles_),
         yielding_(model, particles_) {}
 
-  /// First: what happens to the particles of a row. After the sums of the row and those next to
-  /// it; before any later stage of them.
+  /// What happens to the particles of a row. After the sums of rows near it on both sides.
   void look(ExplicitState& state, Index row) const;
-  /// Whether bonds or sums of the row change; after `look` at it and the rows next to it.
-  bool touches(const ExplicitState& state, Index row) const;
-  /// The later stages, where touched, each after the one before of the row and those next to it:
-  /// damage becomes what was noted, and the energy before the change is counted;
+  /// Notes in near_news whether bonds or sums of the row change: where they do not, the later
+  /// stages do nothing. Damage becomes what was noted, and the energy before the change is counted. After rows
+  /// near it on both sides.
   void commit(ExplicitState& state, Index row, double time_step) const;
-  /// own bonds take the plastic stretches of their particles;
+  /// Own bonds take the plastic stretches of their particles. After the rows near it that follow.
   void update_plastic_bonds(ExplicitState& state, Index row) const;
-  /// sums take them, and the energy that flow cost is counted;
+  /// Sums take them, and the energy that flow cost is counted. After the rows near it that precede.
   void update_plastic_sums(ExplicitState& state, Index row, double time_step) const;
-  /// own bonds take the factors of the damage of their particles;
+  /// Own bonds take the factors of the damage of their particles. After the rows near it that follow.
   void update_factors(ExplicitState& state, Index row) const;
-  /// sums take these, and the energy that damage cost is counted.
+  /// Sums take these, and the energy that damage cost is counted. After the rows near it that precede.
   void update_sums(ExplicitState& state, Index row, double time_step) const;
 
  private:

@@ -2,6 +2,8 @@
 
 #include <omp.h>
 
+#include <tuple>
+
 #include "base/types.hpp"
 
 namespace perilink {
@@ -25,7 +27,7 @@ namespace row_sweep {
 /// the block that need rows of others. `first` and `last` say whether the block has no such edge.
 template <class... Work>
 void sweep_block(Index begin, Index end, bool first, bool last, const RowStage<Work>&... stages) {
-  const Index longest = (stages.ahead + ... + 0);
+  const Index longest = (0 + ... + stages.ahead);
   for (Index front = begin; front < end + longest; ++front) {
     Index row = front, lower = begin, upper = end;
     const auto advance_stage = [&](const auto& stage) {
@@ -59,26 +61,28 @@ void run_stage(Index rows, const RowStage<Work>& stage) {
 }  // namespace row_sweep
 
 /// Runs every stage once on each of the rows 0, ..., rows - 1, in an order that finds in the cache
-/// what the stage before wrote: each thread takes the stages together through a block of rows, one
-/// row after the other; what lies at the edges of blocks comes after a barrier. Rows too few for
-/// that are done stage by stage. To be called by all threads of a parallel region; ends in a
-/// barrier.
+/// what the stages before wrote: each thread takes all stages together through a block of rows,
+/// row after row; what lies at the edges of blocks comes after a barrier. Rows too few for that are
+/// done stage by stage. To be called by all threads of a parallel region; ends in a barrier.
 template <class... Work>
-void sweep_rows(Index rows, const RowStage<Work>&... stages) {
-  const Index blocks = omp_get_num_threads();
-  const Index shortest = (stages.behind + ... + 0) + (stages.ahead + ... + 0);
-  if (blocks > 1 && rows / blocks < shortest) {
-    (row_sweep::run_stage(rows, stages), ...);
-    return;
-  }
-  const auto begin = [&](Index block) { return rows * block / blocks; };
+void sweep_rows(Index rows, const std::tuple<RowStage<Work>...>& all) {
+  const auto sweep = [rows](const RowStage<Work>&... stages) {
+    const Index blocks = omp_get_num_threads();
+    const Index shortest = (0 + ... + (stages.behind + stages.ahead));
+    if (blocks > 1 && rows / blocks < shortest) {
+      (row_sweep::run_stage(rows, stages), ...);
+      return;
+    }
+    const auto begin = [&](Index block) { return rows * block / blocks; };
 #pragma omp for schedule(static)
-  for (Index b = 0; b < blocks; ++b) {
-    row_sweep::sweep_block(begin(b), begin(b + 1), b == 0, b == blocks - 1, stages...);
-  }
-  if (blocks == 1) return;
+    for (Index b = 0; b < blocks; ++b) {
+      row_sweep::sweep_block(begin(b), begin(b + 1), b == 0, b == blocks - 1, stages...);
+    }
+    if (blocks == 1) return;
 #pragma omp for schedule(static)
-  for (Index b = 1; b < blocks; ++b) row_sweep::sweep_edge(begin(b), stages...);
+    for (Index b = 1; b < blocks; ++b) row_sweep::sweep_edge(begin(b), stages...);
+  };
+  std::apply(sweep, all);
 }
 
 }  // namespace perilink

@@ -24,21 +24,25 @@ inline void evaluate(const ExplicitModel& model, ExplicitState& state) {
   std::fill(state.slack.begin(), state.slack.end(), 0.0);
 }
 
-/// Damage and flow of a step of no length, after `evaluate`.
+/// Damage and flow of a step, pass after pass over all rows.
+inline void change(const ExplicitModel& model, const LatticeChanges& changes, ExplicitState& state,
+                   double time_step) {
+  const auto each_row = [&](const auto& work) {
+    for (Index r = 0; r < static_cast<Index>(model.lattice.rows.size()); ++r) work(r);
+  };
+  each_row([&](Index r) { changes.look(state, r); });
+  each_row([&](Index r) { changes.commit(state, r, time_step); });
+  each_row([&](Index r) { changes.update_plastic_bonds(state, r); });
+  each_row([&](Index r) { changes.update_plastic_sums(state, r, time_step); });
+  each_row([&](Index r) { changes.update_factors(state, r); });
+  each_row([&](Index r) { changes.update_sums(state, r, time_step); });
+}
+
+/// The same in a step of no length, after `evaluate`.
 inline void change(const ExplicitModel& model, const LatticeChanges& changes,
                    ExplicitState& state) {
+  change(model, changes, state, 0.0);
   const auto rows = static_cast<Index>(model.lattice.rows.size());
-  const auto each_touched = [&](const auto& work) {
-    for (Index r = 0; r < rows; ++r) {
-      if (changes.touches(state, r)) work(r);
-    }
-  };
-  for (Index r = 0; r < rows; ++r) changes.look(state, r);
-  each_touched([&](Index r) { changes.commit(state, r, 0.0); });
-  each_touched([&](Index r) { changes.update_plastic_bonds(state, r); });
-  each_touched([&](Index r) { changes.update_plastic_sums(state, r, 0.0); });
-  each_touched([&](Index r) { changes.update_factors(state, r); });
-  each_touched([&](Index r) { changes.update_sums(state, r, 0.0); });
   for (Index r = 0; r < rows; ++r) state.sums[r].stored = half_step_energy(model, state, r, 0.0);
 }
 

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <vector>
 
 namespace perilink {
 namespace {
 
-/// Times at which four stages did their rows, with the needs of a step of explicit lattices.
+/// Times at which four stages did their rows.
 struct Record {
   Index rows, reach;
   std::array<std::vector<int>, 4> time;
@@ -32,10 +33,11 @@ struct Record {
 
   void sweep(int threads) {
 #pragma omp parallel num_threads(threads)
-    sweep_rows(rows, RowStage{0, 0, [&](Index r) { work(0, r, 0, 0); }},
-               RowStage{reach, 0, [&](Index r) { work(1, r, reach, 0); }},
-               RowStage{0, reach, [&](Index r) { work(2, r, 0, reach); }},
-               RowStage{reach, 0, [&](Index r) { work(3, r, reach, 0); }});
+    sweep_rows(rows,
+               std::tuple{RowStage{0, 0, [&](Index r) { work(0, r, 0, 0); }},
+                          RowStage{reach, 0, [&](Index r) { work(1, r, reach, 0); }},
+                          RowStage{0, reach, [&](Index r) { work(2, r, 0, reach); }},
+                          RowStage{reach, reach, [&](Index r) { work(3, r, reach, reach); }}});
   }
 };
 
@@ -61,8 +63,8 @@ TEST(RowSweep, FollowsItselfAsCloselyAsItCan) {
   constexpr Index rows = 20, reach = 2;
   std::vector<Index> order;
 #pragma omp parallel num_threads(1)
-  sweep_rows(rows, RowStage{0, 0, [&](Index r) { order.push_back(r); }},
-             RowStage{0, reach, [&](Index r) { order.push_back(100 + r); }});
+  sweep_rows(rows, std::tuple{RowStage{0, 0, [&](Index r) { order.push_back(r); }},
+                              RowStage{0, reach, [&](Index r) { order.push_back(100 + r); }}});
   const auto done = [&](Index what) { return std::find(order.begin(), order.end(), what); };
   for (Index r = 0; r + reach + 1 < rows; ++r) {
     EXPECT_LT(done(100 + r), done(r + reach + 1));
