@@ -21,10 +21,10 @@ bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family
                                      : particles_.stress(state, family);
   const PrincipalValues principal = principal_values(stress, model_.lattice.dim);
   const double scale = particles_.is_whole(family) ? 1.0 : material.boundary_factor;
-  normal = principal.direction;
   double least = principal.last;
   if (model_.lattice.dim == 2) least = std::min(least, stress[2]);
   if (scale * principal.first > strength) {
+    normal = principal_direction(stress, model_.lattice.dim);
     return scale * least > -material.tension_compression_ratio * strength;
   }
   if (averaged && !has_weakened_rows(model_, state, row)) {

@@ -146,9 +146,9 @@ LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state,
   // By the rules of 2017 the yield stress follows the strain and has to be asked for every time;
   // by those of 2018 it falls in every step once it falls.
   state.flow.visit[slot] = of_2017 ? model_.material.yielding.yield : beyond ? -1.0 : next;
-  const double mises = mises_stress(particles_.stress(state, family));
-  if (mises <= yield) return result;
   Halves force = particles_.forces(state, family);
+  const double mises = mises_stress(particles_.stress(state, family, force));
+  if (mises <= yield) return result;
   if (!of_2017) force = bond_forces(state, family, force);
   double sum = 0.0, square = 0.0;
   int count = 0;

@@ -159,10 +159,6 @@ double mass_damping_rate(double ratio, double period) {
   return 2.0 * ratio * 2.0 * std::numbers::pi / period;
 }
 
-double ExplicitModel::own_modulus(int k) const {
-  return moduli.own + (lattice.bonds[k].length > 1.2 * lattice.spacing ? moduli.far : 0.0);
-}
-
 ExplicitModel make_explicit_model(Problem problem, LatticeRules rules, LatticeRows lattice,
                                   const LatticeMaterial& material, double thickness) {
   if (dimension_of(problem) != lattice.dim) {

@@ -76,7 +76,9 @@ struct ExplicitModel {
   double mass_damping = 0.0;  ///< force per momentum [1/time]
 
   /// Coefficient of the own stretch of own bond k [force].
-  double own_modulus(int k) const;
+  double own_modulus(int k) const {
+    return moduli.own + (lattice.bonds[k].length > 1.2 * lattice.spacing ? moduli.far : 0.0);
+  }
   /// Whether anything can happen to a particle but motion.
   bool alters() const { return material.breakable || material.yields; }
 };

@@ -30,14 +30,23 @@ PrincipalValues principal_values(const SymmetricTensor& tensor, int dim) {
   if (dim == 2) {
     const double mean = 0.5 * (tensor[0] + tensor[1]), half = 0.5 * (tensor[0] - tensor[1]);
     const double radius = std::hypot(half, tensor[3]);
-    const double angle = 0.5 * std::atan2(tensor[3], half);
-    return {mean + radius, mean - radius, mean - radius, {std::cos(angle), std::sin(angle), 0.0}};
+    return {mean + radius, mean - radius, mean - radius};
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(matrix_of(tensor), Eigen::EigenvaluesOnly);
+  const auto& values = solver.eigenvalues();
+  return {values[2], values[1], values[0]};
+}
+
+Vector3 principal_direction(const SymmetricTensor& tensor, int dim) {
+  if (dim == 2) {
+    const double angle = 0.5 * std::atan2(tensor[3], 0.5 * (tensor[0] - tensor[1]));
+    return {std::cos(angle), std::sin(angle), 0.0};
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(matrix_of(tensor));
-  const auto& values = solver.eigenvalues();
   const Eigen::Vector3d axis = solver.eigenvectors().col(2);
-  return {values[2], values[1], values[0], {axis[0], axis[1], axis[2]}};
+  return {axis[0], axis[1], axis[2]};
 }
 
 LatticeParticles::LatticeParticles(const ExplicitModel& model) : model_(model) {
@@ -150,9 +159,7 @@ LatticeParticles::Halves LatticeParticles::forces(const ExplicitState& state,
   return force;
 }
 
-SymmetricTensor LatticeParticles::bond_stress(const ExplicitState& state,
-                                              const Family& family) const {
-  const Halves force = forces(state, family);
+SymmetricTensor LatticeParticles::bond_stress(const Family& family, const Halves& force) const {
   SymmetricTensor stress{};
   for (int j = 0; j < family.bonds; ++j) {
     const OwnBond& bond = model_.lattice.bonds[family.own_number(j)];
@@ -165,8 +172,9 @@ SymmetricTensor LatticeParticles::bond_stress(const ExplicitState& state,
   return stress;
 }
 
-SymmetricTensor LatticeParticles::stress(const ExplicitState& state, const Family& family) const {
-  SymmetricTensor stress = bond_stress(state, family);
+SymmetricTensor LatticeParticles::stress(const ExplicitState& state, const Family& family,
+                                         const Halves& force) const {
+  SymmetricTensor stress = bond_stress(family, force);
   if (model_.problem == Problem::plane_strain && model_.material.yields) {
     stress[2] -= state.flow.normal[family.slot];
   }
@@ -182,7 +190,7 @@ SymmetricTensor LatticeParticles::mean_stress(const ExplicitState& state, const 
   count = 0;
   const auto add = [&](const Family& each) {
     const double weight = model_.volume[each.slot];
-    const SymmetricTensor stress = bond_stress(state, each);
+    const SymmetricTensor stress = bond_stress(each, forces(state, each));
     for (int c = 0; c < 6; ++c) sum[c] += weight * stress[c];
     volume += weight;
     ++count;

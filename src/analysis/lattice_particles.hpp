@@ -8,14 +8,14 @@
 
 namespace perilink {
 
-/// Eigenvalues of a symmetric tensor, the largest and the smallest, and the direction of the
-/// largest.
+/// Eigenvalues of a symmetric tensor, from the largest to the smallest.
 struct PrincipalValues {
   double first = 0.0, middle = 0.0, last = 0.0;
-  Vector3 direction{};
 };
 /// \param dim  2: of the part in the plane; `middle` equals `last`
 PrincipalValues principal_values(const SymmetricTensor& tensor, int dim);
+/// Unit vector along the first of them.
+Vector3 principal_direction(const SymmetricTensor& tensor, int dim);
 
 /// What particles of a lattice see of their bonds, one particle at a time: for the few that change.
 class LatticeParticles {
@@ -54,7 +54,12 @@ class LatticeParticles {
   /// the part of the sum [force].
   Halves forces(const ExplicitState& state, const Family& family) const;
   /// (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain [force/length^2].
-  SymmetricTensor stress(const ExplicitState& state, const Family& family) const;
+  /// \param force  F_j, as `forces` gives them
+  SymmetricTensor stress(const ExplicitState& state, const Family& family,
+                         const Halves& force) const;
+  SymmetricTensor stress(const ExplicitState& state, const Family& family) const {
+    return stress(state, family, forces(state, family));
+  }
   /// Mean of the stresses of a particle and its neighbours, weighted with their volumes, without
   /// plastic strains out of the plane.
   /// \param volume  becomes the sum of the volumes
@@ -74,7 +79,7 @@ class LatticeParticles {
   using Inverse = std::vector<double>;
   Inverse invert(std::uint32_t mask) const;
   void find_faces();
-  SymmetricTensor bond_stress(const ExplicitState& state, const Family& family) const;
+  SymmetricTensor bond_stress(const Family& family, const Halves& force) const;
   const Inverse& inverse_of(const Family& family) const { return inverses_[kind_[family.slot]]; }
 
   const ExplicitModel& model_;

@@ -36,7 +36,7 @@ TEST(LatticeParticles, PrincipalValuesDiagonalise) {
   for (const int dim : {2, 3}) {
     const SymmetricTensor& t = dim == 2 ? plane : space;
     const PrincipalValues values = principal_values(t, dim);
-    const Vector3& n = values.direction;
+    const Vector3 n = principal_direction(t, dim);
     EXPECT_NEAR(t[0] * n[0] + t[3] * n[1] + t[5] * n[2], values.first * n[0], 1e-14);
     EXPECT_NEAR(t[3] * n[0] + t[1] * n[1] + t[4] * n[2], values.first * n[1], 1e-14);
     EXPECT_NEAR(t[5] * n[0] + t[4] * n[1] + t[2] * n[2], values.first * n[2], 1e-14);
