@@ -51,8 +51,7 @@ class ExplicitRun {
   }
 
   ExplicitResult run() {
-    // Six barriers per step, up to twelve where particles change: a thread pays only with enough
-    // of its own.
+    // Three barriers per step: a thread pays only with enough particles of its own.
     const Index useful = std::max<Index>(1, model_.lattice.particles() / particles_per_thread);
     return loop_.run(std::min<Index>(options_.threads, useful),
                      [this](Index step) { one_step(step); });

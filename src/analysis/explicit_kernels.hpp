@@ -3,10 +3,10 @@
 #include "analysis/explicit_state.hpp"
 
 /// \file
-/// The four passes of a time step, each over one row of particles. Every pass writes only what
-/// belongs to its row, so the rows of a pass may run in any order and on any thread. A row's sums
-/// need the bonds of the rows whose bonds end there, its forces the sums of the rows where its
-/// bonds end, its motion the forces of all these.
+/// The stages of a time step, each for one row of particles. Every stage writes only what belongs
+/// to its row. A row's sums need the bonds of the rows whose bonds end there, its forces the sums of
+/// the rows where its bonds end, its motion the forces of all these; and no row may move before the
+/// bonds that end there are measured.
 
 namespace perilink {
 

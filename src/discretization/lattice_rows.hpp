@@ -36,7 +36,8 @@ struct LatticeRows {
   std::vector<LatticeRow> rows;
   std::vector<Index> shift_out;  ///< slot of own bond k's partner, shape (rows, own bonds)
   std::vector<Index> shift_in;   ///< minus slot whose own bond k ends here, shape (rows, own bonds)
-  std::vector<Index> row_out;    ///< row of own bond k's partners or no_index, same shape
+  std::vector<Index> row_out;    ///< row of own bond k's partners or no_index: the row itself or
+                                 ///< one after it, same shape
   std::vector<Index> row_in;     ///< row whose own bonds k end here or no_index, same shape
   Index reach = 0;               ///< largest difference between a row and a row_out of it
   Index slots = 0;

@@ -81,6 +81,8 @@ void expect_incoming_shifts(const LatticeRows& lattice) {
       const Index b = a + lattice.shift_out[row_of[a] * own + k];
       EXPECT_EQ(b - lattice.shift_in[row_of[b] * own + k], a);
       EXPECT_EQ(lattice.row_out[row_of[a] * own + k], row_of[b]);
+      EXPECT_GE(row_of[b], row_of[a]);  // what sweeps over rows rely on
+      EXPECT_LE(row_of[b], row_of[a] + lattice.reach);
     }
   }
 }
