@@ -4,9 +4,9 @@
 
 /// \file
 /// The stages of a time step, each for one row of particles. Every stage writes only what belongs
-/// to its row. A row's sums need the bonds of the rows whose bonds end there, its forces the sums of
-/// the rows where its bonds end, its motion the forces of all these; and no row may move before the
-/// bonds that end there are measured.
+/// to its row. A row's sums need the bonds of the rows whose bonds end there, its forces the sums
+/// of the rows where its bonds end, its motion the forces of all these; and no row may move before
+/// the bonds that end there are measured.
 
 namespace perilink {
 

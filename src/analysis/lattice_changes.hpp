@@ -6,8 +6,8 @@
 namespace perilink {
 
 /// Damage and flow of a step, in stages over rows, each for all rows once. A row's stage may run on
-/// any thread after the stage before it of the row itself and of those rows that are said with
-/// each; `near` means within the lattice's reach.
+/// any thread after the stage before it of the row itself and of rows near it, within the lattice's
+/// reach: before it, after it or both.
 class LatticeChanges {
  public:
   explicit LatticeChanges(const ExplicitModel& model)
@@ -16,19 +16,19 @@ class LatticeChanges {
         damage_(model, particles_),
         yielding_(model, particles_) {}
 
-  /// What happens to the particles of a row. After the sums of rows near it on both sides.
+  /// What happens to the particles of a row. After the sums of rows on both sides.
   void look(ExplicitState& state, Index row) const;
   /// Notes in near_news whether bonds or sums of the row change: where they do not, the later
-  /// stages do nothing. Damage becomes what was noted, and the energy before the change is counted. After rows
-  /// near it on both sides.
+  /// stages do nothing. Damage becomes what was noted, and the energy before the change is
+  /// counted. Needs rows on both sides.
   void commit(ExplicitState& state, Index row, double time_step) const;
-  /// Own bonds take the plastic stretches of their particles. After the rows near it that follow.
+  /// Own bonds take the plastic stretches of their particles. Needs rows after it.
   void update_plastic_bonds(ExplicitState& state, Index row) const;
-  /// Sums take them, and the energy that flow cost is counted. After the rows near it that precede.
+  /// Sums take them, and the energy that flow cost is counted. Needs rows before it.
   void update_plastic_sums(ExplicitState& state, Index row, double time_step) const;
-  /// Own bonds take the factors of the damage of their particles. After the rows near it that follow.
+  /// Own bonds take the factors of the damage of their particles. Needs rows after it.
   void update_factors(ExplicitState& state, Index row) const;
-  /// Sums take these, and the energy that damage cost is counted. After the rows near it that precede.
+  /// Sums take these, and the energy that damage cost is counted. Needs rows before it.
   void update_sums(ExplicitState& state, Index row, double time_step) const;
 
  private:
