@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "analysis/explicit_loop.hpp"
+#include "analysis/free_motion.hpp"
 #include "analysis/particle_blocks.hpp"
 
 namespace perilink {
@@ -38,14 +40,15 @@ class BondRun {
         loop_(options, inertia.critical_time_step()),
         dt_(loop_.time_step()),
         motion_end_(rules.constant_velocity ? options.duration : 0.0),
-        rate_(rules.damping_rate),
-        keep_(1.0 / (1.0 + 0.5 * dt_ * rate_)),
-        lose_(1.0 - 0.5 * dt_ * rate_) {
+        rate_(rules.damping_rate) {
     const std::size_t slots = unknowns.number.size();
     motion_.displacement.assign(slots, 0.0);
     motion_.velocity.assign(slots, 0.0);
     force_.assign(slots, 0.0);
     sums_.resize(static_cast<std::size_t>(blocks_.count()));
+    for (std::size_t slot = 0; slot < slots; ++slot) {
+      if (unknowns.number[slot] == no_index) held_.push_back(slot);
+    }
   }
 
   ExplicitResult run() {
@@ -98,32 +101,47 @@ class BondRun {
   void advance(Index block, double factor, double increment) {
     BlockSums& sums = sums_[block];
     sums.driven = sums.supports = 0.0;
-    blocks_.for_slots(block, [&](std::size_t slot) {
-      double& u = motion_.displacement[slot];
-      double& v = motion_.velocity[slot];
-      const double mass = inertia_.mass[slot], applied = factor * loads_.forces[slot];
-      double inner = force_[slot];
-      if (!network_.support_stiffness.empty()) inner += network_.support_stiffness[slot] * u;
-      double work = applied, faster = 0.0;
-      if (unknowns_.number[slot] != no_index) {
-        faster = keep_ * (lose_ * v + dt_ * (applied - inner) / mass);
-      } else {
-        faster = unknowns_.prescribed[slot] * increment / dt_;
-        const double reaction =
-            mass * (faster - v) / dt_ + 0.5 * rate_ * mass * (faster + v) + inner - applied;
-        work += reaction;
-        sums.driven += reaction * unknowns_.prescribed[slot];
-        const bool held = unknowns_.prescribed[slot] == 0.0;
-        if (held && static_cast<int>(slot % unknowns_.width) == component_) {
-          sums.supports += reaction;
-        }
-      }
-      const double twice = v + faster;
-      sums.external_work += 0.5 * dt_ * work * twice;
-      sums.damping += 0.25 * dt_ * rate_ * mass * twice * twice;
-      v = faster;
-      u += dt_ * faster;
-    });
+    if (!network_.support_stiffness.empty()) {
+      blocks_.for_slots(block, [&](std::size_t slot) {
+        force_[slot] += network_.support_stiffness[slot] * motion_.displacement[slot];
+      });
+    }
+    std::size_t next = blocks_.first_slot(block);
+    const std::size_t last = blocks_.last_slot(block);
+    auto held = std::lower_bound(held_.begin(), held_.end(), next);
+    for (; held != held_.end() && *held < last; ++held) {
+      advance_free(next, *held, factor, sums);
+      advance_held(*held, factor, increment, sums);
+      next = *held + 1;
+    }
+    advance_free(next, last, factor, sums);
+  }
+
+  void advance_free(std::size_t first, std::size_t last, double factor, BlockSums& sums) {
+    const std::size_t count = last - first;
+    const auto part = [&](auto& values) { return std::span(values).subspan(first, count); };
+    const MotionWork work =
+        move_freely({dt_, factor, rate_}, part(loads_.forces), part(force_), part(inertia_.mass),
+                    part(motion_.velocity), part(motion_.displacement));
+    sums.external_work += work.external;
+    sums.damping += work.damping;
+  }
+
+  void advance_held(std::size_t slot, double factor, double increment, BlockSums& sums) {
+    double& v = motion_.velocity[slot];
+    const double mass = inertia_.mass[slot], applied = factor * loads_.forces[slot];
+    const double faster = unknowns_.prescribed[slot] * increment / dt_, twice = v + faster;
+    const double reaction =
+        mass * (faster - v) / dt_ + 0.5 * rate_ * mass * twice + force_[slot] - applied;
+    sums.driven += reaction * unknowns_.prescribed[slot];
+    const bool is_support = unknowns_.prescribed[slot] == 0.0;
+    if (is_support && static_cast<int>(slot % unknowns_.width) == component_) {
+      sums.supports += reaction;
+    }
+    sums.external_work += 0.5 * dt_ * (applied + reaction) * twice;
+    sums.damping += 0.25 * dt_ * rate_ * mass * twice * twice;
+    v = faster;
+    motion_.displacement[slot] += dt_ * faster;
   }
 
   void note_reactions(Index step) {
@@ -171,9 +189,10 @@ class BondRun {
   ExplicitLoop loop_;
   double dt_;
   double motion_end_;  ///< of constant velocities; zero: none
-  double rate_, keep_, lose_;
+  double rate_;
   BondMotion motion_;
-  std::vector<double> force_;  ///< K u
+  std::vector<double> force_;      ///< K u
+  std::vector<std::size_t> held_;  ///< prescribed components, ascending
   std::vector<BlockSums> sums_;
   ExplicitRecord record_;
 };

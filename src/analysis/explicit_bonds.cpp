@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "analysis/explicit_halves.hpp"
+#include "analysis/stencil_bonds.hpp"
 #include "material/bond_law.hpp"
 
 namespace perilink {
@@ -24,7 +27,7 @@ enum class Limits {
 template <class Half>
 class Halves final : public ExplicitBonds {
  public:
-  explicit Halves(const Network& network);
+  Halves(const Network& network, const std::vector<Index>& elements);
 
   BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
                     std::span<double> force) override;
@@ -53,16 +56,17 @@ class Halves final : public ExplicitBonds {
 };
 
 template <class Half>
-Halves<Half>::Halves(const Network& network) : network_(network) {
+Halves<Half>::Halves(const Network& network, const std::vector<Index>& elements)
+    : network_(network) {
   const Index count = network.particles.size();
   std::vector<std::vector<std::pair<Index, bool>>> of_particle(count);
-  for (Index e = 0; e < network.num_elements(); ++e) {
+  for (const Index e : elements) {
     of_particle[network.bonds.first[e]].emplace_back(e, true);
     of_particle[network.bonds.second[e]].emplace_back(e, false);
   }
   offsets_.push_back(0);
-  for (const auto& elements : of_particle) {
-    for (const auto& [element, first] : elements) add(network, element, first);
+  for (const auto& own : of_particle) {
+    for (const auto& [element, first] : own) add(network, element, first);
     offsets_.push_back(halves_.size());
   }
   for (std::size_t half = 0; half < limit_.size(); ++half) {
@@ -189,23 +193,37 @@ std::vector<double> Halves<Half>::secants() const {
   return result;
 }
 
+template <template <int> class Half>
+std::unique_ptr<ExplicitBonds> make_halves(const Network& network,
+                                           const std::vector<Index>& elements) {
+  if (network.dim() == 2) return std::make_unique<Halves<Half<2>>>(network, elements);
+  return std::make_unique<Halves<Half<3>>>(network, elements);
+}
+
 }  // namespace
 
-std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain) {
-  const bool plane = network.dim() == 2;
+std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network, Strain strain) {
+  std::vector<Index> all(static_cast<std::size_t>(network.num_elements()));
+  std::iota(all.begin(), all.end(), 0);
   if (network.carries_moments()) {
     if (strain == Strain::green) {
       throw std::invalid_argument("bonds that carry moments know small strains only");
     }
-    if (plane) return std::make_unique<Halves<FrameHalf<2>>>(network);
-    return std::make_unique<Halves<FrameHalf<3>>>(network);
+    return make_halves<FrameHalf>(network, all);
   }
-  if (strain == Strain::green) {
-    if (plane) return std::make_unique<Halves<GreenHalf<2>>>(network);
-    return std::make_unique<Halves<GreenHalf<3>>>(network);
+  if (strain == Strain::green) return make_halves<GreenHalf>(network, all);
+  return make_halves<TrussHalf>(network, all);
+}
+
+std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain) {
+  if (network.carries_moments() || strain == Strain::green) {
+    return make_explicit_halves(network, strain);
   }
-  if (plane) return std::make_unique<Halves<TrussHalf<2>>>(network);
-  return std::make_unique<Halves<TrussHalf<3>>>(network);
+  BondStencil stencil = find_stencil(network);
+  std::unique_ptr<ExplicitBonds> rest;
+  if (!stencil.rest.empty()) rest = make_halves<TrussHalf>(network, stencil.rest);
+  if (stencil.kinds.empty()) return rest;
+  return make_stencil_bonds(network, std::move(stencil), std::move(rest));
 }
 
 }  // namespace perilink

@@ -55,8 +55,15 @@ class ExplicitBonds {
   virtual std::vector<double> secants() const = 0;
 };
 
+/// Truss bonds of small strains that recur throughout a body are held together
+/// (analysis/stencil_bonds.hpp), all others one by one.
+/// \param network  has to outlive the result
 /// \throws std::invalid_argument for Green strains of bonds that carry moments
 std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network,
                                                    Strain strain = Strain::small);
+
+/// The same with every half of a bond by itself, whatever the body.
+std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network,
+                                                    Strain strain = Strain::small);
 
 }  // namespace perilink

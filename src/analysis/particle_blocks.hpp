@@ -17,6 +17,12 @@ class ParticleBlocks {
   Index begin(Index block) const { return block * particles_per_block; }
   Index end(Index block) const { return std::min(particles_, begin(block) + particles_per_block); }
 
+  /// Components of the particles of a block: [first_slot, last_slot).
+  std::size_t first_slot(Index block) const {
+    return static_cast<std::size_t>(begin(block)) * width_;
+  }
+  std::size_t last_slot(Index block) const { return static_cast<std::size_t>(end(block)) * width_; }
+
   /// As many threads as are wanted and have something to do.
   int threads(int wanted) const {
     return std::min<Index>(wanted, std::max<Index>(1, count() / blocks_per_thread));
@@ -25,10 +31,7 @@ class ParticleBlocks {
   /// visit(slot) for every component of every particle of a block.
   template <class Visit>
   void for_slots(Index block, Visit visit) const {
-    const std::size_t last = static_cast<std::size_t>(end(block)) * width_;
-    for (std::size_t slot = static_cast<std::size_t>(begin(block)) * width_; slot < last; ++slot) {
-      visit(slot);
-    }
+    for (std::size_t slot = first_slot(block); slot < last_slot(block); ++slot) visit(slot);
   }
 
  private:
