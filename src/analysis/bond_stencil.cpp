@@ -10,8 +10,10 @@
 namespace perilink {
 namespace {
 
-/// Kinds of a body of some materials with a wide horizon in space; clouds without order have more.
-constexpr std::size_t most_kinds = 1024;
+/// Far more than the inside of a lattice has: surfaces may add some of which most are dropped.
+constexpr std::size_t most_kinds = 1 << 16;
+/// Bonds per kind below which a body with so many kinds has no order.
+constexpr std::size_t least_repeats = 2;
 /// Halves of bonds that a line must hold on average: it costs as much as so many single ones.
 constexpr double least_fill = 3.0;
 /// Round-off of positions, relative to the shortest distances between them.
@@ -30,14 +32,22 @@ bool alike(const BondKind& a, const BondKind& b) {
 /// Sorts elements into kinds by cells far wider than round-off and far narrower than what differs.
 class Kinds {
  public:
-  /// Number of the kind of an element; no_kind where a cell holds bonds that differ.
+  /// Number of the kind of an element; no_kind where a cell holds bonds that differ, and for new
+  /// ones where there are too many.
   int find(const Network& network, Index element) {
     const BondKind kind = kind_of(network, element);
     if (!(std::isfinite(kind.modulus) && kind.modulus > 0.0 && kind.limit > 0.0)) return no_kind;
-    const auto [entry, is_new] = number_.try_emplace(cell(kind), static_cast<int>(kinds.size()));
-    if (is_new) kinds.push_back(kind);
+    const Cell at = cell(kind);
+    auto entry = number_.find(at);
+    if (entry == number_.end()) {
+      if (is_full()) return no_kind;
+      entry = number_.emplace(at, static_cast<int>(kinds.size())).first;
+      kinds.push_back(kind);
+    }
     return alike(kinds[entry->second], kind) ? entry->second : no_kind;
   }
+
+  bool is_full() const { return kinds.size() >= most_kinds; }
 
   std::vector<BondKind> kinds;
 
@@ -153,10 +163,15 @@ std::vector<StencilLine> make_lines(const std::vector<Half>& halves, std::vector
 BondStencil find_stencil(const Network& network) {
   Kinds found;
   std::vector<int> kind(static_cast<std::size_t>(network.num_elements()), no_kind);
-  for (Index e = 0; e < network.first_segment && found.kinds.size() <= most_kinds; ++e) {
+  for (Index e = 0; e < network.first_segment; ++e) {
+    const bool was_full = found.is_full();
     kind[e] = found.find(network, e);
+    const bool fills_up = found.is_full() && !was_full;
+    if (fills_up && static_cast<std::size_t>(e) < least_repeats * most_kinds) {
+      std::fill(kind.begin(), kind.end(), no_kind);
+      break;
+    }
   }
-  if (found.kinds.size() > most_kinds) std::fill(kind.begin(), kind.end(), no_kind);
   drop_thin_kinds(sort_halves(network, kind), found.kinds.size(), kind);
 
   BondStencil stencil;

@@ -81,7 +81,8 @@ class BondRun {
     }
 #pragma omp for schedule(static)
     for (Index b = 0; b < blocks; ++b) advance(b, factor, increment);
-#pragma omp single
+      // Nobody waits for this: what it reads and writes is used again behind the next barrier only.
+#pragma omp single nowait
     note_reactions(step);
   }
 

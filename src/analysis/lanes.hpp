@@ -34,13 +34,18 @@ inline void keep_larger(const Lanes& values, Lanes& largest) {
 /// Vectors of `Dim` components one after the other in memory, to one Lanes per component.
 template <int Dim>
 inline void load_vectors(const double* from, Lanes* to) {
+  static_assert(1 <= Dim && Dim <= 3);
+  if constexpr (Dim == 1) {
+    load(from, to[0]);
+    return;
+  }
   Lanes a, b;
   load(from, a);
   load(from + num_lanes, b);
   if constexpr (Dim == 2) {
     to[0] = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
     to[1] = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
-  } else {
+  } else if constexpr (Dim == 3) {
     Lanes c;
     load(from + 2 * num_lanes, c);
     const Lanes x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);

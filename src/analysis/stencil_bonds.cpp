@@ -59,6 +59,11 @@ class StencilBonds final : public ExplicitBonds {
   bool add_lines(std::size_t group, const double* u, Lanes* sum) const;
   template <bool Safe, int Components>
   void take(const double* from, std::ptrdiff_t particle, Lanes* to) const;
+  template <bool Safe>
+  void demands(const Line<Dim>& line, std::ptrdiff_t first, const std::uint8_t* intact,
+               const double* u, const Lanes* own, Lanes& out, Lanes& in) const;
+  void add_energies(std::size_t group, double time_step, const BondMotion& motion,
+                    Lanes& sum) const;
   template <class Visit>
   void for_halves(std::size_t group, Index begin, Index end, Visit visit) const;
   double demand(const Half& half, const double* u) const;
@@ -118,25 +123,46 @@ StencilBonds<Dim>::StencilBonds(const Network& network, BondStencil stencil,
   }
 }
 
-/// Components of the particle and of the next ones; unless it is safe, of the first or last one
-/// instead where there is none: no bond leads there.
+/// Components of the particle and of the next ones; unless that is safe, of the first or last one
+/// where there is none: no bond leads there.
 template <int Dim>
 template <bool Safe, int Components>
 [[gnu::always_inline]] inline void StencilBonds<Dim>::take(const double* from,
                                                            std::ptrdiff_t particle,
                                                            Lanes* to) const {
-  if constexpr (Safe && Components > 1) {
+  if (Safe || (particle >= 0 && particle + lanes <= particles_)) {
     load_vectors<Components>(from + particle * Components, to);
-  } else if constexpr (Safe) {
-    load(from + particle, *to);
-  } else {
-    double picked[Components][lanes];
-    for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
-      const std::ptrdiff_t at = std::clamp<std::ptrdiff_t>(particle + lane, 0, particles_ - 1);
-      for (int c = 0; c < Components; ++c) picked[c][lane] = from[at * Components + c];
-    }
-    for (int c = 0; c < Components; ++c) load(picked[c], to[c]);
+    return;
   }
+  double picked[Components][lanes];
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+    const std::ptrdiff_t at = std::clamp<std::ptrdiff_t>(particle + lane, 0, particles_ - 1);
+    for (int c = 0; c < Components; ++c) picked[c][lane] = from[at * Components + c];
+  }
+  for (int c = 0; c < Components; ++c) load(picked[c], to[c]);
+}
+
+/// Demands of a line's outgoing and incoming bonds, zero where there is none: from the same end,
+/// so that both halves of a bond find the same number.
+/// \param u  motion, of which `own` are the group's particles
+template <int Dim>
+template <bool Safe>
+[[gnu::always_inline]] inline void StencilBonds<Dim>::demands(const Line<Dim>& line,
+                                                              std::ptrdiff_t first,
+                                                              const std::uint8_t* intact,
+                                                              const double* u, const Lanes* own,
+                                                              Lanes& out, Lanes& in) const {
+  Lanes far[Dim], near[Dim];
+  take<Safe, Dim>(u, first + line.out, far);
+  take<Safe, Dim>(u, first - line.in, near);
+  out = line.demand[0] * (far[0] - own[0]);
+  in = line.demand[0] * (own[0] - near[0]);
+  for (int c = 1; c < Dim; ++c) {
+    out += line.demand[c] * (far[c] - own[c]);
+    in += line.demand[c] * (own[c] - near[c]);
+  }
+  keep_lanes(intact[0], out);
+  keep_lanes(intact[1], in);
 }
 
 /// Forces of the group's bonds, but for the own volume. \return whether one demands too much
@@ -149,18 +175,10 @@ bool StencilBonds<Dim>::add_lines(std::size_t group, const double* u, Lanes* sum
   take<Safe, Dim>(u, first, own);
   for (int c = 0; c < Dim; ++c) total[c] = Lanes{};
   for (const Line<Dim>& line : patterns_[groups_[group].pattern]) {
-    Lanes far[Dim], near[Dim], far_volume, near_volume;
-    take<Safe, Dim>(u, first + line.out, far);
-    take<Safe, Dim>(u, first - line.in, near);
+    Lanes out, in, far_volume, near_volume;
+    demands<Safe>(line, first, intact, u, own, out, in);
     take<Safe, 1>(volume_.data(), first + line.out, &far_volume);
     take<Safe, 1>(volume_.data(), first - line.in, &near_volume);
-    Lanes out = line.demand[0] * (far[0] - own[0]), in = line.demand[0] * (own[0] - near[0]);
-    for (int c = 1; c < Dim; ++c) {
-      out += line.demand[c] * (far[c] - own[c]);
-      in += line.demand[c] * (own[c] - near[c]);
-    }
-    keep_lanes(intact[0], out);
-    keep_lanes(intact[1], in);
     intact += 2;
     keep_larger(out, largest);
     keep_larger(in, largest);
@@ -258,14 +276,44 @@ BondLosses StencilBonds<Dim>::forces(Index begin, Index end, double time_step,
   return losses;
 }
 
+/// Energies of the halves of each of the group's particles, as energy() of single ones.
+template <int Dim>
+void StencilBonds<Dim>::add_energies(std::size_t group, double time_step, const BondMotion& motion,
+                                     Lanes& sum) const {
+  const int pattern = groups_[group].pattern;
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(group) * lanes;
+  const std::uint8_t* intact = intact_.data() + groups_[group].first_slot / lanes;
+  const double *u = motion.displacement.data(), *v = motion.velocity.data();
+  Lanes own[Dim], own_speed[Dim], own_volume;
+  take<false, Dim>(u, first, own);
+  take<false, Dim>(v, first, own_speed);
+  take<false, 1>(volume_.data(), first, &own_volume);
+  for (std::size_t l = 0; l < patterns_[pattern].size(); ++l, intact += 2) {
+    const Line<Dim>& line = patterns_[pattern][l];
+    Lanes out, in, out_rate, in_rate, far_volume, near_volume;
+    demands<false>(line, first, intact, u, own, out, in);
+    demands<false>(line, first, intact, v, own_speed, out_rate, in_rate);
+    take<false, 1>(volume_.data(), first + line.out, &far_volume);
+    take<false, 1>(volume_.data(), first - line.in, &near_volume);
+    sum += 0.25 * kinds_[pattern][l].stiffness * own_volume *
+           (far_volume * out * (out - time_step * out_rate) +
+            near_volume * in * (in - time_step * in_rate));
+  }
+}
+
 template <int Dim>
 double StencilBonds<Dim>::stored(Index begin, Index end, double time_step,
                                  const BondMotion& motion) const {
-  double sum = rest_ ? rest_->stored(begin, end, time_step, motion) : 0.0;
+  double energy = rest_ ? rest_->stored(begin, end, time_step, motion) : 0.0;
   for (Index g = begin / lanes; g * lanes < end; ++g) {
-    for_halves(g, begin, end, [&](const Half& half) { sum += energy(half, time_step, motion); });
+    Lanes sum{};
+    add_energies(g, time_step, motion, sum);
+    const Index first = g * lanes;
+    for (Index i = std::max(first, begin); i < std::min(first + lanes, end); ++i) {
+      energy += sum[i - first];
+    }
   }
-  return sum;
+  return energy;
 }
 
 template <int Dim>
