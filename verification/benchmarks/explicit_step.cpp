@@ -61,7 +61,7 @@ class Silent final : public ExplicitObserver {
 class SilentBonds final : public BondRunObserver {
  public:
   void on_row(const ExplicitRecord& record, const BondRunState& /*state*/) override {
-    if (record.step == 0) started_ = Timer();
+    if (record.step == 0) started_.restart();
   }
   double seconds() const { return started_.seconds(); }
 
@@ -118,7 +118,7 @@ double rate_of_bonds(const Network& network, int threads) {
   Loads loads;
   loads.forces.assign(held.size(), 0.0);
   loads.forces.back() = 1e-3;
-  const double steps = std::max(20.0, 5.0 * updates / network.num_elements());
+  const double steps = std::max(20.0, 20.0 * updates / network.num_elements());
   const ExplicitOptions options = options_of(inertia.critical_time_step(), steps, threads);
   double best = 0.0;
   for (int k = 0; k < repeats; ++k) {
