@@ -109,7 +109,7 @@ HalvesOfGroups sort_halves(const Network& network, const std::vector<int>& kind)
   return groups;
 }
 
-/// Takes out kinds whose halves lie too far apart.
+/// Takes out kinds whose halves lie too far apart, and all but one of bonds side by side.
 void drop_thin_kinds(const HalvesOfGroups& groups, std::size_t kinds, std::vector<int>& kind) {
   std::vector<double> halves(kinds, 0.0), lines(kinds, 0.0);
   std::vector<std::array<int, 2>> sides(kinds);  // lines of outgoing and incoming halves
@@ -117,8 +117,9 @@ void drop_thin_kinds(const HalvesOfGroups& groups, std::size_t kinds, std::vecto
     const Half* last = nullptr;
     for (const Half& half : group) {
       ++halves[half.kind];
-      if (last != nullptr && last->line() == half.line()) continue;
-      ++sides[half.kind][half.incoming];
+      const bool same_line = last != nullptr && last->line() == half.line();
+      if (!same_line) ++sides[half.kind][half.incoming];
+      if (same_line && last->lane == half.lane) kind[half.element] = no_kind;
       last = &half;
     }
     for (const Half& half : group) {

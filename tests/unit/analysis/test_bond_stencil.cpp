@@ -89,6 +89,22 @@ TEST(BondStencil, LeavesBarsToOthers) {
   }
 }
 
+/// A slot holds one bond: of two between the same particles the second is left to others.
+TEST(BondStencil, HoldsOneOfTwoBondsSideBySide) {
+  Network network = make_network({"", Pattern::rectangular, Surface::none}, 20);
+  const Index copied = 100, added = network.num_elements();
+  const auto again = [&](auto& values, std::size_t at) { values.push_back(values[at]); };
+  again(network.bonds.first, copied);
+  again(network.bonds.second, copied);
+  again(network.bonds.lengths, copied);
+  again(network.bonds.directions, 2 * copied);
+  again(network.bonds.directions, 2 * copied + 1);
+  again(network.stiffness, copied);
+  again(network.critical_stretch, copied);
+  network.first_tie = network.first_segment = network.num_elements();
+  EXPECT_EQ(find_stencil(network).rest, std::vector<Index>{added});
+}
+
 /// A bond that is a millionth stiffer than the others of its kind is no bond of that kind.
 TEST(BondStencil, TellsBondsApart) {
   Network network = make_network({"", Pattern::rectangular, Surface::none}, 20);
