@@ -22,6 +22,12 @@ struct BlockSums {
   double loaded = 0.0;                  // reference forces times displacements
 };
 
+std::unique_ptr<ExplicitBonds> make_bonds(const Network& network, const BondRunRules& rules) {
+  if (!network.has_states()) return make_explicit_bonds(network, rules.strain);
+  const StateBody& states = rules.states;
+  return make_explicit_particles(network, states.problem, states.materials, states.thickness);
+}
+
 class BondRun {
  public:
   BondRun(const Network& network, const Unknowns& unknowns, const Loads& loads,
@@ -34,7 +40,7 @@ class BondRun {
         inertia_(inertia),
         options_(options),
         observer_(observer),
-        bonds_(make_explicit_bonds(network, rules.strain)),
+        bonds_(make_bonds(network, rules)),
         component_(main_component(unknowns, loads)),
         blocks_(network.particles.size(), unknowns.width),
         loop_(options, inertia.critical_time_step()),
@@ -66,12 +72,19 @@ class BondRun {
     const Index blocks = blocks_.count();
     const double factor = loop_.load_factor(step);
     const double increment = motion_factor(step + 1) - motion_factor(step);
+    if (bonds_->has_states()) {
+#pragma omp for schedule(static)
+      for (Index b = 0; b < blocks; ++b) {
+        lose(b, bonds_->prepare(blocks_.begin(b), blocks_.end(b), dt_, motion_));
+      }
+    }
 #pragma omp for schedule(static)
     for (Index b = 0; b < blocks; ++b) {
-      const BondLosses losses =
-          bonds_->forces(blocks_.begin(b), blocks_.end(b), dt_, motion_, force_);
-      sums_[b].fractured += losses.fractured;
-      sums_[b].broken_halves += losses.broken_halves;
+      lose(b, bonds_->forces(blocks_.begin(b), blocks_.end(b), dt_, motion_, force_));
+    }
+    if (bonds_->has_states()) {
+#pragma omp single nowait
+      bonds_->finish_step();  // read again behind the next barrier only
     }
     if (loop_.is_looked_at(step)) {
 #pragma omp for schedule(static)
@@ -84,6 +97,11 @@ class BondRun {
       // Nobody waits for this: what it reads and writes is used again behind the next barrier only.
 #pragma omp single nowait
     note_reactions(step);
+  }
+
+  void lose(Index block, const BondLosses& losses) {
+    sums_[block].fractured += losses.fractured;
+    sums_[block].broken_halves += losses.broken_halves;
   }
 
   void measure(Index block) {
@@ -174,6 +192,9 @@ class BondRun {
       record.displacement = reference_.driven ? motion_factor(step) * reference_.value
                                               : all.loaded / reference_.value;
       record.broken_bonds = all.broken_halves / 2;
+      const std::vector<double> damage = bonds_->damage();
+      record.cracked_particles = static_cast<Index>(
+          std::count_if(damage.begin(), damage.end(), [](double each) { return each > 0.0; }));
     });
   }
 

@@ -3,6 +3,7 @@
 #include "analysis/damage_analysis.hpp"
 #include "analysis/explicit_analysis.hpp"
 #include "analysis/explicit_bonds.hpp"
+#include "analysis/explicit_particles.hpp"
 #include "analysis/inertia.hpp"
 #include "assembly/unknowns.hpp"
 
@@ -32,6 +33,13 @@ class BondRunObserver {
 /// counted.
 int main_component(const Unknowns& unknowns, const Loads& loads);
 
+/// What a network with states is made of.
+struct StateBody {
+  Problem problem = Problem::plane_stress;
+  double thickness = 1.0;  ///< of a body in the plane [length]
+  std::vector<StateMaterial> materials;
+};
+
 /// What moves the bonds of a run and how.
 struct BondRunRules {
   double damping_rate = 0.0;  ///< [1/time]
@@ -39,6 +47,7 @@ struct BondRunRules {
   /// Prescribed displacements are those at the end of the duration, reached at constant velocity;
   /// else they follow the load factor.
   bool constant_velocity = false;
+  StateBody states{};  ///< looked at where the network has states
 };
 
 /// Runs a network of bonds, truss or frame, from rest by Euler–Cromer: forces at step n change

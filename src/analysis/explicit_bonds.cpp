@@ -203,6 +203,9 @@ std::unique_ptr<ExplicitBonds> make_halves(const Network& network,
 }  // namespace
 
 std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network, Strain strain) {
+  if (network.has_states()) {
+    throw std::invalid_argument("state-based particles are not a network of bonds alone");
+  }
   std::vector<Index> all(static_cast<std::size_t>(network.num_elements()));
   std::iota(all.begin(), all.end(), 0);
   if (network.carries_moments()) {
@@ -216,7 +219,7 @@ std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network, Stra
 }
 
 std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain) {
-  if (network.carries_moments() || strain == Strain::green) {
+  if (network.has_states() || network.carries_moments() || strain == Strain::green) {
     return make_explicit_halves(network, strain);
   }
   BondStencil stencil = find_stencil(network);

@@ -38,6 +38,15 @@ class ExplicitBonds {
  public:
   virtual ~ExplicitBonds() = default;
 
+  /// Whether forces need sums over the neighbours of both ends of a bond: prepare() then comes
+  /// before forces(), for all particles, and finish_step() once after them.
+  virtual bool has_states() const { return false; }
+  virtual BondLosses prepare(Index /*begin*/, Index /*end*/, double /*time_step*/,
+                             const BondMotion& /*motion*/) {
+    return {};
+  }
+  virtual void finish_step() {}
+
   /// Internal force, K u of small strains, of the particles [begin, end), after the bonds that
   /// reach their limit at this displacement have broken. Calls for different particles may run at
   /// once.
@@ -53,12 +62,16 @@ class ExplicitBonds {
 
   /// Present secant stiffness of each element over the intact one [-].
   virtual std::vector<double> secants() const = 0;
+
+  /// Damage of each particle [-]; empty where bonds break and not particles.
+  virtual std::vector<double> damage() const { return {}; }
 };
 
 /// Truss bonds of small strains that recur throughout a body are held together
 /// (analysis/stencil_bonds.hpp), all others one by one.
 /// \param network  has to outlive the result
-/// \throws std::invalid_argument for Green strains of bonds that carry moments
+/// \throws std::invalid_argument for Green strains of bonds that carry moments, and for networks
+/// with states (make_explicit_particles)
 std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network,
                                                    Strain strain = Strain::small);
 

@@ -14,15 +14,35 @@ template <int Width>
 using Blocks = std::vector<Eigen::Matrix<double, Width, Width>,
                            Eigen::aligned_allocator<Eigen::Matrix<double, Width, Width>>>;
 
+/// Stiffness of bonds alone that stores at least as much as bonds and states: a sum of n extensions
+/// squares to at most n times the sum of their squares.
+std::vector<double> bounding_stiffness(const Network& network) {
+  if (!network.has_states()) return network.stiffness;
+  std::vector<double> count(network.state_stiffness.size(), 0.0);
+  const auto each_state = [&](const auto& visit) {
+    for (Index e = 0; e < network.num_elements(); ++e) {
+      if (network.counts_for(e, first_end)) visit(e, network.bonds.first[e]);
+      if (network.counts_for(e, second_end)) visit(e, network.bonds.second[e]);
+    }
+  };
+  each_state([&](Index, Index i) { count[i] += 1.0; });
+  std::vector<double> stiffness = network.stiffness;
+  each_state([&](Index e, Index i) {
+    stiffness[e] += std::max(0.0, network.state_stiffness[i]) * count[i];
+  });
+  return stiffness;
+}
+
 /// Sum of k b b' of all modes that end at each particle; with Green strains of what the tangents
 /// k ((1 + 2 g) n n' + g I) of bonds become before they break.
 template <int Dim>
 Blocks<Dim> own_trusses(const Network& network, Strain strain) {
   Blocks<Dim> blocks(static_cast<std::size_t>(network.particles.size()),
                      Eigen::Matrix<double, Dim, Dim>::Zero());
+  const std::vector<double> stiffness = bounding_stiffness(network);
   for (Index e = 0; e < network.num_elements(); ++e) {
     const Eigen::Map<const Eigen::Matrix<double, Dim, 1>> n(network.bonds.direction(e).data());
-    Eigen::Matrix<double, Dim, Dim> part = network.stiffness[e] * n * n.transpose();
+    Eigen::Matrix<double, Dim, Dim> part = stiffness[e] * n * n.transpose();
     if (strain == Strain::green && std::isfinite(network.critical_stretch[e])) {
       const double g = network.critical_stretch[e];
       part *= 1.0 + 2.0 * g;

@@ -10,6 +10,7 @@
 #include "analysis/fundamental_period.hpp"
 #include "app/field_file.hpp"
 #include "app/gauges.hpp"
+#include "app/particle_model.hpp"
 #include "app/signals.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
@@ -50,6 +51,11 @@ void choose_steps(const CaseFile& input, BondRunCase& built) {
   built.options.rows = analysis.rows;
 }
 
+std::string cracks_text(const Model& model, const ExplicitRecord& record) {
+  return model.network.has_states() ? fmt::format("{} cracked particles", record.cracked_particles)
+                                    : fmt::format("{} broken bonds", record.broken_bonds);
+}
+
 /// Fields and gauges take displacements as they are: the load factor is in them.
 StepState present_state(const BondRunState& state, const std::vector<double>& secants) {
   return {state.network, secants, state.motion.displacement};
@@ -67,6 +73,7 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model, int thread
   built.rules.damping_rate = input.analysis.damping_rate;
   built.rules.strain = strain_of(input.analysis);
   built.rules.constant_velocity = !input.velocities.empty();
+  if (model.network.has_states()) built.rules.states = state_body_of(input);
   built.inertia =
       lumped_inertia(model.network, densities(input),
                      uniform ? MassScaling::uniform : MassScaling::none, built.rules.strain);
@@ -82,7 +89,7 @@ BondRunFiles::BondRunFiles(const CaseFile& input, const Model& model, Index step
       model_(model),
       steps_(steps),
       directory_(std::move(directory)),
-      history_(directory_.string(), CrackCount::broken_bonds, names_of(model.gauges)),
+      history_(directory_.string(), crack_count(input), names_of(model.gauges)),
       bar_(quiet),
       families_(bonds_of_particles(model.network.bonds, model.network.particles.size())),
       is_broken_(static_cast<std::size_t>(model.network.num_elements()), 0) {}
@@ -106,6 +113,11 @@ void BondRunFiles::write_fields(const ExplicitRecord& record, const BondRunState
                                  families_, model_.lattice.spacing);
   for (auto& [key, value] : grid.field_data) {
     if (key == "load_factor") value = record.load_factor;
+  }
+  if (model_.network.has_states()) {
+    for (VtuArray& field : grid.point_data) {
+      if (field.name == "damage") field.values = state.bonds.damage();
+    }
   }
   grid.field_data.push_back({"time", record.time});
   if (model_.network.dim() == 2) grid.field_data.push_back({"thickness", input_.body.thickness});
@@ -133,8 +145,8 @@ void BondRunFiles::on_row(const ExplicitRecord& record, const BondRunState& stat
   for (; next_time_ < times.size() && times[next_time_] <= now; ++next_time_) wanted = true;
   if (wanted) write_fields(record, state);
   if (!bar_.is_due()) return;
-  bar_.draw(fmt::format("step {} of {}, load factor {:.4g}, {} broken bonds", record.step, steps_,
-                        record.load_factor, record.broken_bonds),
+  bar_.draw(fmt::format("step {} of {}, load factor {:.4g}, {}", record.step, steps_,
+                        record.load_factor, cracks_text(model_, record)),
             static_cast<double>(record.step) / steps_);
 }
 
@@ -174,7 +186,12 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["critical_time_step"] = result.critical_time_step;
   json["fundamental_period"] = built.fundamental_period;
   json["time"] = result.last.time;
-  json["broken_bonds"] = result.last.broken_bonds;
+  if (model.particle_fit) {
+    json["cracked_particles"] = result.last.cracked_particles;
+    json["constants"] = fit_json(*model.particle_fit);
+  } else {
+    json["broken_bonds"] = result.last.broken_bonds;
+  }
   json["external_work"] = energy.external_work;
   json["kinetic_energy"] = energy.kinetic;
   json["strain_energy"] = energy.stored;
@@ -213,14 +230,15 @@ void print_summary(const std::filesystem::path& directory, const CaseFile& input
              input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
              result.time_step, result.critical_time_step, files.rows());
-  fmt::print("  {:<14} {:.6g} work, {:.6g} dissipated by {} broken bonds, balance to {:.1e}\n",
-             "energy", energy.external_work, energy.fractured, result.last.broken_bonds,
+  fmt::print("  {:<14} {:.6g} work, {:.6g} dissipated by {}, balance to {:.1e}\n",
+             "energy", energy.external_work, energy.fractured, cracks_text(model, result.last),
              result.largest_surplus);
   fmt::print("  {:<14} {} particles, {}\n", "size", model.network.particles.size(),
              elements_text(model));
   fmt::print(
       "  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} M bond-steps/s), output {:.2f} s\n",
       "time", seconds.set_up, seconds.analysis, rate / 1e6, seconds.output);
+  for (const std::string& note : model.notes) fmt::print("  {:<14} {}\n", "note", note);
   fmt::print("  {:<14} {}\n", "results", directory.string());
 }
 

@@ -11,10 +11,12 @@
 #include "app/gauges.hpp"
 #include "app/lattice_model.hpp"
 #include "app/mesh_input.hpp"
+#include "app/particle_model.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
 #include "discretization/triangulate.hpp"
 #include "io/case_lattice.hpp"
+#include "io/case_particles.hpp"
 
 namespace perilink {
 namespace {
@@ -93,6 +95,10 @@ void refuse_short_horizon(const CaseFile& input, double horizon, double spacing)
                    "use two to four spacings");
 }
 
+bool has_horizon(const BodySection& body) {
+  return body.method == "bonds" && !is_particles(body);
+}
+
 Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   LatticeInput lattice;
   lattice.pattern = input.body.pattern;
@@ -107,7 +113,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   const Box box = bounding_box(lattice.solid);
   lattice.spacing = wanted_spacing(input.body, box.upper[0] - box.lower[0]);
   refuse_too_many_particles(input, box, lattice.spacing, dim);
-  const bool bonds = input.body.method == "bonds";
+  const bool bonds = has_horizon(input.body);
   if (bonds) {
     lattice.horizon = horizon_of(input.body, lattice.spacing);
     refuse_short_horizon(input, lattice.horizon, lattice.spacing);
@@ -131,7 +137,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
 Body build_body(const CaseFile& input, int dim, double& horizon, std::vector<std::string>& notes) {
   if (!input.body.mesh) return build_lattice_body(input, dim, horizon);
   Body body = read_mesh_body(input, dim, notes);
-  if (input.body.method != "bonds") return body;
+  if (!has_horizon(input.body)) return body;
   body.lattice.surface = input.body.surface;
   horizon = horizon_of(input.body, body.lattice.spacing);
   refuse_short_horizon(input, horizon, body.lattice.spacing);
@@ -312,8 +318,10 @@ Model build_bodies_model(const CaseFile& input, const CalibrationObserver& on_se
   Body body = build_body(input, dim, model.horizon, model.notes);
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
-  if (input.body.method == "bonds") {
+  if (has_horizon(input.body)) {
     build_bonds(input, on_search, body, model);
+  } else if (is_particles(input.body)) {
+    build_particles(input, body, model);
   } else {
     build_elements(input, body, model);
   }

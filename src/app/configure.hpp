@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/damage_analysis.hpp"
+#include "assembly/particle_network.hpp"
 #include "assembly/linear_elements.hpp"
 #include "assembly/network.hpp"
 #include "assembly/rigid_modes.hpp"
@@ -42,6 +43,7 @@ struct Model {
   /// all questions of what holds what; their stiffness means nothing.
   Network network;
   std::optional<LinearElements> elements;  ///< with method = "linear_elements"
+  std::optional<ParticleFitReport> particle_fit;  ///< with model = "particles"
   Unknowns unknowns;
   Loads loads;
   ReferenceLoad reference;

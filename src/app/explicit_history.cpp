@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "io/case_lattice.hpp"
+
 namespace perilink {
 namespace {
 
@@ -35,6 +37,11 @@ constexpr std::array columns = {
 };
 
 }  // namespace
+
+CrackCount crack_count(const CaseFile& input) {
+  return has_state_based_particles(input.body) ? CrackCount::cracked_particles
+                                               : CrackCount::broken_bonds;
+}
 
 std::vector<std::string> explicit_history_columns(CrackCount count) {
   std::vector<std::string> names;

@@ -6,12 +6,16 @@
 
 #include "analysis/explicit_analysis.hpp"
 #include "base/timer.hpp"
+#include "io/case_file.hpp"
 #include "io/csv.hpp"
 
 namespace perilink {
 
 /// What a history counts as cracked.
 enum class CrackCount { cracked_particles, broken_bonds };
+
+/// Bonds of a network break, state-based particles crack.
+CrackCount crack_count(const CaseFile& input);
 
 /// Columns of the history of an explicit analysis.
 std::vector<std::string> explicit_history_columns(CrackCount count);

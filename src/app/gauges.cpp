@@ -77,8 +77,7 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
   const std::vector<std::string> taken =
       input.analysis.type != "explicit"
           ? history_columns()
-          : explicit_history_columns(is_lattice(input.body) ? CrackCount::cracked_particles
-                                                            : CrackCount::broken_bonds);
+          : explicit_history_columns(crack_count(input));
   for (std::size_t k = 0; k < input.gauges.size(); ++k) {
     const GaugeSection& section = input.gauges[k];
     if (std::find(taken.begin(), taken.end(), section.name) != taken.end()) {

@@ -27,7 +27,8 @@ void add_elements(const Network& network, std::span<const double> secants,
   }
 }
 
-/// What the sums of the extensions add: the bond between i and j pulls with c_i s_i + c_j s_j more.
+/// What the sums of the extensions add: the bond between i and j pulls with c_i s_i + c_j s_j more, where it
+/// counts in these sums.
 template <int Dim>
 void add_states(const Network& network, std::span<const double> secants,
                 std::span<const double> displacement, InternalForce& result) {
@@ -40,7 +41,9 @@ void add_states(const Network& network, std::span<const double> secants,
   for (Index e = 0; e < network.num_elements(); ++e) {
     const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
     const std::size_t first = bonds.first[e], second = bonds.second[e];
-    const double pull = secants[e] * (tension[first] + tension[second]);
+    const double pull =
+        secants[e] * ((network.counts_for(e, first_end) ? tension[first] : 0.0) +
+                      (network.counts_for(e, second_end) ? tension[second] : 0.0));
     for (int axis = 0; axis < Dim; ++axis) {
       result.forces[first * Dim + axis] -= pull * n[axis];
       result.forces[second * Dim + axis] += pull * n[axis];
@@ -114,8 +117,8 @@ std::vector<double> extension_sums(const Network& network, std::span<const doubl
     for (std::size_t axis = 0; axis < dim; ++axis) {
       extension += n[axis] * (displacement[second * dim + axis] - displacement[first * dim + axis]);
     }
-    sums[first] += secants[e] * extension;
-    sums[second] += secants[e] * extension;
+    if (network.counts_for(e, first_end)) sums[first] += secants[e] * extension;
+    if (network.counts_for(e, second_end)) sums[second] += secants[e] * extension;
   }
   return sums;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "discretization/particles.hpp"
 
 namespace perilink {
+
+/// Ends of a bond, as bits.
+enum StateOf : std::uint8_t { first_end = 1, second_end = 2 };
 
 /// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds
 /// of the solid first, then ties between bars and solid, then the segments of the bars.
@@ -27,10 +31,14 @@ struct Network {
   /// Where micropolar bonds bent by a transverse force have their inflection, from the first end
   /// over the length [-], per element; empty: in the middle.
   std::vector<double> inflection;
-  /// Of state-based lattice particles: beside its bonds a particle stores c s^2 / 2, s the sum of
-  /// the extensions of all its bonds, c = b / (2 L_0) [force/length], per particle; negative where
-  /// Poisson's ratio is below that of the bonds alone. Empty: bonds only. Trusses alone have it.
+  /// Of state-based particles: beside its bonds a particle stores c s^2 / 2, s the sum of the
+  /// extensions of its neighbours' bonds, c = b / 2 [force/length] (b / (2 L_0) of a lattice), per
+  /// particle; negative where Poisson's ratio is below that of the bonds alone. Empty: bonds only.
+  /// Trusses alone have it.
   std::vector<double> state_stiffness;
+  /// In whose sums the extension of a bond counts, see StateOf, per element; empty: in those of
+  /// both its ends. Nearest neighbours need not be mutual.
+  std::vector<std::uint8_t> state_of;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
   /// Stiffness of elastic supports between the components of particles and the ground
@@ -57,6 +65,10 @@ struct Network {
   }
   bool carries_moments() const { return !bending.empty(); }
   bool has_states() const { return !state_stiffness.empty(); }
+  /// Whether the extension of a bond counts in the sum of its first end, or its second.
+  bool counts_for(Index element, StateOf end) const {
+    return state_of.empty() || (state_of[element] & end) != 0;
+  }
   Index num_elements() const { return bonds.size(); }
   bool is_segment(Index element) const { return element >= first_segment; }
 };

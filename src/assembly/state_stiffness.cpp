@@ -53,8 +53,12 @@ class StateStiffness {
         coupled_(coupled_particles(network.bonds, families_)),
         own_(static_cast<std::size_t>(network.particles.size()), Vector::Zero()) {
     for (Index e = 0; e < network.num_elements(); ++e) {
-      own_[network.bonds.first[e]] -= secants[e] * direction(e);
-      own_[network.bonds.second[e]] += secants[e] * direction(e);
+      if (network.counts_for(e, first_end)) {
+        own_[network.bonds.first[e]] -= secants[e] * direction(e);
+      }
+      if (network.counts_for(e, second_end)) {
+        own_[network.bonds.second[e]] += secants[e] * direction(e);
+      }
     }
   }
 
@@ -123,6 +127,7 @@ class StateStiffness {
       if (center >= i) blocks[place[center]] += own_[center] * column.transpose();
       for (const Index e : families_.row(center)) {
         const bool outward = bonds.first[e] == center;
+        if (!network_.counts_for(e, outward ? first_end : second_end)) continue;
         const Index j = outward ? bonds.second[e] : bonds.first[e];
         if (j < i) continue;
         const double sign = outward ? secants_[e] : -secants_[e];
@@ -137,6 +142,7 @@ class StateStiffness {
       const Block truss = secants_[e] * network_.stiffness[e] * n * n.transpose();
       blocks[0] += truss;
       if (j > i) blocks[place[j]] -= truss;
+      if (!network_.counts_for(e, outward ? second_end : first_end)) continue;
       add_state(j, (outward ? -secants_[e] : secants_[e]) * n);
     }
     for (const Index j : coupled) place[j] = no_index;

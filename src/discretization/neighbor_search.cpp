@@ -49,21 +49,22 @@ class RowCollector {
   double limit_;
 };
 
-/// Row q holds the points within the radius of query q, those above q only when `upper_only`.
 template <int Dim>
-Csr search(std::span<const double> points, std::span<const double> queries, double radius,
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<
+    nanoflann::L2_Simple_Adaptor<double, PointCloud, double, Index>, PointCloud, Dim, Index>;
+const nanoflann::KDTreeSingleIndexAdaptorParams tree_parameters(16);
+
+/// Row q holds the points within radius_of(q) of query q, those above q only when `upper_only`.
+template <int Dim, class Radius>
+Csr search(std::span<const double> points, std::span<const double> queries, const Radius& radius_of,
            bool upper_only) {
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<
-      nanoflann::L2_Simple_Adaptor<double, PointCloud, double, Index>, PointCloud, Dim, Index>;
   const auto num_queries = static_cast<Index>(queries.size() / Dim);
   Csr result;
   result.offsets.assign(static_cast<std::size_t>(num_queries) + 1, 0);
   if (points.empty() || num_queries == 0) return result;
 
   const PointCloud cloud{points, Dim};
-  Tree tree(Dim, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-  // nanoflann compares squared distances with "<"; the radius itself is inside.
-  const double limit = std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
+  Tree<Dim> tree(Dim, cloud, tree_parameters);
 
   // Chunks are searched in parallel and joined in order, so the result does not depend on threads.
   constexpr Index chunk_size = 4096;
@@ -75,6 +76,9 @@ Csr search(std::span<const double> points, std::span<const double> queries, doub
     const Index end = std::min(num_queries, (chunk + 1) * chunk_size);
     for (Index query = chunk * chunk_size; query < end; ++query) {
       row.clear();
+      // nanoflann compares squared distances with "<"; the radius itself is inside.
+      const double radius = radius_of(query);
+      const double limit = std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
       RowCollector collector(row, upper_only ? query : no_index, limit);
       tree.findNeighbors(collector, queries.data() + static_cast<std::size_t>(query) * Dim,
                          nanoflann::SearchParams(0, 0.0F, false));
@@ -100,23 +104,60 @@ Csr search(std::span<const double> points, std::span<const double> queries, doub
   return result;
 }
 
-Csr search(std::span<const double> points, std::span<const double> queries, int dim, double radius,
-           bool upper_only) {
-  if (dim == 2) return search<2>(points, queries, radius, upper_only);
-  if (dim == 3) return search<3>(points, queries, radius, upper_only);
+[[noreturn]] void refuse_dimension(int dim) {
   throw std::invalid_argument("neighbour search in " + std::to_string(dim) +
                               " dimensions: only 2 and 3 are possible");
+}
+
+template <class Radius>
+Csr search(std::span<const double> points, std::span<const double> queries, int dim,
+           const Radius& radius_of, bool upper_only) {
+  if (dim == 2) return search<2>(points, queries, radius_of, upper_only);
+  if (dim == 3) return search<3>(points, queries, radius_of, upper_only);
+  refuse_dimension(dim);
+}
+
+template <int Dim>
+std::vector<double> nearest(std::span<const double> positions, int count) {
+  const std::size_t size = positions.size() / Dim;
+  std::vector<double> distances(size, std::numeric_limits<double>::infinity());
+  if (size <= static_cast<std::size_t>(count)) return distances;
+  const PointCloud cloud{positions, Dim};
+  Tree<Dim> tree(Dim, cloud, tree_parameters);
+#pragma omp parallel
+  {
+    const std::size_t wanted = static_cast<std::size_t>(count) + 1;  // with the point itself
+    std::vector<Index> found(wanted);
+    std::vector<double> squares(wanted);
+#pragma omp for schedule(static)
+    for (std::size_t i = 0; i < size; ++i) {
+      tree.knnSearch(positions.data() + i * Dim, wanted, found.data(), squares.data());
+      distances[i] = std::sqrt(squares.back());
+    }
+  }
+  return distances;
 }
 
 }  // namespace
 
 Csr find_upper_neighbors(std::span<const double> positions, int dim, double radius) {
-  return search(positions, positions, dim, radius, true);
+  return search(positions, positions, dim, [=](Index) { return radius; }, true);
 }
 
 Csr find_neighbors(std::span<const double> points, std::span<const double> queries, int dim,
                    double radius) {
-  return search(points, queries, dim, radius, false);
+  return search(points, queries, dim, [=](Index) { return radius; }, false);
+}
+
+Csr find_neighbors_within(std::span<const double> points, std::span<const double> queries, int dim,
+                          std::span<const double> radii) {
+  return search(points, queries, dim, [=](Index query) { return radii[query]; }, false);
+}
+
+std::vector<double> distances_of_nearest(std::span<const double> positions, int dim, int count) {
+  if (dim == 2) return nearest<2>(positions, count);
+  if (dim == 3) return nearest<3>(positions, count);
+  refuse_dimension(dim);
 }
 
 }  // namespace perilink

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "io/case_lattice.hpp"
+#include "io/case_particles.hpp"
 #include "io/case_schema.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
@@ -250,7 +251,7 @@ BodySection read_body(const CaseTable& table) {
   assign(body.thickness, table.positive("thickness"));
   assign(body.method, table.choice("method", method_words()));
   if (body.method == "linear_elements") refuse_keys_of_bonds(table);
-  assign(body.model, table.choice("model", {"bond_based", "micropolar", "lattice"}));
+  assign(body.model, table.choice("model", {"bond_based", "micropolar", "lattice", "particles"}));
   if (is_lattice(body)) {
     read_lattice_body(table, body);
     return body;
@@ -265,12 +266,17 @@ BodySection read_body(const CaseTable& table) {
         "delete it; three-dimensional bodies with model = \"micropolar\" have it");
   }
   assign(body.torsion, table.positive("torsion"));
+  if (is_particles(body)) refuse_horizon_keys(table);
   table.need_one_of({"columns", "spacing", "mesh"});
   if (table.has("mesh")) {
     read_mesh(table, body);
   } else {
     read_mesh_file(table, body);
     read_lattice(table, body);
+  }
+  if (is_particles(body)) {
+    body.surface = Surface::none;
+    return body;
   }
   if (body.method == "bonds") read_horizon(table, body);
   assign(body.micromodulus, table.choice("micromodulus", {"lattice", "continuum"}));
@@ -290,6 +296,10 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
       table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");
   if (is_lattice(body)) {
     read_lattice_material(table, body, material);
+    return material;
+  }
+  if (is_particles(body)) {
+    read_particle_material(table, body, material);
     return material;
   }
   refuse_lattice_material_keys(table);

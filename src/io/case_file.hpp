@@ -28,7 +28,7 @@ struct BodySection {
   std::optional<double> mesh_size;       ///< of the cells where `mesh` is a geometry [length]
   std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
   std::string method = "bonds";          ///< bonds | linear_elements
-  std::string model = "bond_based";      ///< bond_based | micropolar | lattice
+  std::string model = "bond_based";      ///< bond_based | micropolar | lattice | particles
   double torsion = 1.0;                  ///< torsional over bending modulus of micropolar bonds, 3D
   double thickness = 1.0;                ///< of two-dimensional bodies
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
@@ -45,7 +45,7 @@ struct BodySection {
   std::string variant = "consistent";  ///< its rules: consistent | 2018 | 2017
 };
 
-/// Keys of [[materials]] of bodies with model = lattice.
+/// Keys of [[materials]] of bodies with model = lattice; some also of those with particles.
 struct LatticeMaterialSection {
   double density = 0.0;                    ///< [mass/length^3]
   std::optional<double> tensile_strength;  ///< [force/length^2]; absent: unbreakable
@@ -78,7 +78,7 @@ struct MaterialSection {
                                          ///< an explanation, or confirmed
   double fracture_energy = 0.0;          ///< infinity: unbreakable ("infinite" in the file)
   std::optional<double> density;         ///< of bonds in explicit analyses [mass/length^3]
-  std::optional<LatticeMaterialSection> lattice;  ///< of bodies with model = lattice
+  std::optional<LatticeMaterialSection> lattice;  ///< of state-based particles
 };
 
 /// [[supports]]: displacements and rotations held at zero.

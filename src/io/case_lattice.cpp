@@ -178,6 +178,10 @@ void refuse_lattice_tables(const CaseFile& input) {
 
 bool is_lattice(const BodySection& body) { return body.model == "lattice"; }
 
+bool has_state_based_particles(const BodySection& body) {
+  return is_lattice(body) || body.model == "particles";
+}
+
 void read_lattice_body(const CaseTable& table, BodySection& body) {
   for (const char* key : {"torsion", "columns", "surface", "horizon", "horizon_level",
                           "horizon_ratio", "micromodulus", "critical_stretch"}) {
@@ -217,21 +221,18 @@ void refuse_lattice_keys(const CaseTable& table, const BodySection& body) {
   }
 }
 
-void read_lattice_material(const CaseTable& table, const BodySection& body,
-                           MaterialSection& material) {
+void read_state_material(const CaseTable& table, const BodySection& body,
+                         MaterialSection& material) {
   const double ratio =
       table.need("poissons_ratio", table.number("poissons_ratio"), "Poisson's ratio");
   if (!(ratio > -1.0 && ratio < 0.5)) {
     table.refuse(
         "poissons_ratio",
-        fmt::format("is {}, but lattice particles have ratios above -1 and below 1/2", ratio),
+        fmt::format("is {}, but {} particles have ratios above -1 and below 1/2", ratio,
+                    is_lattice(body) ? "lattice" : "state-based"),
         "0.2 is usual for concrete");
   }
   material.poissons_ratio = ratio;
-  if (const auto holes = table.texts("holes")) {
-    if (holes->empty()) table.refuse("holes", "names no region", "name one, or delete the key");
-    material.holes = *holes;
-  }
   LatticeMaterialSection& section = material.lattice.emplace();
   section.density = table.need("density", table.positive("density"), "mass per volume");
   table.need_one_of({"fracture_energy", "critical_opening"});
@@ -248,8 +249,17 @@ void read_lattice_material(const CaseTable& table, const BodySection& body,
     table.refuse(key, "is given, but the material is unbreakable",
                  "delete it, or give a finite fracture_energy");
   }
-  read_lattice_yielding(table, body, section);
-  read_damping(table, section);
+}
+
+void read_lattice_material(const CaseTable& table, const BodySection& body,
+                           MaterialSection& material) {
+  read_state_material(table, body, material);
+  if (const auto holes = table.texts("holes")) {
+    if (holes->empty()) table.refuse("holes", "names no region", "name one, or delete the key");
+    material.holes = *holes;
+  }
+  read_lattice_yielding(table, body, *material.lattice);
+  read_damping(table, *material.lattice);
 }
 
 void refuse_lattice_material_keys(const CaseTable& table) {
@@ -307,18 +317,21 @@ void write_lattice_body(TomlWriter& out, const BodySection& body) {
   out.write("variant", body.variant);
 }
 
+void write_softening(TomlWriter& out, const LatticeMaterialSection& section) {
+  out.write("density", section.density);
+  if (!section.tensile_strength) return;
+  out.write("tensile_strength", section.tensile_strength);
+  out.write("critical_opening", section.critical_opening);
+  out.write("knee_stress_ratio", section.knee_stress_ratio);
+  out.write("knee_opening_ratio", section.knee_opening_ratio);
+  out.write("compression_ratio", section.compression_ratio);
+  out.write("compression_threshold", section.compression_threshold);
+}
+
 void write_lattice_material(TomlWriter& out, const MaterialSection& material) {
   const LatticeMaterialSection& section = *material.lattice;
-  out.write("density", section.density);
-  if (section.tensile_strength) {
-    out.write("tensile_strength", section.tensile_strength);
-    out.write("critical_opening", section.critical_opening);
-    out.write("knee_stress_ratio", section.knee_stress_ratio);
-    out.write("knee_opening_ratio", section.knee_opening_ratio);
-    out.write("compression_ratio", section.compression_ratio);
-    out.write("compression_threshold", section.compression_threshold);
-    out.write("boundary_factor", section.boundary_factor);
-  }
+  write_softening(out, section);
+  if (section.tensile_strength) out.write("boundary_factor", section.boundary_factor);
   write_lattice_yielding(out, section);
   out.write("internal_damping", section.internal_damping);
   out.write("external_damping", section.external_damping);

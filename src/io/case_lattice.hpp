@@ -13,6 +13,9 @@ namespace perilink {
 /// Whether [body] says model = "lattice".
 bool is_lattice(const BodySection& body);
 
+/// Whether it says that or model = "particles".
+bool has_state_based_particles(const BodySection& body);
+
 /// The keys of [body] below `model`.
 void read_lattice_body(const CaseTable& table, BodySection& body);
 /// Refuses keys of lattice bodies in [body] of others.
@@ -21,6 +24,10 @@ void refuse_lattice_keys(const CaseTable& table, const BodySection& body);
 /// Poisson's ratio, fracture_energy and what other bodies' materials lack.
 void read_lattice_material(const CaseTable& table, const BodySection& body,
                            MaterialSection& material);
+/// Of these what particles anywhere have, too: elastic constants, density and softening.
+void read_state_material(const CaseTable& table, const BodySection& body,
+                         MaterialSection& material);
+void write_softening(TomlWriter& out, const LatticeMaterialSection& section);
 /// Yield strength and what goes with it.
 void read_lattice_yielding(const CaseTable& table, const BodySection& body,
                            LatticeMaterialSection& section);

@@ -18,6 +18,10 @@ void check_strain(const CaseFile& input) {
     throw InputError(where, "is given, but lattice particles stretch by their true lengths",
                      "delete it");
   }
+  if (input.body.model == "particles" && input.analysis.strain == "green") {
+    throw InputError(where, "is \"green\", but state-based particles know small strains",
+                     "delete it");
+  }
   if (input.analysis.strain == "green" && input.body.model != "bond_based") {
     throw InputError(where,
                      fmt::format("is \"green\", but model is \"{}\", whose moments know small "

@@ -12,6 +12,7 @@
 #include "io/case_gauges.hpp"
 #include "io/case_lattice.hpp"
 #include "io/case_moving_bonds.hpp"
+#include "io/case_particles.hpp"
 #include "io/case_schema.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
@@ -235,6 +236,7 @@ void check_method(const CaseFile& input) {
 
 void check_rules(const CaseFile& input) {
   check_moving_bonds(input);
+  check_particles(input);
   check_lattice(input);
   check_method(input);
   const std::set<std::string> names = check_region_names(input);

@@ -8,6 +8,7 @@
 #include "io/case_gauges.hpp"
 #include "io/case_lattice.hpp"
 #include "io/case_moving_bonds.hpp"
+#include "io/case_particles.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
 #include "io/toml_writer.hpp"
@@ -27,13 +28,14 @@ void write_body(TomlWriter& out, const BodySection& body) {
   out.write("mesh", body.mesh);
   out.write("mesh_size", body.mesh_size);
   if (!body.mesh) out.write("pattern", word_of(body.pattern));
-  if (bonds) out.write("surface", word_of(body.surface));
+  const bool has_horizon = bonds && !is_particles(body);
+  if (has_horizon) out.write("surface", word_of(body.surface));
   out.write("columns", body.columns);
   out.write("spacing", body.spacing);
   out.write("horizon", body.horizon);
   out.write("horizon_level", body.horizon_level);
   out.write("horizon_ratio", body.horizon_ratio);
-  if (!bonds) return;
+  if (!has_horizon) return;
   out.write("micromodulus", body.micromodulus);
   out.write("critical_stretch", body.critical_stretch);
 }
@@ -52,7 +54,9 @@ void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
     } else if (material.fracture_energy > 0.0) {
       out.write("fracture_energy", material.fracture_energy);
     }
-    if (material.lattice) {
+    if (is_particles(input.body)) {
+      write_particle_material(out, material);
+    } else if (material.lattice) {
       write_lattice_material(out, material);
     } else {
       out.write("density", material.density);

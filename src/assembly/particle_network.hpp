@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+
+#include "assembly/linear_elements.hpp"
+#include "assembly/network.hpp"
+#include "discretization/lattice.hpp"
+#include "material/elasticity.hpp"
+#include "material/state_fit.hpp"
+
+namespace perilink {
+
+/// How the constants of the particles of a body were found.
+struct ParticleFitReport {
+  Index exact = 0, least = 0, many = 0, indefinite = 0, singular = 0;  ///< families of each FitKind
+  double mean_residual = 0.0, largest_residual = 0.0;                  ///< [-]
+  Index worst = no_index;  ///< particle of the largest residual
+};
+
+/// A body of state-based particles (SPPM, Nikravesh 2017, chapter 3).
+struct ParticleNetwork {
+  Network network;
+  ParticleFitReport report;
+};
+
+/// Neighbours that a particle has: those no farther than its sixth (in the plane) or eighteenth
+/// nearest one (Eq. 3.50), unless the way there leaves the body. Distances that differ by a
+/// millionth are equal: regular arrangements keep their symmetry.
+inline constexpr int neighbors_in_plane = 6, neighbors_in_space = 18;
+
+/// Particles with the volumes of their Voronoi cells and the constants of fit_particle_moduli().
+/// Neighbours need not be mutual: a bond has the force of the state of each end to which the other
+/// one is a neighbour, and exists where at least one is. Its force is the mean of the two states'
+/// (Eq. 3.7), which derive from the energy
+///   sum_i 1/4 sum_(j neighbour of i) L_ij F_ij S_ij.
+/// Nothing breaks by a stretch: all critical ones are infinite.
+/// \param body       with cells
+/// \param materials  by Particles::material
+/// \param thickness  of two-dimensional bodies [length]
+ParticleNetwork make_particle_network(const Body& body, Problem problem,
+                                      std::span<const IsotropicMaterial> materials,
+                                      double thickness);
+
+}  // namespace perilink
