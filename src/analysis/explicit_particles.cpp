@@ -56,8 +56,8 @@ class StateParticles final : public ExplicitBonds {
   static double difference(const StateHalf<Dim>& half, Index i, const std::vector<double>& field) {
     double along = 0.0;
     for (int c = 0; c < Dim; ++c) {
-      along += half.direction[c] * (field[half.other * std::size_t{Dim} + c] -
-                                    field[i * std::size_t{Dim} + c]);
+      along += half.direction[c] *
+               (field[half.other * std::size_t{Dim} + c] - field[i * std::size_t{Dim} + c]);
     }
     return along;
   }
@@ -84,13 +84,13 @@ class StateParticles final : public ExplicitBonds {
   bool breakable_ = false;
   std::vector<std::size_t> offsets_{0};
   std::vector<StateHalf<Dim>> halves_;
-  std::vector<double> sum_;         ///< of weakened extensions of each particle's neighbours
-  std::vector<double> extension_;   ///< of each half, of the breakable
+  std::vector<double> sum_;           ///< of weakened extensions of each particle's neighbours
+  std::vector<double> extension_;     ///< of each half, of the breakable
   std::vector<HalfFactors> factors_;  ///< the same
   std::vector<double> damage_, next_;
-  std::vector<double> band_;        ///< width of the crack band [length]
+  std::vector<double> band_;  ///< width of the crack band [length]
   std::vector<std::uint8_t> cracked_;
-  std::vector<double> calm_;        ///< extension below which no crack can begin [length]
+  std::vector<double> calm_;  ///< extension below which no crack can begin [length]
   ParticleStrains<Dim> strains_;
 };
 
@@ -168,8 +168,8 @@ bool StateParticles<Dim>::weaken(Index i) {
     if (damage_[i] == 0.0 && damage_[j] == 0.0) continue;
     const HalfFactors fresh{two_spring_factor(damage_[i], damage_[j]),
                             two_spring_factor(compressive(i), compressive(j))};
-    any = any || fresh.tension != factors_[h].tension ||
-          fresh.compression != factors_[h].compression;
+    any =
+        any || fresh.tension != factors_[h].tension || fresh.compression != factors_[h].compression;
     factors_[h] = fresh;
   }
   return any;
@@ -242,9 +242,9 @@ BondLosses StateParticles<Dim>::prepare(Index begin, Index end, double time_step
   BondLosses losses;
   for (Index i = begin; i < end; ++i) {
     if (breakable_) {
-      const bool stirred = std::any_of(
-          halves_.begin() + offsets_[i], halves_.begin() + offsets_[i + 1],
-          [&](const StateHalf<Dim>& half) { return damage_[half.other] > 0.0; });
+      const bool stirred =
+          std::any_of(halves_.begin() + offsets_[i], halves_.begin() + offsets_[i + 1],
+                      [&](const StateHalf<Dim>& half) { return damage_[half.other] > 0.0; });
       if (stirred || damage_[i] > 0.0) {
         const double before = half_energy(i, time_step, motion);
         if (weaken(i)) losses.fractured += before - half_energy(i, time_step, motion);
@@ -293,7 +293,8 @@ double StateParticles<Dim>::stored(Index begin, Index end, double time_step,
 template <int Dim>
 std::vector<double> StateParticles<Dim>::secants() const {
   std::vector<double> secants(static_cast<std::size_t>(network_.num_elements()), 1.0);
-  for (std::size_t h = 0; h < factors_.size(); ++h) secants[halves_[h].element] = factors_[h].tension;
+  for (std::size_t h = 0; h < factors_.size(); ++h)
+    secants[halves_[h].element] = factors_[h].tension;
   return secants;
 }
 

@@ -70,9 +70,9 @@ class ParticleStrains {
   static constexpr std::array<int, 6> place =  // in a SymmetricTensor
       Dim == 2 ? std::array<int, 6>{0, 1, 3, 0, 0, 0} : std::array<int, 6>{0, 1, 2, 3, 4, 5};
   static constexpr std::array<std::array<int, 2>, 6> axes =
-      Dim == 2 ? std::array<std::array<int, 2>, 6>{{{0, 0}, {1, 1}, {0, 1}, {}, {}, {}}}
-               : std::array<std::array<int, 2>, 6>{
-                     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+      Dim == 2
+          ? std::array<std::array<int, 2>, 6>{{{0, 0}, {1, 1}, {0, 1}, {}, {}, {}}}
+          : std::array<std::array<int, 2>, 6>{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
   std::vector<double> inverse_;  ///< of each bond of each particle, shape (bonds, entries)
   std::vector<std::size_t> offsets_{0};

@@ -230,8 +230,8 @@ void print_summary(const std::filesystem::path& directory, const CaseFile& input
              input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
              result.time_step, result.critical_time_step, files.rows());
-  fmt::print("  {:<14} {:.6g} work, {:.6g} dissipated by {}, balance to {:.1e}\n",
-             "energy", energy.external_work, energy.fractured, cracks_text(model, result.last),
+  fmt::print("  {:<14} {:.6g} work, {:.6g} dissipated by {}, balance to {:.1e}\n", "energy",
+             energy.external_work, energy.fractured, cracks_text(model, result.last),
              result.largest_surplus);
   fmt::print("  {:<14} {} particles, {}\n", "size", model.network.particles.size(),
              elements_text(model));

@@ -95,9 +95,7 @@ void refuse_short_horizon(const CaseFile& input, double horizon, double spacing)
                    "use two to four spacings");
 }
 
-bool has_horizon(const BodySection& body) {
-  return body.method == "bonds" && !is_particles(body);
-}
+bool has_horizon(const BodySection& body) { return body.method == "bonds" && !is_particles(body); }
 
 Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   LatticeInput lattice;

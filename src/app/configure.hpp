@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "analysis/damage_analysis.hpp"
-#include "assembly/particle_network.hpp"
 #include "assembly/linear_elements.hpp"
 #include "assembly/network.hpp"
+#include "assembly/particle_network.hpp"
 #include "assembly/rigid_modes.hpp"
 #include "assembly/unknowns.hpp"
 #include "discretization/calibration.hpp"
@@ -42,7 +42,7 @@ struct Model {
   /// Of linear elements the particles with the edges of the cells as bonds that stand for them in
   /// all questions of what holds what; their stiffness means nothing.
   Network network;
-  std::optional<LinearElements> elements;  ///< with method = "linear_elements"
+  std::optional<LinearElements> elements;         ///< with method = "linear_elements"
   std::optional<ParticleFitReport> particle_fit;  ///< with model = "particles"
   Unknowns unknowns;
   Loads loads;

@@ -74,10 +74,9 @@ std::size_t number_of(const std::array<int, 2>& axes) {
 
 std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
   std::vector<Gauge> gauges;
-  const std::vector<std::string> taken =
-      input.analysis.type != "explicit"
-          ? history_columns()
-          : explicit_history_columns(crack_count(input));
+  const std::vector<std::string> taken = input.analysis.type != "explicit"
+                                             ? history_columns()
+                                             : explicit_history_columns(crack_count(input));
   for (std::size_t k = 0; k < input.gauges.size(); ++k) {
     const GaugeSection& section = input.gauges[k];
     if (std::find(taken.begin(), taken.end(), section.name) != taken.end()) {

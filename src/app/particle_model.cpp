@@ -54,10 +54,11 @@ std::string fit_text(const ParticleFitReport& report, const Particles& particles
   }
   const Index ill_posed = report.many + report.indefinite + report.singular;
   if (ill_posed == 0) return text;
-  return text + fmt::format("; ILL-POSED for {}: {} with several solutions, {} of negative energy, "
-                            "{} whose neighbours leave a strain free: these have bonds without "
-                            "states",
-                            ill_posed, report.many, report.indefinite, report.singular);
+  return text + fmt::format(
+                    "; ILL-POSED for {}: {} with several solutions, {} of negative energy, "
+                    "{} whose neighbours leave a strain free: these have bonds without "
+                    "states",
+                    ill_posed, report.many, report.indefinite, report.singular);
 }
 
 nlohmann::ordered_json fit_json(const ParticleFitReport& report) {

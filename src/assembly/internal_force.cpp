@@ -41,9 +41,8 @@ void add_states(const Network& network, std::span<const double> secants,
   for (Index e = 0; e < network.num_elements(); ++e) {
     const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
     const std::size_t first = bonds.first[e], second = bonds.second[e];
-    const double pull =
-        secants[e] * ((network.counts_for(e, first_end) ? tension[first] : 0.0) +
-                      (network.counts_for(e, second_end) ? tension[second] : 0.0));
+    const double pull = secants[e] * ((network.counts_for(e, first_end) ? tension[first] : 0.0) +
+                                      (network.counts_for(e, second_end) ? tension[second] : 0.0));
     for (int axis = 0; axis < Dim; ++axis) {
       result.forces[first * Dim + axis] -= pull * n[axis];
       result.forces[second * Dim + axis] += pull * n[axis];

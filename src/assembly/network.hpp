@@ -20,7 +20,7 @@ enum StateOf : std::uint8_t { first_end = 1, second_end = 2 };
 struct Network {
   Particles particles;
   Bonds bonds;
-  std::vector<double> stiffness;         ///< intact axial stiffness k [force/length], per element
+  std::vector<double> stiffness;  ///< intact axial stiffness k [force/length], per element
   /// Intact bending stiffness 12 d V_i V_j / xi^3 of micropolar bonds [force/length], per element;
   /// empty where no bond carries a moment.
   std::vector<double> bending;
@@ -44,13 +44,13 @@ struct Network {
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: none.
   std::vector<double> support_stiffness;
-  Index first_tie = 0;                   ///< number of the first tie
-  Index first_segment = 0;               ///< number of the first bar segment
-  std::vector<double> yield_strain;      ///< per segment [-]; infinity: stays elastic
+  Index first_tie = 0;               ///< number of the first tie
+  Index first_segment = 0;           ///< number of the first bar segment
+  std::vector<double> yield_strain;  ///< per segment [-]; infinity: stays elastic
   Facets facets;  ///< surface and interfaces, with the shares that the bonds balance
   std::optional<CalibrationReport> calibration;  ///< of calibrated bonds
 
-  std::vector<Index> cut_by_crack;       ///< bonds that each pre-crack took out
+  std::vector<Index> cut_by_crack;  ///< bonds that each pre-crack took out
 
   int dim() const { return particles.dim; }
   /// Components of the motion of a particle: displacements along the axes and, where bonds carry

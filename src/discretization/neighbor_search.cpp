@@ -141,17 +141,20 @@ std::vector<double> nearest(std::span<const double> positions, int count) {
 }  // namespace
 
 Csr find_upper_neighbors(std::span<const double> positions, int dim, double radius) {
-  return search(positions, positions, dim, [=](Index) { return radius; }, true);
+  return search(
+      positions, positions, dim, [=](Index) { return radius; }, true);
 }
 
 Csr find_neighbors(std::span<const double> points, std::span<const double> queries, int dim,
                    double radius) {
-  return search(points, queries, dim, [=](Index) { return radius; }, false);
+  return search(
+      points, queries, dim, [=](Index) { return radius; }, false);
 }
 
 Csr find_neighbors_within(std::span<const double> points, std::span<const double> queries, int dim,
                           std::span<const double> radii) {
-  return search(points, queries, dim, [=](Index query) { return radii[query]; }, false);
+  return search(
+      points, queries, dim, [=](Index query) { return radii[query]; }, false);
 }
 
 std::vector<double> distances_of_nearest(std::span<const double> positions, int dim, int count) {

@@ -160,21 +160,21 @@ struct GaugeSection {
 
 /// [analysis]
 struct AnalysisSection {
-  std::string type = "damage";               ///< damage | elastic | explicit | relaxation
-  std::string control = "events";            ///< events | steps
-  std::vector<double> load_factors;          ///< of control = steps and type = relaxation
-  std::string rigid_body_modes = "refuse";   ///< refuse | pin
-  std::string factor = "in_place";           ///< in_place | cholmod_updown | refactorize
-  double duration = 0.0;                     ///< of type = explicit and below [time]
-  double ramp_time = 0.0;                    ///< in which the load factor rises to one [time]
-  std::optional<double> time_step;           ///< [time]
-  double safety = 0.9;                       ///< of the critical time step, without time_step
-  int rows = 500;                            ///< of the history, about
-  double damping_rate = 0.0;                 ///< of bonds [1/time]
-  std::string masses = "volume";             ///< of bonds: volume | uniform
-  std::string strain = "small";              ///< of bonds that move: small | green
-  double tolerance = 1e-6;                   ///< of type = relaxation: relative residual force
-  int iterations = 1000000;                  ///< of type = relaxation: most of a load step
+  std::string type = "damage";              ///< damage | elastic | explicit | relaxation
+  std::string control = "events";           ///< events | steps
+  std::vector<double> load_factors;         ///< of control = steps and type = relaxation
+  std::string rigid_body_modes = "refuse";  ///< refuse | pin
+  std::string factor = "in_place";          ///< in_place | cholmod_updown | refactorize
+  double duration = 0.0;                    ///< of type = explicit and below [time]
+  double ramp_time = 0.0;                   ///< in which the load factor rises to one [time]
+  std::optional<double> time_step;          ///< [time]
+  double safety = 0.9;                      ///< of the critical time step, without time_step
+  int rows = 500;                           ///< of the history, about
+  double damping_rate = 0.0;                ///< of bonds [1/time]
+  std::string masses = "volume";            ///< of bonds: volume | uniform
+  std::string strain = "small";             ///< of bonds that move: small | green
+  double tolerance = 1e-6;                  ///< of type = relaxation: relative residual force
+  int iterations = 1000000;                 ///< of type = relaxation: most of a load step
 };
 
 /// [stop]: the run ends at the first rule met (always at collapse).

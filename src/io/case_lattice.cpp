@@ -226,11 +226,10 @@ void read_state_material(const CaseTable& table, const BodySection& body,
   const double ratio =
       table.need("poissons_ratio", table.number("poissons_ratio"), "Poisson's ratio");
   if (!(ratio > -1.0 && ratio < 0.5)) {
-    table.refuse(
-        "poissons_ratio",
-        fmt::format("is {}, but {} particles have ratios above -1 and below 1/2", ratio,
-                    is_lattice(body) ? "lattice" : "state-based"),
-        "0.2 is usual for concrete");
+    table.refuse("poissons_ratio",
+                 fmt::format("is {}, but {} particles have ratios above -1 and below 1/2", ratio,
+                             is_lattice(body) ? "lattice" : "state-based"),
+                 "0.2 is usual for concrete");
   }
   material.poissons_ratio = ratio;
   LatticeMaterialSection& section = material.lattice.emplace();

@@ -69,10 +69,10 @@ void refuse_third_axis(const CaseTable& table, const std::string& key, int dim) 
 
 std::string why_nothing_rotates(const BodySection& body) {
   if (body.method == "linear_elements") return "the corners of linear elements do not rotate";
-  return fmt::format("the particles of a {} body do not rotate",
-                     is_lattice(body)                  ? "lattice"
-                     : has_state_based_particles(body) ? "state-based"
-                                                       : "bond-based");
+  return fmt::format("the particles of a {} body do not rotate", is_lattice(body) ? "lattice"
+                                                                 : has_state_based_particles(body)
+                                                                     ? "state-based"
+                                                                     : "bond-based");
 }
 
 std::string what_rotates(const BodySection& body) {

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "discretization/neighbor_search.hpp"
@@ -70,6 +74,36 @@ TEST(NeighborSearch, CopesWithNothing) {
   ASSERT_EQ(found.rows(), 1);
   EXPECT_TRUE(found.row(0).empty());
   EXPECT_THROW(find_upper_neighbors(query, 1, 1.0), std::invalid_argument);
+}
+
+TEST(NeighborSearch, TakesARadiusForEachPoint) {
+  const auto points = random_points(300, 3, 4);
+  std::vector<double> radii(300);
+  for (std::size_t i = 0; i < 300; ++i) radii[i] = 0.1 + 0.001 * static_cast<double>(i);
+  const Csr found = find_neighbors_within(points, points, 3, radii);
+  for (Index i = 0; i < 300; ++i) {
+    const Csr alone = find_neighbors(points, std::span(points).subspan(3 * i, 3), 3, radii[i]);
+    const auto row = found.row(i);
+    EXPECT_EQ(std::vector<Index>(row.begin(), row.end()), alone.values);
+  }
+}
+
+TEST(NeighborSearch, KnowsHowFarTheNearestAre) {
+  for (const int dim : {2, 3}) {
+    const auto points = random_points(400, dim, 9);
+    const std::vector<double> found = distances_of_nearest(points, dim, 6);
+    for (Index i = 0; i < 400; ++i) {
+      std::vector<double> distance;
+      for (Index j = 0; j < 400; ++j) {
+        if (j == i) continue;
+        distance.push_back(std::sqrt(squared_distance(&points[i * dim], &points[j * dim], dim)));
+      }
+      std::nth_element(distance.begin(), distance.begin() + 5, distance.end());
+      EXPECT_DOUBLE_EQ(found[i], distance[5]);
+    }
+  }
+  EXPECT_TRUE(std::isinf(distances_of_nearest(random_points(6, 2, 1), 2, 6)[0]));
+  EXPECT_THROW(distances_of_nearest(random_points(6, 2, 1), 4, 1), std::invalid_argument);
 }
 
 }  // namespace

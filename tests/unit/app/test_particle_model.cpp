@@ -1,0 +1,162 @@
+#include "app/particle_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "analysis/elastic_analysis.hpp"
+#include "app/bond_run.hpp"
+
+namespace perilink {
+namespace {
+
+using testing::HasSubstr;
+
+/// A bar in tension, unbreakable at its ends.
+std::string bar_case(const std::string& analysis, double pull = 0.002) {
+  return R"([body]
+model = "particles"
+pattern = "hexagonal"
+spacing = 0.1
+thickness = 0.5
+[[regions]]
+name = "bar"
+x = [0, 1]
+y = [0, 2]
+[[regions]]
+name = "bottom"
+x = [0, 1]
+y = [0, 0]
+[[regions]]
+name = "left"
+x = [0.5, 0.5]
+y = [0, 0]
+[[regions]]
+name = "top"
+x = [0, 1]
+y = [2, 2]
+[[regions]]
+name = "ends"
+x = [0, 1]
+y = [1.7, 2]
+[[materials]]
+region = "bar"
+youngs_modulus = 30
+poissons_ratio = 0.2
+density = 2.5
+tensile_strength = 0.003
+fracture_energy = 1e-4
+[[materials]]
+region = "ends"
+youngs_modulus = 30
+poissons_ratio = 0.2
+density = 2.5
+fracture_energy = "infinite"
+[[supports]]
+region = "bottom"
+fix = ["y"]
+[[supports]]
+region = "left"
+fix = ["x"]
+[[displacements]]
+region = "top"
+y = )" + std::to_string(pull) +
+         "\n[analysis]\n" + analysis;
+}
+
+TEST(ParticleModel, HasTheParticlesOfTheLatticeAndSaysHowTheyFit) {
+  const Model model = build_model(parse_case(bar_case("type = \"elastic\"\n"), ""));
+  ASSERT_TRUE(model.particle_fit.has_value());
+  EXPECT_TRUE(model.network.has_states());
+  const auto& volumes = model.network.particles.volumes;
+  EXPECT_NEAR(std::accumulate(volumes.begin(), volumes.end(), 0.0), 1.0, 1e-12);
+  ASSERT_FALSE(model.notes.empty());
+  EXPECT_THAT(model.notes.front(), HasSubstr("by least squares"));
+  EXPECT_EQ(fit_json(*model.particle_fit)["exact"], model.particle_fit->exact);
+}
+
+TEST(ParticleModel, StretchesAboutAsMuchAsTheSolid) {
+  const Model model = build_model(parse_case(bar_case("type = \"elastic\"\n"), ""));
+  const ElasticResult result = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
+  // E A / L of the bar; constants that fit a family are not those of its neighbours, which costs
+  // some percent at the sides (verification/studies/irregular_particles).
+  const double exact = 0.5 * 30.0 * 0.5 / 2.0 * 0.002 * 0.002;
+  EXPECT_NEAR(result.strain_energy, exact, 0.06 * exact);
+}
+
+TEST(ParticleModel, NamesFamiliesThatAreIllPosed) {
+  Particles particles;
+  particles.positions = {0.25, 0.5};
+  particles.volumes = {1.0};
+  ParticleFitReport report;
+  report.singular = 1;
+  report.mean_residual = report.largest_residual = 0.5;
+  report.worst = 0;
+  EXPECT_THAT(fit_text(report, particles), HasSubstr("0.5 at most, at (0.25, 0.5)"));
+  EXPECT_THAT(fit_text(report, particles), HasSubstr("ILL-POSED for 1"));
+  report.singular = 0;
+  report.least = 1;
+  EXPECT_THAT(fit_text(report, particles), Not(HasSubstr("ILL")));
+}
+
+TEST(ParticleModel, HasMaterialsThatBreakAndOthers) {
+  const StateBody body = state_body_of(parse_case(bar_case("type = \"elastic\"\n"), ""));
+  EXPECT_EQ(body.thickness, 0.5);
+  ASSERT_EQ(body.materials.size(), 2U);
+  EXPECT_TRUE(body.materials[0].breakable);
+  EXPECT_NEAR(fracture_energy(body.materials[0].softening), 1e-4, 1e-18);
+  EXPECT_FALSE(body.materials[1].breakable);
+}
+
+class Rows final : public BondRunObserver {
+ public:
+  void on_row(const ExplicitRecord& record, const BondRunState&) override {
+    records.push_back(record);
+  }
+  std::vector<ExplicitRecord> records;
+};
+
+Rows run_bar(int threads) {
+  const CaseFile input = parse_case(
+      bar_case("type = \"explicit\"\nduration = 60\nsafety = 0.5\ndamping_rate = 5\n", 0.004), "");
+  const Model model = build_model(input);
+  BondRunCase built = build_bond_run(input, model, 1);
+  built.options.threads = threads;
+  Rows rows;
+  run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference, built.inertia,
+                     built.rules, built.options, rows);
+  return rows;
+}
+
+TEST(ParticleModel, CracksInTensionAndKeepsItsEnergy) {
+  const Rows rows = run_bar(1);
+  double peak = 0.0, work = 0.0, surplus = 0.0;
+  for (const ExplicitRecord& record : rows.records) {
+    peak = std::max(peak, record.load);
+    work = std::max(work, record.energy.external_work);
+    surplus = std::max(surplus, std::abs(record.energy.surplus()));
+  }
+  const ExplicitRecord& last = rows.records.back();
+  EXPECT_GT(last.cracked_particles, 0);
+  EXPECT_GT(last.energy.fractured, 0.0);
+  EXPECT_EQ(last.broken_bonds, 0);
+  // The strength times the section; faces crack a little earlier or later than the inside.
+  EXPECT_NEAR(peak, 0.003 * 0.5, 0.08 * 0.003 * 0.5);
+  EXPECT_LT(surplus, 1e-4 * work) << "bonds that change sign with another factor";
+}
+
+TEST(ParticleModel, GivesTheSameRowsForAnyNumberOfThreads) {
+  const Rows one = run_bar(1), two = run_bar(2);
+  ASSERT_EQ(one.records.size(), two.records.size());
+  for (std::size_t r = 0; r < one.records.size(); ++r) {
+    EXPECT_EQ(one.records[r].load, two.records[r].load);
+    EXPECT_EQ(one.records[r].energy.surplus(), two.records[r].energy.surplus());
+    EXPECT_EQ(one.records[r].cracked_particles, two.records[r].cracked_particles);
+  }
+}
+
+}  // namespace
+}  // namespace perilink

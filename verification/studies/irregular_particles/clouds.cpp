@@ -1,0 +1,159 @@
+#include "clouds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "analysis/elastic_analysis.hpp"
+#include "analysis/explicit_bond_analysis.hpp"
+#include "analysis/fundamental_period.hpp"
+#include "analysis/inertia.hpp"
+#include "discretization/triangulate.hpp"
+
+namespace perilink::verification {
+namespace {
+
+constexpr double density = 2323.0;  // kg/m^3
+constexpr double extension = 8e-5;  // m per 0.3 m of bar
+constexpr Index unbreakable = 1;    // material
+
+bool is_plane(const Cloud& cloud) { return cloud.problem != Problem::three_dimensional; }
+
+double section(const Cloud& cloud) {
+  return cloud.width * (is_plane(cloud) ? cloud.thickness : cloud.width);
+}
+
+LatticeInput lattice_of(const Cloud& cloud) {
+  LatticeInput input;
+  input.pattern = is_plane(cloud) ? Pattern::hexagonal : Pattern::cubic;
+  input.spacing = cloud.spacing;
+  input.thickness = is_plane(cloud) ? cloud.thickness : 1.0;
+  const double depth = is_plane(cloud) ? 0.0 : cloud.width;
+  input.solid = {{{0.0, 0.0, 0.0}, {cloud.width, cloud.length, depth}}};
+  input.material = {0};
+  return input;
+}
+
+/// Whether a coordinate lies on a face of the bar.
+bool is_on_face(const Cloud& cloud, double x, int axis) {
+  const double extent = axis == 1 ? cloud.length : cloud.width;
+  return x < 1e-9 * extent || x > (1.0 - 1e-9) * extent;
+}
+
+void scatter(const Cloud& cloud, Body& body) {
+  std::mt19937 random(11);
+  // Not a distribution of the library, whose numbers depend on its maker.
+  const auto any = [&random] { return 2.0 * (random() / 4294967295.0) - 1.0; };
+  Particles& particles = body.particles;
+  for (Index i = 0; i < particles.size(); ++i) {
+    for (int axis = 0; axis < particles.dim; ++axis) {
+      double& x = particles.positions[static_cast<std::size_t>(i) * particles.dim + axis];
+      const double shift = cloud.scatter * cloud.spacing * any();
+      if (!is_on_face(cloud, x, axis)) x += shift;
+    }
+  }
+}
+
+class Silent final : public BondRunObserver {
+ public:
+  void on_row(const ExplicitRecord&, const BondRunState&) override {}
+};
+
+}  // namespace
+
+ParticleNetwork build(const Cloud& cloud) {
+  const LatticeInput input = lattice_of(cloud);
+  Body body = make_body(input);
+  body.cells = triangulate(input, body);
+  scatter(cloud, body);
+  const std::vector<double> volumes =
+      cell_volumes(body.cells, body.particles.positions, input.thickness);
+  double sum = 0.0;
+  for (const double volume : volumes) sum += std::abs(volume);
+  if (std::abs(sum / (section(cloud) * cloud.length) - 1.0) > 1e-9) {
+    throw std::runtime_error("particles are scattered so far that cells overlap");
+  }
+  if (is_plane(cloud)) {
+    body.facets = facets_of(body.cells, body.particles.positions, cloud.thickness);
+  }
+  for (Index i = 0; i < body.particles.size(); ++i) {
+    const double y = body.particles.position(i)[1] / cloud.length;
+    body.particles.material[i] = y < 0.1 || y > 0.9 ? unbreakable : 0;
+  }
+  const std::vector<IsotropicMaterial> materials(2, {youngs_modulus, poissons_ratio});
+  return make_particle_network(body, cloud.problem, materials, cloud.thickness);
+}
+
+Unknowns pull(const Cloud& cloud, const Network& network, double by) {
+  const std::size_t dim = network.dim(), slots = network.particles.positions.size();
+  std::vector<std::uint8_t> held(slots, 0);
+  std::vector<double> value(slots, 0.0);
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    const auto x = network.particles.position(i);
+    const std::size_t slot = i * dim;
+    if (is_on_face(cloud, x[1], 1)) {
+      held[slot + 1] = 1;
+      if (x[1] > 0.5 * cloud.length) value[slot + 1] = by;
+    }
+    // A corner and, in space, the other ends of the edges from it stop the rest.
+    const auto at = [&](double a, double c) {
+      return std::abs(x[0] - a) < 1e-9 && x[1] < 1e-9 && (dim == 2 || std::abs(x[2] - c) < 1e-9);
+    };
+    if (at(0.0, 0.0)) {
+      held[slot] = 1;
+      if (dim == 3) held[slot + 2] = 1;
+    }
+    if (dim == 3 && at(cloud.width, 0.0)) held[slot + 2] = 1;
+  }
+  return number_unknowns(static_cast<int>(dim), held, value);
+}
+
+Stretching stretch(const Cloud& cloud, const ParticleNetwork& built) {
+  const Network& network = built.network;
+  const double by = 1e-3 * cloud.length;
+  const Unknowns unknowns = pull(cloud, network, by);
+  const Loads loads{std::vector<double>(unknowns.number.size(), 0.0)};
+  const ElasticResult result = run_elastic_analysis(network, unknowns, loads, 1);
+  Stretching found;
+  found.modulus =
+      2.0 * result.strain_energy * cloud.length / (youngs_modulus * section(cloud) * by * by);
+  const std::size_t dim = network.dim();
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    const auto x = network.particles.position(i);
+    for (std::size_t c = 0; c < dim; ++c) {
+      const double exact = c == 1 ? 1e-3 * x[1] : -poissons_ratio * 1e-3 * x[c];
+      const double error = std::abs(result.displacement[i * dim + c] - exact) / by;
+      found.displacement = std::max(found.displacement, error);
+    }
+  }
+  return found;
+}
+
+ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built) {
+  const Network& network = built.network;
+  const Unknowns unknowns = pull(cloud, network, extension * cloud.length / 0.3);
+  const Loads loads{std::vector<double>(unknowns.number.size(), 0.0)};
+  const Inertia inertia = lumped_inertia(network, std::vector{density, density});
+  const double period = fundamental_period(network, unknowns, inertia, 1);
+  BondRunRules rules;
+  rules.damping_rate = 2.0 * 6.283 / period;  // the slowest vibration critically
+  StateMaterial material;
+  material.youngs_modulus = youngs_modulus;
+  material.poissons_ratio = poissons_ratio;
+  rules.states = {cloud.problem, cloud.thickness, {material, material}};
+  rules.states.materials[0].breakable = true;
+  rules.states.materials[0].softening = {strength, 0.25, 2e-5, 2e-4};
+  ExplicitOptions options;
+  options.duration = 30.0 * period;
+  options.ramp = options.duration;
+  options.safety = 0.5;
+  ReferenceLoad reference;
+  reference.driven = true;
+  reference.value = extension * cloud.length / 0.3;
+  Silent observer;
+  return run_explicit_bonds(network, unknowns, loads, reference, inertia, rules, options, observer);
+}
+
+}  // namespace perilink::verification

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/explicit_analysis.hpp"
+#include "assembly/particle_network.hpp"
+#include "assembly/unknowns.hpp"
+
+namespace perilink::verification {
+
+inline constexpr double youngs_modulus = 25e9, poissons_ratio = 0.2;  // Pa
+inline constexpr double strength = 2.62e6;                            // Pa
+
+/// A bar along y of state-based particles whose places inside are random.
+struct Cloud {
+  double width = 1.0, length = 1.0;  ///< width and depth [m]
+  double thickness = 1.0;            ///< in the plane [m]
+  Problem problem = Problem::plane_stress;
+  double spacing = 0.1;  ///< of the lattice, hexagonal or cubic, that the particles leave [m]
+  double scatter = 0.0;  ///< by at most this many spacings along each axis
+};
+
+/// \throws std::runtime_error where the scatter turns a cell of the mesh inside out
+ParticleNetwork build(const Cloud& cloud);
+
+/// The bar stretched by `extension`; free to contract at its ends, held against rigid motions.
+Unknowns pull(const Cloud& cloud, const Network& network, double extension);
+
+/// How the bar stretches.
+struct Stretching {
+  double modulus = 0.0;       ///< apparent Young's modulus over that of the solid
+  double displacement = 0.0;  ///< largest error over the extension
+};
+Stretching stretch(const Cloud& cloud, const ParticleNetwork& built);
+
+/// The bar torn apart within some thirty fundamental periods; its ends, a tenth of it each, do not
+/// break.
+ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built);
+
+}  // namespace perilink::verification
