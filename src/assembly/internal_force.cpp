@@ -27,8 +27,8 @@ void add_elements(const Network& network, std::span<const double> secants,
   }
 }
 
-/// What the sums of the extensions add: the bond between i and j pulls with c_i s_i + c_j s_j more, where it
-/// counts in these sums.
+/// What the sums of the extensions add: the bond between i and j pulls with c_i s_i + c_j s_j more,
+/// where it counts in these sums.
 template <int Dim>
 void add_states(const Network& network, std::span<const double> secants,
                 std::span<const double> displacement, InternalForce& result) {

@@ -45,7 +45,7 @@ bool is_on_face(const Cloud& cloud, double x, int axis) {
 void scatter(const Cloud& cloud, Body& body) {
   std::mt19937 random(11);
   // Not a distribution of the library, whose numbers depend on its maker.
-  const auto any = [&random] { return 2.0 * (random() / 4294967295.0) - 1.0; };
+  const auto any = [&random] { return 2.0 * (static_cast<double>(random()) / 4294967295.0) - 1.0; };
   Particles& particles = body.particles;
   for (Index i = 0; i < particles.size(); ++i) {
     for (int axis = 0; axis < particles.dim; ++axis) {
