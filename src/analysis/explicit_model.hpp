@@ -30,7 +30,8 @@ struct LatticeMaterial {
   /// Damage begins where the first principal stress reaches the strength and no other one is below
   /// minus this ratio times the strength.
   double tension_compression_ratio = 6.0;
-  double compressive_threshold = 0.8;  ///< tensile damage at which damage in compression begins
+  /// Tensile damage at which damage in compression begins.
+  double compressive_threshold = 1.0 / 3.0;
   bool yields = false;
   /// Yield stress over plastic strain. Consistent rules: failure_strain follows from
   /// crushing_energy; the papers' rules have their own softening.

@@ -19,7 +19,8 @@ struct StateMaterial {
   /// Damage begins where the first principal stress reaches the strength and no other one is below
   /// minus this ratio times the strength.
   double tension_compression_ratio = 6.0;
-  double compressive_threshold = 0.8;  ///< tensile damage at which damage in compression begins
+  /// Tensile damage at which damage in compression begins.
+  double compressive_threshold = 1.0 / 3.0;
 };
 
 /// State-based particles with neighbours anywhere (SPPM, Nikravesh 2017, chapter 3; elastic

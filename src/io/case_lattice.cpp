@@ -65,7 +65,7 @@ void read_softening(const CaseTable& table, const BodySection& body,
   assign(section.knee_opening_ratio, proper_fraction(table, "knee_opening_ratio"));
   assign(section.compression_ratio, table.positive("compression_ratio"));
   // What the papers of each variant have.
-  section.compression_threshold = body.variant == "2017" ? 1.0 / 3.0 : 0.8;
+  section.compression_threshold = body.variant == "2018" ? 0.8 : 1.0 / 3.0;
   section.boundary_factor = body.variant == "consistent" ? 1.0 : 0.2;
   assign(section.compression_threshold, proper_fraction(table, "compression_threshold"));
   assign(section.boundary_factor, table.positive("boundary_factor"));

@@ -74,7 +74,7 @@ TEST(CaseLattice, DefaultsOfTheMaterialAreThoseOfTheVariantsPaper) {
     return *parse_case(text, "").materials.front().lattice;
   };
   EXPECT_EQ(material("").boundary_factor, 1.0);
-  EXPECT_EQ(material("").compression_threshold, 0.8);
+  EXPECT_EQ(material("").compression_threshold, 1.0 / 3.0);
   EXPECT_EQ(material("variant = \"2018\"").boundary_factor, 0.2);
   EXPECT_EQ(material("variant = \"2018\"").compression_threshold, 0.8);
   EXPECT_EQ(material("variant = \"2017\"").boundary_factor, 0.2);

@@ -61,7 +61,7 @@ TEST(CaseParticles, ReadTheirBodyAndMaterial) {
   const MaterialSection& material = input.materials.front();
   ASSERT_TRUE(material.lattice.has_value());
   EXPECT_EQ(material.lattice->tensile_strength, 0.003);
-  EXPECT_EQ(material.lattice->compression_threshold, 0.8);
+  EXPECT_EQ(material.lattice->compression_threshold, 1.0 / 3.0);
   EXPECT_EQ(material.density, 2.5);
   EXPECT_FALSE(is_particles(parse_case(small_case, "").body));
 }
