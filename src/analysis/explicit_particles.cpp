@@ -1,6 +1,7 @@
 #include "analysis/explicit_particles.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -33,6 +34,12 @@ struct HalfFactors {
   double of(double extension) const { return extension >= 0.0 ? tension : compression; }
 };
 
+/// Width of a square or cube as large as the particle [length].
+double band_of(const Particles& particles, Index i, double thickness) {
+  const double volume = particles.volumes[i];
+  return particles.dim == 2 ? std::sqrt(volume / thickness) : std::cbrt(volume);
+}
+
 template <int Dim>
 class StateParticles final : public ExplicitBonds {
  public:
@@ -49,7 +56,6 @@ class StateParticles final : public ExplicitBonds {
   std::vector<double> damage() const override { return damage_; }
 
  private:
-  void check_bands(double thickness);
   std::span<const StateHalf<Dim>> halves_of(Index i) const {
     return {halves_.data() + offsets_[i], halves_.data() + offsets_[i + 1]};
   }
@@ -129,34 +135,15 @@ StateParticles<Dim>::StateParticles(const Network& network, Problem problem,
   extension_.assign(halves_.size(), 0.0);
   factors_.assign(halves_.size(), {});
   cracked_.assign(sum_.size(), 0);
-  check_bands(thickness);
+  check_bands(network.particles, materials, thickness);
   for (Index i = 0; i < network.particles.size(); ++i) {
+    band_.push_back(band_of(network.particles, i, thickness));
     strains_.add(halves_of(i), std::span<const double>(bonds.lengths));
     const HookeConstants& hooke = hooke_of(i);
     // Neighbours' damage at most doubles a share.
     calm_.push_back(material(i).softening.strength /
                     (2.0 * (std::abs(hooke.lambda) + 2.0 * hooke.mu) * strains_.largest_strain(i)));
   }
-}
-
-template <int Dim>
-void StateParticles<Dim>::check_bands(double thickness) {
-  double widest = 0.0, limit = std::numeric_limits<double>::infinity();
-  for (Index i = 0; i < network_.particles.size(); ++i) {
-    const double volume = network_.particles.volumes[i];
-    band_.push_back(Dim == 2 ? std::sqrt(volume / thickness) : std::cbrt(volume));
-    const StateMaterial& own = material(i);
-    if (!own.breakable) continue;
-    const double allowed = max_band_width(own.softening, own.youngs_modulus);
-    if (band_.back() * limit <= widest * allowed) continue;
-    widest = band_.back();
-    limit = allowed;
-  }
-  if (widest < limit) return;
-  throw std::invalid_argument(fmt::format(
-      "particles {:.4g} apart are too far for the softening: a crack would release more energy "
-      "than its opening dissipates; place them less than {:.4g} apart",
-      widest, limit));
 }
 
 /// Takes over the damage that its ends have now. \return whether a factor changed
@@ -299,6 +286,22 @@ std::vector<double> StateParticles<Dim>::secants() const {
 }
 
 }  // namespace
+
+void check_bands(const Particles& particles, std::span<const StateMaterial> materials,
+                 double thickness) {
+  for (Index i = 0; i < particles.size(); ++i) {
+    const StateMaterial& own = materials[particles.material[i]];
+    if (!own.breakable) continue;
+    const double band = band_of(particles, i, thickness);
+    const double limit = max_band_width(own.softening, own.youngs_modulus);
+    if (band < limit) continue;
+    throw std::invalid_argument(
+        fmt::format("the particle at ({}) stands for a band {:.4g} wide, too wide for the "
+                    "softening: a crack would release more energy than its opening dissipates; "
+                    "place particles less than {:.4g} apart",
+                    fmt::join(particles.position(i), ", "), band, limit));
+  }
+}
 
 std::unique_ptr<ExplicitBonds> make_explicit_particles(const Network& network, Problem problem,
                                                        std::span<const StateMaterial> materials,

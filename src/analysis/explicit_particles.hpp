@@ -23,6 +23,13 @@ struct StateMaterial {
   double compressive_threshold = 1.0 / 3.0;
 };
 
+/// \throws std::invalid_argument where a particle's band of a crack is so wide that its stress
+/// would fall faster than it unloads: particles too far apart for the softening
+/// \param materials  by Particles::material
+/// \param thickness  of two-dimensional bodies [length]
+void check_bands(const Particles& particles, std::span<const StateMaterial> materials,
+                 double thickness);
+
 /// State-based particles with neighbours anywhere (SPPM, Nikravesh 2017, chapter 3; elastic
 /// constants: assembly/particle_network.hpp) in small strains, with the two-spring damage of the
 /// consistent rules of lattices: forces derive from
@@ -36,8 +43,7 @@ struct StateMaterial {
 /// (cube) of the particle's volume. It weakens bonds from the next step on.
 /// \param materials  by Particles::material
 /// \param thickness  of two-dimensional bodies [length]
-/// \throws std::invalid_argument where a band is so wide that its stress would fall faster than it
-/// unloads: particles too far apart for the softening
+/// \throws std::invalid_argument as check_bands() does
 std::unique_ptr<ExplicitBonds> make_explicit_particles(const Network& network, Problem problem,
                                                        std::span<const StateMaterial> materials,
                                                        double thickness);

@@ -51,17 +51,17 @@ void choose_steps(const CaseFile& input, BondRunCase& built) {
   built.options.rows = analysis.rows;
 }
 
-std::string cracks_text(const Model& model, const ExplicitRecord& record) {
-  return model.network.has_states() ? fmt::format("{} cracked particles", record.cracked_particles)
-                                    : fmt::format("{} broken bonds", record.broken_bonds);
-}
-
 /// Fields and gauges take displacements as they are: the load factor is in them.
 StepState present_state(const BondRunState& state, const std::vector<double>& secants) {
   return {state.network, secants, state.motion.displacement};
 }
 
 }  // namespace
+
+std::string cracks_text(const Model& model, const ExplicitRecord& record) {
+  return model.network.has_states() ? fmt::format("{} cracked particles", record.cracked_particles)
+                                    : fmt::format("{} broken bonds", record.broken_bonds);
+}
 
 Strain strain_of(const AnalysisSection& analysis) {
   return analysis.strain == "green" ? Strain::green : Strain::small;
@@ -73,7 +73,10 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model, int thread
   built.rules.damping_rate = input.analysis.damping_rate;
   built.rules.strain = strain_of(input.analysis);
   built.rules.constant_velocity = !input.velocities.empty();
-  if (model.network.has_states()) built.rules.states = state_body_of(input);
+  if (model.network.has_states()) {
+    built.rules.states = state_body_of(input);
+    refuse_wide_bands(input, model.network.particles, built.rules.states);
+  }
   built.inertia =
       lumped_inertia(model.network, densities(input),
                      uniform ? MassScaling::uniform : MassScaling::none, built.rules.strain);
@@ -99,7 +102,8 @@ void BondRunFiles::write_fields(const ExplicitRecord& record, const BondRunState
   if (!series_.empty() && series_.back().file == name) return;
   const Timer timer;
   const std::vector<double> secants = state.bonds.secants();
-  for (Index e = 0; e < model_.network.first_segment; ++e) {
+  const bool bonds_break = !model_.network.has_states();
+  for (Index e = 0; e < model_.network.first_segment && bonds_break; ++e) {
     if (secants[e] != 0.0 || is_broken_[e]) continue;
     broken_.push_back(e);
     is_broken_[e] = 1;
@@ -114,7 +118,7 @@ void BondRunFiles::write_fields(const ExplicitRecord& record, const BondRunState
   for (auto& [key, value] : grid.field_data) {
     if (key == "load_factor") value = record.load_factor;
   }
-  if (model_.network.has_states()) {
+  if (!bonds_break) {
     for (VtuArray& field : grid.point_data) {
       if (field.name == "damage") field.values = state.bonds.damage();
     }

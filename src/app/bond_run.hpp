@@ -22,6 +22,9 @@ struct BondRunCase {
   Index steps = 0;
 };
 
+/// "3 broken bonds" or, of state-based particles, "3 cracked particles".
+std::string cracks_text(const Model& model, const ExplicitRecord& record);
+
 Strain strain_of(const AnalysisSection& analysis);
 
 /// Masses, period and steps of a case with type = "explicit" whose body has bonds.

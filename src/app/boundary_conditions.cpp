@@ -9,6 +9,7 @@
 #include "app/supports.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
+#include "io/case_particles.hpp"
 
 namespace perilink {
 namespace {
@@ -121,7 +122,10 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
         input.where(input.body.horizon ? "body.horizon" : "body"),
         fmt::format("the particle at ({}) is held by bonds in fewer than {} directions",
                     fmt::join(model.network.particles.position(i), ", "), dim),
-        "enlarge the horizon or refine the spacing so that every particle has enough neighbours");
+        is_particles(input.body)
+            ? "its neighbours lie in one line: grade the mesh less, or refine it"
+            : "enlarge the horizon or refine the spacing so that every particle has enough "
+              "neighbours");
   }
 }
 

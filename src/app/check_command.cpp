@@ -72,6 +72,7 @@ std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& c
 }
 
 void print_breakable(const Network& network) {
+  if (network.has_states()) return;  // particles crack, not bonds
   Index breakable = 0;
   double smallest = INFINITY, largest = 0.0;
   for (const double limit : network.critical_stretch) {

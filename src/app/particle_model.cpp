@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "app/lattice_model.hpp"
+#include "base/error.hpp"
 #include "discretization/triangulate.hpp"
 
 namespace perilink {
@@ -43,6 +45,17 @@ StateBody state_body_of(const CaseFile& input) {
   return body;
 }
 
+void refuse_wide_bands(const CaseFile& input, const Particles& particles, const StateBody& body) {
+  try {
+    check_bands(particles, body.materials, body.thickness);
+  } catch (const std::invalid_argument& error) {
+    const char* key = input.body.mesh      ? "body.mesh"
+                      : input.body.spacing ? "body.spacing"
+                                           : "body.columns";
+    throw InputError(input.where(key), error.what(), "");
+  }
+}
+
 std::string fit_text(const ParticleFitReport& report, const Particles& particles) {
   std::string text = fmt::format(
       "constants of {} particles by least squares: exact for {}, stresses of uniform strains wrong "
@@ -52,12 +65,15 @@ std::string fit_text(const ParticleFitReport& report, const Particles& particles
     text += fmt::format(", {:.2g} at most, at ({:.6g})", report.largest_residual,
                         fmt::join(particles.position(report.worst), ", "));
   }
+  if (report.enlarged > 0) {
+    text += fmt::format("; {} needed more than their nearest neighbours", report.enlarged);
+  }
   const Index ill_posed = report.many + report.indefinite + report.singular;
   if (ill_posed == 0) return text;
   return text + fmt::format(
                     "; ILL-POSED for {}: {} with several solutions, {} of negative energy, "
-                    "{} whose neighbours leave a strain free: these have bonds without "
-                    "states",
+                    "{} whose neighbours leave a strain free; the latter two have bonds "
+                    "without states",
                     ill_posed, report.many, report.indefinite, report.singular);
 }
 
@@ -67,6 +83,7 @@ nlohmann::ordered_json fit_json(const ParticleFitReport& report) {
           {"several_solutions", report.many},
           {"negative_energy", report.indefinite},
           {"free_strain", report.singular},
+          {"enlarged", report.enlarged},
           {"mean_residual", report.mean_residual},
           {"largest_residual", report.largest_residual}};
 }

@@ -15,6 +15,9 @@ void build_particles(const CaseFile& input, Body& body, Model& model);
 /// What the particles of an explicit run are made of.
 StateBody state_body_of(const CaseFile& input);
 
+/// \throws InputError where particles are too far apart for the softening (check_bands)
+void refuse_wide_bands(const CaseFile& input, const Particles& particles, const StateBody& body);
+
 /// How the constants were found, for people and for summary.json.
 std::string fit_text(const ParticleFitReport& report, const Particles& particles);
 nlohmann::ordered_json fit_json(const ParticleFitReport& report);

@@ -142,9 +142,8 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
     fmt::print(stderr, "perilink: {}\n", error.what());
     result.ending = Ending::failed;
   }
-  log->info("{}: {}; {} steps, {} broken bonds, {} cracked particles, energy to {:.2e} of the work",
-            to_string(result.ending), result.reason, result.steps, result.last.broken_bonds,
-            result.last.cracked_particles, result.largest_surplus);
+  log->info("{}: {}; {} steps, {}, energy to {:.2e} of the work", to_string(result.ending),
+            result.reason, result.steps, cracks_text(model, result.last), result.largest_surplus);
   if (!options.quiet) print_summary(directory, input, model, result, files, seconds);
   return exit_status_of(result.ending);
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/calibration_text.hpp"
+#include "app/particle_model.hpp"
 #include "app/progress.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
@@ -61,14 +62,14 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["bonds"] = model.elements ? 0 : model.network.first_segment;
   if (model.elements) json["cells"] = model.elements->cells.size();
   json["unknowns"] = model.unknowns.count;
+  if (model.particle_fit) json["constants"] = fit_json(*model.particle_fit);
   if (model.network.calibration) json["calibration"] = calibration_json(*model.network.calibration);
   json["spacing"] = model.lattice.spacing;
   json["horizon"] = model.horizon;
   json["factorizations"] = result.factor.factorizations;
   json["factor_bytes"] = result.factor.bytes;
-  json["seconds"] = {{"set_up", seconds.set_up},
-                     {"analysis", seconds.analysis},
-                     {"output", seconds.output}};
+  json["seconds"] = {
+      {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
   if (model.network.calibration) {
     json["seconds"]["calibration"] = model.network.calibration->seconds;  // part of set_up
   }

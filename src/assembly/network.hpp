@@ -13,7 +13,7 @@
 namespace perilink {
 
 /// Ends of a bond, as bits.
-enum StateOf : std::uint8_t { first_end = 1, second_end = 2 };
+enum BondEnd : std::uint8_t { first_end = 1, second_end = 2 };
 
 /// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds
 /// of the solid first, then ties between bars and solid, then the segments of the bars.
@@ -36,7 +36,7 @@ struct Network {
   /// particle; negative where Poisson's ratio is below that of the bonds alone. Empty: bonds only.
   /// Trusses alone have it.
   std::vector<double> state_stiffness;
-  /// In whose sums the extension of a bond counts, see StateOf, per element; empty: in those of
+  /// In whose sums the extension of a bond counts, see BondEnd, per element; empty: in those of
   /// both its ends. Nearest neighbours need not be mutual.
   std::vector<std::uint8_t> state_of;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
@@ -66,7 +66,7 @@ struct Network {
   bool carries_moments() const { return !bending.empty(); }
   bool has_states() const { return !state_stiffness.empty(); }
   /// Whether the extension of a bond counts in the sum of its first end, or its second.
-  bool counts_for(Index element, StateOf end) const {
+  bool counts_for(Index element, BondEnd end) const {
     return state_of.empty() || (state_of[element] & end) != 0;
   }
   Index num_elements() const { return bonds.size(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -16,80 +17,101 @@ namespace {
 /// those at sqrt(2) spacings, the farthest, but not those at one.
 constexpr double far_from = 0.85;
 constexpr double tie = 1e-6;  ///< of distances
+/// Candidates per neighbour: some are lost to slits, some families need more than the nearest.
+constexpr int spare = 4;
 
-/// Pairs of which at least one is a neighbour of the other, with whose neighbour is whose.
-struct Pairs {
-  Bonds bonds;
-  std::vector<std::uint8_t> state_of;
-};
-
-Pairs find_pairs(const Particles& particles, std::span<const double> radius) {
+/// Pairs near enough to be neighbours that see each other within the body.
+Bonds find_candidates(const Body& body, int count) {
+  const Particles& particles = body.particles;
+  std::vector<double> radius =
+      distances_of_nearest(particles.positions, particles.dim, spare * count);
+  for (double& r : radius) r *= 1.0 + tie;
   const Csr around =
       find_neighbors_within(particles.positions, particles.positions, particles.dim, radius);
-  std::vector<std::pair<std::pair<Index, Index>, std::uint8_t>> halves;
+  std::vector<std::pair<Index, Index>> pairs;
   for (Index i = 0; i < particles.size(); ++i) {
     for (const Index j : around.row(i)) {
-      if (j == i) continue;
-      halves.push_back({{std::min(i, j), std::max(i, j)}, i < j ? first_end : second_end});
+      if (j != i) pairs.emplace_back(std::min(i, j), std::max(i, j));
     }
   }
-  std::sort(halves.begin(), halves.end());
-  Pairs pairs;
-  pairs.bonds.dim = particles.dim;
-  for (std::size_t k = 0; k < halves.size(); ++k) {
-    if (k > 0 && halves[k].first == halves[k - 1].first) {
-      pairs.state_of.back() |= halves[k].second;
-      continue;
-    }
-    pairs.bonds.append(particles, halves[k].first.first, halves[k].first.second);
-    pairs.state_of.push_back(halves[k].second);
-  }
-  return pairs;
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  Bonds bonds;
+  bonds.dim = particles.dim;
+  for (const auto& [i, j] : pairs) bonds.append(particles, i, j);
+  remove_bonds_outside(particles, bonds, body.facets, body.lattice.spacing);
+  return bonds;
 }
 
-/// Takes out the pairs that see each other only through the outside of the body.
-void remove_pairs_outside(const Body& body, Pairs& pairs) {
-  Bonds inside = pairs.bonds;
-  remove_bonds_outside(body.particles, inside, body.facets, body.lattice.spacing);
-  std::size_t kept = 0;
-  for (Index e = 0; e < pairs.bonds.size() && kept < inside.first.size(); ++e) {
-    if (pairs.bonds.first[e] != inside.first[kept] || pairs.bonds.second[e] != inside.second[kept])
-      continue;
-    pairs.state_of[kept++] = pairs.state_of[e];
-  }
-  pairs.state_of.resize(kept);
-  pairs.bonds = std::move(inside);
-}
-
-/// A neighbour's bond, outwards.
-struct Member {
-  Index element = 0;
-  FamilyBond bond;
+/// The neighbours of a particle among its candidates, and their constants.
+struct Family {
+  std::vector<Index> elements;  ///< of the candidates
+  std::vector<FamilyBond> bonds;
+  ParticleFit fit;
+  bool enlarged = false;  ///< beyond the nearest, which left some strain free
 };
 
-std::vector<std::vector<Member>> families_of(const Pairs& pairs, Index size) {
-  std::vector<std::vector<Member>> families(static_cast<std::size_t>(size));
-  for (Index e = 0; e < pairs.bonds.size(); ++e) {
-    const auto n = pairs.bonds.direction(e);
-    FamilyBond bond;
-    bond.length = pairs.bonds.lengths[e];
-    std::copy(n.begin(), n.end(), bond.direction.begin());  // signs do not matter: products n n'
-    if ((pairs.state_of[e] & first_end) != 0) {
-      families[pairs.bonds.first[e]].push_back({e, bond});
-    }
-    if ((pairs.state_of[e] & second_end) != 0) {
-      families[pairs.bonds.second[e]].push_back({e, bond});
-    }
-  }
-  for (auto& family : families) {
-    double farthest = 0.0;
-    for (const Member& member : family) farthest = std::max(farthest, member.bond.length);
-    for (Member& member : family) member.bond.far = member.bond.length > far_from * farthest;
-  }
-  return families;
-}
+class Families {
+ public:
+  Families(const Bonds& candidates, const Particles& particles, Problem problem,
+           std::span<const IsotropicMaterial> materials)
+      : candidates_(candidates),
+        particles_(particles),
+        problem_(problem),
+        materials_(materials),
+        around_(bonds_of_particles(candidates, particles.size())),
+        count_(particles.dim == 2 ? neighbors_in_plane : neighbors_in_space) {}
 
-void note(const ParticleFit& fit, Index particle, ParticleFitReport& report) {
+  Family of(Index particle) const {
+    std::vector<Index> nearest(around_.row(particle).begin(), around_.row(particle).end());
+    std::stable_sort(nearest.begin(), nearest.end(), [&](Index a, Index b) {
+      return candidates_.lengths[a] < candidates_.lengths[b];
+    });
+    Family family = of_nearest(particle, nearest, count_);
+    for (std::size_t more = count_ + 1;
+         family.fit.kind == FitKind::singular && more <= nearest.size(); ++more) {
+      family = of_nearest(particle, nearest, more);
+      family.enlarged = true;
+    }
+    return family;
+  }
+
+ private:
+  /// As many as `count` of those sorted by distance, with all that are as far as the last one.
+  Family of_nearest(Index particle, std::span<const Index> nearest, std::size_t count) const {
+    Family family;
+    if (!nearest.empty()) {
+      const double last = candidates_.lengths[nearest[std::min(count, nearest.size()) - 1]];
+      for (const Index e : nearest) {
+        if (candidates_.lengths[e] > last * (1.0 + tie)) break;
+        family.elements.push_back(e);
+        FamilyBond bond;
+        bond.length = candidates_.lengths[e];
+        bond.far = bond.length > far_from * last;
+        const auto n = candidates_.direction(e);
+        // Signs do not matter: products n n'.
+        std::copy(n.begin(), n.end(), bond.direction.begin());
+        family.bonds.push_back(bond);
+      }
+    }
+    const Index number = particles_.material[particle];
+    if (number == no_index) throw std::logic_error("a particle has no material");
+    const IsotropicMaterial& material = materials_[number];
+    family.fit = fit_particle_moduli(problem_, material.youngs_modulus, material.poissons_ratio,
+                                     family.bonds, particles_.volumes[particle]);
+    return family;
+  }
+
+  const Bonds& candidates_;
+  const Particles& particles_;
+  Problem problem_;
+  std::span<const IsotropicMaterial> materials_;
+  Csr around_;
+  std::size_t count_;
+};
+
+void note(const Family& family, Index particle, ParticleFitReport& report) {
+  const ParticleFit& fit = family.fit;
   switch (fit.kind) {
     case FitKind::exact: ++report.exact; break;
     case FitKind::least: ++report.least; break;
@@ -97,10 +119,26 @@ void note(const ParticleFit& fit, Index particle, ParticleFitReport& report) {
     case FitKind::indefinite: ++report.indefinite; break;
     case FitKind::singular: ++report.singular; break;
   }
+  report.enlarged += family.enlarged ? 1 : 0;
   report.mean_residual += fit.residual;
   if (report.worst != no_index && !(fit.residual > report.largest_residual)) return;
   report.largest_residual = fit.residual;
   report.worst = particle;
+}
+
+/// Candidates that became neighbours of at least one end, with what their states make them.
+void keep_neighbours(const Bonds& candidates, std::span<const double> stiffness,
+                     std::span<const std::uint8_t> state_of, Network& network) {
+  network.bonds.dim = candidates.dim;
+  for (Index e = 0; e < candidates.size(); ++e) {
+    if (state_of[e] == 0) continue;
+    network.bonds.append(network.particles, candidates.first[e], candidates.second[e]);
+    network.stiffness.push_back(stiffness[e]);
+    network.state_of.push_back(state_of[e]);
+  }
+  network.critical_stretch.assign(network.stiffness.size(),
+                                  std::numeric_limits<double>::infinity());
+  network.first_tie = network.first_segment = network.bonds.size();
 }
 
 }  // namespace
@@ -108,42 +146,31 @@ void note(const ParticleFit& fit, Index particle, ParticleFitReport& report) {
 ParticleNetwork make_particle_network(const Body& body, Problem problem,
                                       std::span<const IsotropicMaterial> materials,
                                       double thickness) {
-  const int dim = body.particles.dim;
-  const int count = dim == 2 ? neighbors_in_plane : neighbors_in_space;
-  std::vector<double> radius = distances_of_nearest(body.particles.positions, dim, count);
-  for (double& r : radius) r *= 1.0 + tie;
-  Pairs pairs = find_pairs(body.particles, radius);
-  remove_pairs_outside(body, pairs);
-
   ParticleNetwork result;
   Network& network = result.network;
   network.particles = body.particles;
   network.particles.volumes = voronoi_volumes(body.particles, body.cells, thickness);
   network.facets = body.facets;
-  network.bonds = std::move(pairs.bonds);
-  network.state_of = std::move(pairs.state_of);
-  const auto elements = static_cast<std::size_t>(network.bonds.size());
-  network.stiffness.assign(elements, 0.0);
-  network.critical_stretch.assign(elements, std::numeric_limits<double>::infinity());
-  network.first_tie = network.first_segment = network.bonds.size();
+  const int count = body.particles.dim == 2 ? neighbors_in_plane : neighbors_in_space;
+  const Bonds candidates = find_candidates(body, count);
+  const Families families(candidates, network.particles, problem, materials);
+  std::vector<double> stiffness(static_cast<std::size_t>(candidates.size()), 0.0);
+  std::vector<std::uint8_t> state_of(stiffness.size(), 0);
   const Index size = network.particles.size();
-  const auto families = families_of({network.bonds, network.state_of}, size);
-  std::vector<FamilyBond> family;
   for (Index i = 0; i < size; ++i) {
-    family.clear();
-    for (const Member& member : families[i]) family.push_back(member.bond);
-    const IsotropicMaterial& material = materials[network.particles.material[i]];
-    const ParticleFit fit =
-        fit_particle_moduli(problem, material.youngs_modulus, material.poissons_ratio, family,
-                            network.particles.volumes[i]);
-    note(fit, i, result.report);
-    for (const Member& member : families[i]) {
-      const double own = fit.moduli.own + (member.bond.far ? fit.moduli.far : 0.0);
-      network.stiffness[member.element] += 0.5 * own / member.bond.length;
+    const Family family = families.of(i);
+    note(family, i, result.report);
+    for (std::size_t k = 0; k < family.elements.size(); ++k) {
+      const Index e = family.elements[k];
+      const double own =
+          family.fit.moduli.own + (family.bonds[k].far ? family.fit.moduli.far : 0.0);
+      stiffness[e] += 0.5 * own / family.bonds[k].length;
+      state_of[e] |= candidates.first[e] == i ? first_end : second_end;
     }
-    network.state_stiffness.push_back(0.5 * fit.moduli.state);
+    network.state_stiffness.push_back(0.5 * family.fit.moduli.state);
   }
   result.report.mean_residual /= std::max<Index>(1, size);
+  keep_neighbours(candidates, stiffness, state_of, network);
   return result;
 }
 

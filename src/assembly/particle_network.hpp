@@ -13,8 +13,9 @@ namespace perilink {
 /// How the constants of the particles of a body were found.
 struct ParticleFitReport {
   Index exact = 0, least = 0, many = 0, indefinite = 0, singular = 0;  ///< families of each FitKind
-  double mean_residual = 0.0, largest_residual = 0.0;                  ///< [-]
-  Index worst = no_index;  ///< particle of the largest residual
+  Index enlarged = 0;  ///< families that needed more than the nearest neighbours
+  double mean_residual = 0.0, largest_residual = 0.0;  ///< [-]
+  Index worst = no_index;                              ///< particle of the largest residual
 };
 
 /// A body of state-based particles (SPPM, Nikravesh 2017, chapter 3).
@@ -24,8 +25,9 @@ struct ParticleNetwork {
 };
 
 /// Neighbours that a particle has: those no farther than its sixth (in the plane) or eighteenth
-/// nearest one (Eq. 3.50), unless the way there leaves the body. Distances that differ by a
-/// millionth are equal: regular arrangements keep their symmetry.
+/// nearest one (Eq. 3.50) of those to which the way does not leave the body, and as many more as it
+/// takes that no strain leaves all their bonds as they are. Distances that differ by a millionth
+/// are equal: regular arrangements keep their symmetry.
 inline constexpr int neighbors_in_plane = 6, neighbors_in_space = 18;
 
 /// Particles with the volumes of their Voronoi cells and the constants of fit_particle_moduli().

@@ -92,9 +92,11 @@ void check_gauges(const CaseFile& input) {
                        "give every gauge a name of its own");
     }
     if (gauge.stress && input.analysis.type != "elastic") {
-      throw InputError(input.where(item_key("gauges", k, "stress")),
-                       "is given, but the case is a damage analysis, where broken bonds carry none",
-                       "measure a displacement, or set analysis.type = \"elastic\"");
+      throw InputError(
+          input.where(item_key("gauges", k, "stress")),
+          fmt::format("is given, but analysis.type is \"{}\", where what breaks carries none",
+                      input.analysis.type),
+          "measure a displacement, or set analysis.type = \"elastic\"");
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "io/case_moving_bonds.hpp"
+#include "io/case_particles.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_words.hpp"
 
@@ -179,7 +180,7 @@ void refuse_lattice_tables(const CaseFile& input) {
 bool is_lattice(const BodySection& body) { return body.model == "lattice"; }
 
 bool has_state_based_particles(const BodySection& body) {
-  return is_lattice(body) || body.model == "particles";
+  return is_lattice(body) || is_particles(body);
 }
 
 void read_lattice_body(const CaseTable& table, BodySection& body) {

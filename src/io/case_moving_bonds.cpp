@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "io/case_particles.hpp"
 #include "io/case_sections.hpp"
 
 namespace perilink {
@@ -18,7 +19,7 @@ void check_strain(const CaseFile& input) {
     throw InputError(where, "is given, but lattice particles stretch by their true lengths",
                      "delete it");
   }
-  if (input.body.model == "particles" && input.analysis.strain == "green") {
+  if (is_particles(input.body) && input.analysis.strain == "green") {
     throw InputError(where, "is \"green\", but state-based particles know small strains",
                      "delete it");
   }

@@ -8,6 +8,8 @@ namespace perilink {
 namespace {
 
 constexpr double exact_fit = 1e-9;  ///< residuals of regular families are round-off
+/// Energy that a state must leave of its bonds' in the deformation that it softens most.
+constexpr double least_energy = 1e-3;
 constexpr double same = 1e-6;  ///< singular values over the largest below which columns are alike
 
 using Strain = Eigen::VectorXd;  ///< or n n', Mandel's components: 3 in the plane, 6 in space
@@ -33,21 +35,24 @@ Tensor hooke_tensor(Problem problem, double youngs_modulus, double poissons_rati
 /// What each constant contributes to the stiffness of a family.
 struct Parts {
   Tensor own, far, state;
-  bool any_far = false;
+  bool two_kinds = false;  ///< near and far ones
   bool singular = false;
 
   Parts(std::span<const FamilyBond> family, int dim, double volume) {
     const int size = dim == 2 ? 3 : 6;
     own = far = state = Tensor::Zero(size, size);
     Strain sum = Strain::Zero(size);
+    bool any_far = false, any_near = false;
     for (const FamilyBond& bond : family) {
       const Strain n = product(bond.direction, dim);
       const Tensor part = 0.5 * bond.length / volume * n * n.transpose();
       own += part;
       if (bond.far) far += part;
       any_far = any_far || bond.far;
+      any_near = any_near || !bond.far;
       sum += bond.length * n;
     }
+    two_kinds = any_far && any_near;
     state = 0.5 / volume * sum * sum.transpose();
     const Eigen::SelfAdjointEigenSolver<Tensor> solver(own, Eigen::EigenvaluesOnly);
     singular = !(solver.eigenvalues()[0] > same * solver.eigenvalues()[size - 1]);
@@ -67,11 +72,27 @@ bool is_positive(const ParticleModuli& moduli, std::span<const FamilyBond> famil
     if (!(own > 0.0)) return false;
     reach += bond.length / own;
   }
-  return 1.0 + moduli.state * reach > 0.0;
+  return 1.0 + moduli.state * reach > least_energy;
 }
 
 Eigen::Map<const Eigen::VectorXd> entries(const Tensor& tensor) {
   return {tensor.data(), tensor.size()};
+}
+
+/// Least squares of own + state (+ far) = wanted.
+/// \param unique  becomes false where constants can take each other's place
+ParticleModuli solve(const Parts& parts, const Tensor& wanted, bool with_far, bool& unique) {
+  Eigen::MatrixXd columns(wanted.size(), with_far ? 3 : 2);
+  columns.col(0) = entries(parts.own);
+  columns.col(1) = entries(parts.state);
+  if (with_far) columns.col(2) = entries(parts.far);
+  const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
+  columns.array().rowwise() /= scale.transpose().array();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& values = svd.singularValues();
+  unique = values[values.size() - 1] > same * values[0];
+  const Eigen::VectorXd found = svd.solve(entries(wanted)).cwiseQuotient(scale);
+  return {found[0], with_far ? found[2] : 0.0, found[1]};
 }
 
 }  // namespace
@@ -87,29 +108,16 @@ ParticleFit fit_particle_moduli(Problem problem, double youngs_modulus, double p
     return fit;
   }
   const Parts parts(family, dim, volume);
-  // In the plane all neighbours are first ones: the hexagonal lattice has no others.
-  const bool has_far = dim == 3 && parts.any_far;
-  Eigen::MatrixXd columns(wanted.size(), has_far ? 3 : 2);
-  columns.col(0) = entries(parts.own);
-  columns.col(1) = entries(parts.state);
-  if (has_far) columns.col(2) = entries(parts.far);
-  const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
-  columns.array().rowwise() /= scale.transpose().array();
-
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& values = svd.singularValues();
-  const Eigen::VectorXd solution = svd.solve(entries(wanted)).cwiseQuotient(scale);
-  fit.moduli = {solution[0], has_far ? solution[2] : 0.0, solution[1]};
+  bool unique = true;
+  fit.moduli = solve(parts, wanted, parts.two_kinds, unique);
+  fit.kind = unique ? FitKind::least : FitKind::many;
+  if (!unique) fit.moduli = solve(parts, wanted, false, unique);
   if (parts.singular) {
     fit.kind = FitKind::singular;
-  } else if (values[values.size() - 1] < same * values[0]) {
-    fit.kind = FitKind::many;
   } else if (!is_positive(fit.moduli, family)) {
     fit.kind = FitKind::indefinite;
-  } else {
-    fit.kind = FitKind::least;
   }
-  if (fit.kind != FitKind::least) {
+  if (fit.kind == FitKind::singular || fit.kind == FitKind::indefinite) {
     fit.moduli = {entries(parts.own).dot(entries(wanted)) / parts.own.squaredNorm(), 0.0, 0.0};
   }
   fit.residual = (parts.stiffness(fit.moduli) - wanted).norm() / wanted.norm();

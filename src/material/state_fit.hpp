@@ -27,9 +27,9 @@ struct ParticleModuli {
 enum class FitKind {
   exact,       ///< the family carries every uniform strain as Hooke's solid does
   least,       ///< no constants do; these come nearest
-  many,        ///< several do, as far as the family tells them apart: bonds without states taken
-  indefinite,  ///< the nearest ones would give some deformations negative energy: the same
-  singular,    ///< the same, and some strain does not stretch any bond of the family
+  many,        ///< several do, far bonds being like near ones: those without `far`
+  indefinite,  ///< the nearest ones would give a deformation no energy: bonds without states
+  singular,    ///< the same, since some strain leaves all bonds of the family as they are
 };
 
 /// Constants of a particle and how well they fit.
@@ -45,7 +45,7 @@ struct ParticleFit {
 /// its stress (1 / 2V) sum_j L_j F_j n_j n_j' under uniform strains that of Hooke's solid, in the
 /// norm of the tensors, so that axes do not matter. Departs from the dissertation where that is
 /// neither isotropic nor derived from an energy (docs/theory/lattice_particles.md): far bonds have
-/// their own stretch, and lengths weigh the sum.
+/// their own stretch, in the plane too, and lengths weigh the sum.
 /// \param volume  V of the particle [length^3]
 ParticleFit fit_particle_moduli(Problem problem, double youngs_modulus, double poissons_ratio,
                                 std::span<const FamilyBond> family, double volume);

@@ -157,6 +157,38 @@ TEST_P(ExplicitParticles, DamagedForcesAreThoseOfTheSecantsAndTheirEnergyIsLost)
   EXPECT_LT(*std::min_element(secants.begin(), secants.end()), 1.0);
 }
 
+/// Pressed after they have cracked, bonds are weaker by the damage in compression.
+TEST_P(ExplicitParticles, CracksThatCloseCarryPressureUpToTheThreshold) {
+  for (const double stretching : {1.2, 30.0}) {
+    const auto bonds = make(true);
+    step(*bonds, stressed(stretching * strength, 0.0));
+    bonds->finish_step();
+    const std::vector<double> damage = bonds->damage();
+    const BondMotion pressed = strained({-1e-4, -1e-4, -1e-4});
+    std::vector<double> force(pressed.displacement.size());
+    step(*bonds, pressed, &force);
+    std::vector<double> factor;
+    for (Index e = 0; e < network_.num_elements(); ++e) {
+      const auto weaker = [&](Index i) { return compressive_damage(damage[i], 1.0 / 3.0); };
+      factor.push_back(
+          two_spring_factor(weaker(network_.bonds.first[e]), weaker(network_.bonds.second[e])));
+    }
+    const double least = *std::min_element(factor.begin(), factor.end());
+    if (stretching < 2.0) {
+      EXPECT_EQ(least, 1.0) << "below the threshold nothing is lost";
+    } else {
+      EXPECT_LT(least, 0.5);
+    }
+    const InternalForce expected = internal_force(network_, factor, pressed.displacement);
+    double largest = 0.0;
+    for (const double f : expected.forces) largest = std::max(largest, std::abs(f));
+    for (std::size_t k = 0; k < force.size(); ++k) {
+      EXPECT_NEAR(force[k], expected.forces[k], 1e-12 * largest);
+    }
+    EXPECT_NEAR(bonds->stored(0, size_, dt, pressed), expected.energy, 1e-12 * expected.energy);
+  }
+}
+
 TEST_P(ExplicitParticles, DamageNeverHeals) {
   const auto bonds = make(true);
   step(*bonds, stressed(3.0 * strength, 0.0));

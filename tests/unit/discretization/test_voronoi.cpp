@@ -62,16 +62,15 @@ TEST(Voronoi, CellsOfAGridAreSquaresAndPartsOfThem) {
 }
 
 TEST(Voronoi, CellsOfFlatTrianglesReachBeyondThem) {
-  // The vertex at the top is nearer to no point of the rows below than theirs, though the
-  // triangle is so flat that its shape function reaches all along it.
+  // Not a third each: the cell of the vertex at the top is half of the triangle.
   Mesh mesh;
   mesh.dim = 2;
   mesh.positions = {0.0, 0.0, 4.0, 0.0, 2.0, 0.1};
   mesh.cells = {0, 1, 2};
   const Body body = body_of(mesh);
   const std::vector<double> volumes = voronoi_volumes(body.particles, body.cells, 1.0);
-  // The side to the first vertex has its middle at x = 1 - 0.0025 on the base (hand computed:
-  // |x|^2 = (x - 2)^2 + 0.1^2 at y = 0) and at (1, 0.05) on the flank.
+  // The side to the first vertex meets the base at x = 1 + 0.0025 (|x|^2 = (x - 2)^2 + 0.1^2) and
+  // the flank at (1, 0.05).
   const double foot = 4.01 / 4.0;
   const double left = 0.5 * foot * 0.05;
   EXPECT_NEAR(volumes[0], left, 1e-15);

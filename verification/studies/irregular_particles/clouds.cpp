@@ -15,9 +15,9 @@
 namespace perilink::verification {
 namespace {
 
-constexpr double density = 2323.0;  // kg/m^3
-constexpr double extension = 8e-5;  // m per 0.3 m of bar
-constexpr Index unbreakable = 1;    // material
+constexpr double density = 2323.0;    // kg/m^3
+constexpr double extension = 2.5e-4;  // m, more than the critical opening
+constexpr Index unbreakable = 1;      // material
 
 bool is_plane(const Cloud& cloud) { return cloud.problem != Problem::three_dimensional; }
 
@@ -27,7 +27,9 @@ double section(const Cloud& cloud) {
 
 LatticeInput lattice_of(const Cloud& cloud) {
   LatticeInput input;
-  input.pattern = is_plane(cloud) ? Pattern::hexagonal : Pattern::cubic;
+  input.pattern = !is_plane(cloud) ? Pattern::cubic
+                  : cloud.square   ? Pattern::rectangular
+                                   : Pattern::hexagonal;
   input.spacing = cloud.spacing;
   input.thickness = is_plane(cloud) ? cloud.thickness : 1.0;
   const double depth = is_plane(cloud) ? 0.0 : cloud.width;
@@ -80,7 +82,7 @@ ParticleNetwork build(const Cloud& cloud) {
   }
   for (Index i = 0; i < body.particles.size(); ++i) {
     const double y = body.particles.position(i)[1] / cloud.length;
-    body.particles.material[i] = y < 0.1 || y > 0.9 ? unbreakable : 0;
+    body.particles.material[i] = y < 0.45 || y > 0.55 ? unbreakable : 0;
   }
   const std::vector<IsotropicMaterial> materials(2, {youngs_modulus, poissons_ratio});
   return make_particle_network(body, cloud.problem, materials, cloud.thickness);
@@ -133,7 +135,7 @@ Stretching stretch(const Cloud& cloud, const ParticleNetwork& built) {
 
 ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built) {
   const Network& network = built.network;
-  const Unknowns unknowns = pull(cloud, network, extension * cloud.length / 0.3);
+  const Unknowns unknowns = pull(cloud, network, extension);
   const Loads loads{std::vector<double>(unknowns.number.size(), 0.0)};
   const Inertia inertia = lumped_inertia(network, std::vector{density, density});
   const double period = fundamental_period(network, unknowns, inertia, 1);
@@ -146,12 +148,12 @@ ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built) {
   rules.states.materials[0].breakable = true;
   rules.states.materials[0].softening = {strength, 0.25, 2e-5, 2e-4};
   ExplicitOptions options;
-  options.duration = 30.0 * period;
+  options.duration = 60.0 * period;
   options.ramp = options.duration;
-  options.safety = 0.5;
+  options.safety = 0.3;
   ReferenceLoad reference;
   reference.driven = true;
-  reference.value = extension * cloud.length / 0.3;
+  reference.value = extension;
   Silent observer;
   return run_explicit_bonds(network, unknowns, loads, reference, inertia, rules, options, observer);
 }

@@ -18,6 +18,7 @@ struct Cloud {
   Problem problem = Problem::plane_stress;
   double spacing = 0.1;  ///< of the lattice, hexagonal or cubic, that the particles leave [m]
   double scatter = 0.0;  ///< by at most this many spacings along each axis
+  bool square = false;   ///< instead of hexagonal
 };
 
 /// \throws std::runtime_error where the scatter turns a cell of the mesh inside out
@@ -33,7 +34,10 @@ struct Stretching {
 };
 Stretching stretch(const Cloud& cloud, const ParticleNetwork& built);
 
-/// The bar torn apart within some thirty fundamental periods; its ends, a tenth of it each, do not
+/// Energy that a crack takes [N/m].
+inline constexpr double fracture_energy = 0.5 * strength * (2e-5 + 0.25 * 2e-4);
+
+/// The bar torn apart within some sixty fundamental periods; only its middle, a tenth of it, can
 /// break.
 ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built);
 

@@ -16,27 +16,31 @@ std::string row(const Cloud& cloud, bool torn) {
   const ParticleFitReport& fit = built.report;
   const Stretching found = stretch(cloud, built);
   const bool plane = cloud.problem != Problem::three_dimensional;
-  std::string text =
-      fmt::format("{},{:.4g},{},{},{:.3f},{:.3f},{},{:.4f},{:.4f}", plane ? "plane" : "space",
-                  cloud.spacing / cloud.width, cloud.scatter, built.network.particles.size(),
-                  fit.mean_residual, fit.largest_residual, fit.many + fit.indefinite + fit.singular,
-                  found.modulus, found.displacement);
-  if (!torn) return text + ",,,\n";
+  std::string text = fmt::format(
+      "{},{:.4g},{},{},{:.3f},{:.3f},{},{:.4f},{:.4f}",
+      plane ? (cloud.square ? "square" : "hexagonal") : "cubic", cloud.spacing / cloud.width,
+      cloud.scatter, built.network.particles.size(), fit.mean_residual, fit.largest_residual,
+      fit.many + fit.indefinite + fit.singular, found.modulus, found.displacement);
+  if (!torn) return text + ",,,,\n";
   const ExplicitResult result = tear(cloud, built);
   const double section = cloud.width * (plane ? cloud.thickness : cloud.width);
-  return text + fmt::format(",{:.3f},{},{:.1e}\n",
+  return text + fmt::format(",{:.3f},{:.2f},{},{:.1e}\n",
                             std::abs(result.peak_load) / (strength * section),
+                            result.last.energy.fractured / (fracture_energy * section),
                             result.last.cracked_particles, result.largest_surplus);
 }
 
 void run_study() {
   std::string table =
       "body,spacing_over_width,scatter,particles,mean_residual,largest_residual,ill_posed,"
-      "modulus,displacement_error,peak_over_strength,cracked,energy_surplus\n";
+      "modulus,displacement_error,peak_over_strength,fractured_over_gf,cracked,energy_surplus\n";
   const auto add = [&](const Cloud& cloud, bool torn) {
     table += row(cloud, torn);
     fmt::print(stderr, ".");
   };
+  for (const double columns : {15.0, 30.0, 60.0}) {
+    add({0.15, 0.3, 0.15, Problem::plane_stress, 0.15 / columns, 0.0, true}, columns == 15.0);
+  }
   for (const double scatter : {0.0, 0.1, 0.2, 0.3}) {
     for (const double columns : {15.0, 30.0, 60.0}) {
       add({0.15, 0.3, 0.15, Problem::plane_stress, 0.15 / columns, scatter}, columns == 15.0);
