@@ -33,7 +33,7 @@ x = [0, 1]
 y = [0, 0]
 [[regions]]
 name = "left"
-x = [0.5, 0.5]
+x = [0, 0]
 y = [0, 0]
 [[regions]]
 name = "top"

@@ -213,8 +213,11 @@ TEST(StateFit, TakesNoConstantsOfNegativeEnergy) {
     const ParticleFit fit =
         fit_particle_moduli(Problem::plane_stress, youngs_modulus, -0.95, family, 0.01);
     double reach = 0.0;
-    for (const FamilyBond& bond : family) reach += bond.length / fit.moduli.own;
-    EXPECT_GT(fit.moduli.own, 0.0);
+    for (const FamilyBond& bond : family) {
+      const double own = fit.moduli.own + (bond.far ? fit.moduli.far : 0.0);
+      EXPECT_GT(own, 0.0);
+      reach += bond.length / own;
+    }
     EXPECT_GT(1.0 + fit.moduli.state * reach, 0.0);
     refused += fit.kind == FitKind::indefinite;
     if (fit.kind != FitKind::indefinite) continue;
