@@ -82,7 +82,7 @@ ParticleNetwork build(const Cloud& cloud) {
   }
   for (Index i = 0; i < body.particles.size(); ++i) {
     const double y = body.particles.position(i)[1] / cloud.length;
-    body.particles.material[i] = y < 0.45 || y > 0.55 ? unbreakable : 0;
+    body.particles.material[i] = y < 0.35 || y > 0.65 ? unbreakable : 0;
   }
   const std::vector<IsotropicMaterial> materials(2, {youngs_modulus, poissons_ratio});
   return make_particle_network(body, cloud.problem, materials, cloud.thickness);
@@ -140,7 +140,7 @@ ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built) {
   const Inertia inertia = lumped_inertia(network, std::vector{density, density});
   const double period = fundamental_period(network, unknowns, inertia, 1);
   BondRunRules rules;
-  rules.damping_rate = 2.0 * 6.283 / period;  // the slowest vibration critically
+  rules.damping_rate = 0.1 * 2.0 * 6.283 / period;  // a tenth of critical for the slowest vibration
   StateMaterial material;
   material.youngs_modulus = youngs_modulus;
   material.poissons_ratio = poissons_ratio;

@@ -37,7 +37,7 @@ Stretching stretch(const Cloud& cloud, const ParticleNetwork& built);
 /// Energy that a crack takes [N/m].
 inline constexpr double fracture_energy = 0.5 * strength * (2e-5 + 0.25 * 2e-4);
 
-/// The bar torn apart within some sixty fundamental periods; only its middle, a tenth of it, can
+/// The bar torn apart within some sixty fundamental periods; only its middle third can
 /// break.
 ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built);
 
