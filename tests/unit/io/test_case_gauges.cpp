@@ -56,7 +56,7 @@ TEST(CaseGauges, RefuseWhatCannotBeMeasured) {
               HasSubstr("gauges[2].name: is \"a\", the name of another gauge"));
   EXPECT_THAT(message_of(std::string(small_case) +
                          "[[gauges]]\nname = \"a\"\nat = [0, 0]\nstress = \"xx\"\n"),
-              HasSubstr("the case is a damage analysis"));
+              HasSubstr("analysis.type is \"damage\""));
 }
 
 TEST(CaseGauges, SpellComponentsByTheirAxes) {
