@@ -75,8 +75,8 @@ TEST(ExplicitTension, BalancesItsEnergyAndNeverHeals) {
   }
 }
 
-/// A crack from side to side: but for some pieces particles go all the way with the top or stay with
-/// the bottom, and where these meet is a band of few rows.
+/// A crack from side to side: but for some pieces particles go all the way with the top or stay
+/// with the bottom, and where these meet is a band of few rows.
 TEST(ExplicitTension, EndsInACrackAcrossTheBlock) {
   const TensionRun& run = tension_run();
   EXPECT_LT(std::abs(run.result.last.load), 1e-3 * std::abs(run.result.peak_load));

@@ -140,7 +140,7 @@ ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built) {
   const Inertia inertia = lumped_inertia(network, std::vector{density, density});
   const double period = fundamental_period(network, unknowns, inertia, 1);
   BondRunRules rules;
-  rules.damping_rate = 0.1 * 2.0 * 6.283 / period;  // a tenth of critical for the slowest vibration
+  rules.damping_rate = 0.1 * 2.0 * 6.283 / period;  // a tenth of critical, slowest vibration
   StateMaterial material;
   material.youngs_modulus = youngs_modulus;
   material.poissons_ratio = poissons_ratio;
