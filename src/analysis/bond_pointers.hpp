@@ -23,18 +23,25 @@ struct BondPointers {
 
   BondPointers(const ExplicitModel& model, const ExplicitState& state, Index row) {
     const LatticeRows& lattice = model.lattice;
-    const Index first = lattice.rows[row].first;
     constexpr int own = Bonds / 2;
-    const auto fill = [&](auto& pointers, const std::vector<double>& field) {
+    const auto fill_from = [&](auto& pointers, const std::vector<double>& field, Index first,
+                               const std::vector<Index>& shift_in, Index slots) {
       for (int j = 0; j < Bonds; ++j) {
         const int k = j % own;
-        const Index start = j < own ? first : first - lattice.shift_in[row * own + k];
-        const std::size_t part = static_cast<std::size_t>(k) * lattice.slots;
+        const Index start = j < own ? first : first - shift_in[row * own + k];
+        const std::size_t part = static_cast<std::size_t>(k) * slots;
         pointers[j] = field.empty() ? nullptr : field.data() + part + start;
       }
     };
-    fill(effective, state.effective);
-    fill(stretch, state.stretch);
+    const auto fill_now = [&](auto& pointers, const std::vector<double>& field) {
+      const RowPlaces& places = state.now.places;
+      fill_from(pointers, field, places.first[row], places.shift_in, places.slots);
+    };
+    const auto fill = [&](auto& pointers, const std::vector<double>& field) {
+      fill_from(pointers, field, lattice.rows[row].first, lattice.shift_in, lattice.slots);
+    };
+    fill_now(effective, state.now.effective);
+    fill_now(stretch, state.now.stretch);
     fill(rate, state.rate);
     fill(present, lattice.present);
     fill(tension, state.in_tension);

@@ -1,6 +1,7 @@
 #include "analysis/explicit_analysis.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "analysis/explicit_energy.hpp"
 #include "analysis/explicit_kernels.hpp"
@@ -25,7 +27,7 @@ constexpr Index particles_per_thread = 4000;
 Index yielded_particles(const ExplicitState& state) {
   const LatticeFlow& flow = state.flow;
   if (flow.stretch.empty()) return 0;
-  const std::size_t slots = state.sum.size();
+  const std::size_t slots = state.damage.size();
   Index count = 0;
   for (std::size_t slot = 0; slot < slots; ++slot) {
     bool yielded = false;
@@ -53,8 +55,9 @@ class ExplicitRun {
   ExplicitResult run() {
     // Three barriers per step: a thread pays only with enough particles of its own.
     const Index useful = std::max<Index>(1, model_.lattice.particles() / particles_per_thread);
-    return loop_.run(std::min<Index>(options_.threads, useful),
-                     [this](Index step) { one_step(step); });
+    const Index threads = std::min<Index>(options_.threads, useful);
+    prepare_passing(threads);
+    return loop_.run(threads, [this](Index step) { one_step(step); });
   }
 
  private:
@@ -75,25 +78,58 @@ class ExplicitRun {
         stage(reach, 0, [this, dt](Index r) { changes_->update_sums(state_, r, dt); })};
   }
 
-  /// Run by every thread. Own bonds end in the row itself or in rows after it, so sums take in the
-  /// bonds of rows before, forces the sums of rows after, and motion the forces of rows before.
+  /// Own bonds end in the row itself or in rows after it, so sums take in the bonds of rows before.
+  auto stretches(double dt) {
+    return std::tuple{RowStage{0, 0, [this, dt](Index r) { measure_bonds(model_, state_, r, dt); }},
+                      RowStage{model_.lattice.reach, 0,
+                               [this](Index r) { sum_stretches(model_, state_, r); }}};
+  }
+
+  /// Forces take in the sums of rows after, motion the forces of rows before.
+  auto motion(double dt, double factor, double increment) {
+    const Index reach = model_.lattice.reach;
+    return std::tuple{RowStage{0, reach, [this](Index r) { bond_forces(model_, state_, r); }},
+                      RowStage{reach, 0, [this, dt, factor, increment](Index r) {
+                                 advance(model_, state_, r, dt, factor, increment);
+                               }}};
+  }
+
+  auto all_stages(double dt, double factor, double increment) {
+    return std::tuple_cat(stretches(dt), changes(dt), motion(dt, factor, increment));
+  }
+
+  /// Steps that nobody looks at keep their numbers in the cache.
+  void prepare_passing(Index threads) {
+    const SweepReach reach = reach_of(all_stages(0.0, 0.0, 0.0));
+    PassingRows passing;
+    passing.blocks = threads;
+    passing.alive = reach.ahead + reach.widest + 1;
+    // What a stage does at the edge, what that reads, and what the mean over neighbours reads.
+    passing.edge = reach.shortest() + 2 * reach.widest;
+    if (rows_ / threads < 2 * (passing.edge + passing.alive)) return;
+    passing_ = make_step_numbers(model_, passing_places(model_.lattice, passing));
+    passing_blocks_ = threads;
+  }
+
+  bool is_passing(Index step) const {
+    return step >= 0 && passing_blocks_ == omp_get_num_threads() && !loop_.is_looked_at(step);
+  }
+
+  /// Run by every thread.
   void one_step(Index step) {
     const double dt = loop_.time_step();
     const double factor = loop_.load_factor(step);
     const double increment = loop_.load_factor(step + 1) - factor;
-    const Index reach = model_.lattice.reach;
-    const std::tuple stretches{
-        RowStage{0, 0, [&](Index r) { measure_bonds(model_, state_, r, dt); }},
-        RowStage{reach, 0, [&](Index r) { sum_stretches(model_, state_, r); }}};
-    const std::tuple motion{
-        RowStage{0, reach, [&](Index r) { bond_forces(model_, state_, r); }},
-        RowStage{reach, 0, [&](Index r) { advance(model_, state_, r, dt, factor, increment); }}};
+    if (is_passing(step) != is_passing(step - 1)) {
+#pragma omp single
+      std::swap(state_.now, passing_);
+    }
     if (loop_.is_looked_at(step)) {
-      sweep_rows(rows_, stretches);
+      sweep_rows(rows_, stretches(dt));
       look(step);
-      sweep_rows(rows_, std::tuple_cat(changes(dt), motion));
+      sweep_rows(rows_, std::tuple_cat(changes(dt), motion(dt, factor, increment)));
     } else {
-      sweep_rows(rows_, std::tuple_cat(stretches, changes(dt), motion));
+      sweep_rows(rows_, all_stages(dt, factor, increment));
     }
 #pragma omp single
     note_reactions(step);
@@ -140,6 +176,8 @@ class ExplicitRun {
   std::optional<LatticeChanges> changes_;
   ExplicitLoop loop_;
   ExplicitRecord record_;
+  StepNumbers passing_;       ///< what the state does not hold now
+  Index passing_blocks_ = 0;  ///< zero: too few rows
 };
 
 }  // namespace

@@ -65,7 +65,7 @@ double LatticeDamage::damage_at(double strain, double band) const {
 
 bool LatticeDamage::grow(ExplicitState& state, Index row, Index slot) const {
   if (state.damage[slot] >= 1.0) return false;
-  const Family family = particles_.family(row, slot);
+  const Family family = particles_.family(state, row, slot);
   if (state.crack_band[slot] == 0.0) {
     Vector3 normal{};
     if (!begins(state, row, family, normal)) return false;

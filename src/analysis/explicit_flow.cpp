@@ -32,7 +32,7 @@ SymmetricTensor free_strain(Problem problem, double nu, SymmetricTensor plastic)
 }  // namespace
 
 LatticeYielding::Change LatticeYielding::flow(ExplicitState& state, Index row, Index slot) const {
-  const Family family = particles_.family(row, slot);
+  const Family family = particles_.family(state, row, slot);
   return model_.rules == LatticeRules::consistent ? flow_consistently(state, family)
                                                   : flow_as_printed(state, family);
 }
@@ -76,11 +76,11 @@ LatticeYielding::Halves LatticeYielding::bond_forces(const ExplicitState& state,
   Halves bond{};
   for (int j = 0; j < family.bonds; ++j) {
     if (!family.has(j)) continue;
-    const Index at = family.at[j];
-    const double half = state.stretch[at] - family.side(j) * state.flow.half[at];
+    const double half = state.now.stretch[family.now_at[j]] -
+                        family.side(j) * state.flow.half[family.at[j]];
     const double other =
-        model_.own_modulus(family.own_number(j)) * LatticeParticles::factor(state, at) * half +
-        model_.moduli.sum * state.sum[family.partner[j]];
+        model_.own_modulus(family.own_number(j)) * LatticeParticles::factor(state, family, j) * half +
+        model_.moduli.sum * state.now.sum[family.now_partner[j]];
     const double smaller = std::abs(own[j]) < std::abs(other) ? own[j] : other;
     bond[j] = own[j] * other > 0.0 ? smaller : 0.5 * (own[j] + other);
   }
@@ -102,7 +102,7 @@ double LatticeYielding::printed_strain(const ExplicitState& state, const Family&
 double LatticeYielding::plastic_strain(const ExplicitState& state, Index row, Index slot) const {
   return model_.rules == LatticeRules::consistent
              ? state.flow.equivalent[slot]
-             : printed_strain(state, particles_.family(row, slot));
+             : printed_strain(state, particles_.family(state, row, slot));
 }
 
 double LatticeYielding::printed_yield(const ExplicitState& state, const Family& family,
@@ -117,8 +117,8 @@ double LatticeYielding::printed_yield(const ExplicitState& state, const Family& 
   // 2017, Eqs. 4.15 and 4.17, with the strain that is there, not with its plastic part
   Halves halves{};
   for (int j = 0; j < family.bonds; ++j) {
-    const Index at = family.at[j];
-    if (family.has(j)) halves[j] = state.stretch[at] + state.flow.mean[at];
+    if (!family.has(j)) continue;
+    halves[j] = state.now.stretch[family.now_at[j]] + state.flow.mean[family.at[j]];
   }
   const PrincipalValues values =
       principal_values(particles_.fit(halves, family), model_.lattice.dim);

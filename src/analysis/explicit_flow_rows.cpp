@@ -48,7 +48,7 @@ struct Scratch {
 void find_trial(const ExplicitModel& model, const ExplicitState& state, Index r, Scratch& trial) {
   const LatticeRow& row = model.lattice.rows[r];
   const BondPointers<6> bond(model, state, r);
-  const double* sum = state.sum.data() + row.first;
+  const double* sum = state.now.sum.data() + state.now.places.first[r];
   const double* volume = model.volume.data() + row.first;
   const double* locked = state.flow.normal.data() + row.first;
   double xx[3], yy[3], xy[3];
@@ -273,6 +273,7 @@ void update_plastic_parts(const ExplicitModel& model, ExplicitState& state, Inde
   const LatticeRow& row = lattice.rows[r];
   const int own = lattice.own_bonds();
   const double own_halves = model.rules != LatticeRules::mean_2017 ? 0.5 : 0.0;
+  const RowPlaces& now = state.now.places;
   for (int k = 0; k < own; ++k) {
     const double* mine = state.flow.stretch.data() + lattice.at(k, row.first);
     const double* other =
@@ -280,7 +281,7 @@ void update_plastic_parts(const ExplicitModel& model, ExplicitState& state, Inde
     const double* present = lattice.present.data() + lattice.at(k, row.first);
     double* mean = state.flow.mean.data() + lattice.at(k, row.first);
     double* half = state.flow.half.data() + lattice.at(k, row.first);
-    double* stretch = state.stretch.data() + lattice.at(k, row.first);
+    double* stretch = state.now.stretch.data() + now.at(k, now.first[r]);
 #pragma omp simd
     for (Index i = 0; i < row.size; ++i) {
       const double next = 0.5 * present[i] * (mine[i] + other[i]);

@@ -38,6 +38,20 @@ double* at(std::vector<double>& field, const LatticeRows& lattice, Index part,
   return field.data() + static_cast<std::size_t>(part) * lattice.slots + row.first;
 }
 
+/// The same of numbers of the present step.
+template <class Field>
+auto* at_now(Field& field, const RowPlaces& places, Index part, Index r) {
+  return field.empty() ? nullptr
+                       : field.data() + static_cast<std::size_t>(part) * places.slots +
+                             places.first[r];
+}
+
+template <class Field, class Pointer>
+void at_bonds_now(Field& field, const RowPlaces& places, int first, Index r,
+                  std::array<Pointer, group>& pointers) {
+  for (int g = 0; g < group; ++g) pointers[g] = at_now(field, places, first + g, r);
+}
+
 template <class Field, class Pointer>
 void at_bonds(Field& field, const LatticeRows& lattice, int first, const LatticeRow& row,
               std::array<Pointer, group>& pointers) {
@@ -61,8 +75,9 @@ struct MeasuredGroup {
       u[c] = at(state.displacement, lattice, c, row);
       v[c] = at(state.velocity, lattice, c, row);
     }
-    at_bonds(state.stretch, lattice, first, row, stretch);
-    at_bonds(state.effective, lattice, first, row, effective);
+    const RowPlaces& places = state.now.places;
+    at_bonds_now(state.now.stretch, places, first, r, stretch);
+    at_bonds_now(state.now.effective, places, first, r, effective);
     at_bonds(state.rate, lattice, first, row, rate);
     at_bonds(lattice.present, lattice, first, row, present);
     at_bonds(std::as_const(state.drag), lattice, first, row, drag);
@@ -75,7 +90,7 @@ struct MeasuredGroup {
       scale[g] = 1.0 / bond.length;
       for (int c = 0; c < Dim; ++c) {
         n[g][c] = bond.direction[c];
-        direction[g][c] = at(state.force, lattice, (first + g) * Dim + c, row);
+        direction[g][c] = at_now(state.now.force, places, (first + g) * Dim + c, r);
       }
     }
   }
@@ -140,10 +155,23 @@ void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, in
   if constexpr (Kind != Level::elastic) state.fastest[r] = std::max(state.fastest[r], dt * fastest);
 }
 
+/// Bonds lead beyond the ends of a row: to nothing, but to what longer rows at its place have left.
+void clear_stale(const ExplicitModel& model, ExplicitState& state, Index r) {
+  const RowPlaces& places = state.now.places;
+  if (places.stale[r] == 0) return;
+  const Index end = places.first[r] + model.lattice.rows[r].size;
+  for (auto* field : {&state.now.stretch, &state.now.effective, &state.now.force}) {
+    for (std::size_t at = end; at < field->size(); at += places.slots) {
+      std::fill_n(field->begin() + static_cast<Index>(at), places.stale[r], 0.0);
+    }
+  }
+}
+
 template <int Dim, Level Kind, bool Yields>
 void measure(const ExplicitModel& model, ExplicitState& state, Index r, double dt) {
   // What flow took off elastic stretches in the last step counts as their change, too.
   state.fastest[r] = state.flow.change.empty() ? 0.0 : std::exchange(state.flow.change[r], 0.0);
+  clear_stale(model, state, r);
   for (int first = 0; first < model.lattice.own_bonds(); first += group) {
     measure_group<Dim, Kind, Yields>(model, state, r, first, dt);
   }
@@ -168,12 +196,13 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
   const LatticeRow& row = lattice.rows[r];
   std::array<const double*, group> effective, present, rate, tension, compression, stretch, half;
   std::array<double*, group> drag;
-  at_bonds(std::as_const(state.effective), lattice, first, row, effective);
+  const RowPlaces& places = state.now.places;
+  at_bonds_now(std::as_const(state.now.effective), places, first, r, effective);
   at_bonds(std::as_const(lattice.present), lattice, first, row, present);
   at_bonds(std::as_const(state.rate), lattice, first, row, rate);
   at_bonds(std::as_const(state.in_tension), lattice, first, row, tension);
   at_bonds(std::as_const(state.in_compression), lattice, first, row, compression);
-  at_bonds(std::as_const(state.stretch), lattice, first, row, stretch);
+  at_bonds_now(std::as_const(state.now.stretch), places, first, r, stretch);
   at_bonds(std::as_const(state.flow.half), lattice, first, row, half);
   at_bonds(state.drag, lattice, first, row, drag);
   double* force[group][Dim];
@@ -181,12 +210,12 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
   Index shift[group];
   for (int g = 0; g < group; ++g) {
     own[g] = model.own_modulus(first + g);
-    shift[g] = lattice.shift_out[r * lattice.own_bonds() + first + g];
+    shift[g] = places.shift_out[r * lattice.own_bonds() + first + g];
     for (int c = 0; c < Dim; ++c) {
-      force[g][c] = at(state.force, lattice, (first + g) * Dim + c, row);
+      force[g][c] = at_now(state.now.force, places, (first + g) * Dim + c, r);
     }
   }
-  const double* sum = at(state.sum, lattice, 0, row);
+  const double* sum = at_now(state.now.sum, places, 0, r);
   const double modulus = model.moduli.sum, damping = model.bond_damping;
 #pragma omp simd
   for (Index i = 0; i < row.size; ++i) {
@@ -253,8 +282,8 @@ void accelerate(const ExplicitModel& model, const ExplicitState& state, Index r,
   const double* inverse_mass = at(model.inverse_mass, lattice, 0, row);
   const double *out[Own], *in[Own];
   for (int k = 0; k < Own; ++k) {
-    out[k] = at(state.force, lattice, k * lattice.dim + c, row);
-    in[k] = out[k] - lattice.shift_in[r * Own + k];
+    out[k] = at_now(state.now.force, state.now.places, k * lattice.dim + c, r);
+    in[k] = out[k] - state.now.places.shift_in[r * Own + k];
   }
   const double keep = 1.0 - dt * model.mass_damping;
 #pragma omp simd
@@ -294,10 +323,10 @@ void measure_bonds(const ExplicitModel& model, ExplicitState& state, Index row, 
 void apply_factors(const ExplicitModel& model, ExplicitState& state, Index r) {
   const LatticeRow& row = model.lattice.rows[r];
   for (int k = 0; k < model.lattice.own_bonds(); ++k) {
-    const double* stretch = at(state.stretch, model.lattice, k, row);
+    const double* stretch = at_now(state.now.stretch, state.now.places, k, r);
     const double* tension = at(state.in_tension, model.lattice, k, row);
     const double* compression = at(state.in_compression, model.lattice, k, row);
-    double* effective = at(state.effective, model.lattice, k, row);
+    double* effective = at_now(state.now.effective, state.now.places, k, r);
 #pragma omp simd
     for (Index i = 0; i < row.size; ++i) {
       effective[i] = stretch[i] * by_sign(stretch[i], tension[i], compression[i]);
@@ -308,15 +337,16 @@ void apply_factors(const ExplicitModel& model, ExplicitState& state, Index r) {
 void sum_stretches(const ExplicitModel& model, ExplicitState& state, Index r) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
-  double* sum = at(state.sum, lattice, 0, row);
+  const RowPlaces& places = state.now.places;
+  double* sum = at_now(state.now.sum, places, 0, r);
   const double* plastic = at(std::as_const(state.flow.sum), lattice, 0, row);
   const bool flowed = plastic != nullptr && level_of(model, state, r) == Level::altered;
   for (int first = 0; first < lattice.own_bonds(); first += group) {
     std::array<const double*, group> out, in;
     std::array<double, group> weight;
-    at_bonds(std::as_const(state.effective), lattice, first, row, out);
+    at_bonds_now(std::as_const(state.now.effective), places, first, r, out);
     for (int g = 0; g < group; ++g) {
-      in[g] = out[g] - lattice.shift_in[r * lattice.own_bonds() + first + g];
+      in[g] = out[g] - places.shift_in[r * lattice.own_bonds() + first + g];
       weight[g] = lattice.bonds[first + g].length / lattice.spacing;
     }
     const double keep = first == 0 ? 0.0 : 1.0;

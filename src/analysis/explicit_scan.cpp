@@ -26,7 +26,7 @@ template <bool Altered, bool Yields>
 double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index r, Left& left) {
   const LatticeRow& row = model.lattice.rows[r];
   const BondPointers<6> bond(model, state, r);
-  const double* sum = state.sum.data() + row.first;
+  const double* sum = state.now.sum.data() + state.now.places.first[r];
   const double* volume = model.volume.data() + row.first;
   const double* crack_at = state.crack_at.data() + row.first;
   const double* visit = Yields ? state.flow.visit.data() + row.first : nullptr;
@@ -87,7 +87,7 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
 double scan_space(const ExplicitModel& model, const ExplicitState& state, Index r, Left& left) {
   const LatticeRow& row = model.lattice.rows[r];
   const BondPointers<18> bond(model, state, r);
-  const double* sum = state.sum.data() + row.first;
+  const double* sum = state.now.sum.data() + state.now.places.first[r];
   const double* volume = model.volume.data() + row.first;
   const double* crack_at = state.crack_at.data() + row.first;
   const double* visit = model.material.yields ? state.flow.visit.data() + row.first : nullptr;

@@ -1,5 +1,7 @@
 #include "analysis/explicit_state.hpp"
 
+#include <utility>
+
 namespace perilink {
 namespace {
 
@@ -27,14 +29,25 @@ LatticeFlow make_flow(const ExplicitModel& model) {
 
 }  // namespace
 
-ExplicitState::ExplicitState(const ExplicitModel& model) : flow(make_flow(model)) {
+StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places) {
+  const std::size_t own = model.lattice.bonds.size();
+  const auto slots = static_cast<std::size_t>(places.slots);
+  StepNumbers numbers;
+  numbers.places = std::move(places);
+  numbers.effective.assign(own * slots, 0.0);
+  numbers.force.assign(own * model.lattice.dim * slots, 0.0);
+  numbers.sum.assign(slots, 0.0);
+  if (model.alters()) numbers.stretch.assign(own * slots, 0.0);
+  return numbers;
+}
+
+ExplicitState::ExplicitState(const ExplicitModel& model)
+    : now(make_step_numbers(model, lattice_places(model.lattice))), flow(make_flow(model)) {
   const LatticeRows& lattice = model.lattice;
   const auto slots = static_cast<std::size_t>(lattice.slots);
   const std::size_t own = lattice.bonds.size(), dim = lattice.dim, rows = lattice.rows.size();
   for (auto* array : {&displacement, &velocity}) array->assign(dim * slots, 0.0);
-  for (auto* array : {&effective, &rate}) array->assign(own * slots, 0.0);
-  force.assign(own * dim * slots, 0.0);
-  sum.assign(slots, 0.0);
+  rate.assign(own * slots, 0.0);
   damage.assign(slots, 0.0);
   sums.resize(rows);
   reactions.resize(rows);
@@ -45,7 +58,7 @@ ExplicitState::ExplicitState(const ExplicitModel& model) : flow(make_flow(model)
   news.assign(rows, 0);
   near_news.assign(rows, 0);
   if (!model.alters()) return;
-  for (auto* array : {&stretch, &drag}) array->assign(own * slots, 0.0);
+  drag.assign(own * slots, 0.0);
   in_tension = in_compression = lattice.present;
   for (auto* array : {&share_tension, &share_compression}) array->assign(own * slots, 1.0);
   for (auto* array : {&next_damage, &crack_band}) array->assign(slots, 0.0);

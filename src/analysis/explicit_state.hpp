@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/explicit_model.hpp"
+#include "analysis/row_places.hpp"
 #include "material/j2_plasticity.hpp"
 
 namespace perilink {
@@ -61,6 +62,19 @@ struct LatticeFlow {
   std::vector<std::uint8_t> crushed;  ///< particles that carry no compression either
 };
 
+/// What a step finds from the displacements anew, and nothing that outlasts it. Shapes have the
+/// slots of `places`.
+struct StepNumbers {
+  RowPlaces places;
+  std::vector<double> stretch;    ///< elastic, of own bonds, shape (own bonds, slots); only where
+                                  ///< something can break or flow
+  std::vector<double> effective;  ///< stretch times factor of the bond's damage, same shape
+  std::vector<double> force;      ///< present directions of own bonds until bond_forces, then the
+                                  ///< forces on the owner [force], (own bonds, dim, slots)
+  std::vector<double> sum;        ///< of effective stretches over all bonds, weighted by length
+};
+StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places);
+
 /// Everything of an explicit lattice run that changes with time: displacements at step n,
 /// velocities half a step earlier.
 struct ExplicitState {
@@ -68,14 +82,9 @@ struct ExplicitState {
 
   std::vector<double> displacement;  ///< [length], shape (dim, slots)
   std::vector<double> velocity;      ///< [length/time], shape (dim, slots)
-  std::vector<double> stretch;       ///< elastic, of own bonds, shape (own bonds, slots); only
-                                     ///< where something can break or flow
-  std::vector<double> effective;     ///< stretch times factor of the bond's damage, same shape
   std::vector<double> rate;          ///< velocity of the ends along the bond, (own bonds, slots)
   std::vector<double> drag;          ///< damping force of own bonds of altered rows [force]
-  std::vector<double> force;         ///< present directions of own bonds until bond_forces, then
-                                     ///< the forces on the owner [force], (own bonds, dim, slots)
-  std::vector<double> sum;           ///< of effective stretches over all bonds, weighted by length
+  StepNumbers now;                   ///< complete where observers look
   std::vector<double> in_tension;    ///< factor of own bonds that stretch, (own bonds, slots)
   std::vector<double> in_compression;  ///< factor of own bonds that shorten
   std::vector<double> share_tension;  ///< stretch of the owner's half of an own bond that stretches

@@ -113,14 +113,31 @@ LatticeParticles::Family LatticeParticles::family(Index row, Index slot) const {
   return family;
 }
 
+LatticeParticles::Family LatticeParticles::family(const ExplicitState& state, Index row,
+                                                  Index slot) const {
+  const RowPlaces& places = state.now.places;
+  Family result = family(row, slot);
+  const int own = result.bonds / 2;
+  result.now = places.first[row] + (slot - model_.lattice.rows[row].first);
+  for (int k = 0; k < own; ++k) {
+    const Index source = result.now - places.shift_in[row * own + k];
+    result.now_at[k] = places.at(k, result.now);
+    result.now_at[k + own] = places.at(k, source);
+    result.now_partner[k] = result.now + places.shift_out[row * own + k];
+    result.now_partner[k + own] = source;
+  }
+  return result;
+}
+
 LatticeParticles::Halves LatticeParticles::elastic(const ExplicitState& state,
                                                    const Family& family) const {
   Halves half{};
-  const std::vector<double>& stretch = state.stretch.empty() ? state.effective : state.stretch;
+  const StepNumbers& now = state.now;
+  const std::vector<double>& stretch = now.stretch.empty() ? now.effective : now.stretch;
   const bool own_halves = model_.material.yields && model_.rules != LatticeRules::mean_2017;
   for (int j = 0; j < family.bonds; ++j) {
     if (!family.has(j)) continue;
-    half[j] = stretch[family.at[j]];
+    half[j] = stretch[family.now_at[j]];
     if (own_halves) half[j] += family.side(j) * state.flow.half[family.at[j]];
   }
   return half;
@@ -133,26 +150,28 @@ LatticeParticles::Halves LatticeParticles::shared(const ExplicitState& state,
   for (int j = 0; j < family.bonds; ++j) {
     if (!family.has(j)) continue;
     const Index at = family.at[j];
-    const double whole = state.stretch[at];
+    const double whole = state.now.stretch[family.now_at[j]];
     const double owners = whole >= 0.0 ? state.share_tension[at] : state.share_compression[at];
     half[j] += family.side(j) * (owners - 1.0) * whole;  // the partner has 2 - owners
   }
   return half;
 }
 
-double LatticeParticles::factor(const ExplicitState& state, Index at) {
-  if (state.stretch.empty()) return 1.0;
-  return state.stretch[at] >= 0.0 ? state.in_tension[at] : state.in_compression[at];
+double LatticeParticles::factor(const ExplicitState& state, const Family& family, int bond) {
+  const std::vector<double>& stretch = state.now.stretch;
+  if (stretch.empty()) return 1.0;
+  const Index at = family.at[bond];
+  return stretch[family.now_at[bond]] >= 0.0 ? state.in_tension[at] : state.in_compression[at];
 }
 
 LatticeParticles::Halves LatticeParticles::forces(const ExplicitState& state,
                                                   const Family& family) const {
   const Halves half = elastic(state, family);
-  const double shared = model_.moduli.sum * state.sum[family.slot];
+  const double shared = model_.moduli.sum * state.now.sum[family.now];
   Halves force{};
   for (int j = 0; j < family.bonds; ++j) {
     if (!family.has(j)) continue;
-    const double weaker = factor(state, family.at[j]);
+    const double weaker = factor(state, family, j);
     const double part = model_.rules == LatticeRules::consistent ? weaker * shared : shared;
     force[j] = model_.own_modulus(family.own_number(j)) * weaker * half[j] + part;
   }
@@ -199,7 +218,8 @@ SymmetricTensor LatticeParticles::mean_stress(const ExplicitState& state, const 
   for (int j = 0; j < around.bonds; ++j) {
     if (!around.has(j)) continue;
     const Index k = row * own + around.own_number(j);
-    add(family(j < own ? lattice.row_out[k] : lattice.row_in[k], around.partner[j]));
+    const Index other = j < own ? lattice.row_out[k] : lattice.row_in[k];
+    add(family(state, other, around.partner[j]));
   }
   for (double& entry : sum) entry /= volume;
   return sum;

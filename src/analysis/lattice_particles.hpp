@@ -31,6 +31,8 @@ class LatticeParticles {
     int bonds = 0;                            ///< 6 or 18
     std::array<Index, most_bonds> at{};       ///< in arrays of shape (own bonds, slots)
     std::array<Index, most_bonds> partner{};  ///< slot of the other particle
+    Index now = 0;                            ///< slot in StepNumbers
+    std::array<Index, most_bonds> now_at{}, now_partner{};  ///< the same there
     std::uint32_t mask = 0;                   ///< bit j: bond j exists
 
     bool has(int j) const { return (mask >> j & 1U) != 0U; }
@@ -38,7 +40,7 @@ class LatticeParticles {
     /// Plus one for own bonds, minus one for incoming: the sign of LatticeFlow::half.
     double side(int j) const { return j < bonds / 2 ? 1.0 : -1.0; }
   };
-  Family family(Index row, Index slot) const;
+  Family family(const ExplicitState& state, Index row, Index slot) const;
   bool is_whole(const Family& family) const { return family.mask == whole_; }
   /// Whether a particle or one of its neighbours lacks bonds.
   bool is_near_face(Index slot) const { return near_face_[slot] != 0; }
@@ -49,7 +51,7 @@ class LatticeParticles {
   /// has its share (whole bonds by the rules of 2017).
   Halves shared(const ExplicitState& state, const Family& family) const;
   /// Factor of the damage of a bond, by the sign of its stretch.
-  static double factor(const ExplicitState& state, Index at);
+  static double factor(const ExplicitState& state, const Family& family, int bond);
   /// Force states of the particle: own modulus times the stretch times the factor of damage, plus
   /// the part of the sum [force].
   Halves forces(const ExplicitState& state, const Family& family) const;
@@ -75,6 +77,8 @@ class LatticeParticles {
   Halves project(const SymmetricTensor& strain, const Family& family) const;
 
  private:
+  /// All but the slots in StepNumbers.
+  Family family(Index row, Index slot) const;
   /// Least-squares inverse of "stretch of bond j from strain", shape (bonds, 3 or 6).
   using Inverse = std::vector<double>;
   Inverse invert(std::uint32_t mask) const;

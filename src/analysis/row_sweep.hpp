@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <tuple>
 
 #include "base/types.hpp"
@@ -18,6 +19,25 @@ struct RowStage {
 };
 template <class Work>
 RowStage(Index, Index, Work) -> RowStage<Work>;
+
+/// How far apart the stages of a sweep work.
+struct SweepReach {
+  Index ahead = 0, behind = 0;  ///< sums over the stages: rows by which the last follows the first,
+                                ///< and those that an edge leaves to it
+  Index widest = 0;             ///< largest of either of any stage
+
+  /// Least number of rows of a block.
+  Index shortest() const { return ahead + behind; }
+};
+template <class... Work>
+SweepReach reach_of(const std::tuple<RowStage<Work>...>& all) {
+  return std::apply(
+      [](const auto&... stages) {
+        return SweepReach{(0 + ... + stages.ahead), (0 + ... + stages.behind),
+                          std::max({Index{0}, stages.ahead..., stages.behind...})};
+      },
+      all);
+}
 
 /// Rows that some stages do among themselves: stage by stage each a range, which follows from the
 /// one before.
@@ -66,9 +86,9 @@ void run_stage(Index rows, const RowStage<Work>& stage) {
 /// done stage by stage. To be called by all threads of a parallel region; ends in a barrier.
 template <class... Work>
 void sweep_rows(Index rows, const std::tuple<RowStage<Work>...>& all) {
-  const auto sweep = [rows](const RowStage<Work>&... stages) {
+  const Index shortest = reach_of(all).shortest();
+  const auto sweep = [rows, shortest](const RowStage<Work>&... stages) {
     const Index blocks = omp_get_num_threads();
-    const Index shortest = (0 + ... + (stages.behind + stages.ahead));
     if (blocks > 1 && rows / blocks < shortest) {
       (row_sweep::run_stage(rows, stages), ...);
       return;

@@ -43,7 +43,7 @@ std::vector<double> stresses(const ExplicitModel& model, const ExplicitState& st
   std::vector<double> values;
   values.reserve(6 * model.lattice.particle_slot.size());
   each_particle(model.lattice, [&](Index row, Index slot) {
-    const SymmetricTensor stress = particles.stress(state, particles.family(row, slot));
+    const SymmetricTensor stress = particles.stress(state, particles.family(state, row, slot));
     values.insert(values.end(), stress.begin(), stress.end());
   });
   return values;

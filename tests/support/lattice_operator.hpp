@@ -63,7 +63,7 @@ inline std::vector<double> resultants(const ExplicitModel& model, const Explicit
         if (lattice.present[lattice.at(k, slot)] == 0.0) continue;
         const Index partner = slot + lattice.shift_out[r * lattice.bonds.size() + k];
         for (int c = 0; c < lattice.dim; ++c) {
-          const double force = state.force[lattice.at(k * lattice.dim + c, slot)];
+          const double force = state.now.force[lattice.at(k * lattice.dim + c, slot)];
           total[lattice.at(c, slot)] += force;
           total[lattice.at(c, partner)] -= force;
         }

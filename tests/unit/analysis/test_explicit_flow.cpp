@@ -71,7 +71,7 @@ TEST(LatticeYielding, ReturnsInteriorParticlesToTheYieldSurface) {
       change(model, changes, state);
       int interior = 0;
       each_particle(model.lattice, [&](Index row, Index slot) {
-        const LatticeParticles::Family family = particles.family(row, slot);
+        const LatticeParticles::Family family = particles.family(state, row, slot);
         if (!particles.is_whole(family)) return;
         ++interior;
         const double yield = yield_stress(model.material.yielding, state.flow.equivalent[slot]);
@@ -168,7 +168,7 @@ TEST(LatticeYielding, RulesOf2018StepAlongTheDeviatorOfTheBondForces) {
   const double strain = -excess * yield / e;  // uniaxial stress along y
   strain_body(model, state, -0.2 * strain, strain, 0.0);
   each_particle(lattice, [&](Index row, Index slot) {
-    const LatticeParticles::Family family = particles.family(row, slot);
+    const LatticeParticles::Family family = particles.family(state, row, slot);
     if (!particles.is_whole(family)) return;
     bool deep = true;  // whole neighbours: the bond forces are those of the uniform strain
     for (int j = 0; j < 6; ++j) deep = deep && lattice.bond_count[family.partner[j]] == 6;

@@ -105,7 +105,7 @@ TEST(ExplicitFlowRows, EqualStressesEndOnASteeplyFallingSurface) {
     for (Index slot = row.first; slot < row.first + row.size; ++slot) {
       if (lattice.bond_count[slot] < 6) continue;
       ++interior;
-      const double mises = mises_stress(particles.stress(state, particles.family(r, slot)));
+      const double mises = mises_stress(particles.stress(state, particles.family(state, r, slot)));
       EXPECT_NEAR(mises, state.flow.yield[slot], 1e-9 * model.material.yielding.yield);
     }
   }

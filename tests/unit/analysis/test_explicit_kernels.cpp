@@ -92,7 +92,7 @@ TEST(ExplicitKernels, RigidMotionCostsNothing) {
       for (int k = 0; k < lattice.own_bonds(); ++k) {
         if (lattice.present[lattice.at(k, slot)] == 0.0) continue;
         // Round-off of displacements of 0.3 over a spacing of 0.01.
-        EXPECT_NEAR(state.effective[lattice.at(k, slot)], 0.0, 1e-13);
+        EXPECT_NEAR(state.now.effective[lattice.at(k, slot)], 0.0, 1e-13);
       }
     }
   }
@@ -118,7 +118,7 @@ TEST(ExplicitKernels, RulesAgreeInAUniformStrainFarFromEdges) {
       }
     }
     for (int part = 0; part < 6; ++part) {
-      const double force = state.force[lattice.at(part, middle)];
+      const double force = state.now.force[lattice.at(part, middle)];
       if (rules == LatticeRules::consistent) {
         reference.push_back(force);
       } else {

@@ -60,7 +60,7 @@ TEST(ExplicitScan, FindsTheParticlesAboveTheirThresholds) {
       const LatticeRow& slots = model.lattice.rows[r];
       for (Index slot = slots.first; slot < slots.first + slots.size; ++slot) {
         if (model.inverse_mass[slot] == 0.0) continue;
-        const SymmetricTensor stress = particles.stress(state, particles.family(row, slot));
+        const SymmetricTensor stress = particles.stress(state, particles.family(state, row, slot));
         const bool cracked =
             principal_values(stress, model.lattice.dim).first > state.crack_at[slot];
         const bool flowed = mises_stress(stress) > state.flow.visit[slot];
@@ -93,7 +93,7 @@ TEST(ExplicitScan, NothingIsDueBeforeTheSlackIsUsedUp) {
       ExplicitState state(model);
       shake(model, state, first);
       std::vector<double> slack(rows);
-      const std::vector<double> before = state.stretch;
+      const std::vector<double> before = state.now.stretch;
       for (Index r = 0; r < rows; ++r) {
         scan_row(model, particles, state, r, due);
         slack[r] = state.slack[r];
@@ -102,7 +102,7 @@ TEST(ExplicitScan, NothingIsDueBeforeTheSlackIsUsedUp) {
         shake(model, state, factor * first);
         double change = 0.0;
         for (std::size_t k = 0; k < before.size(); ++k) {
-          const double part = model.lattice.present[k] * std::abs(state.stretch[k] - before[k]);
+          const double part = model.lattice.present[k] * std::abs(state.now.stretch[k] - before[k]);
           change = std::max(change, part);
         }
         for (Index r = 0; r < rows; ++r) {

@@ -102,7 +102,7 @@ TEST(LatticeChanges, SidesOfAPressedColumnDoNotSplit) {
   Index row = 0;
   for (const Index slot : lattice.particle_slot) {
     while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
-    const SymmetricTensor stress = particles.stress(state, particles.family(row, slot));
+    const SymmetricTensor stress = particles.stress(state, particles.family(state, row, slot));
     largest = std::max(largest, principal_values(stress, 2).first);
   }
   EXPECT_GT(largest, 2.62e6);
