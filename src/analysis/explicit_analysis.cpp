@@ -80,9 +80,9 @@ class ExplicitRun {
 
   /// Own bonds end in the row itself or in rows after it, so sums take in the bonds of rows before.
   auto stretches(double dt) {
-    return std::tuple{RowStage{0, 0, [this, dt](Index r) { measure_bonds(model_, state_, r, dt); }},
-                      RowStage{model_.lattice.reach, 0,
-                               [this](Index r) { sum_stretches(model_, state_, r); }}};
+    return std::tuple{
+        RowStage{0, 0, [this, dt](Index r) { measure_bonds(model_, state_, r, dt); }},
+        RowStage{model_.lattice.reach, 0, [this](Index r) { sum_stretches(model_, state_, r); }}};
   }
 
   /// Forces take in the sums of rows after, motion the forces of rows before.
@@ -106,8 +106,9 @@ class ExplicitRun {
     passing.alive = reach.ahead + reach.widest + 1;
     // What a stage does at the edge, what that reads, and what the mean over neighbours reads.
     passing.edge = reach.shortest() + 2 * reach.widest;
-    if (rows_ / threads < 2 * (passing.edge + passing.alive)) return;
-    passing_ = make_step_numbers(model_, passing_places(model_.lattice, passing));
+    RowPlaces places = passing_places(model_.lattice, passing);
+    if (places.slots >= model_.lattice.slots) return;
+    passing_ = make_step_numbers(model_, std::move(places));
     passing_blocks_ = threads;
   }
 
@@ -177,7 +178,7 @@ class ExplicitRun {
   ExplicitLoop loop_;
   ExplicitRecord record_;
   StepNumbers passing_;       ///< what the state does not hold now
-  Index passing_blocks_ = 0;  ///< zero: too few rows
+  Index passing_blocks_ = 0;  ///< zero: nothing would be saved
 };
 
 }  // namespace

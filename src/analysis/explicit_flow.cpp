@@ -76,11 +76,11 @@ LatticeYielding::Halves LatticeYielding::bond_forces(const ExplicitState& state,
   Halves bond{};
   for (int j = 0; j < family.bonds; ++j) {
     if (!family.has(j)) continue;
-    const double half = state.now.stretch[family.now_at[j]] -
-                        family.side(j) * state.flow.half[family.at[j]];
-    const double other =
-        model_.own_modulus(family.own_number(j)) * LatticeParticles::factor(state, family, j) * half +
-        model_.moduli.sum * state.now.sum[family.now_partner[j]];
+    const double half =
+        state.now.stretch[family.now_at[j]] - family.side(j) * state.flow.half[family.at[j]];
+    const double other = model_.own_modulus(family.own_number(j)) *
+                             LatticeParticles::factor(state, family, j) * half +
+                         model_.moduli.sum * state.now.sum[family.now_partner[j]];
     const double smaller = std::abs(own[j]) < std::abs(other) ? own[j] : other;
     bond[j] = own[j] * other > 0.0 ? smaller : 0.5 * (own[j] + other);
   }

@@ -41,9 +41,9 @@ double* at(std::vector<double>& field, const LatticeRows& lattice, Index part,
 /// The same of numbers of the present step.
 template <class Field>
 auto* at_now(Field& field, const RowPlaces& places, Index part, Index r) {
-  return field.empty() ? nullptr
-                       : field.data() + static_cast<std::size_t>(part) * places.slots +
-                             places.first[r];
+  return field.empty()
+             ? nullptr
+             : field.data() + static_cast<std::size_t>(part) * places.slots + places.first[r];
 }
 
 template <class Field, class Pointer>

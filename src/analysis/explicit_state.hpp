@@ -80,12 +80,12 @@ StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places);
 struct ExplicitState {
   explicit ExplicitState(const ExplicitModel& model);
 
-  std::vector<double> displacement;  ///< [length], shape (dim, slots)
-  std::vector<double> velocity;      ///< [length/time], shape (dim, slots)
-  std::vector<double> rate;          ///< velocity of the ends along the bond, (own bonds, slots)
-  std::vector<double> drag;          ///< damping force of own bonds of altered rows [force]
-  StepNumbers now;                   ///< complete where observers look
-  std::vector<double> in_tension;    ///< factor of own bonds that stretch, (own bonds, slots)
+  std::vector<double> displacement;    ///< [length], shape (dim, slots)
+  std::vector<double> velocity;        ///< [length/time], shape (dim, slots)
+  std::vector<double> rate;            ///< velocity of the ends along the bond, (own bonds, slots)
+  std::vector<double> drag;            ///< damping force of own bonds of altered rows [force]
+  StepNumbers now;                     ///< complete where observers look
+  std::vector<double> in_tension;      ///< factor of own bonds that stretch, (own bonds, slots)
   std::vector<double> in_compression;  ///< factor of own bonds that shorten
   std::vector<double> share_tension;  ///< stretch of the owner's half of an own bond that stretches
                                       ///< over that of the bond; the partner's is two minus this

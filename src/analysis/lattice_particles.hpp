@@ -33,7 +33,7 @@ class LatticeParticles {
     std::array<Index, most_bonds> partner{};  ///< slot of the other particle
     Index now = 0;                            ///< slot in StepNumbers
     std::array<Index, most_bonds> now_at{}, now_partner{};  ///< the same there
-    std::uint32_t mask = 0;                   ///< bit j: bond j exists
+    std::uint32_t mask = 0;                                 ///< bit j: bond j exists
 
     bool has(int j) const { return (mask >> j & 1U) != 0U; }
     int own_number(int j) const { return j < bonds / 2 ? j : j - bonds / 2; }

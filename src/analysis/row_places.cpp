@@ -98,9 +98,8 @@ RowPlaces passing_places(const LatticeRows& lattice, const PassingRows& passing)
   places.shift_out.resize(lattice.shift_out.size());
   places.shift_in.resize(lattice.shift_in.size());
   for_each_neighbour(lattice, [&](Index r, Index at, Index other, Index shift, bool out) {
-    const Index to = other == no_index
-                         ? nowhere
-                         : places.first[other] + landing(lattice, r, other, shift);
+    const Index to =
+        other == no_index ? nowhere : places.first[other] + landing(lattice, r, other, shift);
     (out ? places.shift_out[at] : places.shift_in[at]) =
         out ? to - places.first[r] : places.first[r] - to;
   });

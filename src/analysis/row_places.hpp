@@ -25,8 +25,8 @@ RowPlaces lattice_places(const LatticeRows& lattice);
 struct PassingRows {
   Index blocks = 1;  ///< of rows, as equal as can be
   Index alive = 1;   ///< rows of a block whose numbers are needed at the same time
-  Index edge = 0;    ///< rows on either side of an edge between blocks that keep their numbers until
-                     ///< all blocks are done
+  Index edge = 0;  ///< rows on either side of an edge between blocks that keep their numbers until
+                   ///< all blocks are done
 };
 
 /// Rows that take the places of rows which a sweep is done with, so that the numbers of a step stay

@@ -17,12 +17,14 @@ using namespace perilink;
 
 /// Complete steps of explicit runs, forces to displacements with energies and reactions: lattices
 /// in the plane that cannot break, that could, and that do, and bonds with a horizon of three
-/// spacings. `explicit_step [THREADS]`
+/// spacings. `explicit_step
+/// [THREADS [BODY [PARTICLES]]]`
 namespace {
 
 constexpr double concrete = 25e9, density = 2323.0, spacing = 0.01;
 constexpr double updates = 6e7;  ///< particle-steps of one measurement
-constexpr int repeats = 3;       ///< of which the shortest counts: the machine may be shared
+constexpr double fewest_steps = 200.0;
+constexpr int repeats = 3;  ///< of which the shortest counts: the machine may be shared
 
 enum class Damage { unbreakable, possible, everywhere };
 
@@ -63,20 +65,17 @@ ExplicitState strained(const ExplicitModel& model, Damage damage) {
   return state;
 }
 
-class Silent final : public ExplicitObserver {
+/// Sees when all was set up.
+template <class Observer, class State>
+class Silent final : public Observer {
  public:
-  void on_row(const ExplicitRecord& /*record*/, const ExplicitState& /*state*/) override {}
-};
-
-class SilentBonds final : public BondRunObserver {
- public:
-  void on_row(const ExplicitRecord& record, const BondRunState& /*state*/) override {
+  void on_row(const ExplicitRecord& record, const State& /*state*/) override {
     if (record.step == 0) started_.restart();
   }
   double seconds() const { return started_.seconds(); }
 
  private:
-  Timer started_;  ///< when all was set up
+  Timer started_;
 };
 
 ExplicitOptions options_of(double step, double steps, int threads) {
@@ -91,15 +90,14 @@ ExplicitOptions options_of(double step, double steps, int threads) {
 
 /// Particle-steps per second.
 double rate_of_lattice(const ExplicitModel& model, Damage damage, int threads, Index& cracked) {
-  const double steps = std::max(20.0, updates / model.lattice.particles());
+  const double steps = std::max(fewest_steps, updates / model.lattice.particles());
   const ExplicitOptions options = options_of(critical_time_step(model), steps, threads);
   double best = 0.0;
   for (int k = 0; k < repeats; ++k) {
     ExplicitState state = strained(model, damage);
-    Silent observer;
-    const Timer timer;
+    Silent<ExplicitObserver, ExplicitState> observer;
     const ExplicitResult result = run_explicit_analysis(model, state, options, observer);
-    best = std::max(best, 1.0 * model.lattice.particles() * result.steps / timer.seconds());
+    best = std::max(best, 1.0 * model.lattice.particles() * result.steps / observer.seconds());
     cracked = result.last.cracked_particles;
   }
   return best;
@@ -128,11 +126,11 @@ double rate_of_bonds(const Network& network, int threads) {
   Loads loads;
   loads.forces.assign(held.size(), 0.0);
   loads.forces.back() = 1e-3;
-  const double steps = std::max(20.0, 20.0 * updates / network.num_elements());
+  const double steps = std::max(fewest_steps, 20.0 * updates / network.num_elements());
   const ExplicitOptions options = options_of(inertia.critical_time_step(), steps, threads);
   double best = 0.0;
   for (int k = 0; k < repeats; ++k) {
-    SilentBonds observer;
+    Silent<BondRunObserver, BondRunState> observer;
     const ExplicitResult result =
         run_explicit_bonds(network, unknowns, loads, {false, 1e-3}, inertia, {}, options, observer);
     best = std::max(best, 1.0 * network.num_elements() * result.steps / observer.seconds());
@@ -144,12 +142,17 @@ double rate_of_bonds(const Network& network, int threads) {
 
 int main(int argc, char** argv) try {
   const int threads = argc > 1 ? std::stoi(argv[1]) : 1;
+  const std::string only = argc > 2 ? argv[2] : "";
+  const std::vector<double> sizes =
+      argc > 3 ? std::vector{std::stod(argv[3])} : std::vector{600.0, 3e3, 1e5, 1e6};
+  const auto is_wanted = [&](const std::string& body) { return only.empty() || only == body; };
   fmt::print("threads {}\n{:<14}{:>12}{:>12}{:>16}\n", threads, "body", "particles", "cracked",
              "M steps/s");
-  for (const double size : {600.0, 3e3, 1e5, 1e6}) {
+  for (const double size : sizes) {
     for (const auto& [name, damage] :
          {std::pair{"unbreakable", Damage::unbreakable}, std::pair{"uncracked", Damage::possible},
           std::pair{"cracking", Damage::everywhere}}) {
+      if (!is_wanted(name)) continue;
       const ExplicitModel model = square_lattice(size, damage);
       Index cracked = 0;
       const double rate = rate_of_lattice(model, damage, threads, cracked);
@@ -158,8 +161,10 @@ int main(int argc, char** argv) try {
       std::fflush(stdout);
     }
   }
+  if (!is_wanted("bonds")) return 0;
   fmt::print("{:<14}{:>12}{:>12}{:>16}\n", "bonds", "particles", "bonds", "M bond-steps/s");
-  for (const double size : {600.0, 3e3, 1e5}) {
+  for (const double size : sizes) {
+    if (argc <= 3 && size > 1e5) break;
     const Network network = square_of_bonds(size);
     fmt::print("{:<14}{:>12}{:>12}{:>16.1f}\n", "breakable", network.particles.size(),
                network.num_elements(), rate_of_bonds(network, threads) / 1e6);

@@ -143,16 +143,18 @@ TEST(ExplicitKernels, SmallerForceStateActsWhereTheyAgreeInSign) {
         const Index slot = lattice.rows[r].first + i, at = lattice.at(k, slot);
         if (lattice.present[at] == 0.0) continue;
         const Index partner = slot + lattice.shift_out[r * 3 + k];
-        const double mine = least.moduli.own * a.effective[at] + least.moduli.sum * a.sum[slot];
-        const double other = least.moduli.own * a.effective[at] + least.moduli.sum * a.sum[partner];
+        const double mine =
+            least.moduli.own * a.now.effective[at] + least.moduli.sum * a.now.sum[slot];
+        const double other =
+            least.moduli.own * a.now.effective[at] + least.moduli.sum * a.now.sum[partner];
         double expected = 0.5 * (mine + other);
-        const double length =
-            std::hypot(b.force[lattice.at(2 * k, slot)], b.force[lattice.at(2 * k + 1, slot)]);
+        const double length = std::hypot(b.now.force[lattice.at(2 * k, slot)],
+                                         b.now.force[lattice.at(2 * k + 1, slot)]);
         EXPECT_NEAR(length, std::abs(expected), 1e-9 * std::abs(mine) + 1e-9 * std::abs(other));
         if (mine * other > 0.0) expected = std::abs(mine) < std::abs(other) ? mine : other;
-        EXPECT_NEAR(
-            std::hypot(a.force[lattice.at(2 * k, slot)], a.force[lattice.at(2 * k + 1, slot)]),
-            std::abs(expected), 1e-9 * std::abs(mine) + 1e-9 * std::abs(other));
+        EXPECT_NEAR(std::hypot(a.now.force[lattice.at(2 * k, slot)],
+                               a.now.force[lattice.at(2 * k + 1, slot)]),
+                    std::abs(expected), 1e-9 * std::abs(mine) + 1e-9 * std::abs(other));
       }
     }
   }
