@@ -21,7 +21,9 @@ struct BondPointers {
   std::array<const double*, Bonds> effective, stretch, rate, present, tension, compression, half;
   std::array<const double*, Bonds> share_tension, share_compression;
 
-  BondPointers(const ExplicitModel& model, const ExplicitState& state, Index row) {
+  // Inlined, so that loops pay only for the fields that they read: rows may be short.
+  [[gnu::always_inline]] BondPointers(const ExplicitModel& model, const ExplicitState& state,
+                                      Index row) {
     const LatticeRows& lattice = model.lattice;
     constexpr int own = Bonds / 2;
     const auto fill_from = [&](auto& pointers, const std::vector<double>& field, Index first,

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "analysis/explicit_flow_printed.hpp"
 
 namespace perilink {
 namespace {
-
-constexpr double most_flow = 0.01;           ///< of a stretch in a step (2018, below Eq. 29)
-constexpr double softening_per_step = 0.99;  ///< of the yield stress (2018, below Eq. 24)
 
 /// Strain of an isotropic solid under a stress.
 SymmetricTensor elastic_strain(double e, double nu, const SymmetricTensor& stress) {
@@ -69,52 +67,17 @@ LatticeYielding::Change LatticeYielding::flow_consistently(ExplicitState& state,
   return result;
 }
 
-/// The smaller one of the two force states where they agree in sign, else their mean.
-LatticeYielding::Halves LatticeYielding::bond_forces(const ExplicitState& state,
-                                                     const Family& family,
-                                                     const Halves& own) const {
-  Halves bond{};
-  for (int j = 0; j < family.bonds; ++j) {
-    if (!family.has(j)) continue;
-    const double half =
-        state.now.stretch[family.now_at[j]] - family.side(j) * state.flow.half[family.at[j]];
-    const double other = model_.own_modulus(family.own_number(j)) *
-                             LatticeParticles::factor(state, family, j) * half +
-                         model_.moduli.sum * state.now.sum[family.now_partner[j]];
-    const double smaller = std::abs(own[j]) < std::abs(other) ? own[j] : other;
-    bond[j] = own[j] * other > 0.0 ? smaller : 0.5 * (own[j] + other);
-  }
-  return bond;
-}
-
-/// 2018, Eq. 25
-double LatticeYielding::printed_strain(const ExplicitState& state, const Family& family) const {
-  Halves halves{};
-  for (int j = 0; j < family.bonds; ++j) {
-    if (family.has(j)) halves[j] = state.flow.stretch[model_.lattice.at(j, family.slot)];
-  }
-  const PrincipalValues strain =
-      principal_values(particles_.fit(halves, family), model_.lattice.dim);
-  const double e1 = strain.first, e2 = strain.last;
-  return std::sqrt(e1 * e1 - e1 * e2 + e2 * e2);
-}
-
 double LatticeYielding::plastic_strain(const ExplicitState& state, Index row, Index slot) const {
   return model_.rules == LatticeRules::consistent
              ? state.flow.equivalent[slot]
-             : printed_strain(state, particles_.family(state, row, slot));
+             : printed_plastic_strain(model_, particles_, state, row, slot);
 }
 
+/// 2017, Eqs. 4.15 and 4.17, with the strain that is there, not with its plastic part.
 double LatticeYielding::printed_yield(const ExplicitState& state, const Family& family,
                                       bool& beyond) const {
   const YieldCurve& curve = model_.material.yielding;
   const double slope = (curve.ultimate - curve.yield) / curve.ultimate_strain;
-  if (model_.rules == LatticeRules::least_2018) {  // Eq. 24
-    const double strain = printed_strain(state, family), before = state.flow.yield[family.slot];
-    beyond = strain >= curve.ultimate_strain;
-    return beyond ? softening_per_step * before : std::max(before, curve.yield + slope * strain);
-  }
-  // 2017, Eqs. 4.15 and 4.17, with the strain that is there, not with its plastic part
   Halves halves{};
   for (int j = 0; j < family.bonds; ++j) {
     if (!family.has(j)) continue;
@@ -134,22 +97,18 @@ double LatticeYielding::printed_yield(const ExplicitState& state, const Family& 
 
 LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state,
                                                          const Family& family) const {
-  const bool of_2017 = model_.rules == LatticeRules::mean_2017;
   const Index slot = family.slot;
   bool beyond = false;
-  const double next = printed_yield(state, family, beyond);
-  const double yield = of_2017 ? next : state.flow.yield[slot];
+  const double yield = printed_yield(state, family, beyond);
   Change result;
-  result.crushed = of_2017 && beyond && state.flow.crushed[slot] == 0;
+  result.crushed = beyond && state.flow.crushed[slot] == 0;
   if (result.crushed) state.flow.crushed[slot] = 1;
-  state.flow.yield[slot] = next;
-  // By the rules of 2017 the yield stress follows the strain and has to be asked for every time;
-  // by those of 2018 it falls in every step once it falls.
-  state.flow.visit[slot] = of_2017 ? model_.material.yielding.yield : beyond ? -1.0 : next;
-  Halves force = particles_.forces(state, family);
+  state.flow.yield[slot] = yield;
+  // The yield stress follows the strain and has to be asked for every time.
+  state.flow.visit[slot] = model_.material.yielding.yield;
+  const Halves force = particles_.forces(state, family);
   const double mises = mises_stress(particles_.stress(state, family, force));
   if (mises <= yield) return result;
-  if (!of_2017) force = bond_forces(state, family, force);
   double sum = 0.0, square = 0.0;
   int count = 0;
   for (int j = 0; j < family.bonds; ++j) {
@@ -164,8 +123,7 @@ LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state,
   if (square == 0.0) return result;  // equal forces: the printed rule does not flow
   const LatticeMaterial& material = model_.material;
   const double excess = mises / yield * (mises / yield) - 1.0;
-  double amount = material.yielding.yield / material.youngs_modulus * excess;
-  if (!of_2017) amount = std::min(amount, most_flow);
+  const double amount = material.yielding.yield / material.youngs_modulus * excess;
   for (double& entry : change) entry *= amount / std::sqrt(square);
   result.flowed = true;
   for (int j = 0; j < family.bonds; ++j) {

@@ -18,8 +18,8 @@ class LatticeYielding {
   };
 
   /// Lets a particle flow whose von Mises stress is above the yield stress. Consistent rules:
-  /// backward Euler with the associated flow; the papers' rules: their one step along the deviator
-  /// of the bond forces (2018, Eqs. 26–30) or force states (2017, Eqs. 3.44–3.48).
+  /// backward Euler with the associated flow; those of 2017: one step along the deviator of the
+  /// force states (Eqs. 3.44–3.48). For those of 2018 see flow_row_as_printed.
   Change flow(ExplicitState& state, Index row, Index slot) const;
 
   /// Equivalent plastic strain of a particle: the sum of sqrt(2/3 de : de); by the rules of 2018
@@ -32,11 +32,9 @@ class LatticeYielding {
 
   Change flow_consistently(ExplicitState& state, const Family& family) const;
   Change flow_as_printed(ExplicitState& state, const Family& family) const;
-  Halves bond_forces(const ExplicitState& state, const Family& family, const Halves& own) const;
-  /// Present yield stress by the papers' rules, and whether the particle is beyond its ultimate
-  /// plastic strain.
+  /// Present yield stress by the rules of 2017, and whether the particle is beyond its ultimate
+  /// strain.
   double printed_yield(const ExplicitState& state, const Family& family, bool& beyond) const;
-  double printed_strain(const ExplicitState& state, const Family& family) const;
 
   const ExplicitModel& model_;
   const LatticeParticles& particles_;

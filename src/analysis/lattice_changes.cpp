@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/explicit_energy.hpp"
+#include "analysis/explicit_flow_printed.hpp"
 #include "analysis/explicit_flow_rows.hpp"
 #include "analysis/explicit_kernels.hpp"
 #include "analysis/explicit_scan.hpp"
@@ -26,10 +27,13 @@ void LatticeChanges::look(ExplicitState& state, Index row) const {
     if (damage_.grow(state, row, slot)) state.news[row] |= RowNews::damage_grew;
   }
   if (due.flow.empty()) return;
-  if (!flows_in_rows(model_)) {
+  if (flows_in_rows(model_)) {
+    if (flow_row(model_, state, row)) state.news[row] |= RowNews::flowed;
+  } else if (model_.rules == LatticeRules::least_2018) {
+    const bool flowed = flow_row_as_printed(model_, particles_, state, row, due.flow);
+    if (flowed) state.news[row] |= RowNews::flowed;
+  } else {
     for (const Index slot : due.flow) flow_at(state, row, slot);
-  } else if (flow_row(model_, state, row)) {
-    state.news[row] |= RowNews::flowed;
   }
 }
 

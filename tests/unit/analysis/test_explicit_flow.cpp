@@ -7,50 +7,12 @@
 
 #include "support/lattice_models.hpp"
 #include "support/lattice_operator.hpp"
+#include "support/yielding_blocks.hpp"
 
 namespace perilink {
 namespace {
 
 using namespace testing_support;
-
-LatticeMaterial yielding_concrete() {
-  LatticeMaterial material = elastic_concrete();
-  material.yields = true;
-  material.yielding = {22.98e6, 27.58e6, 0.003, 0.0};
-  material.crushing_energy = 1e5;
-  return material;
-}
-
-ExplicitModel block(Problem problem, LatticeRules rules = LatticeRules::consistent) {
-  if (problem != Problem::three_dimensional) {
-    return plane_model(rectangle(0.05, 0.05, 0.01, 23.0), yielding_concrete(), rules, problem);
-  }
-  LatticeCut cut = rectangle(0.03, 0.03, 0.01, 23.0, 1.0);
-  cut.lower[2] = -0.03;
-  cut.upper[2] = 0.03;
-  return make_explicit_model(problem, rules, face_centred_rows(cut), yielding_concrete(), 1.0);
-}
-
-void strain_body(const ExplicitModel& model, ExplicitState& state, double xx, double yy,
-                 double xy) {
-  const LatticeRows& lattice = model.lattice;
-  for (const Index slot : lattice.particle_slot) {
-    const double x = lattice.positions[slot], y = lattice.positions[lattice.at(1, slot)];
-    state.displacement[slot] = xx * x + xy * y;
-    state.displacement[lattice.at(1, slot)] = xy * x + yy * y;
-  }
-  evaluate(model, state);
-}
-
-/// Calls visit(row, slot) for every particle.
-template <class Visit>
-void each_particle(const LatticeRows& lattice, const Visit& visit) {
-  Index row = 0;
-  for (const Index slot : lattice.particle_slot) {
-    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
-    visit(row, slot);
-  }
-}
 
 double total(const ExplicitState& state, double RowSums::*part) {
   double sum = 0.0;
@@ -156,35 +118,6 @@ TEST(LatticeYielding, ForcesStayTheDerivativeOfTheStoredEnergy) {
       EXPECT_NEAR(force[at], -(energy[1] - energy[0]) / (2.0 * h), 1e-6 * largest);
     }
   }
-}
-
-TEST(LatticeYielding, RulesOf2018StepAlongTheDeviatorOfTheBondForces) {
-  const ExplicitModel model = block(Problem::plane_stress, LatticeRules::least_2018);
-  const LatticeRows& lattice = model.lattice;
-  const LatticeParticles particles(model);
-  const LatticeYielding yielding(model, particles);
-  ExplicitState state(model);
-  const double yield = 22.98e6, e = 25e9, excess = 1.01;
-  const double strain = -excess * yield / e;  // uniaxial stress along y
-  strain_body(model, state, -0.2 * strain, strain, 0.0);
-  each_particle(lattice, [&](Index row, Index slot) {
-    const LatticeParticles::Family family = particles.family(state, row, slot);
-    if (!particles.is_whole(family)) return;
-    bool deep = true;  // whole neighbours: the bond forces are those of the uniform strain
-    for (int j = 0; j < 6; ++j) deep = deep && lattice.bond_count[family.partner[j]] == 6;
-    if (!deep) return;
-    const LatticeYielding::Change change = yielding.flow(state, row, slot);
-    EXPECT_TRUE(change.flowed);
-    double square = 0.0, sum = 0.0;
-    for (int j = 0; j < 6; ++j) {
-      const double flow = state.flow.stretch[lattice.at(j, slot)];
-      sum += flow;
-      square += flow * flow;
-    }
-    // Eqs. 28 and 29: a step of this length without a mean; stretches are linear up to squares.
-    EXPECT_NEAR(std::sqrt(square), yield / e * (excess * excess - 1.0), 2e-2 * yield / e * 0.02);
-    EXPECT_NEAR(sum, 0.0, 1e-15);
-  });
 }
 
 TEST(LatticeYielding, RulesOf2018SoftenByAStepAndThoseOf2017Crush) {
