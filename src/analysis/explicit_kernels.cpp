@@ -155,23 +155,11 @@ void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, in
   if constexpr (Kind != Level::elastic) state.fastest[r] = std::max(state.fastest[r], dt * fastest);
 }
 
-/// Bonds lead beyond the ends of a row: to nothing, but to what longer rows at its place have left.
-void clear_stale(const ExplicitModel& model, ExplicitState& state, Index r) {
-  const RowPlaces& places = state.now.places;
-  if (places.stale[r] == 0) return;
-  const Index end = places.first[r] + model.lattice.rows[r].size;
-  for (auto* field : {&state.now.stretch, &state.now.effective, &state.now.force}) {
-    for (std::size_t at = end; at < field->size(); at += places.slots) {
-      std::fill_n(field->begin() + static_cast<Index>(at), places.stale[r], 0.0);
-    }
-  }
-}
-
 template <int Dim, Level Kind, bool Yields>
 void measure(const ExplicitModel& model, ExplicitState& state, Index r, double dt) {
   // What flow took off elastic stretches in the last step counts as their change, too.
   state.fastest[r] = state.flow.change.empty() ? 0.0 : std::exchange(state.flow.change[r], 0.0);
-  clear_stale(model, state, r);
+  state.now.clear_stale(r, model.lattice.rows[r].size);
   for (int first = 0; first < model.lattice.own_bonds(); first += group) {
     measure_group<Dim, Kind, Yields>(model, state, r, first, dt);
   }

@@ -1,5 +1,6 @@
 #include "analysis/explicit_state.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace perilink {
@@ -28,6 +29,16 @@ LatticeFlow make_flow(const ExplicitModel& model) {
 }
 
 }  // namespace
+
+void StepNumbers::clear_stale(Index row, Index size) {
+  if (places.stale[row] == 0) return;
+  const auto end = static_cast<std::size_t>(places.first[row] + size);
+  for (auto* field : {&stretch, &effective, &force}) {
+    for (std::size_t at = end; at < field->size(); at += static_cast<std::size_t>(places.slots)) {
+      std::fill_n(field->begin() + static_cast<Index>(at), places.stale[row], 0.0);
+    }
+  }
+}
 
 StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places) {
   const std::size_t own = model.lattice.bonds.size();

@@ -72,6 +72,9 @@ struct StepNumbers {
   std::vector<double> force;      ///< present directions of own bonds until bond_forces, then the
                                   ///< forces on the owner [force], (own bonds, dim, slots)
   std::vector<double> sum;        ///< of effective stretches over all bonds, weighted by length
+
+  /// Bonds lead beyond the end of a row: to nothing, but to what longer rows at its place have left.
+  void clear_stale(Index row, Index size);
 };
 StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "app/explicit_case.hpp"
 #include "tests.hpp"
@@ -108,6 +109,38 @@ TEST(Splm2018, TheDiscSplits) {
                             }))
         << "row " << j;
   }
+}
+
+CohesiveDisc paper_disc() { return continuum_of(disc_test("consistent", 30.0, 0.005)); }
+
+/// Of a disc pressed at two points the diameter is under the tension P / (pi R t).
+TEST(CohesiveDisc, CracksAtTheLoadOfTheElasticFormulaBetweenNarrowPlatens) {
+  CohesiveDisc disc = paper_disc();
+  disc.half_platen = 0.04 * disc.radius;
+  const double formula = std::numbers::pi * disc.radius * disc.thickness * tension_strength;
+  // A platen of finite width, and elements as wide as a third of it, leave half a per cent.
+  EXPECT_NEAR(splitting_load(disc, 48).first_crack, formula, 0.005 * formula);
+}
+
+TEST(CohesiveDisc, BearsMoreThanTheFirstCrackByWhatTheLawCanBridge) {
+  CohesiveDisc disc = paper_disc();
+  const SplittingLoad tough = splitting_load(disc, 24);
+  EXPECT_GT(tough.peak, 1.02 * tough.first_crack);
+  EXPECT_LT(tough.opening, disc.law.knee_opening);
+  disc.law.knee_opening *= 1e-2;
+  disc.law.critical_opening *= 1e-2;
+  const SplittingLoad brittle = splitting_load(disc, 24);
+  EXPECT_EQ(brittle.first_crack, tough.first_crack);
+  EXPECT_NEAR(brittle.peak, brittle.first_crack, 0.002 * brittle.first_crack);
+}
+
+/// Corners of the platens are singular: errors fall with the size of the elements.
+TEST(CohesiveDisc, ConvergesWithTheMesh) {
+  const CohesiveDisc disc = paper_disc();
+  const double coarse = splitting_load(disc, 24).peak, middle = splitting_load(disc, 48).peak,
+               fine = splitting_load(disc, 96).peak;
+  EXPECT_LT(std::abs(fine - middle), 0.65 * std::abs(middle - coarse));
+  EXPECT_NEAR(fine, middle, 0.005 * fine);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // their balance by all three sets of rules. Writes a table of README.md for every kind of test, or
 // only those whose names are given.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -51,20 +53,43 @@ std::vector<LatticeTest> disc_tests() {
     }
     for (const double spacing : {0.01, 0.0025}) tests.push_back(disc_test(variant, 0.0, spacing));
   }
+  for (const double spacing : {0.01, 0.0025}) {
+    tests.push_back(disc_test("consistent", 30.0, spacing));
+  }
   return tests;
+}
+
+/// What the discs of the consistent rules should bear.
+std::string continuum_table() {
+  std::string table = "degrees,spacing,radius,half_platen,cells,first_crack,peak,opening\n";
+  for (const LatticeTest& test : disc_tests()) {
+    if (test.variant != "consistent") continue;
+    const CohesiveDisc disc = continuum_of(test);
+    for (const int cells : {24, 48, 96}) {
+      const SplittingLoad load = splitting_load(disc, cells);
+      table += fmt::format("{:g},{:g},{:.5f},{:.5f},{},{:.1f},{:.1f},{:.3g}\n", test.degrees,
+                           test.spacing, disc.radius, disc.half_platen, cells, load.first_crack,
+                           load.peak, load.opening);
+    }
+  }
+  return table;
 }
 
 }  // namespace
 
 int main(int count, char** names) {
   constexpr int threads = 2;
+  const auto is_wanted = [&](const std::string& name) {
+    return count == 1 || std::find(names + 1, names + count, name) != names + count;
+  };
   const auto run = [&](const std::string& name, const std::vector<LatticeTest>& tests) {
-    if (count > 1 && std::find(names + 1, names + count, name) == names + count) return;
+    if (!is_wanted(name)) return;
     write_result(PERILINK_STUDY_DIR, run_lattice_tests(tests, threads), name + ".csv");
   };
   run("tension", tension_tests());
   run("compression", compression_tests());
   run("rotations", rotation_tests());
   run("disc", disc_tests());
+  if (is_wanted("cohesive")) write_result(PERILINK_STUDY_DIR, continuum_table(), "cohesive.csv");
   return 0;
 }

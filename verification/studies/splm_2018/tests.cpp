@@ -1,5 +1,12 @@
 #include "tests.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "app/explicit_case.hpp"
+
 namespace perilink::verification {
 namespace {
 
@@ -23,6 +30,25 @@ void cut_disc(CaseFile& input, double spacing) {
       region.box.upper[1] = -end + spacing;
     }
   }
+}
+
+/// Half of the width of the columns of particles that the upper platen drives.
+double half_platen(const ExplicitModel& model) {
+  const LatticeRows& lattice = model.lattice;
+  std::vector<double> columns;
+  for (const auto& row : model.prescribed) {
+    for (const PrescribedMotion& motion : row) {
+      if (lattice.positions[lattice.at(1, motion.slot)] < 0.0) continue;
+      columns.push_back(lattice.positions[motion.slot]);
+    }
+  }
+  std::sort(columns.begin(), columns.end());
+  double gap = lattice.spacing;  // between neighbouring columns
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    const double next = columns[k] - columns[k - 1];
+    if (next > 1e-6 * lattice.spacing) gap = std::min(gap, next);
+  }
+  return 0.5 * (columns.back() - columns.front() + gap);
 }
 
 }  // namespace
@@ -51,6 +77,17 @@ LatticeTest disc_test(const std::string& variant, double degrees, double spacing
   test.time_step = step_of(variant, printed_disc_step * spacing / disc_spacing);
   test.change = [spacing](CaseFile& input) { cut_disc(input, spacing); };
   return test;
+}
+
+CohesiveDisc continuum_of(const LatticeTest& disc) {
+  const ExplicitModel model = build_explicit_case(case_of(disc)).model;
+  const double area = model.lattice.particles() * model.lattice.cell_volume / model.thickness;
+  return {std::sqrt(area / std::numbers::pi),
+          model.thickness,
+          half_platen(model),
+          model.material.youngs_modulus,
+          model.material.poissons_ratio,
+          model.material.softening};
 }
 
 }  // namespace perilink::verification

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cohesive_disc.hpp"
 #include "problems/lattice_test.hpp"
 
 /// \file
@@ -24,5 +25,8 @@ LatticeTest tension_test(const std::string& variant, double degrees);
 LatticeTest compression_test(const std::string& variant, double degrees);
 /// Cut a quarter of a spacing beyond the radius, held within the last spacing of what is cut.
 LatticeTest disc_test(const std::string& variant, double degrees, double spacing);
+/// The continuum that such a disc stands for: as large as its particles together, between platens
+/// as wide as the columns of particles that they drive.
+CohesiveDisc continuum_of(const LatticeTest& disc);
 
 }  // namespace perilink::verification
