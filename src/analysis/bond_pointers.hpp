@@ -14,6 +14,18 @@ inline double by_sign(double stretch, double in_tension, double in_compression) 
   return stretch >= 0.0 ? in_tension : in_compression;
 }
 
+/// n n' of the own bonds of a lattice in the plane.
+struct PlaneProducts {
+  double xx[3], yy[3], xy[3];
+
+  explicit PlaneProducts(const LatticeRows& lattice) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3& n = lattice.bonds[k].direction;
+      xx[k] = n[0] * n[0], yy[k] = n[1] * n[1], xy[k] = n[0] * n[1];
+    }
+  }
+};
+
 /// The bonds of a row's particles in loops over the row: own ones first, then the incoming ones;
 /// null where the body has no such field.
 template <int Bonds>

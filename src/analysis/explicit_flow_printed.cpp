@@ -15,6 +15,7 @@ constexpr double softening_per_step = 0.99;  ///< of the yield stress (2018, bel
 struct Scratch {
   std::vector<double> due;     ///< one or zero
   std::vector<double> strain;  ///< plastic, before the step
+  std::vector<double> yield;   ///< the same
 };
 
 /// Plastic strains of particles with all bonds.
@@ -63,32 +64,37 @@ struct Row {
   }
 };
 
-bool flow_due(const ExplicitModel& model, ExplicitState& state, Index r, const Scratch& scratch) {
-  const Row row(model, state, r);
-  const LatticeMaterial& material = model.material;
-  const YieldCurve& curve = material.yielding;
+/// Eq. 24, of the particles that are due.
+void harden(const YieldCurve& curve, const Row& row, Index size, Scratch& scratch) {
   const double slope = (curve.ultimate - curve.yield) / curve.ultimate_strain;
-  const double least = curve.yield / material.youngs_modulus;
-  const double own = model.moduli.own, modulus = model.moduli.sum;
-  const double half_length = 0.5 * model.lattice.spacing;
-  const double nu = model.problem == Problem::plane_strain ? material.poissons_ratio : 0.0;
-  double xx[3], yy[3], xy[3];
-  for (int k = 0; k < 3; ++k) {
-    const Vector3& n = model.lattice.bonds[k].direction;
-    xx[k] = n[0] * n[0], yy[k] = n[1] * n[1], xy[k] = n[0] * n[1];
-  }
   const double *due = scratch.due.data(), *strain = scratch.strain.data();
-  double any = 0.0;
-#pragma omp simd reduction(max : any)
-  for (Index i = 0; i < model.lattice.rows[r].size; ++i) {
-    const double before = row.yield[i];
+  double* yield = scratch.yield.data();
+#pragma omp simd
+  for (Index i = 0; i < size; ++i) {
+    const double before = row.yield[i], visit = row.visit[i];
     const bool asked = due[i] > 0.0, beyond = strain[i] >= curve.ultimate_strain;
     const double harder = std::max(before, curve.yield + slope * strain[i]);
     const double next = beyond ? softening_per_step * before : harder;
-    row.yield[i] = asked ? next : before;
     // A yield stress that falls does so in every step.
     const double look = beyond ? -1.0 : next;
-    row.visit[i] = asked ? look : row.visit[i];
+    yield[i] = before;
+    row.yield[i] = asked ? next : before;
+    row.visit[i] = asked ? look : visit;
+  }
+}
+
+/// Eqs. 26–30.
+bool flow_due(const ExplicitModel& model, const Row& row, Index size, const Scratch& scratch) {
+  const LatticeMaterial& material = model.material;
+  const double least = material.yielding.yield / material.youngs_modulus;
+  const double own = model.moduli.own, modulus = model.moduli.sum;
+  const double half_length = 0.5 * model.lattice.spacing;
+  const double nu = model.problem == Problem::plane_strain ? material.poissons_ratio : 0.0;
+  const PlaneProducts nn(model.lattice);
+  const double *due = scratch.due.data(), *yield = scratch.yield.data();
+  double any = 0.0;
+#pragma omp simd reduction(max : any)
+  for (Index i = 0; i < size; ++i) {
     const double shared = modulus * row.sum[i];
     double sxx = 0.0, syy = 0.0, sxy = 0.0, total = 0.0, count = 0.0;
     double force[6];
@@ -100,9 +106,9 @@ bool flow_due(const ExplicitModel& model, ExplicitState& state, Index r, const S
           own * by_sign(stretch, row.bond.tension[j][i], row.bond.compression[j][i]);
       const double mine = present * (stiffness * (stretch + half) + shared);
       const double other = stiffness * (stretch - half) + modulus * row.partner[j][i];
-      sxx += mine * xx[j % 3];
-      syy += mine * yy[j % 3];
-      sxy += mine * xy[j % 3];
+      sxx += mine * nn.xx[j % 3];
+      syy += mine * nn.yy[j % 3];
+      sxy += mine * nn.xy[j % 3];
       const double smaller = std::abs(mine) < std::abs(other) ? mine : other;
       force[j] = present * (mine * other > 0.0 ? smaller : 0.5 * (mine + other));
       total += force[j];
@@ -120,8 +126,8 @@ bool flow_due(const ExplicitModel& model, ExplicitState& state, Index r, const S
       square += force[j] * force[j];
     }
     // Equal forces: the printed rule does not flow.
-    const bool flows = asked && mises > before && square > 0.0;
-    const double ratio = mises / before;
+    const bool flows = due[i] > 0.0 && mises > yield[i] && square > 0.0;
+    const double ratio = mises / yield[i];
     const double amount = std::min(least * (ratio * ratio - 1.0), most_flow);
     const double scale = flows ? amount / std::sqrt(square) : 0.0;
 #pragma GCC unroll 6
@@ -151,6 +157,7 @@ bool flow_row_as_printed(const ExplicitModel& model, const LatticeParticles& par
   const LatticeRow& row = lattice.rows[r];
   thread_local Scratch scratch;
   scratch.strain.resize(row.size);
+  scratch.yield.resize(row.size);
   scratch.due.assign(row.size, 0.0);
   find_strains(model, particles, state, r, scratch.strain.data());
   for (const Index slot : due) {
@@ -159,7 +166,9 @@ bool flow_row_as_printed(const ExplicitModel& model, const LatticeParticles& par
     if (lattice.bond_count[slot] == 6) continue;
     scratch.strain[i] = printed_plastic_strain(model, particles, state, r, slot);
   }
-  return flow_due(model, state, r, scratch);
+  const Row pointers(model, state, r);
+  harden(model.material.yielding, pointers, row.size, scratch);
+  return flow_due(model, pointers, row.size, scratch);
 }
 
 }  // namespace perilink

@@ -51,11 +51,7 @@ void find_trial(const ExplicitModel& model, const ExplicitState& state, Index r,
   const double* sum = state.now.sum.data() + state.now.places.first[r];
   const double* volume = model.volume.data() + row.first;
   const double* locked = state.flow.normal.data() + row.first;
-  double xx[3], yy[3], xy[3];
-  for (int k = 0; k < 3; ++k) {
-    const Vector3& n = model.lattice.bonds[k].direction;
-    xx[k] = n[0] * n[0], yy[k] = n[1] * n[1], xy[k] = n[0] * n[1];
-  }
+  const PlaneProducts nn(model.lattice);
   const double own = model.moduli.own, modulus = model.moduli.sum;
   const double half_length = 0.5 * model.lattice.spacing;
   const double nu = model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
@@ -69,9 +65,9 @@ void find_trial(const ExplicitModel& model, const ExplicitState& state, Index r,
       const double factor = by_sign(bond.stretch[j][i], bond.tension[j][i], bond.compression[j][i]);
       const double elastic = bond.stretch[j][i] + (j < 3 ? bond.half[j][i] : -bond.half[j][i]);
       const double force = factor * (own * elastic + modulus * sum[i]);
-      sxx += force * xx[j % 3];
-      syy += force * yy[j % 3];
-      sxy += force * xy[j % 3];
+      sxx += force * nn.xx[j % 3];
+      syy += force * nn.yy[j % 3];
+      sxy += force * nn.xy[j % 3];
     }
     const double scale = half_length / volume[i];
     means[i] = 0.5 * scale * (sxx + syy);

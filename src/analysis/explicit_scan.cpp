@@ -30,11 +30,7 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   const double* volume = model.volume.data() + row.first;
   const double* crack_at = state.crack_at.data() + row.first;
   const double* visit = Yields ? state.flow.visit.data() + row.first : nullptr;
-  double xx[3], yy[3], xy[3];
-  for (int k = 0; k < 3; ++k) {
-    const Vector3& n = model.lattice.bonds[k].direction;
-    xx[k] = n[0] * n[0], yy[k] = n[1] * n[1], xy[k] = n[0] * n[1];
-  }
+  const PlaneProducts nn(model.lattice);
   const double own = model.moduli.own, modulus = model.moduli.sum;
   const double half_length = 0.5 * model.lattice.spacing;
   const bool all_weakened = model.rules == LatticeRules::consistent;
@@ -60,9 +56,9 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
       } else {
         force += bond.present[j][i] * shared;
       }
-      sxx += force * xx[k];
-      syy += force * yy[k];
-      sxy += force * xy[k];
+      sxx += force * nn.xx[k];
+      syy += force * nn.yy[k];
+      sxy += force * nn.xy[k];
     }
     const double mean = 0.5 * (sxx + syy), difference = 0.5 * (sxx - syy);
     const double radius = std::sqrt(difference * difference + sxy * sxy);
