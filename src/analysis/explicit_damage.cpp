@@ -88,19 +88,20 @@ void LatticeDamage::update_factors(ExplicitState& state, Index r) const {
   const LatticeRows& lattice = model_.lattice;
   const LatticeRow& row = lattice.rows[r];
   const double threshold = model_.material.compressive_threshold;
+  const auto is_crushed = [&](Index slot) {
+    return !state.flow.crushed.empty() && state.flow.crushed[slot] != 0;
+  };
   const auto in_compression = [&](Index slot) {
-    const bool crushed = !state.flow.crushed.empty() && state.flow.crushed[slot] != 0;
-    return crushed ? 1.0 : compressive_damage(state.damage[slot], threshold);
+    return is_crushed(slot) ? 1.0 : compressive_damage(state.damage[slot], threshold);
   };
   for (int k = 0; k < lattice.own_bonds(); ++k) {
     const Index shift = lattice.shift_out[r * lattice.own_bonds() + k];
     for (Index slot = row.first; slot < row.first + row.size; ++slot) {
-      const Index at = lattice.at(k, slot);
+      const Index at = lattice.at(k, slot), partner = slot + shift;
+      const double mine = state.damage[slot], other = state.damage[partner];
+      if (mine == 0.0 && other == 0.0 && !is_crushed(slot) && !is_crushed(partner)) continue;
       if (lattice.present[at] == 0.0) continue;
-      const double mine = state.damage[slot], other = state.damage[slot + shift];
-      const double mine_pressed = in_compression(slot),
-                   other_pressed = in_compression(slot + shift);
-      if (mine == 0.0 && other == 0.0 && mine_pressed == 0.0 && other_pressed == 0.0) continue;
+      const double mine_pressed = in_compression(slot), other_pressed = in_compression(partner);
       state.in_tension[at] = two_spring_factor(mine, other);
       state.in_compression[at] = two_spring_factor(mine_pressed, other_pressed);
       state.share_tension[at] = half_bond_share(mine, other);

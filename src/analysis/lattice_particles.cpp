@@ -55,29 +55,25 @@ LatticeParticles::LatticeParticles(const ExplicitModel& model) : model_(model) {
   whole_inverse_ = invert(whole_);
   kind_.assign(lattice.slots, 0);
   std::unordered_map<std::uint32_t, std::uint32_t> known;
-  Index row = 0;
-  for (const Index slot : lattice.particle_slot) {
-    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
+  for_each_particle(lattice, [&](Index row, Index slot) {
     const std::uint32_t mask = family(row, slot).mask;
     const auto [place, fresh] = known.emplace(mask, static_cast<std::uint32_t>(inverses_.size()));
     if (fresh) inverses_.push_back(invert(mask));
     kind_[slot] = place->second;
-  }
+  });
   find_faces();
 }
 
 void LatticeParticles::find_faces() {
   const LatticeRows& lattice = model_.lattice;
   near_face_.assign(lattice.slots, 0);
-  Index row = 0;
-  for (const Index slot : lattice.particle_slot) {
-    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
+  for_each_particle(lattice, [&](Index row, Index slot) {
     const Family around = family(row, slot);
     near_face_[slot] = is_whole(around) ? 0 : 1;
     for (int j = 0; j < around.bonds && near_face_[slot] == 0; ++j) {
       near_face_[slot] = lattice.bond_count[around.partner[j]] < around.bonds ? 1 : 0;
     }
-  }
+  });
 }
 
 LatticeParticles::Inverse LatticeParticles::invert(std::uint32_t mask) const {

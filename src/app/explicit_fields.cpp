@@ -27,22 +27,12 @@ std::vector<double> numbers_of(const LatticeRows& lattice, const std::vector<dou
   return numbers;
 }
 
-/// Calls visit(row, slot) for every particle.
-template <class Visit>
-void each_particle(const LatticeRows& lattice, const Visit& visit) {
-  Index row = 0;
-  for (const Index slot : lattice.particle_slot) {
-    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
-    visit(row, slot);
-  }
-}
-
 /// Six components for each particle, in the order xx, yy, zz, xy, yz, zx.
 std::vector<double> stresses(const ExplicitModel& model, const ExplicitState& state) {
   const LatticeParticles particles(model);
   std::vector<double> values;
   values.reserve(6 * model.lattice.particle_slot.size());
-  each_particle(model.lattice, [&](Index row, Index slot) {
+  for_each_particle(model.lattice, [&](Index row, Index slot) {
     const SymmetricTensor stress = particles.stress(state, particles.family(state, row, slot));
     values.insert(values.end(), stress.begin(), stress.end());
   });
@@ -53,7 +43,7 @@ std::vector<double> plastic_strains(const ExplicitModel& model, const ExplicitSt
   const LatticeParticles particles(model);
   const LatticeYielding yielding(model, particles);
   std::vector<double> values;
-  each_particle(model.lattice, [&](Index row, Index slot) {
+  for_each_particle(model.lattice, [&](Index row, Index slot) {
     values.push_back(yielding.plastic_strain(state, row, slot));
   });
   return values;

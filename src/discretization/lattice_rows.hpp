@@ -51,6 +51,16 @@ struct LatticeRows {
   Index at(int k, Index slot) const { return k * slots + slot; }
 };
 
+/// Calls visit(row, slot) for every particle, in their order.
+template <class Visit>
+void for_each_particle(const LatticeRows& lattice, const Visit& visit) {
+  Index row = 0;
+  for (const Index slot : lattice.particle_slot) {
+    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
+    visit(row, slot);
+  }
+}
+
 /// How a lattice lies and what is cut from it.
 struct LatticeCut {
   double spacing = 0.0;

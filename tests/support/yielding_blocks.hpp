@@ -39,14 +39,4 @@ inline void strain_body(const ExplicitModel& model, ExplicitState& state, double
   evaluate(model, state);
 }
 
-/// Calls visit(row, slot) for every particle.
-template <class Visit>
-void each_particle(const LatticeRows& lattice, const Visit& visit) {
-  Index row = 0;
-  for (const Index slot : lattice.particle_slot) {
-    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
-    visit(row, slot);
-  }
-}
-
 }  // namespace perilink::testing_support

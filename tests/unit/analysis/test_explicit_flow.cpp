@@ -32,7 +32,7 @@ TEST(LatticeYielding, ReturnsInteriorParticlesToTheYieldSurface) {
       strain_body(model, state, sign * 4e-4, sign * -2e-3, 3e-4);
       change(model, changes, state);
       int interior = 0;
-      each_particle(model.lattice, [&](Index row, Index slot) {
+      for_each_particle(model.lattice, [&](Index row, Index slot) {
         const LatticeParticles::Family family = particles.family(state, row, slot);
         if (!particles.is_whole(family)) return;
         ++interior;
@@ -132,7 +132,7 @@ TEST(LatticeYielding, RulesOf2018SoftenByAStepAndThoseOf2017Crush) {
       change(model, changes, state);
     }
     int crushed = 0;
-    each_particle(model.lattice, [&](Index /*row*/, Index slot) {
+    for_each_particle(model.lattice, [&](Index /*row*/, Index slot) {
       lowest = std::min(lowest, state.flow.yield[slot]);
       crushed += state.flow.crushed[slot];
     });

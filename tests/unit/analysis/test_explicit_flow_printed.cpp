@@ -38,7 +38,7 @@ TEST(PrintedFlow, StepsAlongTheDeviatorOfTheBondForces) {
   strain_body(model, state, -0.2 * strain, strain, 0.0);
   flow_everywhere(model, particles, state);
   int deep = 0;  // whole neighbours: the bond forces are those of the uniform strain
-  each_particle(lattice, [&](Index row, Index slot) {
+  for_each_particle(lattice, [&](Index row, Index slot) {
     const Family family = particles.family(state, row, slot);
     if (particles.is_near_face(slot)) return;
     ++deep;
@@ -131,7 +131,7 @@ TEST(PrintedFlow, IsThatOfOneParticleAtATime) {
       evaluate(model, state);
       ExplicitState rows = state;
       flow_everywhere(model, particles, rows);
-      each_particle(lattice, [&](Index row, Index slot) {
+      for_each_particle(lattice, [&](Index row, Index slot) {
         const Printed printed = printed_step(model, particles, state, row, slot);
         EXPECT_NEAR(rows.flow.yield[slot], printed.yield, 1e-12 * printed.yield);
         EXPECT_NEAR(rows.flow.visit[slot], printed.visit, 1e-12 * std::abs(printed.visit));

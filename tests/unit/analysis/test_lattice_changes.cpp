@@ -99,12 +99,10 @@ TEST(LatticeChanges, SidesOfAPressedColumnDoNotSplit) {
     state.displacement[lattice.at(1, slot)] = strain * y;
   }
   evaluate(model, state);
-  Index row = 0;
-  for (const Index slot : lattice.particle_slot) {
-    while (slot >= lattice.rows[row].first + lattice.rows[row].size) ++row;
+  for_each_particle(lattice, [&](Index row, Index slot) {
     const SymmetricTensor stress = particles.stress(state, particles.family(state, row, slot));
     largest = std::max(largest, principal_values(stress, 2).first);
-  }
+  });
   EXPECT_GT(largest, 2.62e6);
   change(model, changes, state);
   EXPECT_EQ(*std::max_element(state.damage.begin(), state.damage.end()), 0.0);
