@@ -73,7 +73,8 @@ struct StepNumbers {
                                   ///< forces on the owner [force], (own bonds, dim, slots)
   std::vector<double> sum;        ///< of effective stretches over all bonds, weighted by length
 
-  /// Bonds lead beyond the end of a row: to nothing, but to what longer rows at its place have left.
+  /// Zeros beyond the end of a row, where bonds that do not exist lead and a longer row at the same
+  /// place has left its numbers.
   void clear_stale(Index row, Index size);
 };
 StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places);
