@@ -104,7 +104,7 @@ class ExplicitRun {
     PassingRows passing;
     passing.blocks = threads;
     passing.alive = reach.ahead + reach.widest + 1;
-    // What a stage does at the edge, what that reads, and what the mean over neighbours reads.
+    // From above: what stages leave to the edge, what these read, and the mean over neighbours.
     passing.edge = reach.shortest() + 2 * reach.widest;
     RowPlaces places = passing_places(model_.lattice, passing);
     if (places.slots >= model_.lattice.slots) return;

@@ -1,6 +1,7 @@
 #include "analysis/explicit_flow.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "analysis/explicit_flow_printed.hpp"
@@ -30,6 +31,7 @@ SymmetricTensor free_strain(Problem problem, double nu, SymmetricTensor plastic)
 }  // namespace
 
 LatticeYielding::Change LatticeYielding::flow(ExplicitState& state, Index row, Index slot) const {
+  assert(model_.rules != LatticeRules::least_2018);  // see flow_row_as_printed
   const Family family = particles_.family(state, row, slot);
   return model_.rules == LatticeRules::consistent ? flow_consistently(state, family)
                                                   : flow_as_printed(state, family);

@@ -40,6 +40,17 @@ void ExplicitLoop::end(Ending ending, const std::string& reason) {
   done_ = true;
 }
 
+std::string ExplicitLoop::why() const {
+  const double critical = result_.critical_time_step;
+  if (time_step() > critical) {
+    return fmt::format("is too large; the critical one of the intact body is {:.4g}", critical);
+  }
+  return fmt::format(
+      "is below the critical one of the intact body, {:.4g}: what breaks or flows "
+      "takes energy from its own rules, which smaller steps may not cure",
+      critical);
+}
+
 /// Only work from outside can raise kinetic and stored energy.
 void ExplicitLoop::check_growth(Index step, const EnergyBalance& energy) {
   const double held = energy.kinetic + energy.stored;
@@ -57,9 +68,8 @@ void ExplicitLoop::check_growth(Index step, const EnergyBalance& energy) {
   overflowed_ = !std::isfinite(energy.kinetic + energy.stored + energy.external_work);
   end(Ending::failed,
       fmt::format("the motion grew out of nothing at step {} (energy {:.3g}, supplied {:.3g}): the "
-                  "time step {:.4g} is too large; the critical one of the intact body is {:.4g}",
-                  step, std::max(std::abs(held), energy.kinetic), supplied_, time_step(),
-                  result_.critical_time_step));
+                  "time step {:.4g} {}",
+                  step, std::max(std::abs(held), energy.kinetic), supplied_, time_step(), why()));
 }
 
 void ExplicitLoop::note_row(const ExplicitRecord& record) {

@@ -67,6 +67,8 @@ class ExplicitLoop {
 
   bool is_row(Index step) const { return step % between_rows_ == 0 || step == steps_; }
   void end(Ending ending, const std::string& reason);
+  /// Why the motion may have grown.
+  std::string why() const;
   void check_growth(Index step, const EnergyBalance& energy);
   void note_row(const ExplicitRecord& record);
 

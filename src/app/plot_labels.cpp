@@ -31,11 +31,12 @@ PlotLabels read_labels(const fs::path& directory) {
     return found != summary.end() && found->is_string() ? found->get<std::string>() : "";
   };
   if (!text("title").empty()) labels.title = text("title");
-  const std::string units = text("units");  // "kip, in": of force, of length
+  const std::string units = text("units");  // "kip, in, s": of force, of length, of time
   const std::size_t comma = units.find(',');
   if (comma != std::string::npos) {
     labels.force = trim(units.substr(0, comma));
-    labels.length = trim(units.substr(comma + 1));
+    const std::size_t end = units.find(',', comma + 1);
+    labels.length = trim(units.substr(comma + 1, end - comma - 1));
   }
   return labels;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "io/case_moving_bonds.hpp"
 #include "io/case_particles.hpp"
@@ -33,6 +34,14 @@ constexpr std::array material_keys = {"holes",
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
                                        "compression_threshold", "boundary_factor"};
+/// Whether irregular particles have a key, too.
+bool is_of_particles(std::string_view key) {
+  for (const char* known : {"tensile_strength", "critical_opening", "knee_stress_ratio",
+                            "knee_opening_ratio", "compression_ratio", "compression_threshold"}) {
+    if (key == known) return true;
+  }
+  return false;
+}
 constexpr std::array explicit_keys = {"duration", "ramp_time",    "time_step", "safety",
                                       "rows",     "damping_rate", "masses"};
 /// Of these and the other keys of [analysis], what only bonds have.
@@ -265,8 +274,13 @@ void read_lattice_material(const CaseTable& table, const BodySection& body,
 void refuse_lattice_material_keys(const CaseTable& table) {
   for (const char* key : material_keys) {
     if (!table.has(key)) continue;
-    table.refuse(key, "is given, but only bodies with model = \"lattice\" have it",
-                 "delete it, or set model = \"lattice\" in [body]");
+    if (!is_of_particles(key)) {
+      table.refuse(key, "is given, but only bodies with model = \"lattice\" have it",
+                   "delete it, or set model = \"lattice\" in [body]");
+    }
+    table.refuse(key, "is given, but only bodies with model = \"lattice\" or \"particles\" have it",
+                 "delete it (bonds break by fracture_energy or critical_stretch), or set another "
+                 "model in [body]");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "app/explicit_case.hpp"
 #include "tests.hpp"
@@ -126,12 +127,22 @@ TEST(CohesiveDisc, BearsMoreThanTheFirstCrackByWhatTheLawCanBridge) {
   CohesiveDisc disc = paper_disc();
   const SplittingLoad tough = splitting_load(disc, 24);
   EXPECT_GT(tough.peak, 1.02 * tough.first_crack);
+  EXPECT_FALSE(tough.sudden);
   EXPECT_LT(tough.opening, disc.law.knee_opening);
+  EXPECT_GT(tough.opening, 0.05 * disc.law.knee_opening);
+  EXPECT_LT(tough.error, 1e-9) << "Newton's method ends at openings of 1e-15 m";
   disc.law.knee_opening *= 1e-2;
   disc.law.critical_opening *= 1e-2;
   const SplittingLoad brittle = splitting_load(disc, 24);
+  EXPECT_TRUE(brittle.sudden);
   EXPECT_EQ(brittle.first_crack, tough.first_crack);
   EXPECT_NEAR(brittle.peak, brittle.first_crack, 0.002 * brittle.first_crack);
+}
+
+TEST(CohesiveDisc, RefusesPlatensNarrowerThanItsElements) {
+  CohesiveDisc disc = paper_disc();
+  disc.half_platen = 0.003 * disc.radius;
+  EXPECT_THROW(splitting_load(disc, 48), std::invalid_argument);
 }
 
 /// Corners of the platens are singular: errors fall with the size of the elements.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ using namespace perilink;
 
 /// Complete steps of explicit runs, forces to displacements with energies and reactions: lattices
 /// in the plane that cannot break, that could, and that do, and bonds with a horizon of three
-/// spacings. `explicit_step
-/// [THREADS [BODY [PARTICLES]]]`
+/// spacings.
+/// `explicit_step [THREADS [BODY [PARTICLES]]]`
 namespace {
 
 constexpr double concrete = 25e9, density = 2323.0, spacing = 0.01;
@@ -145,6 +146,10 @@ int main(int argc, char** argv) try {
   const std::string only = argc > 2 ? argv[2] : "";
   const std::vector<double> sizes =
       argc > 3 ? std::vector{std::stod(argv[3])} : std::vector{600.0, 3e3, 1e5, 1e6};
+  const std::vector<std::string> bodies = {"", "unbreakable", "uncracked", "cracking", "bonds"};
+  if (std::find(bodies.begin(), bodies.end(), only) == bodies.end()) {
+    throw std::invalid_argument(only + ": is none of unbreakable, uncracked, cracking, bonds");
+  }
   const auto is_wanted = [&](const std::string& body) { return only.empty() || only == body; };
   fmt::print("threads {}\n{:<14}{:>12}{:>12}{:>16}\n", threads, "body", "particles", "cracked",
              "M steps/s");

@@ -157,13 +157,18 @@ TEST(PrintedFlow, LeavesParticlesThatAreNotDueAlone) {
   const LatticeParticles particles(model);
   ExplicitState state(model);
   strain_body(model, state, 4e-4, -2e-3, 0.0);
+  flow_everywhere(model, particles, state);  // some plastic strain, which hardens the next time
   const Index row = static_cast<Index>(model.lattice.rows.size()) / 2;
   const Index slot = model.lattice.rows[row].first + model.lattice.rows[row].size / 2;
   const ExplicitState before = state;
   EXPECT_TRUE(flow_row_as_printed(model, particles, state, row, {slot}));
   for (const Index other : model.lattice.particle_slot) {
-    const Index at = model.lattice.at(0, other);
-    EXPECT_EQ(state.flow.stretch[at] != before.flow.stretch[at], other == slot);
+    EXPECT_EQ(state.flow.yield[other] != before.flow.yield[other], other == slot);
+    EXPECT_EQ(state.flow.visit[other] != before.flow.visit[other], other == slot);
+    for (int j = 0; j < 6; ++j) {
+      const Index at = model.lattice.at(j, other);
+      EXPECT_EQ(state.flow.stretch[at] != before.flow.stretch[at], other == slot) << j;
+    }
   }
 }
 

@@ -18,6 +18,14 @@ TEST(PlotLabels, ComeFromTheSummary) {
   EXPECT_EQ(in_unit("3", labels.length), "3 in");
 }
 
+TEST(PlotLabels, KnowAThirdUnitThatOfTime) {
+  const test::TemporaryDirectory directory;
+  test::write_text(directory / "summary.json", R"({"title": "Beam", "units": "N, mm, s"})");
+  const PlotLabels labels = read_labels(directory / "");
+  EXPECT_EQ(labels.force, "N");
+  EXPECT_EQ(labels.length, "mm");
+}
+
 TEST(PlotLabels, WithoutASummaryTheTitleIsThatOfTheDirectory) {
   const test::TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "beam");

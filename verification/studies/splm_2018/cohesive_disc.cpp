@@ -24,7 +24,10 @@ struct Quarter {
 
   Quarter(const CohesiveDisc& disc, int cells) : side(cells + 1) {
     const double end = std::numbers::sqrt2 * disc.half_platen / disc.radius;
-    const int under = std::clamp(static_cast<int>(std::lround(cells * end)), 1, cells - 1);
+    const int under = static_cast<int>(std::lround(cells * end));
+    if (under < 1 || under >= cells) {
+      throw std::invalid_argument("the elements of the cohesive disc do not fit its platens");
+    }
     for (int j = 0; j <= cells; ++j) {
       for (int i = 0; i <= cells; ++i) {
         const double a =
@@ -145,7 +148,8 @@ Traction traction(const CrackOpeningLaw& law, double opening) {
   return {slope * (opening - law.critical_opening), slope};
 }
 
-/// The crack between two halves that mirror each other: half of its opening at each node.
+/// The crack between two halves that mirror each other: half of its opening at each node. Up to the
+/// peak none closes again, so the law needs no unloading.
 class Crack {
  public:
   Crack(const CohesiveDisc& disc, const Quarter& mesh)
@@ -201,6 +205,17 @@ class Crack {
            std::abs(stiffness_.row(last).head(last).dot(half_) + stiffness_(last, last) * platen);
   }
   double opening() const { return 2.0 * half_.maxCoeff(); }
+  /// See SplittingLoad::error.
+  double error(double platen) const {
+    const VectorXd pull = pulls(platen);
+    double largest = 0.0;
+    for (Index i = 0; i < half_.size(); ++i) {
+      if (!open_[i]) continue;
+      const double difference = pull[i] / area_[i] - traction(law_, 2.0 * half_[i]).stress;
+      largest = std::max(largest, std::abs(difference) / law_.strength);
+    }
+    return largest;
+  }
   /// Displacement of the platen at which the diameter first has the strength.
   double first_displacement() const {
     const Index last = half_.size();
@@ -225,18 +240,22 @@ class Crack {
 }  // namespace
 
 SplittingLoad splitting_load(const CohesiveDisc& disc, int cells) {
-  constexpr int steps = 1000;  // to the first crack: the peak is found to a thousandth
+  constexpr int steps = 1000;  // of the platens up to the first crack
   Crack crack(disc, Quarter(disc, cells));
   const double first = crack.first_displacement();
-  SplittingLoad found{crack.force(first), crack.force(first), std::abs(first), 0.0};
+  SplittingLoad found;
+  found.first_crack = found.peak = crack.force(first);
+  found.displacement = std::abs(first);
   for (int step = steps + 1; step < 5 * steps; ++step) {
     const double platen = first * step / steps;
-    if (!crack.load(platen)) return found;
+    found.sudden = !crack.load(platen);
+    if (found.sudden) return found;
     const double force = crack.force(platen);
     if (force < found.peak) return found;
     found.peak = force;
     found.displacement = std::abs(platen);
     found.opening = crack.opening();
+    found.error = crack.error(platen);
   }
   throw std::runtime_error("the cohesive disc has no peak");
 }

@@ -20,14 +20,17 @@ struct CohesiveDisc {
 
 struct SplittingLoad {
   double first_crack = 0.0;   ///< force at which the diameter first has the strength [force]
-  double peak = 0.0;          ///< first maximum of the force while the platens approach, or the
-                              ///< force from which the crack runs on its own [force]
+  double peak = 0.0;          ///< first maximum of the force while the platens approach [force]
   double displacement = 0.0;  ///< of either platen at the peak [length]
   double opening = 0.0;       ///< largest of the crack at the peak [length]
+  double error = 0.0;         ///< largest difference between tension and law along the open crack
+                              ///< at the peak, over the strength
+  bool sudden = false;  ///< no equilibrium near the peak follows it: the crack runs on its own
 };
 
 /// A quarter of the disc by bilinear finite elements, condensed to the diameter and the platen.
 /// \param cells  along each side of the quarter
+/// \throws std::invalid_argument where no element fits under the platen
 /// \throws std::runtime_error where the force only rises
 SplittingLoad splitting_load(const CohesiveDisc& disc, int cells);
 

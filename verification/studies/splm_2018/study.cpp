@@ -61,15 +61,17 @@ std::vector<LatticeTest> disc_tests() {
 
 /// What the discs of the consistent rules should bear.
 std::string continuum_table() {
-  std::string table = "degrees,spacing,radius,half_platen,cells,first_crack,peak,opening\n";
+  std::string table =
+      "degrees,spacing,radius,half_platen,cells,first_crack,peak,displacement,opening,ending\n";
   for (const LatticeTest& test : disc_tests()) {
     if (test.variant != "consistent") continue;
     const CohesiveDisc disc = continuum_of(test);
     for (const int cells : {24, 48, 96}) {
       const SplittingLoad load = splitting_load(disc, cells);
-      table += fmt::format("{:g},{:g},{:.5f},{:.5f},{},{:.1f},{:.1f},{:.3g}\n", test.degrees,
-                           test.spacing, disc.radius, disc.half_platen, cells, load.first_crack,
-                           load.peak, load.opening);
+      table += fmt::format("{:g},{:g},{:.5f},{:.5f},{},{:.1f},{:.1f},{:.4g},{:.3g},{}\n",
+                           test.degrees, test.spacing, disc.radius, disc.half_platen, cells,
+                           load.first_crack, load.peak, load.displacement, load.opening,
+                           load.sudden ? "sudden" : "falling");
     }
   }
   return table;

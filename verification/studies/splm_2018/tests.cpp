@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include "app/explicit_case.hpp"
@@ -32,7 +33,8 @@ void cut_disc(CaseFile& input, double spacing) {
   }
 }
 
-/// Half of the width of the columns of particles that the upper platen drives.
+/// Half of the width of the columns of particles that the upper platen drives, each as wide as
+/// columns are apart in the mean.
 double half_platen(const ExplicitModel& model) {
   const LatticeRows& lattice = model.lattice;
   std::vector<double> columns;
@@ -43,12 +45,11 @@ double half_platen(const ExplicitModel& model) {
     }
   }
   std::sort(columns.begin(), columns.end());
-  double gap = lattice.spacing;  // between neighbouring columns
-  for (std::size_t k = 1; k < columns.size(); ++k) {
-    const double next = columns[k] - columns[k - 1];
-    if (next > 1e-6 * lattice.spacing) gap = std::min(gap, next);
-  }
-  return 0.5 * (columns.back() - columns.front() + gap);
+  const auto is_same = [&](double a, double b) { return b - a < 1e-6 * lattice.spacing; };
+  columns.erase(std::unique(columns.begin(), columns.end(), is_same), columns.end());
+  if (columns.size() < 2) throw std::invalid_argument("the platen drives a single column");
+  const double gaps = static_cast<double>(columns.size()) - 1.0;
+  return 0.5 * (columns.back() - columns.front()) * (gaps + 1.0) / gaps;
 }
 
 }  // namespace
