@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace perilink {
@@ -50,6 +51,21 @@ EnergyBalance balanced(Index step) {
   EnergyBalance energy;
   energy.stored = energy.external_work = 1.0 * step;
   return energy;
+}
+
+/// Where the step cannot be the reason it is not named as one.
+TEST(ExplicitLoop, TellsWhyAMotionMayHaveGrown) {
+  Watcher watcher;
+  const ExplicitResult result = run(watcher, [](Index step) {
+    EnergyBalance energy;
+    energy.kinetic = 1.0 * step;
+    energy.external_work = 1.0;
+    return energy;
+  });
+  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_NE(result.reason.find("the time step 1 is below the critical one of the intact body, 2"),
+            std::string::npos)
+      << result.reason;
 }
 
 TEST(ExplicitLoop, RowsAreEvenAndTheLastStepIsOne) {
