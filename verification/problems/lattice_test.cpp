@@ -19,9 +19,9 @@
 namespace perilink::verification {
 namespace {
 
-/// Rows per run, at which energies are balanced and the forces of driven ends read: a few hundred in
-/// every fundamental period, so that none misses the peak by more than a part in ten thousand. Runs
-/// that only want the peak force of supports, which are asked in every step, need fewer.
+/// Rows per run, at which energies are balanced and the forces of driven ends read: a few hundred
+/// in every fundamental period, so that none misses the peak by more than a part in ten thousand.
+/// Runs that only want the peak force of supports, which are asked in every step, need fewer.
 constexpr int rows = 8000, rows_to_peak = 2000;
 constexpr double crack = 0.9;  ///< damage of what counts as one
 
