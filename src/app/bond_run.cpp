@@ -11,6 +11,7 @@
 #include "app/field_file.hpp"
 #include "app/gauges.hpp"
 #include "app/particle_model.hpp"
+#include "app/run_doubts.hpp"
 #include "app/signals.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
@@ -207,6 +208,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["spacing"] = model.lattice.spacing;
   json["horizon"] = model.horizon;
   json["notes"] = model.notes;
+  json["doubts"] = doubts_about(result, files.peak_load());
   json["seconds"] = {
       {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
   json["peak_memory_bytes"] = peak_memory_bytes();
@@ -243,6 +245,9 @@ void print_summary(const std::filesystem::path& directory, const CaseFile& input
       "  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} M bond-steps/s), output {:.2f} s\n",
       "time", seconds.set_up, seconds.analysis, rate / 1e6, seconds.output);
   for (const std::string& note : model.notes) fmt::print("  {:<14} {}\n", "note", note);
+  for (const std::string& doubt : doubts_about(result, files.peak_load())) {
+    fmt::print("  {:<14} {}\n", "doubt", doubt);
+  }
   fmt::print("  {:<14} {}\n", "results", directory.string());
 }
 

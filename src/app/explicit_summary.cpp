@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/run_doubts.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
 
@@ -50,6 +51,7 @@ void write_summary(const std::filesystem::path& directory, const ExplicitSummary
   json["spacing"] = summary.built.model.lattice.spacing;
   json["particle_steps_per_second"] = summary.particle_steps_per_second();
   json["notes"] = summary.built.notes;
+  json["doubts"] = doubts_about(result, summary.observer.peak_load());
   json["seconds"] = {{"set_up", summary.seconds.set_up},
                      {"analysis", summary.seconds.analysis},
                      {"output", summary.seconds.output}};
@@ -90,6 +92,9 @@ void print_summary(const std::filesystem::path& directory, const ExplicitSummary
       "time", summary.seconds.set_up, summary.seconds.analysis,
       summary.particle_steps_per_second() / 1e6, summary.seconds.output);
   for (const std::string& note : summary.built.notes) fmt::print("  {:<14} {}\n", "note", note);
+  for (const std::string& doubt : doubts_about(result, summary.observer.peak_load())) {
+    fmt::print("  {:<14} {}\n", "doubt", doubt);
+  }
   fmt::print("  {:<14} {}\n", "results", directory.string());
 }
 

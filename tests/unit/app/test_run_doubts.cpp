@@ -1,0 +1,44 @@
+#include "app/run_doubts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace perilink {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+ExplicitResult sound() {
+  ExplicitResult result;
+  result.peak_load = -100.0;
+  result.largest_surplus = 1e-5;
+  return result;
+}
+
+TEST(RunDoubts, AreNoneWhereEnergyAndForcesBalance) {
+  EXPECT_THAT(doubts_about(sound(), 104.0), IsEmpty());
+}
+
+TEST(RunDoubts, NameEnergyThatIsTooMuch) {
+  ExplicitResult result = sound();
+  result.largest_surplus = 0.13;
+  EXPECT_THAT(doubts_about(result, 100.0), ElementsAre(HasSubstr("up to 13 % of the work")));
+}
+
+TEST(RunDoubts, NameALoadThatTheSupportsDoNotFeel) {
+  EXPECT_THAT(doubts_about(sound(), 107.0), ElementsAre(HasSubstr("differ by 7 %")));
+  EXPECT_THAT(doubts_about(sound(), 94.0), ElementsAre(HasSubstr("differ by 6 %")));
+}
+
+TEST(RunDoubts, LeaveSupportsOfSymmetryAlone) {
+  ExplicitResult result = sound();
+  EXPECT_THAT(doubts_about(result, 500.0), IsEmpty());
+  result.peak_load = 0.0;
+  EXPECT_THAT(doubts_about(result, 0.0), IsEmpty());
+  EXPECT_THAT(doubts_about(result, 50.0), IsEmpty());
+}
+
+}  // namespace
+}  // namespace perilink
