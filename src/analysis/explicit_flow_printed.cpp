@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/bond_pointers.hpp"
+#include "analysis/explicit_scan.hpp"
 
 namespace perilink {
 namespace {
@@ -42,21 +43,20 @@ void find_strains(const ExplicitModel& model, const LatticeParticles& particles,
   }
 }
 
-/// Pointers of a row that flows.
+/// Pointers of a row that flows. Each loop has its own, inlined: where pointers may lie in memory
+/// that the loop writes to, it is not vectorised.
 struct Row {
   BondPointers<6> bond;
   std::array<double*, 6> plastic;
   std::array<const double*, 6> partner;  ///< sums of the other particles
   const double *sum, *volume;
-  double *yield, *visit;
 
-  Row(const ExplicitModel& model, ExplicitState& state, Index r) : bond(model, state, r) {
+  [[gnu::always_inline]] Row(const ExplicitModel& model, ExplicitState& state, Index r)
+      : bond(model, state, r) {
     const Index first = model.lattice.rows[r].first;
     const RowPlaces& places = state.now.places;
     sum = state.now.sum.data() + places.first[r];
     volume = model.volume.data() + first;
-    yield = state.flow.yield.data() + first;
-    visit = state.flow.visit.data() + first;
     for (int j = 0; j < 6; ++j) {
       plastic[j] = state.flow.stretch.data() + model.lattice.at(j, first);
       partner[j] = sum + (j < 3 ? places.shift_out[3 * r + j] : -places.shift_in[3 * r + j - 3]);
@@ -65,26 +65,34 @@ struct Row {
 };
 
 /// Eq. 24, of the particles that are due.
-void harden(const YieldCurve& curve, const Row& row, Index size, Scratch& scratch) {
+void harden(const ExplicitModel& model, ExplicitState& state, Index r, Scratch& scratch) {
+  const YieldCurve& curve = model.material.yielding;
+  const double first = curve.yield, ultimate_strain = curve.ultimate_strain;
   const double slope = (curve.ultimate - curve.yield) / curve.ultimate_strain;
+  const LatticeRow& row = model.lattice.rows[r];
+  double* yield = state.flow.yield.data() + row.first;
+  double* visit = state.flow.visit.data() + row.first;
   const double *due = scratch.due.data(), *strain = scratch.strain.data();
-  double* yield = scratch.yield.data();
+  double* before = scratch.yield.data();
 #pragma omp simd
-  for (Index i = 0; i < size; ++i) {
-    const double before = row.yield[i], visit = row.visit[i];
-    const bool asked = due[i] > 0.0, beyond = strain[i] >= curve.ultimate_strain;
-    const double harder = std::max(before, curve.yield + slope * strain[i]);
-    const double next = beyond ? softening_per_step * before : harder;
+  for (Index i = 0; i < row.size; ++i) {
+    const double present = yield[i], waiting = visit[i];
+    const double harder = std::max(present, first + slope * strain[i]);
+    const double next = strain[i] >= ultimate_strain ? softening_per_step * present : harder;
     // A yield stress that falls does so in every step.
-    const double look = beyond ? -1.0 : next;
-    yield[i] = before;
-    row.yield[i] = asked ? next : before;
-    row.visit[i] = asked ? look : visit;
+    const double look = strain[i] >= ultimate_strain ? -1.0 : next;
+    before[i] = present;
+    yield[i] = due[i] > 0.0 ? next : present;
+    visit[i] = due[i] > 0.0 ? look : waiting;
   }
 }
 
 /// Eqs. 26–30.
-bool flow_due(const ExplicitModel& model, const Row& row, Index size, const Scratch& scratch) {
+/// \param Weakened  bonds of the row have factors of damage
+template <bool Weakened>
+bool flow_due(const ExplicitModel& model, ExplicitState& state, Index r, const Scratch& scratch) {
+  const Row row(model, state, r);
+  const Index size = model.lattice.rows[r].size;
   const LatticeMaterial& material = model.material;
   const double least = material.yielding.yield / material.youngs_modulus;
   const double own = model.moduli.own, modulus = model.moduli.sum;
@@ -100,10 +108,15 @@ bool flow_due(const ExplicitModel& model, const Row& row, Index size, const Scra
     double force[6];
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
-      const double stretch = row.bond.stretch[j][i], present = row.bond.present[j][i];
+      const double present = row.bond.present[j][i];
       const double half = j < 3 ? row.bond.half[j][i] : -row.bond.half[j][i];
-      const double stiffness =
-          own * by_sign(stretch, row.bond.tension[j][i], row.bond.compression[j][i]);
+      double stretch = 0.0, stiffness = own;
+      if constexpr (Weakened) {
+        stretch = row.bond.stretch[j][i];
+        stiffness *= by_sign(stretch, row.bond.tension[j][i], row.bond.compression[j][i]);
+      } else {
+        stretch = row.bond.effective[j][i];
+      }
       const double mine = present * (stiffness * (stretch + half) + shared);
       const double other = stiffness * (stretch - half) + modulus * row.partner[j][i];
       sxx += mine * nn.xx[j % 3];
@@ -125,14 +138,14 @@ bool flow_due(const ExplicitModel& model, const Row& row, Index size, const Scra
       force[j] -= row.bond.present[j][i] * share;
       square += force[j] * force[j];
     }
-    // Equal forces: the printed rule does not flow.
-    const bool flows = due[i] > 0.0 && mises > yield[i] && square > 0.0;
     const double ratio = mises / yield[i];
     const double amount = std::min(least * (ratio * ratio - 1.0), most_flow);
-    const double scale = flows ? amount / std::sqrt(square) : 0.0;
+    // Equal forces, of square zero: the printed rule does not flow.
+    const double scale = due[i] * amount / std::sqrt(std::max(square, 1e-300));
+    const double step = mises > yield[i] ? scale : 0.0;
 #pragma GCC unroll 6
-    for (int j = 0; j < 6; ++j) row.plastic[j][i] += scale * force[j];
-    any = std::max(any, flows ? 1.0 : 0.0);
+    for (int j = 0; j < 6; ++j) row.plastic[j][i] += step * force[j];
+    any = std::max(any, step * square);
   }
   return any > 0.0;
 }
@@ -166,9 +179,10 @@ bool flow_row_as_printed(const ExplicitModel& model, const LatticeParticles& par
     if (lattice.bond_count[slot] == 6) continue;
     scratch.strain[i] = printed_plastic_strain(model, particles, state, r, slot);
   }
-  const Row pointers(model, state, r);
-  harden(model.material.yielding, pointers, row.size, scratch);
-  return flow_due(model, pointers, row.size, scratch);
+  harden(model, state, r, scratch);
+  const bool weakened = (duty_of_bonds(lattice, state, r) & RowDuty::weakened) != 0;
+  return weakened ? flow_due<true>(model, state, r, scratch)
+                  : flow_due<false>(model, state, r, scratch);
 }
 
 }  // namespace perilink

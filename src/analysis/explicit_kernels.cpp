@@ -16,14 +16,16 @@ constexpr int group = 3;
 
 /// What a row of bonds may be.
 enum class Level {
-  elastic,  ///< of a body that never changes
-  watched,  ///< intact, but damage and flow look at its stretches
-  altered,  ///< with factors of damage, or plastic parts
+  elastic,   ///< of a body that never changes
+  watched,   ///< intact, but damage and flow look at its stretches
+  flowed,    ///< with plastic parts
+  weakened,  ///< with factors of damage, and plastic parts where the body flows
 };
 
 Level level_of(const ExplicitModel& model, const ExplicitState& state, Index row) {
   if (!model.alters()) return Level::elastic;
-  return (state.duty[row] & RowDuty::altered) != 0 ? Level::altered : Level::watched;
+  if ((state.duty[row] & RowDuty::weakened) != 0) return Level::weakened;
+  return (state.duty[row] & RowDuty::altered) != 0 ? Level::flowed : Level::watched;
 }
 
 /// An array of a slot-shaped field, from the first slot of a row; null where there is none.
@@ -98,7 +100,8 @@ struct MeasuredGroup {
 
 /// Bond vector of unit reference length: n + du / L. Elongation without cancellation:
 /// |y|^2 - 1 = 2 n.du/L + |du/L|^2 = e, |y| - 1 = e / (1 + sqrt(1 + e)).
-template <int Dim, Level Kind, bool Yields>
+/// \param Flowed  bonds have plastic parts
+template <int Dim, Level Kind, bool Flowed>
 void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, int first,
                    double dt) {
   const MeasuredGroup<Dim> m(model, state, r, first);
@@ -135,14 +138,13 @@ void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, in
       }
       speed *= m.present[g][i];
       const double twice = m.rate[g][i] + speed;
-      if constexpr (Kind == Level::altered) {
-        if constexpr (Yields) s -= m.plastic[g][i];
-        m.stretch[g][i] = s;
+      if constexpr (Flowed) s -= m.plastic[g][i];
+      if constexpr (Kind != Level::elastic) m.stretch[g][i] = s;
+      if constexpr (Kind == Level::weakened) {
         m.effective[g][i] = s * by_sign(s, m.tension[g][i], m.compression[g][i]);
         loss += half_step * m.drag[g][i] * twice;
       } else {
         m.effective[g][i] = s * m.present[g][i];
-        if constexpr (Kind == Level::watched) m.stretch[g][i] = s;
         loss += half_step * damping * m.rate[g][i] * twice;
       }
       m.rate[g][i] = speed;
@@ -155,13 +157,13 @@ void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, in
   if constexpr (Kind != Level::elastic) state.fastest[r] = std::max(state.fastest[r], dt * fastest);
 }
 
-template <int Dim, Level Kind, bool Yields>
+template <int Dim, Level Kind, bool Flowed>
 void measure(const ExplicitModel& model, ExplicitState& state, Index r, double dt) {
   // What flow took off elastic stretches in the last step counts as their change, too.
   state.fastest[r] = state.flow.change.empty() ? 0.0 : std::exchange(state.flow.change[r], 0.0);
   state.now.clear_stale(r, model.lattice.rows[r].size);
   for (int first = 0; first < model.lattice.own_bonds(); first += group) {
-    measure_group<Dim, Kind, Yields>(model, state, r, first, dt);
+    measure_group<Dim, Kind, Flowed>(model, state, r, first, dt);
   }
 }
 
@@ -170,15 +172,17 @@ void measure(const ExplicitModel& model, ExplicitState& state, Index r, double d
   switch (level_of(model, state, r)) {
     case Level::elastic: return measure<Dim, Level::elastic, false>(model, state, r, dt);
     case Level::watched: return measure<Dim, Level::watched, false>(model, state, r, dt);
-    case Level::altered:
-      return model.material.yields ? measure<Dim, Level::altered, true>(model, state, r, dt)
-                                   : measure<Dim, Level::altered, false>(model, state, r, dt);
+    case Level::flowed: return measure<Dim, Level::flowed, true>(model, state, r, dt);
+    case Level::weakened:
+      return model.material.yields ? measure<Dim, Level::weakened, true>(model, state, r, dt)
+                                   : measure<Dim, Level::weakened, false>(model, state, r, dt);
   }
 }
 
 /// Magnitudes of a group's bond forces times their directions.
-/// \param Yields  only where the two halves of a bond carry different forces (rules of 2018)
-template <int Dim, LatticeRules Rules, bool Altered, bool Yields>
+/// \param Weakened  bonds have factors of damage
+/// \param Differ    the two halves of a bond carry different forces (rules of 2018)
+template <int Dim, LatticeRules Rules, bool Weakened, bool Differ>
 void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int first) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
@@ -210,7 +214,7 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
 #pragma GCC unroll 6
     for (int g = 0; g < group; ++g) {
       double factor = present[g][i];
-      if constexpr (Altered) factor = by_sign(stretch[g][i], tension[g][i], compression[g][i]);
+      if constexpr (Weakened) factor = by_sign(stretch[g][i], tension[g][i], compression[g][i]);
       const double here = modulus * sum[i], there = modulus * sum[i + shift[g]];
       double magnitude = own[g] * effective[g][i];
       if constexpr (Rules == LatticeRules::consistent) {
@@ -219,12 +223,12 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
         magnitude = present[g][i] * (magnitude + 0.5 * (here + there));
       } else {
         double excess = 0.0;
-        if constexpr (Yields) excess = own[g] * factor * half[g][i];
+        if constexpr (Differ) excess = own[g] * factor * half[g][i];
         const double mine = magnitude + here + excess, other = magnitude + there - excess;
         const double smaller = std::abs(mine) < std::abs(other) ? mine : other;
         magnitude = present[g][i] * (mine * other > 0.0 ? smaller : 0.5 * (mine + other));
       }
-      if constexpr (Altered) {
+      if constexpr (Weakened) {
         const double damper = damping * factor * rate[g][i];
         drag[g][i] = damper;
         magnitude += damper;
@@ -238,15 +242,17 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
 
 template <int Dim, LatticeRules Rules>
 void forces(const ExplicitModel& model, ExplicitState& state, Index r) {
-  const bool altered = level_of(model, state, r) == Level::altered;
-  constexpr bool halves_differ = Rules == LatticeRules::least_2018;
+  const Level level = level_of(model, state, r);
+  const bool weakened = level == Level::weakened;
+  constexpr bool may_differ = Rules == LatticeRules::least_2018;
+  const bool differ = may_differ && model.material.yields && (weakened || level == Level::flowed);
   for (int first = 0; first < model.lattice.own_bonds(); first += group) {
-    if (!altered) {
-      force_group<Dim, Rules, false, false>(model, state, r, first);
-    } else if (halves_differ && model.material.yields) {
-      force_group<Dim, Rules, true, halves_differ>(model, state, r, first);
+    if (differ) {
+      weakened ? force_group<Dim, Rules, true, may_differ>(model, state, r, first)
+               : force_group<Dim, Rules, false, may_differ>(model, state, r, first);
     } else {
-      force_group<Dim, Rules, true, false>(model, state, r, first);
+      weakened ? force_group<Dim, Rules, true, false>(model, state, r, first)
+               : force_group<Dim, Rules, false, false>(model, state, r, first);
     }
   }
 }
@@ -328,7 +334,7 @@ void sum_stretches(const ExplicitModel& model, ExplicitState& state, Index r) {
   const RowPlaces& places = state.now.places;
   double* sum = at_now(state.now.sum, places, 0, r);
   const double* plastic = at(std::as_const(state.flow.sum), lattice, 0, row);
-  const bool flowed = plastic != nullptr && level_of(model, state, r) == Level::altered;
+  const bool flowed = plastic != nullptr && level_of(model, state, r) >= Level::flowed;
   for (int first = 0; first < lattice.own_bonds(); first += group) {
     std::array<const double*, group> out, in;
     std::array<double, group> weight;

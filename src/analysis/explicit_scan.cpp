@@ -20,9 +20,12 @@ double path_of(const ExplicitModel& model, const ExplicitState& state, Index r) 
   return has_weakened_rows(model, state, r) ? never : state.path[r];
 }
 
+/// What loops over a row have to read of its bonds: nothing beyond stretches, plastic parts too, or
+/// factors of damage as well.
+enum class RowBonds { whole, flowed, weakened };
+
 /// What each particle of a row has left, in stress times volume: negative where it is due.
-/// \param Altered  bonds of the row have factors or plastic parts
-template <bool Altered, bool Yields>
+template <RowBonds Bonds, bool Yields>
 double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index r, Left& left) {
   const LatticeRow& row = model.lattice.rows[r];
   const BondPointers<6> bond(model, state, r);
@@ -47,15 +50,14 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
       const int k = j % 3;
-      double force = own * bond.effective[j][i];
-      if constexpr (Altered) {
-        const double factor =
-            by_sign(bond.stretch[j][i], bond.tension[j][i], bond.compression[j][i]);
-        if constexpr (Yields) force += (j < 3 ? own : -own) * factor * bond.half[j][i];
-        force += (all_weakened ? factor : bond.present[j][i]) * shared;
-      } else {
-        force += bond.present[j][i] * shared;
+      double force = own * bond.effective[j][i], factor = bond.present[j][i];
+      if constexpr (Bonds == RowBonds::weakened) {
+        factor = by_sign(bond.stretch[j][i], bond.tension[j][i], bond.compression[j][i]);
       }
+      if constexpr (Bonds != RowBonds::whole && Yields) {
+        force += (j < 3 ? own : -own) * factor * bond.half[j][i];
+      }
+      force += (all_weakened ? factor : bond.present[j][i]) * shared;
       sxx += force * nn.xx[k];
       syy += force * nn.yy[k];
       sxy += force * nn.xy[k];
@@ -167,28 +169,30 @@ void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
   }
 }
 
-double scan_stress(const ExplicitModel& model, const ExplicitState& state, Index r, bool altered,
-                   Left& left) {
+double scan_stress(const ExplicitModel& model, const ExplicitState& state, Index r,
+                   std::uint8_t duty, Left& left) {
   if (model.lattice.dim == 3) return scan_space(model, state, r, left);
+  const bool weakened = (duty & RowDuty::weakened) != 0;
   if (!model.material.yields) {
-    return altered ? scan_plane<true, false>(model, state, r, left)
-                   : scan_plane<false, false>(model, state, r, left);
+    return weakened ? scan_plane<RowBonds::weakened, false>(model, state, r, left)
+                    : scan_plane<RowBonds::whole, false>(model, state, r, left);
   }
-  return altered ? scan_plane<true, true>(model, state, r, left)
-                 : scan_plane<false, true>(model, state, r, left);
-}
-
-/// Calls visit(row) for the row and those whose bonds end in it.
-template <class Visit>
-void with_incoming(const LatticeRows& lattice, Index r, const Visit& visit) {
-  visit(r);
-  for (int k = 0; k < lattice.own_bonds(); ++k) {
-    const Index in = lattice.row_in[r * lattice.own_bonds() + k];
-    if (in != no_index) visit(in);
-  }
+  if (weakened) return scan_plane<RowBonds::weakened, true>(model, state, r, left);
+  return (duty & RowDuty::altered) != 0
+             ? scan_plane<RowBonds::flowed, true>(model, state, r, left)
+             : scan_plane<RowBonds::whole, true>(model, state, r, left);
 }
 
 }  // namespace
+
+std::uint8_t duty_of_bonds(const LatticeRows& lattice, const ExplicitState& state, Index row) {
+  std::uint8_t duty = state.duty[row];
+  for (int k = 0; k < lattice.own_bonds(); ++k) {
+    const Index in = lattice.row_in[row * lattice.own_bonds() + k];
+    if (in != no_index) duty |= state.duty[in];
+  }
+  return duty;
+}
 
 bool has_weakened_rows(const ExplicitModel& model, const ExplicitState& state, Index row) {
   const Index reach = model.lattice.reach, rows = static_cast<Index>(state.duty.size());
@@ -228,10 +232,8 @@ void scan_row(const ExplicitModel& model, const LatticeParticles& particles, Exp
   thread_local Left left;
   left.damage.resize(row.size);
   left.flow.assign(row.size, never);
-  std::uint8_t duty = 0;
-  with_incoming(model.lattice, r, [&](Index near) { duty |= state.duty[near]; });
-  const bool altered = (duty & RowDuty::altered) != 0;
-  const double least = scan_stress(model, state, r, altered, left);
+  const std::uint8_t duty = duty_of_bonds(model.lattice, state, r);
+  const double least = scan_stress(model, state, r, duty, left);
   const bool cracked = (state.news[r] & RowNews::cracked) != 0;
   if (cracked && model.lattice.dim == 2) {
     scan_cracks(model, particles, state, r, left.damage.data());

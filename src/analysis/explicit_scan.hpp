@@ -15,6 +15,9 @@ namespace perilink {
 /// and their neighbours off its slack.
 bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row);
 
+/// Duties of the rows that own bonds of the particles of a row: bits of RowDuty.
+std::uint8_t duty_of_bonds(const LatticeRows& lattice, const ExplicitState& state, Index row);
+
 /// Whether bonds of the particles of a row or of their neighbours have factors of damage.
 bool has_weakened_rows(const ExplicitModel& model, const ExplicitState& state, Index row);
 

@@ -87,7 +87,7 @@ struct ExplicitState {
   std::vector<double> displacement;    ///< [length], shape (dim, slots)
   std::vector<double> velocity;        ///< [length/time], shape (dim, slots)
   std::vector<double> rate;            ///< velocity of the ends along the bond, (own bonds, slots)
-  std::vector<double> drag;            ///< damping force of own bonds of altered rows [force]
+  std::vector<double> drag;            ///< damping force of own bonds of weakened rows [force]
   StepNumbers now;                     ///< complete where observers look
   std::vector<double> in_tension;      ///< factor of own bonds that stretch, (own bonds, slots)
   std::vector<double> in_compression;  ///< factor of own bonds that shorten

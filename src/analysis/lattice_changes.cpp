@@ -78,13 +78,10 @@ void LatticeChanges::update_plastic_sums(ExplicitState& state, Index row, double
   const std::uint8_t bits = state.near_news[row];
   if ((bits & RowNews::flowed) == 0) return;
   add_plastic_halves(model_, state, row);
+  sum_stretches(model_, state, row);
   const double after = half_step_energy(model_, state, row, time_step);
   state.sums[row].plastic -= after;
-  if ((bits & RowNews::damage_grew) != 0) {
-    state.sums[row].fractured += after;
-  } else {
-    sum_stretches(model_, state, row);
-  }
+  if ((bits & RowNews::damage_grew) != 0) state.sums[row].fractured += after;
   state.slack[row] = 0.0;
 }
 
