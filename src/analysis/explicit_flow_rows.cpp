@@ -101,10 +101,9 @@ struct Surface {
         normals(trial.normal.data()),
         equivalent(strains) {}
 
-  struct Sample {
-    double excess = 0.0, slope = 0.0, yield = 0.0;
-  };
-  Sample at(Index i, double g) const {
+  /// Excess of von Mises' stress over the yield stress, its derivative and that yield stress; as
+  /// numbers of their own, since loops with structures are not vectorised.
+  void at(Index i, double g, double& excess, double& derivative, double& yield) const {
     const double square = 3.0 * (halves[i] * halves[i] + shears[i] * shears[i]);
     double mises = 0.0, slope = 0.0, strain = 0.0, growth = 1.0;
     if constexpr (Flat) {
@@ -120,26 +119,40 @@ struct Surface {
       slope = -3.0 * mu;
       strain = equivalent[i] + g;
     }
-    const double yield = curve.stress(strain);
-    return {mises - yield, slope - curve.slope(strain) * growth, yield};
+    yield = curve.stress(strain);
+    excess = mises - yield;
+    derivative = slope - curve.slope(strain) * growth;
   }
-  double error(const Sample& sample) const {
-    return std::abs(sample.excess) / std::max(sample.yield, least);
+  double excess(Index i, double g) const {
+    double value = 0.0, derivative = 0.0, yield = 0.0;
+    at(i, g, value, derivative, yield);
+    return value;
+  }
+  double error(Index i, double g) const {
+    double value = 0.0, derivative = 0.0, yield = 0.0;
+    at(i, g, value, derivative, yield);
+    return std::abs(value) / std::max(yield, least);
   }
 };
 
 /// One iteration of Newton's method for the multipliers of all particles.
+/// \param surface  a copy: behind a reference the multipliers could lie over its numbers, and the
+///                 loop would not be vectorised
 /// \returns the largest excess over the yield stress, as a part of it, before
 template <bool Flat>
-double improve(const Surface<Flat>& surface, Index size, double* multiplier) {
+double improve(const Surface<Flat> surface, Index size, double* multiplier) {
   double worst = 0.0;
 #pragma omp simd reduction(max : worst)
   for (Index i = 0; i < size; ++i) {
     const double g = multiplier[i];
-    const auto sample = surface.at(i, g);
-    const bool flows = g > 0.0 || sample.excess > 0.0;
-    multiplier[i] = flows ? std::max(0.0, g - sample.excess / sample.slope) : 0.0;
-    worst = std::max(worst, flows ? surface.error(sample) : 0.0);
+    double excess = 0.0, derivative = 0.0, yield = 0.0;
+    surface.at(i, g, excess, derivative, yield);
+    // A particle flows where its multiplier or its excess is positive: where the larger of them is.
+    const double flows = std::max(g, excess);
+    const double next = std::max(0.0, g - excess / derivative);
+    const double error = std::abs(excess) / std::max(yield, surface.least);
+    multiplier[i] = flows > 0.0 ? next : 0.0;
+    worst = std::max(worst, flows > 0.0 ? error : 0.0);
   }
   return worst;
 }
@@ -149,13 +162,12 @@ double improve(const Surface<Flat>& surface, Index size, double* multiplier) {
 template <bool Flat>
 void bisect(const Surface<Flat>& surface, Index size, double* multiplier) {
   for (Index i = 0; i < size; ++i) {
-    if (surface.at(i, 0.0).excess <= 0.0) continue;
-    if (surface.error(surface.at(i, multiplier[i])) <= round_off) continue;
+    if (surface.excess(i, 0.0) <= 0.0 || surface.error(i, multiplier[i]) <= round_off) continue;
     double low = 0.0, high = Flat ? 1.0 / surface.mu : 1.0;
-    while (surface.at(i, high).excess > 0.0 && high < 1e12 / surface.mu) high *= 2.0;
+    while (surface.excess(i, high) > 0.0 && high < 1e12 / surface.mu) high *= 2.0;
     for (int k = 0; k < 4 * most_iterations; ++k) {
       const double middle = 0.5 * (low + high);
-      (surface.at(i, middle).excess > 0.0 ? low : high) = middle;
+      (surface.excess(i, middle) > 0.0 ? low : high) = middle;
     }
     multiplier[i] = high;
   }
