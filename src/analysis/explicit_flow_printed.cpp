@@ -110,12 +110,10 @@ bool flow_due(const ExplicitModel& model, ExplicitState& state, Index r, const S
     for (int j = 0; j < 6; ++j) {
       const double present = row.bond.present[j][i];
       const double half = j < 3 ? row.bond.half[j][i] : -row.bond.half[j][i];
-      double stretch = 0.0, stiffness = own;
+      const double stretch = Weakened ? row.bond.stretch[j][i] : row.bond.effective[j][i];
+      double stiffness = own;
       if constexpr (Weakened) {
-        stretch = row.bond.stretch[j][i];
         stiffness *= by_sign(stretch, row.bond.tension[j][i], row.bond.compression[j][i]);
-      } else {
-        stretch = row.bond.effective[j][i];
       }
       const double mine = present * (stiffness * (stretch + half) + shared);
       const double other = stiffness * (stretch - half) + modulus * row.partner[j][i];

@@ -178,9 +178,8 @@ double scan_stress(const ExplicitModel& model, const ExplicitState& state, Index
                     : scan_plane<RowBonds::whole, false>(model, state, r, left);
   }
   if (weakened) return scan_plane<RowBonds::weakened, true>(model, state, r, left);
-  return (duty & RowDuty::altered) != 0
-             ? scan_plane<RowBonds::flowed, true>(model, state, r, left)
-             : scan_plane<RowBonds::whole, true>(model, state, r, left);
+  return (duty & RowDuty::altered) != 0 ? scan_plane<RowBonds::flowed, true>(model, state, r, left)
+                                        : scan_plane<RowBonds::whole, true>(model, state, r, left);
 }
 
 }  // namespace

@@ -186,6 +186,20 @@ void print_period(const ExplicitCase& built) {
   if (period > 0.0) fmt::print("#   fundamental period {:.6g}\n", period);
 }
 
+/// From the first to the last particle; half a cell of theirs lies beyond.
+void print_extents(const LatticeRows& lattice) {
+  std::string text;
+  for (int axis = 0; axis < lattice.dim; ++axis) {
+    double lower = INFINITY, upper = -INFINITY;
+    for (const Index slot : lattice.particle_slot) {
+      lower = std::min(lower, lattice.positions[lattice.at(axis, slot)]);
+      upper = std::max(upper, lattice.positions[lattice.at(axis, slot)]);
+    }
+    text += fmt::format("{}{} {:.6g} to {:.6g}", axis > 0 ? ", " : "", "xyz"[axis], lower, upper);
+  }
+  fmt::print("#   particles lie in   {}\n", text);
+}
+
 int check_explicit(const std::string& case_path, const CaseFile& input) {
   const Timer timer;
   const ExplicitCase built = build_explicit_case(input);
@@ -199,6 +213,7 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
   fmt::print("#   particles          {} in {} rows\n", model.lattice.particles(),
              model.lattice.rows.size());
   fmt::print("#   spacing            {:.6g}\n", model.lattice.spacing);
+  print_extents(model.lattice);
   fmt::print("#   bonds              {}\n", built.bonds);
   fmt::print("#   prescribed         {} displacements\n", prescribed);
   if (model.material.breakable) {

@@ -48,7 +48,7 @@ double load_particles(const CaseFile& input, const Model& places, ExplicitCase& 
                       applied.loads.forces[slot]});
   }
   if (!forces.empty()) apply_forces(built.model, forces);
-  built.notes = applied.notes;
+  built.notes.insert(built.notes.end(), applied.notes.begin(), applied.notes.end());
   return applied.reference;
 }
 
@@ -116,7 +116,7 @@ void choose_steps(const CaseFile& input, ExplicitCase& built) {
 ExplicitCase build_explicit_case(const CaseFile& input, int threads) {
   ExplicitCase built;
   const LatticeShape shape(input);
-  built.model = build_lattice(input, shape);
+  built.model = build_lattice(input, shape, built.notes);
   const LatticeRows& lattice = built.model.lattice;
   load_body(input, shape, built);
   damp_externally(input, threads, built);

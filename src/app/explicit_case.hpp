@@ -21,7 +21,8 @@ struct ExplicitCase {
   Index steps = 0;
   Index bonds = 0;
   std::vector<Gauge> gauges;       ///< of particles in the order of their slots
-  std::vector<std::string> notes;  ///< what the user should know: point loads that had to move
+  std::vector<std::string> notes;  ///< what the user should know: what holes take, point loads
+                                   ///< that had to move
 };
 
 /// Builds the lattice of a case with type = "explicit".

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -44,7 +45,27 @@ void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
       fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_particles));
 }
 
-LatticeRows cut_lattice(const CaseFile& input, const LatticeShape& shape) {
+/// What the holes of the case have taken: a hole that is smaller than it looks between particles,
+/// or lies beside them, takes fewer than its user thinks.
+std::vector<std::string> notes_on_holes(const CaseFile& input,
+                                        const std::map<const Region*, Index>& taken) {
+  std::vector<std::string> notes;
+  for (const std::string& name : input.materials.front().holes) {
+    const auto region = std::find_if(input.regions.begin(), input.regions.end(),
+                                     [&](const Region& own) { return own.name == name; });
+    if (!region->group.empty()) continue;  // its cells are no part of the body
+    const auto found = taken.find(&*region);
+    const Index count = found == taken.end() ? 0 : found->second;
+    notes.push_back(count > 0 ? fmt::format("hole \"{}\" takes {} particles", name, count)
+                              : fmt::format("hole \"{}\" takes no particle: none lies in it; "
+                                            "those on its sides stay",
+                                            name));
+  }
+  return notes;
+}
+
+LatticeRows cut_lattice(const CaseFile& input, const LatticeShape& shape,
+                        std::vector<std::string>& notes) {
   const int dim = dimension_of(input.body);
   LatticeCut cut;
   cut.spacing = *input.body.spacing;
@@ -54,9 +75,15 @@ LatticeRows cut_lattice(const CaseFile& input, const LatticeShape& shape) {
   cut.lower = shape.box().lower;
   cut.upper = shape.box().upper;
   refuse_size(input, cut, dim);
-  cut.inside = [&](const Vector3& point) { return shape.holds(point); };
+  std::map<const Region*, Index> taken;
+  cut.inside = [&](const Vector3& point) {
+    if (const Region* hole = shape.hole_around(point)) ++taken[hole];
+    return shape.holds(point);
+  };
   try {
-    return dim == 2 ? hexagonal_rows(cut) : face_centred_rows(cut);
+    LatticeRows rows = dim == 2 ? hexagonal_rows(cut) : face_centred_rows(cut);
+    for (std::string& note : notes_on_holes(input, taken)) notes.push_back(std::move(note));
+    return rows;
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where("body.spacing"), error.what(),
                      "choose a finer spacing, or move a lattice point into the body by `offset`");
@@ -126,8 +153,9 @@ class GroupFinder {
 
 }  // namespace
 
-ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape) {
-  LatticeRows lattice = cut_lattice(input, shape);
+ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape,
+                            std::vector<std::string>& notes) {
+  LatticeRows lattice = cut_lattice(input, shape, notes);
   try {
     return make_explicit_model(problem_of(input), rules_of(input), std::move(lattice),
                                lattice_material(input), input.body.thickness);
@@ -169,9 +197,11 @@ Model lattice_places(const CaseFile& input, const LatticeShape& shape, const Exp
 
 Model build_lattice_model(const CaseFile& input) {
   const LatticeShape shape(input);
-  const ExplicitModel body = build_lattice(input, shape);
+  std::vector<std::string> notes;
+  const ExplicitModel body = build_lattice(input, shape, notes);
   LatticeNetwork statics = lattice_network(body);
   Model model = lattice_places(input, shape, body, statics.slots);
+  model.notes = std::move(notes);
   model.network = std::move(statics.network);
   if (statics.left_out > 0) {
     model.notes.push_back(fmt::format(

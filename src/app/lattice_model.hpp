@@ -1,6 +1,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "analysis/explicit_model.hpp"
 #include "app/configure.hpp"
@@ -11,9 +13,11 @@ namespace perilink {
 
 /// The lattice of a case with model = "lattice" before anything is prescribed; for an elastic
 /// analysis without damage and damping.
+/// \param notes  gets what the user should know of the body
 /// \throws InputError where the case makes no sense for its body: no lattice point in it, too many,
 /// a spacing too large for the softening
-ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape);
+ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape,
+                            std::vector<std::string>& notes);
 
 /// The softening that a material of the case asks for; strength zero where it is unbreakable.
 CrackOpeningLaw softening_of(const MaterialSection& material);

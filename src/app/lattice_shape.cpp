@@ -74,17 +74,24 @@ Box LatticeShape::box() const {
   return box;
 }
 
+bool LatticeShape::is_solid(const Vector3& point) const {
+  if (cells_) return cells_->contains(point);
+  const auto dim = static_cast<std::size_t>(dimension_of(input_.body));
+  return std::any_of(solid_.begin(), solid_.end(), [&](const Region* region) {
+    return region->contains({point.data(), dim}, tolerance_);
+  });
+}
+
+const Region* LatticeShape::hole_around(const Vector3& point) const {
+  const auto dim = static_cast<std::size_t>(dimension_of(input_.body));
+  const auto hole = std::find_if(holes_.begin(), holes_.end(), [&](const Region* region) {
+    return region->group.empty() && region->contains({point.data(), dim}, -tolerance_);
+  });
+  return hole != holes_.end() && is_solid(point) ? *hole : nullptr;
+}
+
 bool LatticeShape::holds(const Vector3& point) const {
-  const std::span<const double> x(point.data(),
-                                  static_cast<std::size_t>(dimension_of(input_.body)));
-  const auto solid = [&](const Region* region) { return region->contains(x, tolerance_); };
-  // The side of a hole belongs to the body.
-  const auto hollow = [&](const Region* hole) {
-    return hole->group.empty() && hole->contains(x, -tolerance_);
-  };
-  const bool inside =
-      cells_ ? cells_->contains(point) : std::any_of(solid_.begin(), solid_.end(), solid);
-  return inside && std::none_of(holes_.begin(), holes_.end(), hollow);
+  return is_solid(point) && hole_around(point) == nullptr;
 }
 
 PointTest LatticeShape::test_of(const Region& region, const std::string& key) const {

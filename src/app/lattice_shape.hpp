@@ -27,6 +27,9 @@ class LatticeShape {
   /// Around the body [length].
   Box box() const;
   bool holds(const Vector3& point) const;
+  /// The hole without a group that takes a point from the regions of the material, or null; the
+  /// side of a hole belongs to the body.
+  const Region* hole_around(const Vector3& point) const;
 
   /// Whether points lie in a region of the case; `body` is not one of them.
   /// \param key  of the case that asks, for the message
@@ -35,6 +38,7 @@ class LatticeShape {
 
  private:
   void read_mesh();
+  bool is_solid(const Vector3& point) const;
   PointTest test_of_group(const Region& region, const std::string& key) const;
 
   const CaseFile& input_;

@@ -34,6 +34,23 @@ TEST(Splm2018, CountsAboutTheParticlesOfTheDisc) {
   EXPECT_NEAR(particles_of(disc_test("2018", 0.0, 0.0025)), 3315, 33.2);
 }
 
+/// Whole lattice vectors change nothing; half of one changes the body and, where rows run along the
+/// split, what the platens drive: columns of sqrt(3)/2 of the spacing, five or six of them.
+TEST(Splm2018, PlacementsMoveTheLatticeInTheDisc) {
+  const double spacing = 0.005, column = 0.5 * std::numbers::sqrt3 * spacing;
+  const LatticeTest centred = disc_test("consistent", 30.0, spacing);
+  const LatticeTest whole = placed_disc_test("consistent", 30.0, spacing, 1.0, -1.0);
+  const LatticeTest half = placed_disc_test("consistent", 30.0, spacing, 0.5, 0.0);
+  EXPECT_EQ(particles_of(centred), 847);
+  EXPECT_EQ(particles_of(whole), 847);
+  EXPECT_EQ(particles_of(half), 840);
+  for (const bool upper : {true, false}) {
+    EXPECT_NEAR(half_platen(centred, upper), 2.5 * column, 1e-9);
+    EXPECT_NEAR(half_platen(whole, upper), 2.5 * column, 1e-9);
+    EXPECT_NEAR(half_platen(half, upper), 3.0 * column, 1e-9);
+  }
+}
+
 TEST(Splm2018, PrintedTimeStepsAreStable) {
   EXPECT_LT(printed_block_step,
             build_explicit_case(case_of(tension_test("2018", 0.0))).critical_time_step);

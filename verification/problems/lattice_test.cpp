@@ -85,6 +85,7 @@ CaseFile case_of(const LatticeTest& test) {
   std::string text = text_of(path);
   if (test.variant != "consistent") text = without(text, "crushing_energy");
   CaseFile input = parse_case(text, path, keys);
+  for (int axis = 0; axis < 3; ++axis) input.body.offset[axis] += test.offset[axis];
   if (test.change) test.change(input);
   if (test.time_step > 0.0) input.analysis.time_step = test.time_step;
   input.analysis.duration /= test.speed;
@@ -117,16 +118,15 @@ LatticeTestRun run_lattice_test(const LatticeTest& test) {
   return run;
 }
 
-std::string run_lattice_tests(const std::vector<LatticeTest>& tests, int threads) {
-  std::vector<std::string> table(tests.size());
+std::vector<LatticeTestRun> run_side_by_side(const std::vector<LatticeTest>& tests, int threads) {
+  std::vector<LatticeTestRun> runs(tests.size());
   std::atomic<std::size_t> next{0};
   std::mutex printing;
   const auto work = [&] {
     for (std::size_t k = next++; k < tests.size(); k = next++) {
-      const LatticeTestRun run = run_lattice_test(tests[k]);
-      table[k] = row_of(tests[k], run);
+      runs[k] = run_lattice_test(tests[k]);
       const std::lock_guard lock(printing);
-      fmt::print("{:6.1f} s  {}", run.seconds, table[k]);
+      fmt::print("{:6.1f} s  {}", runs[k].seconds, row_of(tests[k], runs[k]));
       std::fflush(stdout);
     }
   };
@@ -134,11 +134,16 @@ std::string run_lattice_tests(const std::vector<LatticeTest>& tests, int threads
   for (int t = 1; t < threads; ++t) pool.emplace_back(work);
   work();
   for (std::thread& thread : pool) thread.join();
-  std::string all =
+  return runs;
+}
+
+std::string run_lattice_tests(const std::vector<LatticeTest>& tests, int threads) {
+  const std::vector<LatticeTestRun> runs = run_side_by_side(tests, threads);
+  std::string table =
       "case,rules,degrees,spacing,particles,time_step,critical_time_step,steps,peak_force,"
       "peak_displacement,cracked,fractured,external_work,largest_surplus,ending\n";
-  for (const std::string& row : table) all += row;
-  return all;
+  for (std::size_t k = 0; k < tests.size(); ++k) table += row_of(tests[k], runs[k]);
+  return table;
 }
 
 }  // namespace perilink::verification

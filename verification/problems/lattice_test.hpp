@@ -16,6 +16,7 @@ struct LatticeTest {
   std::string variant = "consistent";
   double degrees = 0.0;
   double spacing = 0.0;                   ///< zero: the case's [length]
+  Vector3 offset{};                       ///< from the case's lattice point [length]
   double time_step = 0.0;                 ///< zero: nine tenths of the critical one [time]
   double speed = 1.0;                     ///< of the loading over the case's
   bool only_to_peak = false;              ///< ends where the force has fallen to half of its peak
@@ -37,8 +38,11 @@ CaseFile case_of(const LatticeTest& test);
 
 LatticeTestRun run_lattice_test(const LatticeTest& test);
 
-/// Runs tests side by side, one on each core of the machine but at most `threads`; prints the row
-/// of each when it ends, and returns the table in the order of the tests.
+/// Runs tests side by side, `threads` at a time; prints a row for each when it ends.
+/// \returns what they gave, in the order of the tests
+std::vector<LatticeTestRun> run_side_by_side(const std::vector<LatticeTest>& tests, int threads);
+
+/// The same, as a table.
 std::string run_lattice_tests(const std::vector<LatticeTest>& tests, int threads);
 
 }  // namespace perilink::verification

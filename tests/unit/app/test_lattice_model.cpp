@@ -62,13 +62,29 @@ std::string message_of(const std::string& text) {
 TEST(LatticeModel, HasTheParticlesOfTheExplicitBody) {
   const CaseFile input = parse_case(elastic(test::lattice_strip_case()), "");
   const Model model = build_model(input);
-  const ExplicitModel body = build_lattice(input, LatticeShape(input));
+  std::vector<std::string> notes;
+  const ExplicitModel body = build_lattice(input, LatticeShape(input), notes);
   EXPECT_EQ(model.network.particles.size(), body.lattice.particles());
   EXPECT_EQ(model.lattice.spacing, 0.1);
   EXPECT_TRUE(model.network.has_states());
   EXPECT_TRUE(model.notes.empty());
   EXPECT_TRUE(model.reference.driven);
   EXPECT_EQ(model.reference.value, 0.04);
+}
+
+/// One that falls between particles, or beside them, would otherwise go unseen.
+TEST(LatticeModel, TellsWhatHolesTake) {
+  const std::string whole = elastic(test::lattice_strip_case());
+  const std::string holed =
+      replaced(whole, "region = \"strip\"", "region = \"strip\"\nholes = [\"disc\", \"between\"]") +
+      "[[regions]]\nname = \"disc\"\ncenter = [1, 0.5]\nradius = 0.3\n"
+      "[[regions]]\nname = \"between\"\nx = [0.51, 0.54]\ny = [0.1, 0.12]\n";
+  const Model model = build_model(parse_case(holed, ""));
+  const Index taken =
+      build_model(parse_case(whole, "")).network.particles.size() - model.network.particles.size();
+  ASSERT_EQ(model.notes.size(), 2U);
+  EXPECT_EQ(model.notes[0], "hole \"disc\" takes " + std::to_string(taken) + " particles");
+  EXPECT_THAT(model.notes[1], HasSubstr("hole \"between\" takes no particle"));
 }
 
 TEST(LatticeModel, IsElasticWhateverTheMaterialSays) {
@@ -103,8 +119,9 @@ TEST(LatticeModel, LeavesOutWhatHangsOnABond) {
     if (model.notes.empty()) continue;
     any = true;
     EXPECT_THAT(model.notes[0], HasSubstr("left out"));
+    std::vector<std::string> notes;
     EXPECT_LT(model.network.particles.size(),
-              build_lattice(input, LatticeShape(input)).lattice.particles());
+              build_lattice(input, LatticeShape(input), notes).lattice.particles());
     EXPECT_GT(answer(input).peak_load, 0.0);
   }
   EXPECT_TRUE(any);

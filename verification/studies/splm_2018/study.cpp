@@ -59,11 +59,44 @@ std::vector<LatticeTest> disc_tests() {
   return tests;
 }
 
+/// Discs that differ in nothing but where the lattice lies.
+std::string placement_table(int threads) {
+  struct Placement {
+    double a, b;
+  };
+  std::vector<LatticeTest> tests;
+  std::vector<Placement> placements;
+  for (const std::string variant : {"2018", "consistent"}) {
+    for (const double degrees : {0.0, 15.0, 30.0}) {
+      for (const double a : {0.0, 0.25, 0.5, 0.75}) {
+        for (const double b : {0.0, 0.25, 0.5, 0.75}) {
+          tests.push_back(placed_disc_test(variant, degrees, 0.005, a, b));
+          tests.back().only_to_peak = true;
+          placements.push_back({a, b});
+        }
+      }
+    }
+  }
+  const std::vector<LatticeTestRun> runs = run_side_by_side(tests, threads);
+  std::string table =
+      "rules,degrees,a,b,particles,upper_half_platen,lower_half_platen,peak_force,"
+      "peak_displacement\n";
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    table += fmt::format("{},{:g},{:g},{:g},{},{:.5f},{:.5f},{:.1f},{:.4g}\n", tests[k].variant,
+                         tests[k].degrees, placements[k].a, placements[k].b, runs[k].particles,
+                         half_platen(tests[k], true), half_platen(tests[k], false),
+                         runs[k].peak_force, runs[k].peak_displacement);
+  }
+  return table;
+}
+
 /// What the discs of the consistent rules should bear.
 std::string continuum_table() {
   std::string table =
       "degrees,spacing,radius,half_platen,cells,first_crack,peak,displacement,opening,ending\n";
-  for (const LatticeTest& test : disc_tests()) {
+  std::vector<LatticeTest> tests = disc_tests();
+  tests.push_back(placed_disc_test("consistent", 30.0, 0.005, 0.5, 0.0));  // six columns, not five
+  for (const LatticeTest& test : tests) {
     if (test.variant != "consistent") continue;
     const CohesiveDisc disc = continuum_of(test);
     for (const int cells : {24, 48, 96}) {
@@ -92,6 +125,9 @@ int main(int count, char** names) {
   run("compression", compression_tests());
   run("rotations", rotation_tests());
   run("disc", disc_tests());
+  if (is_wanted("placements")) {
+    write_result(PERILINK_STUDY_DIR, placement_table(threads), "placements.csv");
+  }
   if (is_wanted("cohesive")) write_result(PERILINK_STUDY_DIR, continuum_table(), "cohesive.csv");
   return 0;
 }

@@ -33,14 +33,12 @@ void cut_disc(CaseFile& input, double spacing) {
   }
 }
 
-/// Half of the width of the columns of particles that the upper platen drives, each as wide as
-/// columns are apart in the mean.
-double half_platen(const ExplicitModel& model) {
+double half_platen(const ExplicitModel& model, bool upper) {
   const LatticeRows& lattice = model.lattice;
   std::vector<double> columns;
   for (const auto& row : model.prescribed) {
     for (const PrescribedMotion& motion : row) {
-      if (lattice.positions[lattice.at(1, motion.slot)] < 0.0) continue;
+      if ((lattice.positions[lattice.at(1, motion.slot)] > 0.0) != upper) continue;
       columns.push_back(lattice.positions[motion.slot]);
     }
   }
@@ -80,15 +78,26 @@ LatticeTest disc_test(const std::string& variant, double degrees, double spacing
   return test;
 }
 
+LatticeTest placed_disc_test(const std::string& variant, double degrees, double spacing, double a,
+                             double b) {
+  LatticeTest test = disc_test(variant, degrees, spacing);
+  const double along = spacing * (a + 0.5 * b), across = 0.5 * std::numbers::sqrt3 * spacing * b;
+  const double angle = degrees * std::numbers::pi / 180.0;
+  test.offset = {along * std::cos(angle) - across * std::sin(angle),
+                 along * std::sin(angle) + across * std::cos(angle), 0.0};
+  return test;
+}
+
+double half_platen(const LatticeTest& disc, bool upper) {
+  return half_platen(build_explicit_case(case_of(disc)).model, upper);
+}
+
 CohesiveDisc continuum_of(const LatticeTest& disc) {
   const ExplicitModel model = build_explicit_case(case_of(disc)).model;
   const double area = model.lattice.particles() * model.lattice.cell_volume / model.thickness;
-  return {std::sqrt(area / std::numbers::pi),
-          model.thickness,
-          half_platen(model),
-          model.material.youngs_modulus,
-          model.material.poissons_ratio,
-          model.material.softening};
+  return {std::sqrt(area / std::numbers::pi), model.thickness,
+          half_platen(model, true),           model.material.youngs_modulus,
+          model.material.poissons_ratio,      model.material.softening};
 }
 
 }  // namespace perilink::verification

@@ -25,6 +25,12 @@ LatticeTest tension_test(const std::string& variant, double degrees);
 LatticeTest compression_test(const std::string& variant, double degrees);
 /// Cut a quarter of a spacing beyond the radius, held within the last spacing of what is cut.
 LatticeTest disc_test(const std::string& variant, double degrees, double spacing);
+/// The same with a lattice point off the centre by parts of the two lattice vectors.
+LatticeTest placed_disc_test(const std::string& variant, double degrees, double spacing, double a,
+                             double b);
+/// Half of the width of the columns of particles that a platen drives, each as wide as columns are
+/// apart in the mean [m].
+double half_platen(const LatticeTest& disc, bool upper);
 /// The continuum that such a disc stands for: as large as its particles together, between platens
 /// as wide as the columns of particles that they drive.
 CohesiveDisc continuum_of(const LatticeTest& disc);
