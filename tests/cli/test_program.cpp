@@ -259,7 +259,9 @@ TEST_F(Program, CheckOfAnExplicitCaseTellsItsSteps) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part :
        {"model = \"lattice\"", "critical time step 0.00", "time step          0.00",
-        "steps              ", "about 100 rows", "bonds              ", "run "}) {
+        "steps              ", "about 100 rows", "bonds              ", "run ",
+        // Rows are sqrt(3)/2 of a spacing apart: eleven of them fit above the first.
+        "particles lie in   x 0 to 2, y 0 to 0.952628\n"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
   EXPECT_EQ(names(), std::set<std::string>{"strip.toml"});
