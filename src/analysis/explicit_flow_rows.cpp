@@ -87,7 +87,8 @@ template <bool Flat>
 struct Surface {
   Curve curve;
   double mu, bulk;
-  double least;  ///< stress to compare with where softening has left nothing
+  double least;     ///< stress to compare with where softening has left nothing
+  double flattest;  ///< derivative of the excess that Newton's method divides by
   const double *means, *halves, *shears, *normals, *equivalent;
 
   Surface(const LatticeMaterial& material, const Scratch& trial, const double* strains)
@@ -95,6 +96,7 @@ struct Surface {
         mu(material.youngs_modulus / (2.0 * (1.0 + material.poissons_ratio))),
         bulk(material.youngs_modulus / (3.0 * (1.0 - material.poissons_ratio))),
         least(1e-3 * material.yielding.yield),
+        flattest(1e-9 * mu),
         means(trial.mean.data()),
         halves(trial.half.data()),
         shears(trial.xy.data()),
@@ -149,7 +151,9 @@ double improve(const Surface<Flat> surface, Index size, double* multiplier) {
     surface.at(i, g, excess, derivative, yield);
     // A particle flows where its multiplier or its excess is positive: where the larger of them is.
     const double flows = std::max(g, excess);
-    const double next = std::max(0.0, g - excess / derivative);
+    // Where softening is as steep as the return the excess says nothing; `bisect` looks there.
+    const double slope = std::abs(derivative) > surface.flattest ? derivative : -surface.flattest;
+    const double next = std::max(0.0, g - excess / slope);
     const double error = std::abs(excess) / std::max(yield, surface.least);
     multiplier[i] = flows > 0.0 ? next : 0.0;
     worst = std::max(worst, flows > 0.0 ? error : 0.0);

@@ -246,12 +246,12 @@ void forces(const ExplicitModel& model, ExplicitState& state, Index r) {
   const bool weakened = level == Level::weakened;
   constexpr bool may_differ = Rules == LatticeRules::least_2018;
   const bool differ = may_differ && model.material.yields && (weakened || level == Level::flowed);
-  const auto with = weakened ? force_group<Dim, Rules, true, may_differ>
-                             : force_group<Dim, Rules, false, may_differ>;
-  const auto without =
+  const auto differing = weakened ? force_group<Dim, Rules, true, may_differ>
+                                  : force_group<Dim, Rules, false, may_differ>;
+  const auto alike =
       weakened ? force_group<Dim, Rules, true, false> : force_group<Dim, Rules, false, false>;
   for (int first = 0; first < model.lattice.own_bonds(); first += group) {
-    (differ ? with : without)(model, state, r, first);
+    (differ ? differing : alike)(model, state, r, first);
   }
 }
 

@@ -186,7 +186,7 @@ void print_period(const ExplicitCase& built) {
   if (period > 0.0) fmt::print("#   fundamental period {:.6g}\n", period);
 }
 
-/// From the first to the last particle; half a cell of theirs lies beyond.
+/// From the first to the last particle; the cells of the outermost reach beyond.
 void print_extents(const LatticeRows& lattice) {
   std::string text;
   for (int axis = 0; axis < lattice.dim; ++axis) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -45,24 +46,46 @@ void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
       fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_particles));
 }
 
-/// What the holes of the case have taken: a hole that is smaller than it looks between particles,
-/// or lies beside them, takes fewer than its user thinks.
-std::vector<std::string> notes_on_holes(const CaseFile& input,
-                                        const std::map<const Region*, Index>& taken) {
-  std::vector<std::string> notes;
-  for (const std::string& name : input.materials.front().holes) {
-    const auto region = std::find_if(input.regions.begin(), input.regions.end(),
-                                     [&](const Region& own) { return own.name == name; });
-    if (!region->group.empty()) continue;  // its cells are no part of the body
-    const auto found = taken.find(&*region);
-    const Index count = found == taken.end() ? 0 : found->second;
-    notes.push_back(count > 0 ? fmt::format("hole \"{}\" takes {} particles", name, count)
-                              : fmt::format("hole \"{}\" takes no particle: none lies in it; "
-                                            "those on its sides stay",
-                                            name));
+/// Counts what holes take: one that is smaller than it looks between particles, or lies beside
+/// them, takes fewer than its user thinks.
+class HoleCounter {
+ public:
+  explicit HoleCounter(const LatticeShape& shape) : shape_(shape) {
+    for (const Region* hole : shape.holes()) {
+      if (hole->group.empty()) counts_.try_emplace(hole, 0);  // cells of groups are no body at all
+    }
   }
-  return notes;
-}
+
+  /// Whether a point belongs to the body.
+  bool holds(const Vector3& point) {
+    if (!shape_.is_solid(point)) return false;
+    bool taken = false;
+    for (auto& [hole, count] : counts_) {
+      if (!shape_.is_in_hole(*hole, point)) continue;
+      taken = true;
+      ++count;
+    }
+    return !taken;
+  }
+
+  void add_notes(std::vector<std::string>& notes) const {
+    std::set<const Region*> told;
+    for (const Region* hole : shape_.holes()) {
+      const auto found = counts_.find(hole);
+      if (found == counts_.end() || !told.insert(hole).second) continue;
+      const Index count = found->second;
+      notes.push_back(fmt::format("{} in the hole \"{}\"",
+                                  count == 0   ? "no particle was"
+                                  : count == 1 ? "1 particle was"
+                                               : fmt::format("{} particles were", count),
+                                  hole->name));
+    }
+  }
+
+ private:
+  const LatticeShape& shape_;
+  std::map<const Region*, Index> counts_;
+};
 
 LatticeRows cut_lattice(const CaseFile& input, const LatticeShape& shape,
                         std::vector<std::string>& notes) {
@@ -75,18 +98,19 @@ LatticeRows cut_lattice(const CaseFile& input, const LatticeShape& shape,
   cut.lower = shape.box().lower;
   cut.upper = shape.box().upper;
   refuse_size(input, cut, dim);
-  std::map<const Region*, Index> taken;
-  cut.inside = [&](const Vector3& point) {
-    if (const Region* hole = shape.hole_around(point)) ++taken[hole];
-    return shape.holds(point);
-  };
+  HoleCounter holes(shape);
+  cut.inside = [&](const Vector3& point) { return holes.holds(point); };
   try {
     LatticeRows rows = dim == 2 ? hexagonal_rows(cut) : face_centred_rows(cut);
-    for (std::string& note : notes_on_holes(input, taken)) notes.push_back(std::move(note));
+    holes.add_notes(notes);
     return rows;
   } catch (const std::invalid_argument& error) {
-    throw InputError(input.where("body.spacing"), error.what(),
-                     "choose a finer spacing, or move a lattice point into the body by `offset`");
+    throw InputError(
+        input.where("body.spacing"), error.what(),
+        input.materials.front().holes.empty()
+            ? "choose a finer spacing, or move a lattice point into the body by `offset`"
+            : "choose a finer spacing, smaller `holes`, or move a lattice point into "
+              "the body by `offset`");
   }
 }
 

@@ -82,16 +82,15 @@ bool LatticeShape::is_solid(const Vector3& point) const {
   });
 }
 
-const Region* LatticeShape::hole_around(const Vector3& point) const {
+bool LatticeShape::is_in_hole(const Region& hole, const Vector3& point) const {
   const auto dim = static_cast<std::size_t>(dimension_of(input_.body));
-  const auto hole = std::find_if(holes_.begin(), holes_.end(), [&](const Region* region) {
-    return region->group.empty() && region->contains({point.data(), dim}, -tolerance_);
-  });
-  return hole != holes_.end() && is_solid(point) ? *hole : nullptr;
+  return hole.group.empty() && hole.contains({point.data(), dim}, -tolerance_);
 }
 
 bool LatticeShape::holds(const Vector3& point) const {
-  return is_solid(point) && hole_around(point) == nullptr;
+  return is_solid(point) && std::none_of(holes_.begin(), holes_.end(), [&](const Region* hole) {
+           return is_in_hole(*hole, point);
+         });
 }
 
 PointTest LatticeShape::test_of(const Region& region, const std::string& key) const {

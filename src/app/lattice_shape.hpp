@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,12 @@ class LatticeShape {
   /// Around the body [length].
   Box box() const;
   bool holds(const Vector3& point) const;
-  /// The hole without a group that takes a point from the regions of the material, or null; the
-  /// side of a hole belongs to the body.
-  const Region* hole_around(const Vector3& point) const;
+  /// Whether a point lies in the regions or cells of the material, holes or not.
+  bool is_solid(const Vector3& point) const;
+  /// Whether a point lies in a hole without a group; the side of a hole belongs to the body.
+  bool is_in_hole(const Region& hole, const Vector3& point) const;
+  /// Holes of the case, as often as it names them.
+  std::span<const Region* const> holes() const { return holes_; }
 
   /// Whether points lie in a region of the case; `body` is not one of them.
   /// \param key  of the case that asks, for the message
@@ -38,7 +42,6 @@ class LatticeShape {
 
  private:
   void read_mesh();
-  bool is_solid(const Vector3& point) const;
   PointTest test_of_group(const Region& region, const std::string& key) const;
 
   const CaseFile& input_;

@@ -21,12 +21,13 @@ TEST_P(HalfSteps, LieBetweenTheTwoSteps) {
   const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 17.0), material);
   const LatticeRows& lattice = model.lattice;
   ExplicitState state(model);
-  if (GetParam()) {
-    for (std::size_t k = 0; k < state.in_tension.size(); ++k) {
-      state.in_tension[k] *= 0.5 + 0.5 * std::sin(0.7 * static_cast<double>(k));
-      state.in_compression[k] *= 0.8 + 0.2 * std::cos(1.3 * static_cast<double>(k));
+  for (std::size_t r = 0; GetParam() && r < lattice.rows.size(); r += 3) {  // whole rows between
+    for (Index at = 0; at < 3 * lattice.rows[r].size; ++at) {
+      const Index own = lattice.at(at % 3, lattice.rows[r].first + at / 3);
+      state.in_tension[own] *= 0.5 + 0.5 * std::sin(0.7 * own);
+      state.in_compression[own] *= 0.8 + 0.2 * std::cos(1.3 * own);
     }
-    for (std::uint8_t& duty : state.duty) duty |= RowDuty::altered | RowDuty::weakened;
+    state.duty[r] |= RowDuty::altered | RowDuty::weakened;
   }
   const double dt = 1e-7, size = 1e-9;  // so small that stretches are linear in displacements
   for (const Index slot : lattice.particle_slot) {

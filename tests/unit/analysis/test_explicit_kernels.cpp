@@ -232,6 +232,42 @@ TEST(ExplicitKernels, FactorsOfOneChangeNothing) {
   }
 }
 
+/// Of bonds that are weaker and whose halves have flowed differently: each half with its own force.
+TEST(ExplicitKernels, HalvesThatFlowedWeighWithTheFactorOfTheirBond) {
+  LatticeMaterial material = elastic_concrete();
+  material.breakable = material.yields = true;
+  material.yielding = {22.98e6, 27.58e6, 0.003, 0.0};
+  const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 17.0), material,
+                                          LatticeRules::least_2018, Problem::plane_stress);
+  const LatticeRows& lattice = model.lattice;
+  ExplicitState state(model);
+  weaken(model, state);
+  flow_at_random(model, state);
+  shake(model, state, 1e-4 * lattice.spacing);
+  evaluate(model, state);
+  int weaker = 0;
+  for (std::size_t r = 0; r < lattice.rows.size(); ++r) {
+    for (Index n = 0; n < 3 * lattice.rows[r].size; ++n) {
+      const int k = n % 3;
+      const Index slot = lattice.rows[r].first + n / 3, at = lattice.at(k, slot);
+      if (lattice.present[at] == 0.0) continue;
+      const Index partner = slot + lattice.shift_out[3 * r + k];
+      const double stretch = state.now.stretch[at], half = state.flow.half[at];
+      const double factor = stretch >= 0.0 ? state.in_tension[at] : state.in_compression[at];
+      const double own = model.moduli.own * factor, shared = model.moduli.sum;
+      const double mine = own * (stretch + half) + shared * state.now.sum[slot];
+      const double other = own * (stretch - half) + shared * state.now.sum[partner];
+      const double smaller = std::abs(mine) < std::abs(other) ? mine : other;
+      const double expected = mine * other > 0.0 ? smaller : 0.5 * (mine + other);
+      EXPECT_NEAR(std::hypot(state.now.force[lattice.at(2 * k, slot)],
+                             state.now.force[lattice.at(2 * k + 1, slot)]),
+                  std::abs(expected), 1e-9 * (std::abs(mine) + std::abs(other)));
+      weaker += factor < 0.9 && std::abs(half) > 1e-6 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(weaker, 50);
+}
+
 TEST(ExplicitKernels, PrescribedMotionsAreMetExactly) {
   ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 0.0), elastic_concrete());
   grip_ends(model, 0.005, 1e-5);

@@ -48,6 +48,47 @@ TEST(LatticeChanges, EnergyThatIsLostIsCounted) {
   EXPECT_NEAR(stored_energy(state), updated, 1e-12 * before);
 }
 
+/// Flow takes its part with the factors that were there before, damage the rest; in rows where both
+/// happen, too.
+TEST(LatticeChanges, FlowAndDamageLoseTheirOwnParts) {
+  const ExplicitModel model = plane_model(rectangle(0.08, 0.08, 0.01, 11.0), changing_concrete());
+  const LatticeRows& lattice = model.lattice;
+  const auto rows = static_cast<Index>(lattice.rows.size());
+  const LatticeChanges changes(model);
+  ExplicitState state(model);
+  for (const Index slot : lattice.particle_slot) {  // pulled on the right, pushed on the left
+    const double x = lattice.positions[slot], y = lattice.positions[lattice.at(1, slot)];
+    state.displacement[lattice.at(1, slot)] = 2e-2 * x * y;
+  }
+  evaluate(model, state);
+  const auto stored_now = [&] {
+    double energy = 0.0;
+    for (Index r = 0; r < rows; ++r) energy += half_step_energy(model, state, r, 0.0);
+    return energy;
+  };
+  const double before = stored_now();
+  for (Index r = 0; r < rows; ++r) changes.look(state, r);
+  for (Index r = 0; r < rows; ++r) changes.commit(state, r, 0.0);
+  for (Index r = 0; r < rows; ++r) changes.update_plastic_bonds(state, r);
+  for (Index r = 0; r < rows; ++r) changes.update_plastic_sums(state, r, 0.0);
+  const double flowed = stored_now();
+  for (Index r = 0; r < rows; ++r) changes.update_factors(state, r);
+  for (Index r = 0; r < rows; ++r) changes.update_sums(state, r, 0.0);
+  const double cracked = stored_now();
+  double plastic = 0.0, fractured = 0.0;
+  int both = 0;
+  for (Index r = 0; r < rows; ++r) {
+    plastic += state.sums[r].plastic;
+    fractured += state.sums[r].fractured;
+    both += state.near_news[r] == (RowNews::flowed | RowNews::damage_grew) ? 1 : 0;
+  }
+  EXPECT_GT(both, 5);
+  EXPECT_GT(before - flowed, 1e-3 * before);
+  EXPECT_GT(flowed - cracked, 1e-3 * before);
+  EXPECT_NEAR(plastic, before - flowed, 1e-12 * before);
+  EXPECT_NEAR(fractured, flowed - cracked, 1e-12 * before);
+}
+
 TEST(LatticeChanges, EnergyOfCracksInSpaceIsCounted) {
   LatticeCut cut = rectangle(0.03, 0.05, 0.01, 20.0, 1.0);
   cut.lower[2] = -0.03;

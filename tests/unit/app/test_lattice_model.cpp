@@ -76,15 +76,18 @@ TEST(LatticeModel, HasTheParticlesOfTheExplicitBody) {
 TEST(LatticeModel, TellsWhatHolesTake) {
   const std::string whole = elastic(test::lattice_strip_case());
   const std::string holed =
-      replaced(whole, "region = \"strip\"", "region = \"strip\"\nholes = [\"disc\", \"between\"]") +
+      replaced(whole, "region = \"strip\"",
+               "region = \"strip\"\nholes = [\"disc\", \"inner\", \"between\", \"inner\"]") +
       "[[regions]]\nname = \"disc\"\ncenter = [1, 0.5]\nradius = 0.3\n"
+      "[[regions]]\nname = \"inner\"\ncenter = [1, 0.5196152]\nradius = 0.01\n"
       "[[regions]]\nname = \"between\"\nx = [0.51, 0.54]\ny = [0.1, 0.12]\n";
   const Model model = build_model(parse_case(holed, ""));
   const Index taken =
       build_model(parse_case(whole, "")).network.particles.size() - model.network.particles.size();
-  ASSERT_EQ(model.notes.size(), 2U);
-  EXPECT_EQ(model.notes[0], "hole \"disc\" takes " + std::to_string(taken) + " particles");
-  EXPECT_THAT(model.notes[1], HasSubstr("hole \"between\" takes no particle"));
+  const std::vector<std::string> expected = {
+      std::to_string(taken) + " particles were in the hole \"disc\"",
+      "1 particle was in the hole \"inner\"", "no particle was in the hole \"between\""};
+  EXPECT_EQ(model.notes, expected);
 }
 
 TEST(LatticeModel, IsElasticWhateverTheMaterialSays) {

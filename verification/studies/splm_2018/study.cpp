@@ -59,11 +59,13 @@ std::vector<LatticeTest> disc_tests() {
   return tests;
 }
 
+/// A lattice point off the centre by parts of the two lattice vectors.
+struct Placement {
+  double a = 0.0, b = 0.0;
+};
+
 /// Discs that differ in nothing but where the lattice lies.
 std::string placement_table(int threads) {
-  struct Placement {
-    double a, b;
-  };
   std::vector<LatticeTest> tests;
   std::vector<Placement> placements;
   for (const std::string variant : {"2018", "consistent"}) {
@@ -93,18 +95,25 @@ std::string placement_table(int threads) {
 /// What the discs of the consistent rules should bear.
 std::string continuum_table() {
   std::string table =
-      "degrees,spacing,radius,half_platen,cells,first_crack,peak,displacement,opening,ending\n";
+      "degrees,spacing,a,b,radius,half_platen,cells,first_crack,peak,displacement,opening,ending\n";
   std::vector<LatticeTest> tests = disc_tests();
-  tests.push_back(placed_disc_test("consistent", 30.0, 0.005, 0.5, 0.0));  // six columns, not five
-  for (const LatticeTest& test : tests) {
+  std::vector<Placement> placements(tests.size());
+  // Those of the placements at 30 degrees that differ and whose platens are alike.
+  for (const Placement place :
+       {Placement{0.0, 0.25}, {0.0, 0.5}, {0.25, 0.0}, {0.5, 0.0}, {0.5, 0.25}}) {
+    tests.push_back(placed_disc_test("consistent", 30.0, 0.005, place.a, place.b));
+    placements.push_back(place);
+  }
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const LatticeTest& test = tests[k];
     if (test.variant != "consistent") continue;
     const CohesiveDisc disc = continuum_of(test);
     for (const int cells : {24, 48, 96}) {
       const SplittingLoad load = splitting_load(disc, cells);
-      table += fmt::format("{:g},{:g},{:.5f},{:.5f},{},{:.1f},{:.1f},{:.4g},{:.3g},{}\n",
-                           test.degrees, test.spacing, disc.radius, disc.half_platen, cells,
-                           load.first_crack, load.peak, load.displacement, load.opening,
-                           load.sudden ? "sudden" : "falling");
+      table += fmt::format("{:g},{:g},{:g},{:g},{:.5f},{:.5f},{},{:.1f},{:.1f},{:.4g},{:.3g},{}\n",
+                           test.degrees, test.spacing, placements[k].a, placements[k].b,
+                           disc.radius, disc.half_platen, cells, load.first_crack, load.peak,
+                           load.displacement, load.opening, load.sudden ? "sudden" : "falling");
     }
   }
   return table;
