@@ -43,9 +43,9 @@ void find_strains(const ExplicitModel& model, const LatticeParticles& particles,
   }
 }
 
-/// Pointers of a row that flows. The loop over the row makes its own, inlined: handed over by
-/// reference they would be read anew for every particle, since its stores to plastic stretches could
-/// change them for all that the compiler knows, and the loop would not be vectorised.
+/// Pointers of a row that flows. The loop over the row makes its own, inlined: by reference they
+/// would be read anew for every particle, since for all that the compiler knows stores to plastic
+/// stretches could change them, and the loop would not be vectorised.
 struct Row {
   BondPointers<6> bond;
   std::array<double*, 6> plastic;
