@@ -145,7 +145,10 @@ std::string cell(double value) {
 
 std::string percent_cell(double value) {
   if (std::isnan(value)) return fmt::format("{:>14}", "-");
-  return value == 0.0 ? fmt::format("{:>14}", "0 %") : fmt::format("{:>+12.2f} %", value);
+  if (value == 0.0) return fmt::format("{:>14}", "0 %");
+  // Energies of round-off differ by any factor: their columns must not touch.
+  return std::abs(value) < 1e6 ? fmt::format("{:>+12.2f} %", value)
+                               : fmt::format("{:>+12.1e} %", value);
 }
 
 /// "seconds set up" of "seconds.set_up".

@@ -17,6 +17,7 @@
 #include "app/mesh_input.hpp"
 #include "app/relaxation_run.hpp"
 #include "app/result_directory.hpp"
+#include "app/run_doubts.hpp"
 #include "app/run_model.hpp"
 #include "app/run_observer.hpp"
 #include "app/signals.hpp"
@@ -73,6 +74,7 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
   log->info("{} : {} particles, {} bonds, {} steps of {:.4g} (critical {:.4g}), {} threads",
             input.path, built.model.lattice.particles(), built.bonds, built.steps, built.time_step,
             built.critical_time_step, threads);
+  for (const std::string& note : built.notes) log->info("note: {}", note);
 
   PhaseSeconds seconds;
   seconds.set_up = timer.seconds();
@@ -100,6 +102,9 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
   log->info("{}: {}; {} steps, {} cracked particles, energy to {:.2e} of the work",
             to_string(result.ending), result.reason, result.steps, result.last.cracked_particles,
             result.largest_surplus);
+  for (const std::string& doubt : doubts_about(result, observer.peak_load())) {
+    log->info("doubt: {}", doubt);
+  }
   if (!options.quiet) print_summary(directory, summary);
   return exit_status_of(result.ending);
 }
@@ -144,6 +149,9 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   }
   log->info("{}: {}; {} steps, {}, energy to {:.2e} of the work", to_string(result.ending),
             result.reason, result.steps, cracks_text(model, result.last), result.largest_surplus);
+  for (const std::string& doubt : doubts_about(result, files.peak_load())) {
+    log->info("doubt: {}", doubt);
+  }
   if (!options.quiet) print_summary(directory, input, model, result, files, seconds);
   return exit_status_of(result.ending);
 }
