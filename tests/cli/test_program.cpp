@@ -269,18 +269,6 @@ TEST_F(Program, CheckOfAnExplicitCaseTellsItsSteps) {
   EXPECT_EQ(run({"check", "again.toml"}).exit_status, 0);
 }
 
-TEST_F(Program, NotesAndDoubtsOfALatticeStandInItsLog) {
-  std::string text = lattice_strip_case();
-  text.insert(text.find("youngs_modulus"), "holes = [\"hole\"]\n");
-  text.replace(text.find("ramp_time = 1"), 13, "ramp_time = 0.2");  // a ninth of the period
-  text += "[[regions]]\nname = \"hole\"\ncenter = [1, 0.52]\nradius = 0.05\n";
-  write_case("strip.toml", text);
-  ASSERT_EQ(run({"run", "strip.toml", "--out", "r"}).exit_status, 0);
-  const std::string log = read_text(work() / "r/log.txt");
-  EXPECT_THAT(log, HasSubstr("note: 1 particle was in the hole \"hole\""));
-  EXPECT_THAT(log, HasSubstr("doubt: the peaks of load and reaction differ by"));
-}
-
 TEST_F(Program, CheckOfALatticeTellsItsPeriod) {
   write_case("strip.toml", lattice_strip_case());
   EXPECT_THAT(run({"check", "strip.toml"}).out,

@@ -160,6 +160,18 @@ TEST_F(ProgramRuns, HistoriesOfExplicitRunsDoNotDependOnThreads) {
   EXPECT_GT(summary("block1")["cracked_particles"].get<int>(), 1000);
 }
 
+TEST_F(ProgramRuns, NotesAndDoubtsOfALatticeStandInItsLog) {
+  std::string text = lattice_strip_case();
+  text.insert(text.find("youngs_modulus"), "holes = [\"hole\"]\n");
+  text.replace(text.find("ramp_time = 1"), 13, "ramp_time = 0.2");  // a ninth of the period
+  text += "[[regions]]\nname = \"hole\"\ncenter = [1, 0.52]\nradius = 0.05\n";
+  write_text(work() / "strip.toml", text);
+  ASSERT_EQ(run({"run", "strip.toml", "--out", "r"}).exit_status, 0);
+  const std::string log = read_text(work() / "r/log.txt");
+  EXPECT_THAT(log, testing::HasSubstr("note: 1 particle was in the hole \"hole\""));
+  EXPECT_THAT(log, testing::HasSubstr("doubt: the peaks of load and reaction differ by"));
+}
+
 class ExplicitStopSignals : public ProgramRuns, public testing::WithParamInterface<int> {};
 
 TEST_P(ExplicitStopSignals, KeepTheResultsSoFar) {
