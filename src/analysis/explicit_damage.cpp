@@ -35,6 +35,12 @@ bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family
 }
 
 double LatticeDamage::driving_strain(const ExplicitState& state, const Family& family) const {
+  const LatticeMaterial& material = model_.material;
+  if (follows_stress(family)) {
+    const PrincipalValues stress =
+        principal_values(particles_.stress(state, family), model_.lattice.dim);
+    return stress.first / ((1.0 - state.damage[family.slot]) * material.youngs_modulus);
+  }
   const SymmetricTensor strain = particles_.fit(particles_.shared(state, family), family);
   const PrincipalValues values = principal_values(strain, model_.lattice.dim);
   const double e1 = values.first, e2 = values.last;
@@ -42,8 +48,7 @@ double LatticeDamage::driving_strain(const ExplicitState& state, const Family& f
     case LatticeRules::mean_2017: return e1;
     case LatticeRules::least_2018: return std::sqrt(e1 * e1 - e1 * e2 + e2 * e2);
     case LatticeRules::consistent: {
-      const HookeConstants hooke =
-          hooke_constants(model_.problem, 1.0, model_.material.poissons_ratio);
+      const HookeConstants hooke = hooke_constants(model_.problem, 1.0, material.poissons_ratio);
       return hooke.lambda * (strain[0] + strain[1] + strain[2]) + 2.0 * hooke.mu * e1;
     }
   }
@@ -63,25 +68,59 @@ double LatticeDamage::damage_at(double strain, double band) const {
   return 0.0;
 }
 
+bool LatticeDamage::follows_stress(const Family& family) const {
+  return model_.rules == LatticeRules::consistent && particles_.is_whole(family);
+}
+
+void LatticeDamage::watch(ExplicitState& state, const Family& family, double strain,
+                          double damage) const {
+  const Index slot = family.slot;
+  double& next =
+      model_.rules == LatticeRules::consistent ? state.crack_at[slot] : state.grow_at[slot];
+  if (damage >= 1.0) {
+    next = never;
+  } else if (follows_stress(family)) {
+    // Where a mean began it, the particle's own stress may still be below the strength.
+    const double cohesive = (1.0 - damage) * model_.material.youngs_modulus * strain;
+    next = damage > 0.0 ? cohesive : model_.material.softening.strength;
+  } else {
+    // Damage rises with the strain. Only particles with all bonds are looked at strain by strain.
+    const bool counted = model_.lattice.dim == 2 && particles_.is_whole(family);
+    next = counted ? strain : -never;
+  }
+}
+
 bool LatticeDamage::grow(ExplicitState& state, Index row, Index slot) const {
   if (state.damage[slot] >= 1.0) return false;
   const Family family = particles_.family(state, row, slot);
-  if (state.crack_band[slot] == 0.0) {
+  const bool first = state.crack_band[slot] == 0.0;
+  if (first) {
     Vector3 normal{};
     if (!begins(state, row, family, normal)) return false;
     state.crack_band[slot] = band_width(model_, normal);
     state.crack_at[slot] = never;
+    state.wait[slot] = -never;
     state.news[row] |= RowNews::cracked;
   }
   const double strain = driving_strain(state, family);
   const double damage = damage_at(strain, state.crack_band[slot]);
-  // Damage rises with the strain. Only particles with all bonds are looked at strain by strain.
-  const bool counted = model_.lattice.dim == 2 && particles_.is_whole(family);
-  state.grow_at[slot] = counted ? strain : -never;
-  if (damage <= state.damage[slot]) return false;
-  state.next_damage[slot] = damage;
-  if (damage >= 1.0) state.grow_at[slot] = never;
-  return true;
+  const bool grows = damage > state.damage[slot];
+  if (first || grows || model_.rules != LatticeRules::consistent) {
+    watch(state, family, strain, std::max(damage, state.damage[slot]));
+  }
+  if (grows) state.next_damage[slot] = damage;
+  return grows;
+}
+
+void LatticeDamage::update_roots(ExplicitState& state, Index r) const {
+  if (!model_.weighs_halves()) return;
+  const LatticeRow& row = model_.lattice.rows[r];
+  const double threshold = model_.material.compressive_threshold;
+  for (Index slot = row.first; slot < row.first + row.size; ++slot) {
+    const double damage = state.damage[slot];
+    state.root_tension[slot] = std::sqrt(1.0 - damage);
+    state.root_compression[slot] = std::sqrt(1.0 - compressive_damage(damage, threshold));
+  }
 }
 
 void LatticeDamage::update_factors(ExplicitState& state, Index r) const {

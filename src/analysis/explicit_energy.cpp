@@ -8,7 +8,8 @@ namespace {
 
 /// The sums of the last step follow from those of this one, since rates are what lies between.
 /// \param Weakened  bonds have factors, which the present signs of their stretches choose
-template <int Bonds, bool Weakened>
+/// \param Weighs    with weights of their own in the sums
+template <int Bonds, bool Weakened, bool Weighs>
 double half_step_energy(const ExplicitModel& model, const ExplicitState& state, Index r,
                         double dt) {
   constexpr int own = Bonds / 2;
@@ -24,6 +25,8 @@ double half_step_energy(const ExplicitModel& model, const ExplicitState& state, 
   }
   const double quarter = 0.25 * lattice.spacing * model.moduli.sum;
   const double weighted_back = dt / lattice.spacing;
+  const double* root_tension = Weighs ? state.root_tension.data() + row.first : nullptr;
+  const double* root_compression = Weighs ? state.root_compression.data() + row.first : nullptr;
   double energy = 0.0;
 #pragma omp simd reduction(+ : energy)
   for (Index i = 0; i < row.size; ++i) {
@@ -32,7 +35,11 @@ double half_step_energy(const ExplicitModel& model, const ExplicitState& state, 
     for (int j = 0; j < Bonds; ++j) {
       const int k = j % own;
       double rate = bond.rate[j][i];  // what does not exist has neither stretch nor rate
-      if constexpr (Weakened) {
+      if constexpr (Weighs) {
+        const double s = bond.stretch[j][i];
+        const double share = by_sign(s, bond.share_tension[j][i], bond.share_compression[j][i]);
+        rate *= (j < own ? share : 2.0 - share) * by_sign(s, root_tension[i], root_compression[i]);
+      } else if constexpr (Weakened) {
         rate *= by_sign(bond.stretch[j][i], bond.tension[j][i], bond.compression[j][i]);
       }
       rates += rate;
@@ -49,8 +56,9 @@ template <int Bonds>
 double half_step_energy(const ExplicitModel& model, const ExplicitState& state, Index row,
                         double dt) {
   const bool weakened = (duty_of_bonds(model.lattice, state, row) & RowDuty::weakened) != 0;
-  return weakened ? half_step_energy<Bonds, true>(model, state, row, dt)
-                  : half_step_energy<Bonds, false>(model, state, row, dt);
+  if (!weakened) return half_step_energy<Bonds, false, false>(model, state, row, dt);
+  return model.weighs_halves() ? half_step_energy<Bonds, true, true>(model, state, row, dt)
+                               : half_step_energy<Bonds, true, false>(model, state, row, dt);
 }
 
 }  // namespace

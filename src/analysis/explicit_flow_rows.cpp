@@ -51,6 +51,8 @@ void find_trial(const ExplicitModel& model, const ExplicitState& state, Index r,
   const double* sum = state.now.sum.data() + state.now.places.first[r];
   const double* volume = model.volume.data() + row.first;
   const double* locked = state.flow.normal.data() + row.first;
+  const double* root_tension = state.root_tension.data() + row.first;
+  const double* root_compression = state.root_compression.data() + row.first;
   const PlaneProducts nn(model.lattice);
   const double own = model.moduli.own, modulus = model.moduli.sum;
   const double half_length = 0.5 * model.lattice.spacing;
@@ -62,9 +64,12 @@ void find_trial(const ExplicitModel& model, const ExplicitState& state, Index r,
     double sxx = 0.0, syy = 0.0, sxy = 0.0;
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
-      const double factor = by_sign(bond.stretch[j][i], bond.tension[j][i], bond.compression[j][i]);
-      const double elastic = bond.stretch[j][i] + (j < 3 ? bond.half[j][i] : -bond.half[j][i]);
-      const double force = factor * (own * elastic + modulus * sum[i]);
+      const double stretch = bond.stretch[j][i];
+      const double factor = by_sign(stretch, bond.tension[j][i], bond.compression[j][i]);
+      const double root =
+          bond.present[j][i] * by_sign(stretch, root_tension[i], root_compression[i]);
+      const double elastic = stretch + (j < 3 ? bond.half[j][i] : -bond.half[j][i]);
+      const double force = factor * own * elastic + root * modulus * sum[i];
       sxx += force * nn.xx[j % 3];
       syy += force * nn.yy[j % 3];
       sxy += force * nn.xy[j % 3];
@@ -327,15 +332,20 @@ void add_plastic_halves(const ExplicitModel& model, ExplicitState& state, Index 
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
   double* sum = state.flow.sum.data() + row.first;
+  const double* root = state.root_tension.data() + row.first;
   std::fill_n(sum, row.size, 0.0);
   for (int k = 0; k < lattice.own_bonds(); ++k) {
     const double weight = lattice.bonds[k].length / lattice.spacing;
     const Index back = lattice.shift_in[r * lattice.own_bonds() + k];
     const double* half = state.flow.half.data() + lattice.at(k, row.first);
     const double* tension = state.in_tension.data() + lattice.at(k, row.first);
+    const double* share = state.share_tension.data() + lattice.at(k, row.first);
+    const bool weighs = model.weighs_halves();
 #pragma omp simd
     for (Index i = 0; i < row.size; ++i) {
-      sum[i] += weight * (tension[i] * half[i] - tension[i - back] * half[i - back]);
+      const double mine = weighs ? root[i] * share[i] : tension[i];
+      const double other = weighs ? root[i] * (2.0 - share[i - back]) : tension[i - back];
+      sum[i] += weight * (mine * half[i] - other * half[i - back]);
     }
   }
 }

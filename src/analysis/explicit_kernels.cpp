@@ -7,12 +7,10 @@
 
 #include "analysis/bond_pointers.hpp"
 #include "analysis/explicit_loads.hpp"
+#include "analysis/row_pointers.hpp"
 
 namespace perilink {
 namespace {
-
-/// Bonds that one loop takes: all three of a hexagonal lattice, a third of a face-centred one.
-constexpr int group = 3;
 
 /// What a row of bonds may be.
 enum class Level {
@@ -26,38 +24,6 @@ Level level_of(const ExplicitModel& model, const ExplicitState& state, Index row
   if (!model.alters()) return Level::elastic;
   if ((state.duty[row] & RowDuty::weakened) != 0) return Level::weakened;
   return (state.duty[row] & RowDuty::altered) != 0 ? Level::flowed : Level::watched;
-}
-
-/// An array of a slot-shaped field, from the first slot of a row; null where there is none.
-const double* at(const std::vector<double>& field, const LatticeRows& lattice, Index part,
-                 const LatticeRow& row) {
-  if (field.empty()) return nullptr;
-  return field.data() + static_cast<std::size_t>(part) * lattice.slots + row.first;
-}
-double* at(std::vector<double>& field, const LatticeRows& lattice, Index part,
-           const LatticeRow& row) {
-  if (field.empty()) return nullptr;
-  return field.data() + static_cast<std::size_t>(part) * lattice.slots + row.first;
-}
-
-/// The same of numbers of the present step.
-template <class Field>
-auto* at_now(Field& field, const RowPlaces& places, Index part, Index r) {
-  return field.empty()
-             ? nullptr
-             : field.data() + static_cast<std::size_t>(part) * places.slots + places.first[r];
-}
-
-template <class Field, class Pointer>
-void at_bonds_now(Field& field, const RowPlaces& places, int first, Index r,
-                  std::array<Pointer, group>& pointers) {
-  for (int g = 0; g < group; ++g) pointers[g] = at_now(field, places, first + g, r);
-}
-
-template <class Field, class Pointer>
-void at_bonds(Field& field, const LatticeRows& lattice, int first, const LatticeRow& row,
-              std::array<Pointer, group>& pointers) {
-  for (int g = 0; g < group; ++g) pointers[g] = at(field, lattice, first + g, row);
 }
 
 /// What measuring a group of own bonds of a row reads and writes.
@@ -179,6 +145,30 @@ void measure(const ExplicitModel& model, ExplicitState& state, Index r, double d
   }
 }
 
+/// Stretches of a row's own bonds times their weights in the sums of their ends.
+void weigh(const ExplicitModel& model, ExplicitState& state, Index r) {
+  const LatticeRows& lattice = model.lattice;
+  const LatticeRow& row = lattice.rows[r];
+  const RowPlaces& places = state.now.places;
+  for (int first = 0; first < lattice.own_bonds(); first += group) {
+    const WeightPointers weight(lattice, state, r, first);
+    std::array<const double*, group> stretch;
+    std::array<double*, group> owners, partners;
+    at_bonds_now(std::as_const(state.now.stretch), places, first, r, stretch);
+    at_bonds_now(state.now.owners, places, first, r, owners);
+    at_bonds_now(state.now.partners, places, first, r, partners);
+#pragma omp simd
+    for (Index i = 0; i < row.size; ++i) {
+#pragma GCC unroll 6
+      for (int g = 0; g < group; ++g) {
+        const double s = stretch[g][i];
+        owners[g][i] = s * weight.of_owner(g, i, s);
+        partners[g][i] = s * weight.of_partner(g, i, s);
+      }
+    }
+  }
+}
+
 /// Magnitudes of a group's bond forces times their directions.
 /// \param Weakened  bonds have factors of damage
 /// \param Differ    the two halves of a bond carry different forces (rules of 2018)
@@ -209,6 +199,7 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
   }
   const double* sum = at_now(state.now.sum, places, 0, r);
   const double modulus = model.moduli.sum, damping = model.bond_damping;
+  const WeightPointers weight(lattice, state, r, first);
 #pragma omp simd
   for (Index i = 0; i < row.size; ++i) {
 #pragma GCC unroll 6
@@ -217,7 +208,9 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
       if constexpr (Weakened) factor = by_sign(stretch[g][i], tension[g][i], compression[g][i]);
       const double here = modulus * sum[i], there = modulus * sum[i + shift[g]];
       double magnitude = own[g] * effective[g][i];
-      if constexpr (Rules == LatticeRules::consistent) {
+      if constexpr (Rules == LatticeRules::consistent && Weakened) {
+        magnitude += weight.mean(g, i, stretch[g][i], here, there);
+      } else if constexpr (Rules == LatticeRules::consistent) {
         magnitude += factor * 0.5 * (here + there);
       } else if constexpr (Rules == LatticeRules::mean_2017) {
         magnitude = present[g][i] * (magnitude + 0.5 * (here + there));
@@ -229,9 +222,8 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
         magnitude = present[g][i] * (mine * other > 0.0 ? smaller : 0.5 * (mine + other));
       }
       if constexpr (Weakened) {
-        const double damper = damping * factor * rate[g][i];
-        drag[g][i] = damper;
-        magnitude += damper;
+        drag[g][i] = damping * factor * rate[g][i];
+        magnitude += drag[g][i];
       } else {
         magnitude += damping * rate[g][i];
       }
@@ -310,6 +302,7 @@ double move(const ExplicitModel& model, ExplicitState& state, Index r, int c, do
 void measure_bonds(const ExplicitModel& model, ExplicitState& state, Index row, double time_step) {
   model.lattice.dim == 2 ? measure<2>(model, state, row, time_step)
                          : measure<3>(model, state, row, time_step);
+  if (is_weighted(model, state, row)) weigh(model, state, row);
 }
 
 void apply_factors(const ExplicitModel& model, ExplicitState& state, Index r) {
@@ -324,6 +317,7 @@ void apply_factors(const ExplicitModel& model, ExplicitState& state, Index r) {
       effective[i] = stretch[i] * by_sign(stretch[i], tension[i], compression[i]);
     }
   }
+  if (is_weighted(model, state, r)) weigh(model, state, r);
 }
 
 void sum_stretches(const ExplicitModel& model, ExplicitState& state, Index r) {
@@ -332,13 +326,17 @@ void sum_stretches(const ExplicitModel& model, ExplicitState& state, Index r) {
   const RowPlaces& places = state.now.places;
   double* sum = at_now(state.now.sum, places, 0, r);
   const double* plastic = at(std::as_const(state.flow.sum), lattice, 0, row);
+  const bool weighted = is_weighted(model, state, r);
+  const StepNumbers& now = state.now;
   const bool flowed = plastic != nullptr && level_of(model, state, r) >= Level::flowed;
   for (int first = 0; first < lattice.own_bonds(); first += group) {
     std::array<const double*, group> out, in;
     std::array<double, group> weight;
-    at_bonds_now(std::as_const(state.now.effective), places, first, r, out);
+    at_bonds_now(weighted ? now.owners : now.effective, places, first, r, out);
     for (int g = 0; g < group; ++g) {
-      in[g] = out[g] - places.shift_in[r * lattice.own_bonds() + first + g];
+      const Index k = r * lattice.own_bonds() + first + g, source = lattice.row_in[k];
+      const bool far = source != no_index && is_weighted(model, state, source);
+      in[g] = at_now(far ? now.partners : now.effective, places, first + g, r) - places.shift_in[k];
       weight[g] = lattice.bonds[first + g].length / lattice.spacing;
     }
     const double keep = first == 0 ? 0.0 : 1.0;

@@ -82,6 +82,8 @@ struct ExplicitModel {
   }
   /// Whether anything can happen to a particle but motion.
   bool alters() const { return material.breakable || material.yields; }
+  /// Whether damage weighs a bond's stretch in the sums of its ends otherwise than its own force.
+  bool weighs_halves() const { return material.breakable && rules == LatticeRules::consistent; }
 };
 
 /// Rate at which forces in proportion to the mass damp a vibration of a period with a ratio: twice

@@ -28,10 +28,24 @@ struct StateHalf {
   bool others = false;  ///< in that of the other one
 };
 
-/// Factors of a bond's damage by the sign of its extension.
+/// What damage leaves of a bond: of its own force, and as weights of its extension in the sums of
+/// this end and of the other one (half_bond_weight).
 struct HalfFactors {
-  double tension = 1.0, compression = 1.0;
-  double of(double extension) const { return extension >= 0.0 ? tension : compression; }
+  double bond = 1.0, mine = 1.0, other = 1.0;
+
+  HalfFactors() = default;
+  /// \param w_i  damage of this end
+  HalfFactors(double w_i, double w_j)
+      : bond(two_spring_factor(w_i, w_j)),
+        mine(half_bond_weight(w_i, w_j)),
+        other(half_bond_weight(w_j, w_i)) {}
+  bool operator==(const HalfFactors&) const = default;
+};
+
+/// The same by the sign of the bond's extension.
+struct SignedFactors {
+  HalfFactors tension, compression;
+  const HalfFactors& of(double extension) const { return extension >= 0.0 ? tension : compression; }
 };
 
 /// Width of a square or cube as large as the particle [length].
@@ -67,9 +81,9 @@ class StateParticles final : public ExplicitBonds {
     }
     return along;
   }
-  const HalfFactors& factors(std::size_t half) const {
-    static constexpr HalfFactors intact{};
-    return factors_.empty() ? intact : factors_[half];
+  const HalfFactors& factors(std::size_t half, double extension) const {
+    static const HalfFactors intact;
+    return factors_.empty() ? intact : factors_[half].of(extension);
   }
   double compressive(Index i) const {
     return compressive_damage(damage_[i], material(i).compressive_threshold);
@@ -92,7 +106,7 @@ class StateParticles final : public ExplicitBonds {
   std::vector<StateHalf<Dim>> halves_;
   std::vector<double> sum_;           ///< of weakened extensions of each particle's neighbours
   std::vector<double> extension_;     ///< of each half, of the breakable
-  std::vector<HalfFactors> factors_;  ///< the same
+  std::vector<SignedFactors> factors_;  ///< the same
   std::vector<double> damage_, next_;
   std::vector<double> band_;  ///< width of the crack band [length]
   std::vector<std::uint8_t> cracked_;
@@ -153,8 +167,7 @@ bool StateParticles<Dim>::weaken(Index i) {
   for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
     const Index j = halves_[h].other;
     if (damage_[i] == 0.0 && damage_[j] == 0.0) continue;
-    const HalfFactors fresh{two_spring_factor(damage_[i], damage_[j]),
-                            two_spring_factor(compressive(i), compressive(j))};
+    const SignedFactors fresh{{damage_[i], damage_[j]}, {compressive(i), compressive(j)}};
     any =
         any || fresh.tension != factors_[h].tension || fresh.compression != factors_[h].compression;
     factors_[h] = fresh;
@@ -170,11 +183,11 @@ double StateParticles<Dim>::half_energy(Index i, double time_step, const BondMot
     const StateHalf<Dim>& half = halves_[h];
     const double e = difference(half, i, motion.displacement);
     const double past = e - time_step * difference(half, i, motion.velocity);
-    const double factor = factors(h).of(e);
-    energy += 0.25 * half.stiffness * factor * e * past;
+    const HalfFactors& factor = factors(h, e);
+    energy += 0.25 * half.stiffness * factor.bond * e * past;
     if (!half.mine) continue;
-    now += factor * e;
-    before += factor * past;
+    now += factor.mine * e;
+    before += factor.mine * past;
   }
   return energy + 0.5 * network_.state_stiffness[i] * now * before;
 }
@@ -241,7 +254,7 @@ BondLosses StateParticles<Dim>::prepare(Index begin, Index end, double time_step
     for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
       const double e = difference(halves_[h], i, motion.displacement);
       if (breakable_) extension_[h] = e;
-      if (halves_[h].mine) sum += factors(h).of(e) * e;
+      if (halves_[h].mine) sum += factors(h, e).mine * e;
     }
     sum_[i] = sum;
     if (breakable_) grow(i);
@@ -258,10 +271,12 @@ BondLosses StateParticles<Dim>::forces(Index begin, Index end, double /*time_ste
     for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
       const StateHalf<Dim>& half = halves_[h];
       const double e = difference(half, i, motion.displacement);
-      double pull = half.stiffness * e;
-      if (half.mine) pull += own;
-      if (half.others) pull += network_.state_stiffness[half.other] * sum_[half.other];
-      pull *= factors(h).of(e);
+      const HalfFactors& factor = factors(h, e);
+      double pull = factor.bond * half.stiffness * e;
+      if (half.mine) pull += factor.mine * own;
+      if (half.others) {
+        pull += factor.other * network_.state_stiffness[half.other] * sum_[half.other];
+      }
       for (int c = 0; c < Dim; ++c) inner[c] -= pull * half.direction[c];
     }
     for (int c = 0; c < Dim; ++c) force[i * std::size_t{Dim} + c] = inner[c];
@@ -281,7 +296,7 @@ template <int Dim>
 std::vector<double> StateParticles<Dim>::secants() const {
   std::vector<double> secants(static_cast<std::size_t>(network_.num_elements()), 1.0);
   for (std::size_t h = 0; h < factors_.size(); ++h)
-    secants[halves_[h].element] = factors_[h].tension;
+    secants[halves_[h].element] = factors_[h].tension.bond;
   return secants;
 }
 

@@ -36,7 +36,8 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   const PlaneProducts nn(model.lattice);
   const double own = model.moduli.own, modulus = model.moduli.sum;
   const double half_length = 0.5 * model.lattice.spacing;
-  const bool all_weakened = model.rules == LatticeRules::consistent;
+  const double* root_tension = state.root_tension.data() + row.first;
+  const double* root_compression = state.root_compression.data() + row.first;
   const double nu = model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
   const double* normal = Yields ? state.flow.normal.data() + row.first : nullptr;
   const double* wait = state.wait.data() + row.first;
@@ -50,14 +51,17 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
       const int k = j % 3;
-      double force = own * bond.effective[j][i], factor = bond.present[j][i];
+      const double present = bond.present[j][i];
+      double force = own * bond.effective[j][i], factor = present, root = 1.0;
       if constexpr (Bonds == RowBonds::weakened) {
-        factor = by_sign(bond.stretch[j][i], bond.tension[j][i], bond.compression[j][i]);
+        const double stretch = bond.stretch[j][i];
+        factor = by_sign(stretch, bond.tension[j][i], bond.compression[j][i]);
+        root = by_sign(stretch, root_tension[i], root_compression[i]);
       }
       if constexpr (Bonds != RowBonds::whole && Yields) {
         force += (j < 3 ? own : -own) * factor * bond.half[j][i];
       }
-      force += (all_weakened ? factor : bond.present[j][i]) * shared;
+      force += present * root * shared;
       sxx += force * nn.xx[k];
       syy += force * nn.yy[k];
       sxy += force * nn.xy[k];
@@ -101,7 +105,7 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
       const double plastic = visit != nullptr ? std::abs(bond.half[j][i]) : 0.0;
       const double own = model.own_modulus(k) * bond.effective[j][i];
       const double part = bond.present[j][i] * shared;
-      // A factor of damage may weaken the shared part as well.
+      // Damage may weaken the shared part as well.
       const double excess = model.own_modulus(k) * plastic;
       pull += half_length * std::max(0.0, std::max(own, own + part) + excess);
       size += half_length * (std::max(std::abs(own), std::abs(own + part)) + excess);
@@ -121,7 +125,6 @@ void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
   const BondPointers<6> bond(model, state, r);
   const std::vector<double>& inverse = particles.whole_inverse();
   const double* grow_at = state.grow_at.data() + row.first;
-  const HookeConstants hooke = hooke_constants(model.problem, 1.0, model.material.poissons_ratio);
 #pragma omp simd
   for (Index i = 0; i < row.size; ++i) {
     double xx = 0.0, yy = 0.0, xy = 0.0;
@@ -143,9 +146,7 @@ void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
     const double radius = std::sqrt(difference * difference + xy * xy);
     const double e1 = mean + radius, e2 = mean - radius;
     double strain = e1;
-    if constexpr (Rules == LatticeRules::consistent) {
-      strain = hooke.lambda * (e1 + e2) + 2.0 * hooke.mu * e1;
-    } else if constexpr (Rules == LatticeRules::least_2018) {
+    if constexpr (Rules == LatticeRules::least_2018) {
       strain = std::sqrt(e1 * e1 - e1 * e2 + e2 * e2);
     }
     left[i] = strain > grow_at[i] ? -1.0 : left[i];
@@ -156,10 +157,7 @@ void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
                  const ExplicitState& state, Index r, double* left) {
   const bool yields = model.material.yields;
   switch (model.rules) {
-    case LatticeRules::consistent:
-      return yields
-                 ? scan_cracks<LatticeRules::consistent, true>(model, particles, state, r, left)
-                 : scan_cracks<LatticeRules::consistent, false>(model, particles, state, r, left);
+    case LatticeRules::consistent: return;  // their crack_at is the stress that the cracks carry
     case LatticeRules::mean_2017:
       return scan_cracks<LatticeRules::mean_2017, false>(model, particles, state, r, left);
     case LatticeRules::least_2018:

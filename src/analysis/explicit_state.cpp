@@ -33,7 +33,7 @@ LatticeFlow make_flow(const ExplicitModel& model) {
 void StepNumbers::clear_stale(Index row, Index size) {
   if (places.stale[row] == 0) return;
   const auto end = static_cast<std::size_t>(places.first[row] + size);
-  for (auto* field : {&stretch, &effective, &force}) {
+  for (auto* field : {&stretch, &effective, &owners, &partners, &force}) {
     for (std::size_t at = end; at < field->size(); at += static_cast<std::size_t>(places.slots)) {
       std::fill_n(field->begin() + static_cast<Index>(at), places.stale[row], 0.0);
     }
@@ -49,6 +49,9 @@ StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places) {
   numbers.force.assign(own * model.lattice.dim * slots, 0.0);
   numbers.sum.assign(slots, 0.0);
   if (model.alters()) numbers.stretch.assign(own * slots, 0.0);
+  if (model.weighs_halves()) {
+    for (auto* field : {&numbers.owners, &numbers.partners}) field->assign(own * slots, 0.0);
+  }
   return numbers;
 }
 
@@ -71,6 +74,7 @@ ExplicitState::ExplicitState(const ExplicitModel& model)
   if (!model.alters()) return;
   drag.assign(own * slots, 0.0);
   in_tension = in_compression = lattice.present;
+  for (auto* array : {&root_tension, &root_compression}) array->assign(slots, 1.0);
   for (auto* array : {&share_tension, &share_compression}) array->assign(own * slots, 1.0);
   for (auto* array : {&next_damage, &crack_band}) array->assign(slots, 0.0);
   const LatticeMaterial& material = model.material;

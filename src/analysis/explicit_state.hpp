@@ -69,9 +69,12 @@ struct StepNumbers {
   std::vector<double> stretch;    ///< elastic, of own bonds, shape (own bonds, slots); only where
                                   ///< something can break or flow
   std::vector<double> effective;  ///< stretch times factor of the bond's damage, same shape
+  std::vector<double> owners;     ///< stretch times weight in the owner's sum, same shape; of
+                                  ///< weakened rows where weights are not the factor
+  std::vector<double> partners;   ///< the same of the partner
   std::vector<double> force;      ///< present directions of own bonds until bond_forces, then the
                                   ///< forces on the owner [force], (own bonds, dim, slots)
-  std::vector<double> sum;        ///< of effective stretches over all bonds, weighted by length
+  std::vector<double> sum;        ///< of weighted stretches over all bonds, times length
 
   /// Zeros beyond the end of a row, where bonds that do not exist lead and a longer row at the same
   /// place has left its numbers.
@@ -91,6 +94,9 @@ struct ExplicitState {
   StepNumbers now;                     ///< complete where observers look
   std::vector<double> in_tension;      ///< factor of own bonds that stretch, (own bonds, slots)
   std::vector<double> in_compression;  ///< factor of own bonds that shorten
+  std::vector<double> root_tension;    ///< square root of what damage leaves of a particle's halves
+                                       ///< that stretch; one by the rules of the papers
+  std::vector<double> root_compression;  ///< the same of those that shorten
   std::vector<double> share_tension;  ///< stretch of the owner's half of an own bond that stretches
                                       ///< over that of the bond; the partner's is two minus this
   std::vector<double> share_compression;  ///< the same of own bonds that shorten

@@ -76,13 +76,16 @@ void LatticeChanges::update_plastic_bonds(ExplicitState& state, Index row) const
 
 void LatticeChanges::update_plastic_sums(ExplicitState& state, Index row, double time_step) const {
   const std::uint8_t bits = state.near_news[row];
-  if ((bits & RowNews::flowed) == 0) return;
-  add_plastic_halves(model_, state, row);
-  sum_stretches(model_, state, row);
-  const double after = half_step_energy(model_, state, row, time_step);
-  state.sums[row].plastic -= after;
-  if ((bits & RowNews::damage_grew) != 0) state.sums[row].fractured += after;
-  state.slack[row] = 0.0;
+  if ((bits & RowNews::flowed) != 0) {
+    add_plastic_halves(model_, state, row);
+    sum_stretches(model_, state, row);
+    const double after = half_step_energy(model_, state, row, time_step);
+    state.sums[row].plastic -= after;
+    if ((bits & RowNews::damage_grew) != 0) state.sums[row].fractured += after;
+    state.slack[row] = 0.0;
+  }
+  // Own bonds of this row and of those before it need them in the next stage.
+  if ((state.news[row] & RowNews::damage_grew) != 0) damage_.update_roots(state, row);
 }
 
 void LatticeChanges::update_factors(ExplicitState& state, Index row) const {

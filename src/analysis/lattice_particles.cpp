@@ -160,6 +160,13 @@ double LatticeParticles::factor(const ExplicitState& state, const Family& family
   return stretch[family.now_at[bond]] >= 0.0 ? state.in_tension[at] : state.in_compression[at];
 }
 
+double LatticeParticles::root(const ExplicitState& state, const Family& family, int bond) {
+  const std::vector<double>& stretch = state.now.stretch;
+  if (stretch.empty()) return 1.0;
+  const bool stretches = stretch[family.now_at[bond]] >= 0.0;
+  return (stretches ? state.root_tension : state.root_compression)[family.slot];
+}
+
 LatticeParticles::Halves LatticeParticles::forces(const ExplicitState& state,
                                                   const Family& family) const {
   const Halves half = elastic(state, family);
@@ -168,7 +175,7 @@ LatticeParticles::Halves LatticeParticles::forces(const ExplicitState& state,
   for (int j = 0; j < family.bonds; ++j) {
     if (!family.has(j)) continue;
     const double weaker = factor(state, family, j);
-    const double part = model_.rules == LatticeRules::consistent ? weaker * shared : shared;
+    const double part = root(state, family, j) * shared;
     force[j] = model_.own_modulus(family.own_number(j)) * weaker * half[j] + part;
   }
   return force;

@@ -52,8 +52,11 @@ class LatticeParticles {
   Halves shared(const ExplicitState& state, const Family& family) const;
   /// Factor of the damage of a bond, by the sign of its stretch.
   static double factor(const ExplicitState& state, const Family& family, int bond);
+  /// Square root of what the particle's damage leaves of its half of a bond; one by the rules of
+  /// the papers.
+  static double root(const ExplicitState& state, const Family& family, int bond);
   /// Force states of the particle: own modulus times the stretch times the factor of damage, plus
-  /// the part of the sum [force].
+  /// the part of the sum times `root` [force].
   Halves forces(const ExplicitState& state, const Family& family) const;
   /// (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain [force/length^2].
   /// \param force  F_j, as `forces` gives them

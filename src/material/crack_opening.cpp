@@ -66,4 +66,8 @@ double half_bond_share(double w_i, double w_j) {
   return intact > 0.0 ? 2.0 * (1.0 - w_j) / intact : 1.0;
 }
 
+double half_bond_weight(double w_i, double w_j) {
+  return std::sqrt(1.0 - w_i) * half_bond_share(w_i, w_j);
+}
+
 }  // namespace perilink

@@ -43,4 +43,9 @@ double two_spring_factor(double w_i, double w_j);
 /// where both particles are fully damaged.
 double half_bond_share(double w_i, double w_j);
 
+/// Weight of the stretch of such a bond in the sum of stretches of particle i: the energy of the
+/// particle then is 1 - w_i times what its halves would store intact. The share times the square
+/// root of 1 - w_i; from zero to one.
+double half_bond_weight(double w_i, double w_j);
+
 }  // namespace perilink

@@ -48,9 +48,10 @@ TEST(ExplicitTension, RepeatsTheRecordedRun) {
   const TensionRun& run = tension_run();
   EXPECT_EQ(run.built.model.lattice.particles(), reference["particles"]);
   EXPECT_EQ(run.built.bonds, reference["bonds"]);
-  const double margin = reference["margin"]["relative"];
+  const nlohmann::json& margins = reference["margin"];
   const auto expect_near = [&](const char* key, double value) {
     const double expected = reference[key];
+    const double margin = margins.value(key, margins["relative"].get<double>());
     EXPECT_NEAR(value, expected, margin * std::abs(expected)) << key;
   };
   const EnergyBalance& energy = run.result.last.energy;
@@ -79,7 +80,8 @@ TEST(ExplicitTension, BalancesItsEnergyAndNeverHeals) {
 /// with the bottom, and where these meet is a band of few rows.
 TEST(ExplicitTension, EndsInACrackAcrossTheBlock) {
   const TensionRun& run = tension_run();
-  EXPECT_LT(std::abs(run.result.last.load), 1e-3 * std::abs(run.result.peak_load));
+  // At each side a particle hangs on two bonds across the crack, hinges that go on turning.
+  EXPECT_LT(std::abs(run.result.last.load), 2e-3 * std::abs(run.result.peak_load));
   const LatticeRows& lattice = run.built.model.lattice;
   double lowest_moving = 1.0, highest_staying = -1.0;
   int pieces = 0;

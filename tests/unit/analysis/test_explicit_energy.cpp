@@ -21,11 +21,19 @@ TEST_P(HalfSteps, LieBetweenTheTwoSteps) {
   const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 17.0), material);
   const LatticeRows& lattice = model.lattice;
   ExplicitState state(model);
-  for (std::size_t r = 0; GetParam() && r < lattice.rows.size(); r += 3) {  // whole rows between
+  for (std::size_t r = 0; GetParam() && r < lattice.rows.size(); ++r) {
+    if (r % 6 > 2) continue;          // whole rows between
+    const bool damaged = r % 6 == 1;  // all bonds of its particles belong to weakened rows
     for (Index at = 0; at < 3 * lattice.rows[r].size; ++at) {
       const Index own = lattice.at(at % 3, lattice.rows[r].first + at / 3);
       state.in_tension[own] *= 0.5 + 0.5 * std::sin(0.7 * own);
       state.in_compression[own] *= 0.8 + 0.2 * std::cos(1.3 * own);
+      state.share_tension[own] = 1.0 + 0.5 * std::sin(0.3 * own);
+      state.share_compression[own] = 1.0 + 0.2 * std::cos(0.9 * own);
+      const Index slot = lattice.rows[r].first + at / 3;
+      if (!damaged) continue;
+      state.root_tension[slot] = 0.6 + 0.4 * std::sin(1.1 * slot);
+      state.root_compression[slot] = 0.8 + 0.2 * std::cos(1.7 * slot);
     }
     state.duty[r] |= RowDuty::altered | RowDuty::weakened;
   }

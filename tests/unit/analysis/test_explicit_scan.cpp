@@ -51,6 +51,12 @@ void alter(const ExplicitModel& model, ExplicitState& state, Past past) {
   for (std::size_t k = 0; past == Past::cracked && k < state.in_tension.size(); ++k) {
     state.in_tension[k] *= 0.5 + 0.5 * std::sin(0.9 * static_cast<double>(k));
     state.in_compression[k] *= 0.8 + 0.2 * std::cos(1.3 * static_cast<double>(k));
+    state.share_tension[k] = 1.0 + 0.5 * std::sin(0.3 * static_cast<double>(k));
+  }
+  const bool halves = past == Past::cracked && model.rules == LatticeRules::consistent;
+  for (std::size_t slot = 0; halves && slot < state.root_tension.size(); ++slot) {
+    state.root_tension[slot] = 0.6 + 0.4 * std::sin(1.1 * static_cast<double>(slot));
+    state.root_compression[slot] = 0.8 + 0.2 * std::cos(1.7 * static_cast<double>(slot));
   }
   const auto rows = static_cast<Index>(model.lattice.rows.size());
   for (Index r = 0; r < rows; ++r) update_plastic_parts(model, state, r);
