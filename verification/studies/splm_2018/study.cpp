@@ -33,6 +33,32 @@ std::vector<LatticeTest> compression_tests() {
   return tests;
 }
 
+/// Blocks in tension by the consistent rules beside their own sections: does the strength, and the
+/// energy that a crack takes, follow the spacing or the rotation?
+std::string spacing_table(int threads) {
+  std::vector<LatticeTest> tests;
+  for (const double spacing : {0.01, 0.005, 0.0025}) {
+    for (const double degrees : {0.0, 15.0, 30.0}) {
+      tests.push_back(spaced_tension_test(degrees, spacing));
+    }
+  }
+  const std::vector<LatticeTestRun> runs = run_side_by_side(tests, threads);
+  std::string table =
+      "degrees,spacing,particles,section,peak_force,over_strength,softening,open,fractured,"
+      "over_fracture_energy,largest_surplus\n";
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const double section = mean_section(tests[k]);
+    const perilink::ExplicitResult& result = runs[k].result;
+    const double fractured = result.last.energy.fractured;
+    table += fmt::format("{:g},{:g},{},{:.6f},{:.1f},{:.4f},{},{},{:.4f},{:.3f},{:.1e}\n",
+                         tests[k].degrees, tests[k].spacing, runs[k].particles, section,
+                         runs[k].peak_force, runs[k].peak_force / (tension_strength * section),
+                         result.last.cracked_particles, runs[k].cracked.size(), fractured,
+                         fractured / (fracture_energy * section), result.largest_surplus);
+  }
+  return table;
+}
+
 /// All whole degrees that differ, to the peak force.
 std::vector<LatticeTest> rotation_tests() {
   std::vector<LatticeTest> tests;
@@ -131,6 +157,9 @@ int main(int count, char** names) {
     write_result(PERILINK_STUDY_DIR, run_lattice_tests(tests, threads), name + ".csv");
   };
   run("tension", tension_tests());
+  if (is_wanted("spacings")) {
+    write_result(PERILINK_STUDY_DIR, spacing_table(threads), "spacings.csv");
+  }
   run("compression", compression_tests());
   run("rotations", rotation_tests());
   run("disc", disc_tests());

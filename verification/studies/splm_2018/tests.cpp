@@ -61,6 +61,27 @@ LatticeTest tension_test(const std::string& variant, double degrees) {
   return test;
 }
 
+LatticeTest spaced_tension_test(double degrees, double spacing) {
+  constexpr double until = 0.6;  // of the drive of 0.3 mm, with openings up to 0.2 mm
+  LatticeTest test = tension_test("consistent", degrees);
+  test.spacing = spacing;
+  test.change = [](CaseFile& input) { input.analysis.duration *= until; };
+  return test;
+}
+
+double mean_section(const LatticeTest& block) {
+  const ExplicitModel model = build_explicit_case(case_of(block)).model;
+  const LatticeRows& lattice = model.lattice;
+  double volume = 0.0, lowest = 1e300, highest = -1e300;
+  for (const Index slot : lattice.particle_slot) {
+    const double y = lattice.positions[lattice.at(1, slot)];
+    volume += model.volume[slot];
+    lowest = std::min(lowest, y);
+    highest = std::max(highest, y);
+  }
+  return volume / (highest - lowest);
+}
+
 LatticeTest compression_test(const std::string& variant, double degrees) {
   LatticeTest test = tension_test(variant, degrees);
   test.case_name = "splm_compression";
