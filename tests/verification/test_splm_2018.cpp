@@ -113,10 +113,30 @@ TEST(Splm2018, CasesOfThePapersRulesHaveNoCrushingEnergy) {
       case_of(compression_test("consistent", 0.0)).materials.front().lattice->crushing_energy);
 }
 
-/// The coarse disc splits along its vertical diameter, at about the paper's 98 kN.
-TEST(Splm2018, TheDiscSplits) {
-  const LatticeTestRun run = run_lattice_test(disc_test("consistent", 0.0, 0.01));
+/// By the paper's rules at about its 98 kN.
+TEST(Splm2018, TheDiscOfThePaperSplits) {
+  const LatticeTestRun run = run_lattice_test(disc_test("2018", 0.0, 0.01));
   EXPECT_NEAR(run.peak_force, 98e3, 5e3);
+}
+
+/// However the rows lie, by the consistent rules the disc bears what the same law bears in a
+/// continuum between platens of that width, less what flow under them takes, 1 to 2 %, and what
+/// columns of 0.005 m do not resolve.
+TEST(Splm2018, TheDiscBearsWhatItsLawDoes) {
+  for (const double degrees : {15.0, 30.0}) {
+    LatticeTest test = disc_test("consistent", degrees, 0.005);
+    test.only_to_peak = true;
+    const double continuum = splitting_load(continuum_of(test), 48).peak;
+    EXPECT_NEAR(run_lattice_test(test).peak_force, continuum, 0.04 * continuum) << degrees;
+  }
+}
+
+/// The coarse disc splits along its vertical diameter.
+TEST(Splm2018, TheDiscSplits) {
+  const LatticeTest test = disc_test("consistent", 0.0, 0.01);
+  const LatticeTestRun run = run_lattice_test(test);
+  const double continuum = splitting_load(continuum_of(test), 48).peak;
+  EXPECT_NEAR(run.peak_force, continuum, 0.05 * continuum);
   EXPECT_LT(run.result.largest_surplus, 1e-4);
   // Every row of particles but those near the platens has a hole within two spacings of the middle.
   const double row = 0.01 * std::sqrt(0.75);

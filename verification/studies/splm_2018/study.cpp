@@ -79,8 +79,10 @@ std::vector<LatticeTest> disc_tests() {
     }
     for (const double spacing : {0.01, 0.0025}) tests.push_back(disc_test(variant, 0.0, spacing));
   }
-  for (const double spacing : {0.01, 0.0025}) {
-    tests.push_back(disc_test("consistent", 30.0, spacing));
+  for (const double degrees : {15.0, 30.0}) {
+    for (const double spacing : {0.01, 0.0025}) {
+      tests.push_back(disc_test("consistent", degrees, spacing));
+    }
   }
   return tests;
 }
