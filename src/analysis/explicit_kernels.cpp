@@ -12,6 +12,8 @@
 namespace perilink {
 namespace {
 
+using namespace row_loops;
+
 /// What a row of bonds may be.
 enum class Level {
   elastic,   ///< of a body that never changes

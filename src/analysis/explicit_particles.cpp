@@ -82,7 +82,7 @@ class StateParticles final : public ExplicitBonds {
     return along;
   }
   const HalfFactors& factors(std::size_t half, double extension) const {
-    static const HalfFactors intact;
+    static constexpr HalfFactors intact{};
     return factors_.empty() ? intact : factors_[half].of(extension);
   }
   double compressive(Index i) const {

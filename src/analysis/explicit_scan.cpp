@@ -157,7 +157,7 @@ void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
                  const ExplicitState& state, Index r, double* left) {
   const bool yields = model.material.yields;
   switch (model.rules) {
-    case LatticeRules::consistent: return;  // their crack_at is the stress that the cracks carry
+    case LatticeRules::consistent: return;  // LatticeDamage::watch has moved their crack_at
     case LatticeRules::mean_2017:
       return scan_cracks<LatticeRules::mean_2017, false>(model, particles, state, r, left);
     case LatticeRules::least_2018:

@@ -27,7 +27,8 @@ double stress_stiffness(const ExplicitModel& model);
 
 /// Slots of a row that have to be looked at.
 struct DueParticles {
-  std::vector<Index> damage;  ///< first principal stress above crack_at, or strain above grow_at
+  std::vector<Index> damage;  ///< first principal stress above crack_at, or by the rules of the
+                              ///< papers strain above grow_at
   std::vector<Index> flow;    ///< von Mises stress above flow.visit
 };
 

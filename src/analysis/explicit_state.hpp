@@ -104,7 +104,7 @@ struct ExplicitState {
   std::vector<double> next_damage;        ///< at the end of the step
   std::vector<double> crack_band;         ///< width [length]; zero where no crack began
   std::vector<double> crack_at;  ///< first principal stress at which a particle is looked at
-  std::vector<double> grow_at;   ///< strain that drives damage, the same
+  std::vector<double> grow_at;   ///< strain that drives damage by the rules of the papers, the same
   std::vector<double> wait;      ///< path of the row before which no crack can begin at a particle
   LatticeFlow flow;
   std::vector<RowSums> sums;  ///< of each row

@@ -84,7 +84,8 @@ void LatticeChanges::update_plastic_sums(ExplicitState& state, Index row, double
     if ((bits & RowNews::damage_grew) != 0) state.sums[row].fractured += after;
     state.slack[row] = 0.0;
   }
-  // Own bonds of this row and of those before it need them in the next stage.
+  // Not before: bonds of rows before this one were weighed with the old ones in the last stage, and
+  // what flowed has lost its energy with them. Those bonds need the new ones in the next stage.
   if ((state.news[row] & RowNews::damage_grew) != 0) damage_.update_roots(state, row);
 }
 

@@ -10,7 +10,7 @@
 /// \file
 /// Where the loops over a row find its part of a field.
 
-namespace perilink {
+namespace perilink::row_loops {
 
 /// Bonds that one loop takes: all three of a hexagonal lattice, a third of a face-centred one.
 inline constexpr int group = 3;
@@ -84,4 +84,4 @@ struct WeightPointers {
   }
 };
 
-}  // namespace perilink
+}  // namespace perilink::row_loops

@@ -24,6 +24,24 @@ inline void evaluate(const ExplicitModel& model, ExplicitState& state) {
   std::fill(state.slack.begin(), state.slack.end(), 0.0);
 }
 
+/// Some bonds weaker, differently in tension and compression; by the consistent rules with weights of
+/// their own in the sums.
+inline void weaken(const ExplicitModel& model, ExplicitState& state) {
+  for (std::size_t k = 0; k < state.in_tension.size(); ++k) {
+    const auto number = static_cast<double>(k);
+    state.in_tension[k] *= 0.5 + 0.5 * std::sin(0.7 * number);
+    state.in_compression[k] *= 0.8 + 0.2 * std::cos(1.3 * number);
+    state.share_tension[k] = 1.0 + 0.5 * std::sin(0.3 * number);
+    state.share_compression[k] = 1.0 + 0.2 * std::cos(0.9 * number);
+  }
+  for (std::size_t slot = 0; slot < state.root_tension.size(); ++slot) {
+    if (model.rules != LatticeRules::consistent) break;
+    state.root_tension[slot] = 0.6 + 0.4 * std::sin(1.1 * static_cast<double>(slot));
+    state.root_compression[slot] = 0.8 + 0.2 * std::cos(1.7 * static_cast<double>(slot));
+  }
+  for (std::uint8_t& duty : state.duty) duty |= RowDuty::altered | RowDuty::weakened;
+}
+
 /// Damage and flow of a step, pass after pass over all rows.
 inline void change(const ExplicitModel& model, const LatticeChanges& changes, ExplicitState& state,
                    double time_step) {

@@ -14,8 +14,8 @@ namespace {
 /// Nikravesh 2017, section 5.3.2.
 TEST(Splm2017, DogBoneBreaksInItsNeckAtItsStrength) {
   const LatticeTestRun run = run_lattice_test(dog_bone_test("consistent", 'B', 0.008));
-  // Rows of the neck have 7 and 8 particles, 0.056 m and 0.064 m of 0.06 m: the former break, before
-  // their mean stress has reached the strength, since it is higher at the arcs.
+  // Rows of the neck have 7 and 8 particles, 0.056 m and 0.064 m of 0.06 m: the former break,
+  // before their mean stress has reached the strength, since it is higher at the arcs.
   const double strength_of_seven = 0.056 / 0.06 * dog_bone_b_strength;
   EXPECT_LT(run.peak_force, strength_of_seven);
   EXPECT_GT(run.peak_force, 0.95 * strength_of_seven);

@@ -84,6 +84,12 @@ TEST(Splm2018, ConsistentRulesReachTheTensileStrengthAndKeepTheirEnergy) {
   EXPECT_LT(run.result.largest_surplus, 1e-4);
 }
 
+/// At 0 degrees 16 columns of 0.01 m and one less in turn, but for half a column at each side.
+TEST(Splm2018, TheSectionOfTheBlockIsThatOfItsColumns) {
+  EXPECT_NEAR(mean_section(spaced_tension_test(0.0, 0.01)), 0.15 * 0.145, 1e-9);
+  EXPECT_NEAR(mean_section(spaced_tension_test(0.0, 0.005)), 0.15 * 0.1525, 1e-9);
+}
+
 TEST(Splm2018, RulesOf2018LoseStrengthAndEnergy) {
   LatticeTest test = tension_test("2018", 0.0);
   test.speed = 4.0;

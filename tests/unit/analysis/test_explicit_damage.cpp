@@ -113,6 +113,21 @@ TEST(LatticeDamage, LeavesABodyThatIsDamagedEvenlyThatPartOfItsStressAndEnergy) 
   }
 }
 
+/// Pressed, it loses what damage in compression takes: nothing below the threshold.
+TEST(LatticeDamage, LeavesAPressedBodyWhatDamageInCompressionLeaves) {
+  const ExplicitModel model = breakable(LatticeRules::consistent);
+  ExplicitState state(model);
+  strain_body(model, state, {-1e-5, -3e-5, 0.0, 0.0, 0.0, 0.0});
+  const double energy = stored_energy(state);
+  for (const double damage : {0.3, 0.9}) {
+    damage_body(model, state, std::vector<double>(state.damage.size(), damage));
+    evaluate(model, state);
+    const double left = 1.0 - compressive_damage(damage, model.material.compressive_threshold);
+    EXPECT_EQ(left == 1.0, damage < 0.5);
+    EXPECT_NEAR(stored_energy(state), left * energy, 1e-12 * energy);
+  }
+}
+
 /// A row of damaged particles across which the body is pulled: with halves that stretch by
 /// 1 / (1 - w) as much as the others, all bonds between rows carry the same force.
 TEST(LatticeDamage, LeavesABandTheStressOfTheBodyAroundIt) {

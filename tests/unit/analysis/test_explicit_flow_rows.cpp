@@ -15,8 +15,9 @@ namespace {
 
 using namespace testing_support;
 
-ExplicitModel block(Problem problem, double crushing_energy) {
+ExplicitModel block(Problem problem, double crushing_energy, bool breakable = false) {
   LatticeMaterial material = elastic_concrete();
+  material.breakable = breakable;
   material.yields = true;
   material.yielding = {22.98e6, 27.58e6, 0.003, 0.0};
   material.crushing_energy = crushing_energy;
@@ -26,14 +27,18 @@ ExplicitModel block(Problem problem, double crushing_energy) {
 
 // Two ways to the same returns: loops over rows, and one particle after the other. Repeated, so
 // that particles go through hardening, softening and what is left after it.
-TEST(ExplicitFlowRows, FlowAsParticlesDoOneByOne) {
+class FlowOfRows : public testing::TestWithParam<bool> {};
+
+TEST_P(FlowOfRows, IsThatOfParticlesOneByOne) {
+  const bool weakened = GetParam();
   for (const Problem problem : {Problem::plane_stress, Problem::plane_strain}) {
     for (const double energy : {2e3, std::numeric_limits<double>::infinity()}) {
-      const ExplicitModel model = block(problem, energy);
+      const ExplicitModel model = block(problem, energy, weakened);
       const LatticeRows& lattice = model.lattice;
       const LatticeParticles particles(model);
       const LatticeYielding yielding(model, particles);
       ExplicitState state(model);
+      if (weakened) weaken(model, state);
       int flowed = 0;
       for (int step = 1; step <= 12; ++step) {
         for (const Index slot : lattice.particle_slot) {
@@ -75,6 +80,47 @@ TEST(ExplicitFlowRows, FlowAsParticlesDoOneByOne) {
         for (Index r = 0; r < rows; ++r) add_plastic_halves(model, state, r);
       }
       EXPECT_GT(flowed, 20);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FlowOfRows, testing::Bool(),
+                         [](const auto& rows) { return rows.param ? "Weakened" : "Whole"; });
+
+// In the sum of a particle its own halves count, plastic parts as damaged as they are in tension.
+TEST(ExplicitFlowRows, SumsTakeTheParticlesOwnHalvesWithTheirWeights) {
+  const ExplicitModel model =
+      block(Problem::plane_stress, std::numeric_limits<double>::infinity(), true);
+  const LatticeRows& lattice = model.lattice;
+  const LatticeParticles particles(model);
+  ExplicitState state(model);
+  weaken(model, state);
+  for (std::size_t k = 0; k < state.flow.stretch.size(); ++k) {
+    state.flow.stretch[k] = 1e-4 * std::sin(0.7 * static_cast<double>(k));
+  }
+  const auto rows = static_cast<Index>(lattice.rows.size());
+  for (Index r = 0; r < rows; ++r) update_plastic_parts(model, state, r);
+  for (Index r = 0; r < rows; ++r) add_plastic_halves(model, state, r);
+  evaluate(model, state);
+  for (Index r = 0; r < rows; ++r) {
+    for (Index n = 0; n < lattice.rows[r].size; ++n) {
+      const Index slot = lattice.rows[r].first + n;
+      if (model.inverse_mass[slot] == 0.0) continue;
+      const auto family = particles.family(state, r, slot);
+      double expected = 0.0;
+      for (int j = 0; j < family.bonds; ++j) {
+        if (!family.has(j)) continue;
+        const Index at = family.at[j];
+        const double stretch = state.now.stretch[family.now_at[j]], side = family.side(j);
+        const auto weight = [&](bool tension) {
+          const double share = (tension ? state.share_tension : state.share_compression)[at];
+          return (side > 0.0 ? share : 2.0 - share) *
+                 (tension ? state.root_tension : state.root_compression)[slot];
+        };
+        expected += weight(stretch >= 0.0) * stretch + weight(true) * side * state.flow.half[at];
+      }
+      EXPECT_NEAR(state.now.sum[family.now], expected, 1e-17);
+      EXPECT_GT(std::abs(expected), 1e-15);
     }
   }
 }

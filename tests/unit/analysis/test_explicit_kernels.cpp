@@ -26,23 +26,6 @@ void shake(const ExplicitModel& model, ExplicitState& state, double size) {
   }
 }
 
-/// Some bonds weaker, differently in tension and compression.
-void weaken(const ExplicitModel& model, ExplicitState& state) {
-  for (std::size_t k = 0; k < state.in_tension.size(); ++k) {
-    state.in_tension[k] *= 0.5 + 0.5 * std::sin(0.7 * static_cast<double>(k));
-    state.in_compression[k] *= 0.8 + 0.2 * std::cos(1.3 * static_cast<double>(k));
-    state.share_tension[k] = 1.0 + 0.5 * std::sin(0.3 * static_cast<double>(k));
-    state.share_compression[k] = 1.0 + 0.2 * std::cos(0.9 * static_cast<double>(k));
-  }
-  for (std::size_t slot = 0; slot < state.root_tension.size(); ++slot) {
-    if (model.rules != LatticeRules::consistent) break;
-    state.root_tension[slot] = 0.6 + 0.4 * std::sin(1.1 * static_cast<double>(slot));
-    state.root_compression[slot] = 0.8 + 0.2 * std::cos(1.7 * static_cast<double>(slot));
-  }
-  for (std::uint8_t& duty : state.duty) duty |= RowDuty::altered | RowDuty::weakened;
-  ASSERT_EQ(model.lattice.present.size(), state.in_tension.size());
-}
-
 ExplicitModel block(Problem problem, LatticeRules rules, bool breakable = false) {
   LatticeMaterial material = elastic_concrete();
   material.breakable = breakable;

@@ -62,10 +62,8 @@ LatticeTest tension_test(const std::string& variant, double degrees) {
 }
 
 LatticeTest spaced_tension_test(double degrees, double spacing) {
-  constexpr double until = 0.6;  // of the drive of 0.3 mm, with openings up to 0.2 mm
   LatticeTest test = tension_test("consistent", degrees);
   test.spacing = spacing;
-  test.change = [](CaseFile& input) { input.analysis.duration *= until; };
   return test;
 }
 

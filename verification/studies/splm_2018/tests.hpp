@@ -23,7 +23,7 @@ inline const std::vector<std::string> variants = {"2017", "2018", "consistent"};
 
 /// Rules of the papers take their time step, the consistent ones nine tenths of the critical one.
 LatticeTest tension_test(const std::string& variant, double degrees);
-/// By the consistent rules at any spacing, until a crack that is driven apart has to be open.
+/// By the consistent rules at any spacing, in the box that is cut at 0.01 m.
 LatticeTest spaced_tension_test(double degrees, double spacing);
 /// Mean section of the lattice of a block that is pulled along y: the volume of its particles over
 /// its height [m^2].
