@@ -24,8 +24,8 @@ inline void evaluate(const ExplicitModel& model, ExplicitState& state) {
   std::fill(state.slack.begin(), state.slack.end(), 0.0);
 }
 
-/// Some bonds weaker, differently in tension and compression; by the consistent rules with weights of
-/// their own in the sums.
+/// Some bonds weaker, differently in tension and compression; by the consistent rules with weights
+/// of their own in the sums.
 inline void weaken(const ExplicitModel& model, ExplicitState& state) {
   for (std::size_t k = 0; k < state.in_tension.size(); ++k) {
     const auto number = static_cast<double>(k);
