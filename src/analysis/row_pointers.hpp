@@ -17,12 +17,12 @@ inline constexpr int group = 3;
 
 /// An array of a slot-shaped field, from the first slot of a row; null where there is none.
 inline const double* at(const std::vector<double>& field, const LatticeRows& lattice, Index part,
-                 const LatticeRow& row) {
+                        const LatticeRow& row) {
   if (field.empty()) return nullptr;
   return field.data() + static_cast<std::size_t>(part) * lattice.slots + row.first;
 }
 inline double* at(std::vector<double>& field, const LatticeRows& lattice, Index part,
-           const LatticeRow& row) {
+                  const LatticeRow& row) {
   if (field.empty()) return nullptr;
   return field.data() + static_cast<std::size_t>(part) * lattice.slots + row.first;
 }
