@@ -294,15 +294,16 @@ int check_case(const std::string& case_path) {
   }
   if (input.analysis.type == "relaxation") return check_relaxation(case_path, input);
   const Timer timer;
-  const Model model = build_model_visibly(input, false);
+  const Model model = draft_model(input);
   const double set_up = timer.seconds();
+  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_sizes(model);
+  std::fflush(stdout);  // the order of the unknowns of a large body takes a while
+
   const Network& network = model.network;
   const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
   const FactorStatistics factor = estimate_factor(
       assemble_stiffness(network, intact, model.unknowns), particle_of_unknown(model.unknowns));
-
-  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
-  print_sizes(model);
   print_cost(input, network, factor, set_up);
   return exit_done;
 }

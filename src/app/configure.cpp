@@ -270,37 +270,40 @@ Network build_case_network(const CaseFile& input, const Body& body, const Networ
 }
 
 /// The calibration of clouds, of bodies in space and of micropolar bonds can take minutes. What it
-/// does not change (regions, loads, whether the body is held, gauges) is looked at before, on the
-/// same bonds with the continuum's stiffness, which cost a hundredth of it. Trusses on lattices in
-/// the plane are calibrated in less time than their matrix is factorised.
+/// does not change (regions, loads, whether the body is held, gauges) is looked at before. Trusses
+/// on lattices in the plane are calibrated in less time than their matrix is factorised.
 void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkInput network,
                                const Model& model) {
   if (body.lattice.surface != Surface::calibrated) return;
   const bool quick = body.lattice.pattern != Pattern::irregular && body.particles.dim == 2 &&
                      network.model == BondModel::bond_based;
   if (quick) return;
-  Body plain = body;
-  plain.lattice.surface = Surface::none;
-  network.micromodulus = network.critical_stretch = Constants::continuum;
+  network.draft = true;
   Model draft = model;
-  draft.network = build_case_network(input, plain, network);
-  draft.facets = std::move(plain.facets);
-  draft.cells = std::move(plain.cells);
-  draft.groups = std::move(plain.groups);
+  draft.network = build_case_network(input, body, network);
+  draft.facets = body.facets;
+  draft.cells = body.cells;
+  draft.groups = body.groups;
   refuse_cracks_without_bonds(input, draft.network);
   refuse_unbreakable_bodies(input, draft.network);
   apply_boundary_conditions(input, draft);
   build_gauges(input, draft);
 }
 
-void build_bonds(const CaseFile& input, const CalibrationObserver& on_search, Body& body,
-                 Model& model) {
+/// How the bonds of a model are calibrated.
+struct BondOptions {
+  bool draft = false;  ///< not at all
+  CalibrationObserver on_search;
+};
+
+void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {
   refuse_bars_outside(input, body);
   NetworkInput network = network_input(input, model.problem, model.horizon);
-  network.on_search = on_search;
+  network.on_search = options.on_search;
+  network.draft = options.draft;
   refuse_poissons_ratios(input, body, network);
   refuse_impossible_cracks(input, body.particles.dim);
-  refuse_before_calibration(input, body, network, model);
+  if (!options.draft) refuse_before_calibration(input, body, network, model);
   model.network = build_case_network(input, body, network);
   refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
@@ -309,7 +312,7 @@ void build_bonds(const CaseFile& input, const CalibrationObserver& on_search, Bo
 }
 
 /// Particles, and bonds or elements, of every body but lattices of state-based particles.
-Model build_bodies_model(const CaseFile& input, const CalibrationObserver& on_search) {
+Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
   Model model;
   model.problem = problem_of(input);
   const int dim = dimension_of(model.problem);
@@ -317,7 +320,7 @@ Model build_bodies_model(const CaseFile& input, const CalibrationObserver& on_se
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
   if (has_horizon(input.body)) {
-    build_bonds(input, on_search, body, model);
+    build_bonds(input, options, body, model);
   } else if (is_particles(input.body)) {
     build_particles(input, body, model);
   } else {
@@ -326,6 +329,19 @@ Model build_bodies_model(const CaseFile& input, const CalibrationObserver& on_se
   model.facets = std::move(body.facets);
   model.cells = std::move(body.cells);
   model.groups = std::move(body.groups);
+  return model;
+}
+
+Model build_model_with(const CaseFile& input, const BondOptions& options) {
+  Model model =
+      is_lattice(input.body) ? build_lattice_model(input) : build_bodies_model(input, options);
+  apply_boundary_conditions(input, model);
+  model.gauges = build_gauges(input, model);
+  for (const MaterialSection& material : input.materials) {
+    model.hooke.push_back(
+        hooke_constants(model.problem, material.youngs_modulus,
+                        material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
+  }
   return model;
 }
 
@@ -338,17 +354,10 @@ Problem problem_of(const CaseFile& input) {
 }
 
 Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
-  Model model =
-      is_lattice(input.body) ? build_lattice_model(input) : build_bodies_model(input, on_search);
-  apply_boundary_conditions(input, model);
-  model.gauges = build_gauges(input, model);
-  for (const MaterialSection& material : input.materials) {
-    model.hooke.push_back(
-        hooke_constants(model.problem, material.youngs_modulus,
-                        material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
-  }
-  return model;
+  return build_model_with(input, {false, on_search});
 }
+
+Model draft_model(const CaseFile& input) { return build_model_with(input, {true, {}}); }
 
 DamageOptions damage_options(const CaseFile& input, int threads) {
   DamageOptions options;

@@ -61,6 +61,8 @@ struct NetworkInput {
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< of each bar
   CalibrationObserver on_search;           ///< of calibrated bonds; may be empty
+  bool draft = false;  ///< bonds as they are before calibration: whatever does not depend on it can
+                       ///< be asked before it is paid for
 };
 
 /// Constants c [force/length^6] and d [force/length^4] of the bonds of a material of the body; d is

@@ -45,6 +45,7 @@ class Correction {
 
   void energy();
   void calibrate();
+  void balance(const CalibrationInput& calibration);
 
  private:
   bool on_lattice() const { return body_.lattice.pattern != Pattern::irregular; }
@@ -206,6 +207,17 @@ void Correction::calibrate() {
   }
   // What single bonds lose or gain from here on is no measure of their strength.
   network_.bending_ratio = own_bending_ratios(network_);
+  if (!input_.draft) balance(calibration);
+  if (!family) {
+    set_strength_of_cloud(input_, network_);
+  } else if (input_.critical_stretch == Constants::lattice) {
+    set_critical_stretches(input_, *family, body_.lattice.cell_volume, network_);
+  }
+  if (network_.calibration) network_.calibration->seconds = timer.seconds();
+}
+
+/// Bonds that may carry nothing are taken out.
+void Correction::balance(const CalibrationInput& calibration) {
   BondStiffness stiffness{network_.stiffness, network_.bending, {}};
   CalibrationOptions options;
   options.on_search = input_.on_search;
@@ -218,12 +230,6 @@ void Correction::calibrate() {
     for (const double k : network_.stiffness) keep.push_back(k > 0.0);
     keep_elements(network_, keep);
   }
-  if (!family) {
-    set_strength_of_cloud(input_, network_);
-  } else if (input_.critical_stretch == Constants::lattice) {
-    set_critical_stretches(input_, *family, body_.lattice.cell_volume, network_);
-  }
-  network_.calibration->seconds = timer.seconds();
 }
 
 }  // namespace
