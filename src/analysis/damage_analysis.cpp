@@ -8,6 +8,7 @@
 
 #include "analysis/path_energy.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/timer.hpp"
 
 namespace perilink {
@@ -53,12 +54,13 @@ class Run {
                                     : reference_.value * reference_.value / initial_work_;
   }
 
-  /// A solver that cannot go on ends the run like any other ending: with all that was found so far.
+  /// A solver that cannot go on, no memory or a full disk of an observer end the run like any other
+  /// ending: with all that was found so far.
   DamageResult go() {
     try {
       return options_.load_factors.empty() ? by_events() : by_steps();
-    } catch (const SolverError& error) {
-      end(Ending::failed, error.what());
+    } catch (const std::exception& error) {
+      end(Ending::failed, failure_text(error));
     }
     result_.last = row_;
     result_.broken_bonds = broken_bonds_;

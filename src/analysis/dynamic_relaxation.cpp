@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "analysis/particle_blocks.hpp"
+#include "base/memory.hpp"
 
 namespace perilink {
 namespace {
@@ -63,15 +64,14 @@ class Relaxation {
       at_rest_ = false;
 #pragma omp parallel num_threads(blocks_.threads(options_.threads))
       while (!at_rest_ && !done_) iterate();
-      if (failure_) std::rethrow_exception(failure_);
-      if (at_rest_) note_row();
+      if (at_rest_) observe([&] { note_row(); });
     }
     if (!done_) {
       result_.reason = fmt::format("{} load step{} at rest", options_.load_factors.size(),
                                    options_.load_factors.size() == 1 ? "" : "s");
       result_.residual = largest_residual_;
       result_.error = largest_error_;
-      observer_.on_end(record_, state());
+      observe([&] { observer_.on_end(record_, state()); });
     }
     result_.last = record_;
     result_.displacement = motion_.displacement;
@@ -193,12 +193,20 @@ class Relaxation {
                       result_.residual, result_.error, options_.tolerance));
     }
     if (iteration_ % iterations_between_checks != 0 || done_) return;
-    try {  // nothing may leave a parallel region
+    observe([&] {
       observer_.on_iteration(static_cast<Index>(step_) + 1, iteration_, result_.residual);
       if (observer_.stop_requested()) end(Ending::interrupted, "interrupted");
-    } catch (...) {
-      failure_ = std::current_exception();
-      done_ = true;
+    });
+  }
+
+  /// What an observer throws ends the run with all that was found so far; nothing may leave a
+  /// parallel region.
+  template <class Action>
+  void observe(const Action& action) {
+    try {
+      action();
+    } catch (const std::exception& error) {
+      end(Ending::failed, failure_text(error));
     }
   }
 
@@ -295,7 +303,6 @@ class Relaxation {
   double square_ = 0.0;  ///< of the frequency that is damped, as last known
   bool at_rest_ = false, done_ = false, starts_ = true, restart_ = true;
   BlockSums sums_of_row_;
-  std::exception_ptr failure_;
   ExplicitRecord record_;
   RelaxationResult result_;
 };

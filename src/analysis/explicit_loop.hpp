@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <exception>
+#include <string>
 
 #include "analysis/explicit_analysis.hpp"
+#include "base/memory.hpp"
 
 namespace perilink {
 
@@ -21,12 +23,12 @@ class ExplicitLoop {
   bool is_looked_at(Index step) const { return is_row(step) || step % steps_between_checks == 0; }
 
   /// Calls one_step(step) for every step, each by all threads.
-  /// \throws what an observer threw
+  /// What an observer throws ends the run as failed.
   template <class OneStep>
   ExplicitResult run(int threads, OneStep one_step) {
 #pragma omp parallel num_threads(threads)
     for (Index step = 0; step <= steps_ && !done_; ++step) one_step(step);
-    if (failure_) std::rethrow_exception(failure_);
+    if (!failure_.empty()) end(Ending::failed, failure_);
     return result_;
   }
 
@@ -72,13 +74,13 @@ class ExplicitLoop {
   void check_growth(Index step, const EnergyBalance& energy);
   void note_row(const ExplicitRecord& record);
 
-  /// Exceptions must not leave a parallel region: the run ends and run() throws them again.
+  /// Exceptions must not leave a parallel region.
   template <class Action>
   void guarded(const Action& action) {
     try {
       action();
-    } catch (...) {
-      failure_ = std::current_exception();
+    } catch (const std::exception& error) {
+      failure_ = failure_text(error);
       done_ = true;
     }
   }
@@ -87,7 +89,7 @@ class ExplicitLoop {
   Index steps_ = 0, between_rows_ = 1;
   double initial_ = 0.0, supplied_ = 0.0, largest_surplus_ = 0.0;  ///< energies
   bool done_ = false, overflowed_ = false;
-  std::exception_ptr failure_;
+  std::string failure_;  ///< of an observer
   ExplicitResult result_;
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "app/particle_model.hpp"
 #include "app/run_doubts.hpp"
 #include "app/signals.hpp"
+#include "app/summary_file.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
 
@@ -170,7 +170,7 @@ bool BondRunFiles::stop_requested() { return stop_signal_received(); }
 
 void BondRunFiles::finish() {
   bar_.finish();
-  history_.flush();
+  history_.finish();
 }
 
 void write_summary(const std::filesystem::path& directory, const CaseFile& input,
@@ -215,11 +215,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["threads"] = threads;
   json["version"] = program_version();
   json["commit"] = program_commit();
-  const std::filesystem::path path = directory / "summary.json";
-  std::ofstream file(path);
-  file << json.dump(2) << "\n";
-  file.close();
-  if (!file) throw FileError(fmt::format("{}: cannot be written", path.string()));
+  write_summary_file(directory, json);
 }
 
 void print_summary(const std::filesystem::path& directory, const CaseFile& input,

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "app/commands.hpp"
 #include "app/comparison.hpp"
+#include "app/console.hpp"
 #include "app/plot_comparison.hpp"
 #include "base/error.hpp"
+#include "base/files.hpp"
 
 namespace perilink {
 namespace {
@@ -32,13 +33,6 @@ void prepare_directory(const fs::path& directory, bool force) {
   }
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw FileError(fmt::format("{}: cannot be written", path.string()));
-}
-
 }  // namespace
 
 int compare(const CompareOptions& options) {
@@ -48,10 +42,11 @@ int compare(const CompareOptions& options) {
                                                : fs::path("results") / (a.name + "_vs_" + b.name);
   prepare_directory(directory, options.force);
   const Comparison comparison = compare_results(a, b);
-  write_text(directory / "compare.csv", comparison_csv(a, b, comparison));
+  write_whole_file((directory / "compare.csv").string(), comparison_csv(a, b, comparison));
   draw_comparison(a, b).save((directory / "compare.svg").string());
   if (!options.quiet) {
-    fmt::print("{}comparison in {}\n", comparison_report(a, b, comparison), directory.string());
+    say(fmt::format("{}comparison in {}\n", comparison_report(a, b, comparison),
+                    directory.string()));
   }
   return exit_done;
 }

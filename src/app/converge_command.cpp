@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include "app/commands.hpp"
+#include "app/console.hpp"
 #include "app/plot_convergence.hpp"
 #include "app/progress.hpp"
 #include "app/result_directory.hpp"
@@ -16,6 +17,8 @@
 #include "app/study_run.hpp"
 #include "app/study_table.hpp"
 #include "base/error.hpp"
+#include "base/files.hpp"
+#include "base/plain_text.hpp"
 #include "io/case_sections.hpp"
 
 namespace perilink {
@@ -24,10 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw FileError(fmt::format("{}: cannot be written", path.string()));
+  write_whole_file(path.string(), text);
 }
 
 /// The study is written to DIR/study.toml; it must not take the place of the user's own file.
@@ -79,9 +79,11 @@ void write_pictures(const fs::path& directory, const Results& results) {
 }
 
 void tell(const StudyMember& member, const StudySeries& series, std::size_t done, std::size_t all) {
-  fmt::print(stderr, "[{}/{}] {}, {} {}: {}\n", done, all, series.name, member.refinement.key,
-             refinement_text(member.refinement),
-             member.failed() ? "failed" : format_duration(member.seconds.total()));
+  const std::string line =
+      fmt::format("[{}/{}] {}, {} {}: {}\n", done, all, series.name, member.refinement.key,
+                  refinement_text(member.refinement),
+                  member.failed() ? "failed" : format_duration(member.seconds.total()));
+  std::fputs(printable(line).c_str(), stderr);
 }
 
 /// While people at a terminal see how the calibration of its bonds comes along.
@@ -112,14 +114,14 @@ bool run_members(const fs::path& directory, Results& results, int threads, bool 
 
 int exit_status_of(const Results& results, bool complete) {
   if (!complete) {
-    fmt::print(stderr, "perilink: interrupted; the results so far are kept\n");
+    complain("interrupted; the results so far are kept");
     return exit_interrupted;
   }
   const auto good = std::find_if(results.members.begin(), results.members.end(),
                                  [](const StudyMember& member) { return !member.failed(); });
   if (good != results.members.end()) return exit_done;
-  fmt::print(stderr, "perilink: every member of the study failed, the first one so:\n{}\n",
-             results.members.front().failure);
+  complain("every member of the study failed, the first one so:\n" +
+           results.members.front().failure);
   return results.members.front().bad_input ? exit_bad_input : exit_solver;
 }
 
@@ -142,14 +144,15 @@ int converge(const RunOptions& options) {
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
   refuse_own_study(directory, options.case_path);
-  prepare_result_directory(directory, options.force);
+  const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
   write_text(directory / "study.toml", write_study(results.study, directory.string()));
   const bool complete = run_members(directory, results, threads, options.quiet);
   write_pictures(directory, results);
   if (!options.quiet) {
-    fmt::print("{}\n{}\nresults in {}\n", results.study.title,
-               study_report(results.study, results.series, results.members), directory.string());
+    say(fmt::format("{}\n{}\nresults in {}\n", results.study.title,
+                    study_report(results.study, results.series, results.members),
+                    directory.string()));
   }
   return exit_status_of(results, complete);
 }

@@ -82,13 +82,15 @@ void ExplicitHistory::append(const ExplicitRecord& record, std::span<const doubl
   history_.write_row(row);
   timing_.write_row({row[0], since_row_.seconds()});
   since_row_.restart();
-  if (since_flush_.seconds() > seconds_between_flushes) flush();
-}
-
-void ExplicitHistory::flush() {
+  if (since_flush_.seconds() < seconds_between_flushes) return;
   history_.flush();
   timing_.flush();
   since_flush_.restart();
+}
+
+void ExplicitHistory::finish() {
+  history_.finish();
+  timing_.finish();
 }
 
 }  // namespace perilink

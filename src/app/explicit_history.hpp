@@ -31,8 +31,8 @@ class ExplicitHistory {
 
   /// \param gauges  values of the further columns
   void append(const ExplicitRecord& record, std::span<const double> gauges = {});
-  /// \throws FileError
-  void flush();
+  /// Brings all rows to the disk. \throws FileError
+  void finish();
 
  private:
   CrackCount count_;

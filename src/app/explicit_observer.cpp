@@ -78,7 +78,7 @@ bool ExplicitRunObserver::stop_requested() { return stop_signal_received(); }
 
 void ExplicitRunObserver::finish() {
   bar_.finish();
-  history_.flush();
+  history_.finish();
 }
 
 }  // namespace perilink

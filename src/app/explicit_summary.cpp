@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/run_doubts.hpp"
+#include "app/summary_file.hpp"
 #include "base/build_info.hpp"
-#include "base/error.hpp"
 
 namespace perilink {
 
@@ -60,11 +59,7 @@ void write_summary(const std::filesystem::path& directory, const ExplicitSummary
   json["version"] = program_version();
   json["commit"] = program_commit();
 
-  const std::filesystem::path path = directory / "summary.json";
-  std::ofstream file(path);
-  file << json.dump(2) << "\n";
-  file.close();
-  if (!file) throw FileError(fmt::format("{}: cannot be written", path.string()));
+  write_summary_file(directory, json);
 }
 
 void print_summary(const std::filesystem::path& directory, const ExplicitSummary& summary) {

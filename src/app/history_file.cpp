@@ -1,7 +1,10 @@
 #include "app/history_file.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "base/error.hpp"
@@ -16,15 +19,23 @@ struct Column {
   const char* name;
   double (*get)(const StepRecord&);
   void (*set)(StepRecord&, double);
+  bool counts;  ///< holds whole numbers
 };
 
 template <auto Member>
 constexpr Column column(const char* name) {
+  using Value = std::remove_reference_t<decltype(StepRecord{}.*Member)>;
   return {name, [](const StepRecord& record) { return static_cast<double>(record.*Member); },
-          [](StepRecord& record, double value) {
-            using Value = std::remove_reference_t<decltype(record.*Member)>;
-            record.*Member = static_cast<Value>(value);
-          }};
+          [](StepRecord& record, double value) { record.*Member = static_cast<Value>(value); },
+          std::is_integral_v<Value>};
+}
+
+/// Squares of what is larger leave the range of double precision, and axes of what is finite.
+constexpr double largest_number = 1e150;
+
+/// Whether an integer of a row can hold it; -1 stands for no element.
+bool is_count(double value) {
+  return value >= -1.0 && value <= std::numeric_limits<Index>::max() && std::trunc(value) == value;
 }
 
 constexpr std::array columns = {
@@ -68,19 +79,27 @@ void HistoryFile::append(const StepRecord& record, std::span<const double> gauge
   row.insert(row.end(), gauges.begin(), gauges.end());
   history_.write_row(row);
   timing_.write_row({static_cast<double>(record.step), record.seconds});
-  if (since_flush_.seconds() > seconds_between_flushes) flush();
-}
-
-void HistoryFile::flush() {
+  if (since_flush_.seconds() < seconds_between_flushes) return;
   history_.flush();
   timing_.flush();
   since_flush_.restart();
 }
 
-std::vector<StepRecord> read_history(const std::string& path) {
-  const CsvTable table = read_csv(path);
+void HistoryFile::finish() {
+  history_.finish();
+  timing_.finish();
+}
+
+std::vector<StepRecord> history_records(const CsvTable& table, const std::string& path) {
   for (const char* needed : {"load", "displacement"}) {
     if (table.column(needed) < 0) throw FileError(path + ": has no column '" + needed + "'");
+  }
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    for (const double value : table.rows[row]) {
+      if (std::abs(value) <= largest_number) continue;
+      throw FileError(
+          fmt::format("{}: row {} holds {}, too large for any run", path, row + 1, value));
+    }
   }
   std::vector<StepRecord> records(table.rows.size());
   for (const Column& column : columns) {
@@ -88,10 +107,23 @@ std::vector<StepRecord> read_history(const std::string& path) {
     if (place < 0) continue;
     for (std::size_t row = 0; row < records.size(); ++row) {
       const double value = table.rows[row][static_cast<std::size_t>(place)];
-      if (std::isfinite(value)) column.set(records[row], value);
+      if (column.counts && !is_count(value)) {
+        throw FileError(fmt::format("{}: row {}: column {} holds {}, which is no count", path,
+                                    row + 1, column.name, value));
+      }
+      column.set(records[row], value);
     }
   }
+  for (std::size_t row = 1; row < records.size() && table.column("step") >= 0; ++row) {
+    if (records[row].step > records[row - 1].step) continue;
+    throw FileError(fmt::format("{}: row {}: step {} comes after step {}", path, row + 1,
+                                records[row].step, records[row - 1].step));
+  }
   return records;
+}
+
+std::vector<StepRecord> read_history(const std::string& path) {
+  return history_records(read_csv(path), path);
 }
 
 }  // namespace perilink

@@ -21,9 +21,9 @@ class HistoryFile {
 
   /// \param gauges  values of the further columns
   void append(const StepRecord& record, std::span<const double> gauges = {});
-  /// Call it at the end and when a signal stops the run, to learn of a full disk.
+  /// Brings all rows to the disk: call it at the end, to learn of a full disk.
   /// \throws FileError
-  void flush();
+  void finish();
 
  private:
   CsvWriter history_;
@@ -34,8 +34,17 @@ class HistoryFile {
 /// Columns that every history has.
 std::vector<std::string> history_columns();
 
+/// What to say where CsvTable::cut_off is set.
+inline constexpr const char* cut_off_note =
+    "history.csv ends within a row, which is left out: the run was killed, or the file is damaged";
+
 /// Rows of a history.csv; columns that the file lacks keep their defaults.
-/// \throws FileError when the file or one of its columns load and displacement is missing
+/// \param path  only named in messages
+/// \throws FileError when one of the columns load and displacement is missing, or when numbers
+/// cannot be those of a run: counts that are no whole numbers, steps that do not grow
+std::vector<StepRecord> history_records(const CsvTable& table, const std::string& path);
+
+/// The same from the file.
 std::vector<StepRecord> read_history(const std::string& path);
 
 }  // namespace perilink

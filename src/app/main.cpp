@@ -1,13 +1,23 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/console.hpp"
 #include "app/plot.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
+#include "base/files.hpp"
+#include "base/memory.hpp"
 
 namespace {
 
@@ -15,6 +25,24 @@ constexpr const char* footer =
     "Exit status: 0 done (also when the specimen collapsed), 2 bad input, 3 solver failure,\n"
     "4 interrupted (results so far are kept). Case files are described in docs/case_file.md,\n"
     "studies in docs/studies.md, comparisons in docs/compare.md.";
+
+/// Scales beyond draw nothing but round-off.
+constexpr double largest_scale = 1e12;
+
+const CLI::Validator is_scale(
+    [](const std::string& text) -> std::string {
+      double value = 0.0;
+      const bool number = CLI::detail::lexical_cast(text, value);
+      if (number && value > 0.0 && value <= largest_scale) return "";
+      return fmt::format("{} is no factor: give a number above 0, at most {}", text, largest_scale);
+    },
+    "NUMBER > 0");
+
+/// Whether a word of the command line could steer the terminal in a message that names it.
+bool steers_terminal(std::string_view word) {
+  return std::any_of(word.begin(), word.end(),
+                     [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+}
 
 /// What all commands that compute have in common.
 void add_run_options(CLI::App& command, perilink::RunOptions& options) {
@@ -43,14 +71,56 @@ void add_plot_command(CLI::App& app, perilink::PlotOptions& options) {
   command->add_option("directory", options.directory, "Directory of the results")->required();
   command->add_option("--out", options.out, "Directory of the pictures [the same]");
   command->add_option("--scale", options.scale, "Factor on the displacements [automatic]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(is_scale);
+}
+
+/// Memory that ran out where nobody could catch it, in a loop of many threads: what is written
+/// stays readable, and the summary says that the run did not come to its end.
+[[noreturn]] void end_without_handler() {
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc& error) {
+    perilink::complain(perilink::failure_text(error));
+    std::_Exit(perilink::exit_solver);
+  } catch (...) {
+  }
+  std::abort();
+}
+
+/// Calls a command and turns its failures into exit statuses.
+template <class Command>
+int with_exit_status(const Command& command) {
+  using namespace perilink;
+  try {
+    return command();
+  } catch (const InputError& error) {
+    complain(std::string("bad input: ") + error.what());
+    return exit_bad_input;
+  } catch (const DiskFull& error) {
+    complain(error.what());
+    return exit_solver;
+  } catch (const FileError& error) {
+    complain(error.what());
+    return exit_bad_input;
+  } catch (const std::exception& error) {
+    complain(failure_text(error));
+    return exit_solver;
+  }
+}
+
+/// What is not the program's to answer with a signal.
+void set_up_process() {
+  std::set_terminate(end_without_handler);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a full disk
+  std::signal(SIGPIPE, SIG_IGN);  // nobody reads the progress any more: the run goes on
 }
 
 }  // namespace
 
-/// The program: reads the command line, calls one command, turns failures into exit statuses.
+/// The program: reads the command line and calls one command.
 int main(int argc, char** argv) {
   using namespace perilink;
+  set_up_process();
   CLI::App app{"Perilink: implicit quasistatic peridynamics, damage event by event"};
   app.set_version_flag("--version", build_summary());
   app.require_subcommand(1);
@@ -78,6 +148,11 @@ int main(int argc, char** argv) {
   PlotOptions plot;
   add_plot_command(app, plot);
 
+  for (const char* word : std::span(argv, argc)) {
+    if (!steers_terminal(word)) continue;
+    complain(fmt::format("{}: names must not hold control characters", word));
+    return exit_bad_input;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -85,25 +160,16 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const std::vector<std::string> unknown = app.remaining();
     if (app.get_subcommands().empty() && !unknown.empty()) {
-      fmt::print(stderr, "perilink: there is no command or option {}\n", unknown.front());
+      complain("there is no command or option " + unknown.front());
     }
     app.exit(error);
     return exit_bad_input;
   }
-  try {
+  return with_exit_status([&] {
     if (run_command->parsed()) return run_case(run);
     if (converge_command->parsed()) return converge(study);
     if (compare_command->parsed()) return compare(compared);
     if (check_command->parsed()) return check_case(checked_case);
     return plot_results(plot);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "perilink: bad input: {}\n", error.what());
-    return exit_bad_input;
-  } catch (const FileError& error) {
-    fmt::print(stderr, "perilink: {}\n", error.what());
-    return exit_bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "perilink: {}\n", error.what());
-    return exit_solver;
-  }
+  });
 }

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include "app/commands.hpp"
+#include "app/console.hpp"
 #include "app/history_file.hpp"
 #include "app/plot_curve.hpp"
 #include "app/plot_fields.hpp"
+#include "app/summary_file.hpp"
+#include "base/error.hpp"
 #include "io/csv.hpp"
 #include "io/vtu.hpp"
 
@@ -21,7 +24,14 @@ namespace fs = std::filesystem;
 
 void save(const Svg& svg, const fs::path& path) {
   svg.save(path.string());
-  fmt::print("{}\n", path.string());
+  say(path.string() + "\n");
+}
+
+/// A number of a field file that names a picture.
+Index count_of(const VtuGrid& grid, const char* name, const std::string& path) {
+  const double value = grid.field(name, 0.0);
+  if (value >= 0.0 && value <= std::numeric_limits<Index>::max()) return static_cast<Index>(value);
+  throw FileError(fmt::format("{}: {} is {}, which is no count", path, name, value));
 }
 
 void plot_series(const fs::path& directory, const fs::path& out, const PlotLabels& labels,
@@ -30,19 +40,20 @@ void plot_series(const fs::path& directory, const fs::path& out, const PlotLabel
   for (const PvdEntry& entry : read_pvd((directory / "fields.pvd").string())) {
     const std::string path = (directory / entry.file).string();
     const VtuGrid grid = read_vtu(path);
-    FieldsCaption caption{static_cast<Index>(grid.field("broken_bonds", 0.0)),
-                          grid.field("load_factor", 0.0), grid.field("load", 0.0)};
+    const Index step = count_of(grid, "step", path);
+    FieldsCaption caption{count_of(grid, "broken_bonds", path), grid.field("load_factor", 0.0),
+                          grid.field("load", 0.0)};
     if (const double time = grid.field("time", -1.0); time >= 0.0) {
       caption.time = time;
-      const std::string name = fmt::format("fields_{}.svg", std::lround(grid.field("step", 0.0)));
+      const std::string name = fmt::format("fields_{}.svg", step);
       save(draw_fields(read_body(grid, path), caption, labels, scale), out / name);
       continue;
     }
     // Load steps without a break share the count.
     const bool again = !drawn.insert(caption.broken_bonds).second;
-    const std::string name = again ? fmt::format("fields_{}_step_{}.svg", caption.broken_bonds,
-                                                 std::lround(grid.field("step", 0.0)))
-                                   : fmt::format("fields_{}.svg", caption.broken_bonds);
+    const std::string name = again
+                                 ? fmt::format("fields_{}_step_{}.svg", caption.broken_bonds, step)
+                                 : fmt::format("fields_{}.svg", caption.broken_bonds);
     save(draw_fields(read_body(grid, path), caption, labels, scale), out / name);
   }
 }
@@ -53,10 +64,15 @@ int plot_results(const PlotOptions& options) {
   const fs::path directory = options.directory;
   const fs::path out = options.out.empty() ? directory : fs::path(options.out);
   const std::string history = (directory / "history.csv").string();
-  const std::vector<StepRecord> records = read_history(history);
-  const HistoryPath path =
-      read_csv(history).column("time") < 0 ? HistoryPath::events : HistoryPath::time;
+  const CsvTable table = read_csv(history);
+  const std::vector<StepRecord> records = history_records(table, history);
+  const HistoryPath path = table.column("time") < 0 ? HistoryPath::events : HistoryPath::time;
   const PlotLabels labels = read_labels(directory);
+  if (table.cut_off) complain(std::string("note: ") + cut_off_note);
+  const auto summary = read_summary_file(directory);
+  if (!summary || summary_text(*summary, "status", directory) == "running") {
+    complain("note: the run goes on or was killed; the pictures show what it has written so far");
+  }
   std::error_code failure;
   fs::create_directories(out, failure);  // saving reports what is wrong with it
   save(draw_load_displacement(records, labels, path), out / "load_displacement.svg");

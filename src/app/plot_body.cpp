@@ -80,7 +80,10 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
   body.positions = as_vectors(grid.points);
   body.displacements = as_vectors(point_values("displacement", 3));
   body.damage = point_values("damage", 1);
-  for (const double kind : point_values("kind", 1)) body.kind.push_back(static_cast<int>(kind));
+  for (const double kind : point_values("kind", 1)) {
+    if (!(kind >= 0.0 && kind <= 2.0)) throw FileError(path + ": a particle has no known 'kind'");
+    body.kind.push_back(static_cast<int>(kind));
+  }
   read_lines(grid, values_of(grid.find_cell_data("element"), "element", 1, path), body);
   body.sizes = particle_sizes(grid, body);
   if (const VtuArray* stress = grid.find_point_data("stress"); stress && stress->components == 6) {

@@ -1,7 +1,6 @@
 #include "app/plot_labels.hpp"
 
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include "app/summary_file.hpp"
 
 namespace perilink {
 namespace {
@@ -23,13 +22,9 @@ std::string directory_name(const fs::path& directory) {
 PlotLabels read_labels(const fs::path& directory) {
   PlotLabels labels;
   labels.title = directory_name(directory);
-  std::ifstream file(directory / "summary.json");
-  const nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);
-  if (!summary.is_object()) return labels;
-  const auto text = [&](const char* key) {
-    const auto found = summary.find(key);
-    return found != summary.end() && found->is_string() ? found->get<std::string>() : "";
-  };
+  const auto summary = read_summary_file(directory);
+  if (!summary) return labels;
+  const auto text = [&](const char* key) { return summary_text(*summary, key, directory); };
   if (!text("title").empty()) labels.title = text("title");
   const std::string units = text("units");  // "kip, in, s": of force, of length, of time
   const std::size_t comma = units.find(',');

@@ -15,8 +15,8 @@ struct PlotLabels {
 /// Last part of a path to a directory, "beam" of "results/beam/".
 std::string directory_name(const std::filesystem::path& directory);
 
-/// Labels from DIR/summary.json; the title is that of the directory where it says none. A run that
-/// was killed leaves no summary, and its results are worth a look.
+/// Labels from DIR/summary.json; the title is that of the directory where there is none.
+/// \throws FileError where it cannot be read
 PlotLabels read_labels(const std::filesystem::path& directory);
 
 /// "load (kip)", or "load" without a unit.

@@ -16,7 +16,7 @@ constexpr int bar_width = 24;
 
 /// Over the line that stands there.
 void draw_line(const std::string& text) {
-  fmt::print(stderr, "\r{}\033[K", text);
+  std::fputs(fmt::format("\r{}\033[K", text).c_str(), stderr);  // nothing is thrown: see complain()
   std::fflush(stderr);
 }
 
@@ -50,7 +50,7 @@ void ProgressBar::draw(const std::string& state, std::optional<double> done) {
       done && *done > 0.0 ? fmt::format(", {} left", format_duration(now / *done - now))
                           : fmt::format(", {} so far", format_duration(now));
   if (!terminal_) {
-    fmt::print(stderr, "{}{}\n", state, left);
+    std::fputs(fmt::format("{}{}\n", state, left).c_str(), stderr);
     return;
   }
   std::string bar;

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "analysis/fundamental_period.hpp"
+#include "app/summary_file.hpp"
 #include "base/build_info.hpp"
-#include "base/error.hpp"
 
 namespace perilink {
 
@@ -62,11 +61,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["threads"] = threads;
   json["version"] = program_version();
   json["commit"] = program_commit();
-  const std::filesystem::path path = directory / "summary.json";
-  std::ofstream file(path);
-  file << json.dump(2) << "\n";
-  file.close();
-  if (!file) throw FileError(fmt::format("{}: cannot be written", path.string()));
+  write_summary_file(directory, json);
 }
 
 void print_summary(const std::filesystem::path& directory, const CaseFile& input,

@@ -16,9 +16,22 @@ std::filesystem::path default_result_directory(const std::string& case_path);
 std::vector<std::filesystem::path> refuse_old_results(const std::filesystem::path& directory,
                                                       bool force);
 
-/// Makes the directory of a run. An existing result is refused unless `force` is set; then the
-/// files that a run writes, and only those, are removed.
-/// \throws FileError
-void prepare_result_directory(const std::filesystem::path& directory, bool force);
+/// The directory of a run while it writes. An existing result is refused unless `force` is set;
+/// then the files that a run writes, and only those, are removed. No second run can have the
+/// directory at the same time; when the process ends, in whatever way, it is free again.
+class ResultDirectory {
+ public:
+  /// Makes the directory. \throws FileError
+  ResultDirectory(const std::filesystem::path& directory, bool force);
+  ~ResultDirectory();
+  ResultDirectory(const ResultDirectory&) = delete;
+  ResultDirectory& operator=(const ResultDirectory&) = delete;
+
+ private:
+  int lock_ = -1;  ///< descriptor of the directory
+};
+
+/// Whether a run writes to a directory now.
+bool is_being_written(const std::filesystem::path& directory);
 
 }  // namespace perilink

@@ -1,16 +1,17 @@
 #include <fmt/format.h>
 #include <omp.h>
-#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/details/null_mutex.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include "app/bond_run.hpp"
 #include "app/commands.hpp"
 #include "app/configure.hpp"
+#include "app/console.hpp"
 #include "app/explicit_case.hpp"
 #include "app/explicit_observer.hpp"
 #include "app/explicit_summary.hpp"
@@ -22,7 +23,11 @@
 #include "app/run_observer.hpp"
 #include "app/signals.hpp"
 #include "app/summary.hpp"
+#include "app/summary_file.hpp"
 #include "base/error.hpp"
+#include "base/files.hpp"
+#include "base/memory.hpp"
+#include "base/plain_text.hpp"
 #include "base/timer.hpp"
 
 namespace perilink {
@@ -30,20 +35,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whole lines of printable text in DIR/log.txt.
+class LogSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+ public:
+  explicit LogSink(const fs::path& directory) : file_((directory / "log.txt").string()) {}
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t text;
+    formatter_->format(message, text);
+    std::string line = printable({text.data(), text.size()});
+    file_.append(line);
+  }
+  void flush_() override {}
+
+  LineFile file_;
+};
+
 std::shared_ptr<spdlog::logger> open_log(const fs::path& directory) {
-  auto sink =
-      std::make_shared<spdlog::sinks::basic_file_sink_st>((directory / "log.txt").string(), true);
-  auto log = std::make_shared<spdlog::logger>("perilink", sink);
-  log->flush_on(spdlog::level::info);
+  auto log = std::make_shared<spdlog::logger>("perilink", std::make_shared<LogSink>(directory));
+  log->set_error_handler([](const std::string& fault) { complain(fault); });
   return log;
 }
 
-void write_resolved_case(const fs::path& directory, const CaseFile& input) {
-  std::ofstream file(directory / "case.toml");
-  file << write_case(input);
-  file.close();
-  if (!file)
-    throw FileError(fmt::format("{}: cannot be written", (directory / "case.toml").string()));
+/// Before the analysis begins.
+void write_first_files(const fs::path& directory, const CaseFile& input) {
+  write_running_summary(directory, input);
+  write_whole_file((directory / "case.toml").string(), write_case(input));
+}
+
+/// Does a part of a run. A full disk or no memory ends it as failed with what was found so far; the
+/// first failure is the one that is told.
+template <class Result, class Action>
+void attempt(Result& result, const Action& action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    if (result.ending == Ending::failed) return;
+    result.ending = Ending::failed;
+    result.reason = failure_text(error);
+  }
+}
+
+/// Writes the summary at the end of a run.
+template <class Result, class Action>
+void conclude(Result& result, const Action& write) {
+  if (result.ending == Ending::failed) complain(result.reason);
+  try {
+    write();
+  } catch (const std::exception& error) {
+    complain(failure_text(error));
+    result.ending = Ending::failed;
+  }
 }
 
 /// The resolved case is written to DIR/case.toml; it must not take the place of the user's own
@@ -67,9 +110,9 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
   Timer timer;
   ExplicitCase built = build_explicit_case(input, threads);
   built.options.threads = threads;
-  prepare_result_directory(directory, options.force);
+  const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
-  write_resolved_case(directory, input);
+  write_first_files(directory, input);
   const auto log = open_log(directory);
   log->info("{} : {} particles, {} bonds, {} steps of {:.4g} (critical {:.4g}), {} threads",
             input.path, built.model.lattice.particles(), built.bonds, built.steps, built.time_step,
@@ -81,24 +124,15 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
   timer.restart();
   ExplicitRunObserver observer(input, built, directory, options.quiet);
   ExplicitResult result;
-  try {
+  attempt(result, [&] {
     ExplicitState state(built.model);
     result = run_explicit_analysis(built.model, state, built.options, observer);
-    observer.finish();
-  } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
-    result.ending = Ending::failed;
-    result.reason = error.what();
-  }
-  if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
+  });
+  attempt(result, [&] { observer.finish(); });
   seconds.output = observer.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
   const ExplicitSummary summary{input, built, result, observer, seconds, threads};
-  try {
-    write_summary(directory, summary);
-  } catch (const FileError& error) {
-    fmt::print(stderr, "perilink: {}\n", error.what());
-    result.ending = Ending::failed;
-  }
+  conclude(result, [&] { write_summary(directory, summary); });
   log->info("{}: {}; {} steps, {} cracked particles, energy to {:.2e} of the work",
             to_string(result.ending), result.reason, result.steps, result.last.cracked_particles,
             result.largest_surplus);
@@ -116,9 +150,9 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   const Model model = build_model_visibly(input, options.quiet);
   BondRunCase built = build_bond_run(input, model, threads);
   built.options.threads = threads;
-  prepare_result_directory(directory, options.force);
+  const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
-  write_resolved_case(directory, seen_from(input, directory));
+  write_first_files(directory, seen_from(input, directory));
   const auto log = open_log(directory);
   log->info("{} : {} particles, {}, {} steps of {:.4g} (critical {:.4g}), {} threads", input.path,
             model.network.particles.size(), elements_text(model), built.steps,
@@ -130,23 +164,15 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   timer.restart();
   BondRunFiles files(input, model, built.steps, directory, options.quiet);
   ExplicitResult result;
-  try {
+  attempt(result, [&] {
     result = run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference,
                                 built.inertia, built.rules, built.options, files);
-    files.finish();
-  } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
-    result.ending = Ending::failed;
-    result.reason = error.what();
-  }
-  if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
+  });
+  attempt(result, [&] { files.finish(); });
   seconds.output = files.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
-  try {
-    write_summary(directory, input, model, built, result, files, seconds, threads);
-  } catch (const FileError& error) {
-    fmt::print(stderr, "perilink: {}\n", error.what());
-    result.ending = Ending::failed;
-  }
+  conclude(result,
+           [&] { write_summary(directory, input, model, built, result, files, seconds, threads); });
   log->info("{}: {}; {} steps, {}, energy to {:.2e} of the work", to_string(result.ending),
             result.reason, result.steps, cracks_text(model, result.last), result.largest_surplus);
   for (const std::string& doubt : doubts_about(result, files.peak_load())) {
@@ -161,9 +187,9 @@ int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::p
                    int threads) {
   Timer timer;
   const Model model = build_model_visibly(input, options.quiet);
-  prepare_result_directory(directory, options.force);
+  const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
-  write_resolved_case(directory, seen_from(input, directory));
+  write_first_files(directory, seen_from(input, directory));
   const auto log = open_log(directory);
   log->info("{} : {} particles, {}, {} load steps, {} threads", input.path,
             model.network.particles.size(), elements_text(model),
@@ -176,23 +202,15 @@ int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::p
   BondRunFiles files(input, model, static_cast<Index>(input.analysis.load_factors.size()),
                      directory, options.quiet);
   RelaxationResult result;
-  try {
+  attempt(result, [&] {
     result = run_dynamic_relaxation(model.network, model.unknowns, model.loads, model.reference,
                                     relaxation_options(input, threads), files);
-    files.finish();
-  } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
-    result.ending = Ending::failed;
-    result.reason = error.what();
-  }
-  if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
+  });
+  attempt(result, [&] { files.finish(); });
   seconds.output = files.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
-  try {
-    write_summary(directory, input, model, result, files, seconds, threads);
-  } catch (const FileError& error) {
-    fmt::print(stderr, "perilink: {}\n", error.what());
-    result.ending = Ending::failed;
-  }
+  conclude(result,
+           [&] { write_summary(directory, input, model, result, files, seconds, threads); });
   log->info("{}: {}; {} iterations, {} broken bonds, residual {:.2e}", to_string(result.ending),
             result.reason, result.iterations, result.last.broken_bonds, result.residual);
   if (!options.quiet) print_summary(directory, input, model, result, files, seconds);
@@ -204,9 +222,9 @@ int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::
                     int threads) {
   Timer timer;
   Model model = build_model_visibly(input, options.quiet);
-  prepare_result_directory(directory, options.force);
+  const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
-  write_resolved_case(directory, seen_from(input, directory));
+  write_first_files(directory, seen_from(input, directory));
   const auto log = open_log(directory);
   log->info("{} : {} particles, {}, {} unknowns, {} threads", input.path,
             model.network.particles.size(), elements_text(model), model.unknowns.count, threads);
@@ -217,28 +235,19 @@ int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::
   timer.restart();
   RunObserver observer(input, model, directory, options.quiet);
   DamageResult result;
-  try {
+  attempt(result, [&] {
     const ModelRun run = run_model(input, model, threads, observer);
     result = run.result;
     if (run.elastic) seconds.elastic = run.elastic->seconds;
-    observer.finish();
-  } catch (const std::exception& error) {  // a full disk, no memory: what is written stays readable
-    result.ending = Ending::failed;
-    result.reason = error.what();
-  }
+  });
+  attempt(result, [&] { observer.finish(); });
   if (const auto note = note_of_grips(model, observer.broken())) {
     model.notes.push_back(*note);
     log->info("note: {}", *note);
   }
-  if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
   seconds.output = observer.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
-  try {
-    write_summary(directory, input, model, result, seconds, threads);
-  } catch (const FileError& error) {
-    fmt::print(stderr, "perilink: {}\n", error.what());
-    result.ending = Ending::failed;
-  }
+  conclude(result, [&] { write_summary(directory, input, model, result, seconds, threads); });
   log->info("{}: {}; {} broken bonds, {} factorisations, largest residual {:.2e}",
             to_string(result.ending), result.reason, result.broken_bonds,
             result.factor.factorizations, result.largest_residual);
@@ -264,7 +273,12 @@ int run_case(const RunOptions& options) {
                    : type == "explicit" && lattice ? run_explicit
                    : type == "explicit"            ? run_moving_bonds
                                                    : run_quasistatic;
-  return run(options, input, directory, threads);
+  try {
+    return run(options, input, directory, threads);
+  } catch (const DiskFull& error) {  // among the first files: nothing is computed
+    write_failed_summary(directory, input, error.what());
+    throw;
+  }
 }
 
 }  // namespace perilink

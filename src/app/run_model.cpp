@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/progress.hpp"
+#include "base/memory.hpp"
 
 namespace perilink {
 namespace {
@@ -46,8 +47,8 @@ DamageResult as_history(const Model& model, const ElasticResult& elastic) {
 
 Model build_model_visibly(const CaseFile& input, bool quiet) {
   CalibrationProgress progress(quiet);
-  return build_model(
-      input, [&](int search, double unbalanced) { progress.update(search, unbalanced); });
+  return build_model(input,
+                     [&](int search, double unbalanced) { progress.update(search, unbalanced); });
 }
 
 ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepObserver& observer) {
@@ -62,8 +63,13 @@ ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepO
                     : run_elastic_analysis(model.network, model.unknowns, model.loads, threads);
   run.result = as_history(model, *run.elastic);
   ElasticState state(model.network, *run.elastic);
-  observer.on_step(run.result.last, state);
-  observer.on_end(run.result.last, state);
+  try {
+    observer.on_step(run.result.last, state);
+    observer.on_end(run.result.last, state);
+  } catch (const std::exception& error) {  // a full disk: the answer is there
+    run.result.ending = Ending::failed;
+    run.result.reason = failure_text(error);
+  }
   return run;
 }
 

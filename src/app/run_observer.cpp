@@ -110,7 +110,7 @@ bool RunObserver::stop_requested() { return stop_signal_received(); }
 
 void RunObserver::finish() {
   progress_.finish();
-  history_.flush();
+  history_.finish();
 }
 
 }  // namespace perilink

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/history_file.hpp"
 #include "app/plot_body.hpp"
+#include "app/summary_file.hpp"
 #include "base/error.hpp"
+#include "base/plain_text.hpp"
 #include "io/csv.hpp"
 #include "io/vtu.hpp"
 
@@ -37,39 +38,40 @@ void check_directory(const fs::path& directory) {
 }
 
 void read_summary(const fs::path& directory, RunResult& result) {
-  std::ifstream file(directory / "summary.json");
-  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
-  if (!json.is_object()) {
+  const auto json = read_summary_file(directory);
+  if (!json) {
     result.notes.emplace_back(
-        "unfinished or killed: no summary.json that can be read; the rows so far are compared");
+        "unfinished or killed: no summary.json; the rows so far are compared");
     return;
   }
-  const auto text = [&](const char* key) {
-    const auto found = json.find(key);
-    return found != json.end() && found->is_string() ? found->get<std::string>() : "";
-  };
+  const auto text = [&](const char* key) { return summary_text(*json, key, directory); };
   result.units = text("units");
   result.status = text("status");
-  if (result.status == "interrupted" || result.status == "failed") {
+  if (result.status == "running") {
+    result.notes.emplace_back("unfinished or killed; the rows so far are compared");
+  } else if (result.status == "interrupted" || result.status == "failed") {
     result.notes.push_back(
         fmt::format("{} ({}); the rows so far are compared", result.status, text("reason")));
   }
-  for (const auto& [key, value] : json.items()) {
+  for (const auto& [name, value] : json->items()) {
+    const std::string key = printable(name);
     if (value.is_number()) result.summary.emplace_back(key, value.get<double>());
     if (key != "seconds" || !value.is_object()) continue;
     for (const auto& [phase, seconds] : value.items()) {
-      if (seconds.is_number()) result.summary.emplace_back("seconds." + phase, seconds);
+      if (!seconds.is_number()) continue;
+      result.summary.emplace_back("seconds." + printable(phase), seconds);
     }
   }
 }
 
 void read_rows(const fs::path& directory, RunResult& result) {
   const std::string path = (directory / "history.csv").string();
-  result.records = read_history(path);
+  const CsvTable table = read_csv(path);
+  result.records = history_records(table, path);
   if (result.records.empty()) {
     throw FileError(path + ": has no row yet, there is nothing to compare");
   }
-  const CsvTable table = read_csv(path);
+  if (table.cut_off) result.notes.push_back(cut_off_note);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     result.last_row.emplace_back(table.columns[c], table.rows.back()[c]);
   }

@@ -14,6 +14,7 @@
 #include "app/run_model.hpp"
 #include "app/signals.hpp"
 #include "assembly/fields.hpp"
+#include "base/memory.hpp"
 #include "base/timer.hpp"
 #include "io/case_overrides.hpp"
 #include "io/case_sections.hpp"
@@ -299,7 +300,7 @@ StudyMember run_member(const StudyFile& study, const StudySeries& series,
     member.failure = error.what();
     member.bad_input = true;
   } catch (const std::exception& error) {  // the solver, no memory: the other members go on
-    member.failure = error.what();
+    member.failure = failure_text(error);
   }
   return member;
 }

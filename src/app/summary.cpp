@@ -4,14 +4,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/calibration_text.hpp"
 #include "app/particle_model.hpp"
 #include "app/progress.hpp"
+#include "app/summary_file.hpp"
 #include "base/build_info.hpp"
-#include "base/error.hpp"
 
 namespace perilink {
 
@@ -83,11 +82,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["version"] = program_version();
   json["commit"] = program_commit();
 
-  const std::filesystem::path path = directory / "summary.json";
-  std::ofstream file(path);
-  file << json.dump(2) << "\n";
-  file.close();
-  if (!file) throw FileError(fmt::format("{}: cannot be written", path.string()));
+  write_summary_file(directory, json);
 }
 
 void print_summary(const CaseFile& input, const Model& model, const DamageResult& result,

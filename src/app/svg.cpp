@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 
-#include "base/error.hpp"
+#include "base/files.hpp"
+#include "base/plain_text.hpp"
 
 namespace perilink {
 namespace {
@@ -41,19 +38,12 @@ std::string number(double pixels) {
 
 std::string escape(std::string_view text) {
   std::string escaped;
-  for (const char letter : text) {
+  for (const char letter : printable(text)) {
     switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      default:
-        escaped += letter;
+      case '&': escaped += "&amp;"; break;
+      case '<': escaped += "&lt;"; break;
+      case '>': escaped += "&gt;"; break;
+      default: escaped += letter;
     }
   }
   return escaped;
@@ -132,17 +122,6 @@ void Svg::clip_rect(std::string_view id, SvgPoint corner, double width, double h
 
 std::string Svg::str() const { return body_ + "</svg>\n"; }
 
-void Svg::save(const std::string& path) const {
-  const std::string temporary = path + ".part";
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file << str();
-    file.close();
-    if (!file) throw FileError(temporary + ": cannot be written: " + std::strerror(errno));
-  }
-  std::error_code failure;
-  std::filesystem::rename(temporary, path, failure);
-  if (failure) throw FileError(path + ": cannot be written: " + failure.message());
-}
+void Svg::save(const std::string& path) const { write_whole_file(path, str()); }
 
 }  // namespace perilink

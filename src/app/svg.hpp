@@ -59,7 +59,6 @@ class Svg {
 
   /// The whole file.
   std::string str() const;
-  /// Writes beside the file and renames, so that a viewer never loads half a drawing.
   /// \throws FileError
   void save(const std::string& path) const;
 

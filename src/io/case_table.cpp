@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/plain_text.hpp"
 #include "io/case_schema.hpp"
 
 namespace perilink {
@@ -92,9 +93,8 @@ std::string CaseTable::checked_text(const std::string& key, const TomlValue& val
     refuse(key, fmt::format("is {}, but must be text", describe(value)),
            "write text between quotes");
   }
-  const bool printable = std::all_of(value.text.begin(), value.text.end(),
-                                     [](unsigned char c) { return c >= 0x20 && c != 0x7F; });
-  if (!printable) {
+  if (printable(value.text) != value.text ||
+      value.text.find_first_of("\n\t") != std::string::npos) {
     refuse(key, fmt::format("is {}, with characters that cannot be printed", describe(value)),
            "write one line of plain text");
   }

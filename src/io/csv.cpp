@@ -3,22 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <limits>
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/plain_text.hpp"
 
 namespace perilink {
 namespace {
 
 constexpr std::size_t pending_limit = 64 * 1024;
+constexpr std::size_t npos = std::string::npos;
 
 /// Shortest text that reads back as `value`. Whole numbers keep their digits: shortest alone would
 /// write 100000 as 1e+05.
@@ -50,56 +47,68 @@ std::string_view trim(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
+/// \param place  file, line and column, for messages
 double parse_number(std::string_view field, const std::string& place) {
   field = trim(field);
-  if (field.empty()) return std::numeric_limits<double>::quiet_NaN();
   double value = 0.0;
   const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (status != std::errc{} || end != field.data() + field.size()) {
-    throw FileError(place + ": '" + std::string(field) + "' is not a number");
-  }
-  return value;
+  const bool number = status == std::errc{} && end == field.data() + field.size();
+  if (number && std::isfinite(value)) return value;
+  if (field.empty()) throw FileError(place + " is empty where a number should be");
+  throw FileError(place + " holds '" + printable(field) +
+                  (number ? "', which is not finite" : "', which is not a number"));
 }
 
-std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path + ": cannot be read: " + std::strerror(errno));
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+std::vector<double> parse_row(const std::vector<std::string_view>& fields, const CsvTable& table,
+                              const std::string& place) {
+  if (fields.size() != table.columns.size()) {
+    throw FileError(fmt::format("{}: {} fields, but the header has {}", place, fields.size(),
+                                table.columns.size()));
+  }
+  std::vector<double> row;
+  row.reserve(fields.size());
+  for (std::size_t c = 0; c < fields.size(); ++c) {
+    row.push_back(parse_number(fields[c], fmt::format("{}: column {}", place, table.columns[c])));
+  }
+  return row;
+}
+
+void parse_header(const std::vector<std::string_view>& fields, CsvTable& table,
+                  const std::string& place) {
+  for (const std::string_view field : fields) {
+    std::string name(trim(field));
+    if (name.empty() || table.column(name) >= 0) {
+      throw FileError(fmt::format("{}: column {} of the header {}", place, table.columns.size() + 1,
+                                  name.empty() ? "has no name" : "has the name of another"));
+    }
+    table.columns.push_back(std::move(name));
+  }
 }
 
 }  // namespace
 
 CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& columns)
-    : file_(std::fopen(path.c_str(), "wb")), path_(path), columns_(columns.size()) {
-  if (!file_) throw FileError(path_ + ": cannot be written: " + std::strerror(errno));
-  // The rows are collected here; a second buffer could end in the middle of one.
-  std::setvbuf(file_, nullptr, _IONBF, 0);
+    : file_(path), columns_(columns.size()) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (c > 0) pending_ += ',';
     pending_ += columns[c];
   }
   pending_ += '\n';
-  try {
-    flush();
-  } catch (...) {
-    std::fclose(file_);
-    throw;
-  }
+  flush();
 }
 
 CsvWriter::~CsvWriter() {
   try {
     flush();
   } catch (const FileError&) {
-    // A destructor cannot report; callers that care call flush() before.
+    // A destructor cannot report; callers that care call finish() before.
   }
-  std::fclose(file_);
 }
 
 void CsvWriter::write_row(const std::vector<double>& values) {
   if (values.size() != columns_) {
-    throw FileError(path_ + ": row of " + std::to_string(values.size()) +
-                    " numbers in a table of " + std::to_string(columns_) + " columns");
+    throw FileError(fmt::format("{}: row of {} numbers in a table of {} columns", file_.path(),
+                                values.size(), columns_));
   }
   for (std::size_t c = 0; c < values.size(); ++c) {
     if (c > 0) pending_ += ',';
@@ -110,16 +119,21 @@ void CsvWriter::write_row(const std::vector<double>& values) {
 }
 
 void CsvWriter::flush() {
-  const std::size_t written = std::fwrite(pending_.data(), 1, pending_.size(), file_);
-  const bool failed = written != pending_.size();
-  pending_.erase(0, written);
-  if (failed) throw FileError(path_ + ": cannot be written: " + std::strerror(errno));
+  if (!pending_.empty()) file_.append(pending_);
+}
+
+void CsvWriter::finish() {
+  flush();
+  file_.sync();
 }
 
 CsvRow& CsvRow::text(const std::string& value) {
-  const bool quote = value.find_first_of(",\"\n\r") != std::string::npos;
+  // A spreadsheet would take such a text for a formula; after an apostrophe it is text.
+  const bool formula = !value.empty() && std::string_view("=+-@\t\r").find(value[0]) != npos;
+  const std::string text = printable((formula ? "'" : "") + value);
+  const bool quote = formula || text.find_first_of(",\"\n") != npos;
   std::string field = quote ? "\"" : "";
-  for (const char c : value) {
+  for (const char c : text) {
     if (c == '"') field += '"';
     field += c;
   }
@@ -145,31 +159,25 @@ int CsvTable::column(const std::string& name) const {
 }
 
 CsvTable read_csv(const std::string& path) {
-  const std::string text = read_text(path);
+  const std::string text = read_regular_file(path);
   std::string_view rest = text;
   CsvTable table;
   for (int number = 1; !rest.empty(); ++number) {
     const std::size_t end = rest.find('\n');
+    // Without its end a number may have lost digits.
+    if (end == std::string_view::npos) {
+      table.cut_off = true;
+      break;
+    }
     const std::string_view line = trim(rest.substr(0, end));
-    const bool last_and_open = end == std::string_view::npos;
-    rest.remove_prefix(last_and_open ? rest.size() : end + 1);
+    rest.remove_prefix(end + 1);
     if (line.empty()) continue;
-
     const std::string place = path + ":" + std::to_string(number);
-    const std::vector<std::string_view> fields = split(line);
     if (table.columns.empty()) {
-      for (std::string_view field : fields) table.columns.emplace_back(trim(field));
-      continue;
+      parse_header(split(line), table, place);
+    } else {
+      table.rows.push_back(parse_row(split(line), table, place));
     }
-    if (fields.size() != table.columns.size()) {
-      if (last_and_open && fields.size() < table.columns.size()) break;
-      throw FileError(place + ": " + std::to_string(fields.size()) +
-                      " fields, but the header has " + std::to_string(table.columns.size()));
-    }
-    std::vector<double> row;
-    row.reserve(fields.size());
-    for (std::string_view field : fields) row.push_back(parse_number(field, place));
-    table.rows.push_back(std::move(row));
   }
   if (table.columns.empty()) throw FileError(path + ": empty, a header row is expected");
   return table;

@@ -1,32 +1,39 @@
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <vector>
+
+#include "base/files.hpp"
 
 namespace perilink {
 
 /// Comma-separated table that grows row by row. Numbers are written with the fewest digits that
-/// read back exactly, independent of the locale. Only whole rows reach the file, so that a killed
-/// run leaves a readable table: rows wait in memory until flush(), the destructor or 64 KiB.
+/// read back exactly, independent of the locale. Only whole rows reach the file, on a full disk as
+/// many as fit: rows wait in memory until flush(), the destructor or 64 KiB.
 class CsvWriter {
  public:
+  /// \throws FileError
   CsvWriter(const std::string& path, const std::vector<std::string>& columns);
   ~CsvWriter();
   CsvWriter(const CsvWriter&) = delete;
   CsvWriter& operator=(const CsvWriter&) = delete;
 
+  /// \throws FileError
   void write_row(const std::vector<double>& values);
+  /// \throws FileError
   void flush();
+  /// Flushes and waits until the disk has it all. \throws FileError
+  void finish();
 
  private:
-  std::FILE* file_;
-  std::string path_;
+  LineFile file_;
   std::size_t columns_;
   std::string pending_;  ///< whole rows that are not in the file yet
 };
 
-/// A row of a table that holds texts too; texts with commas, quotes or line ends are quoted.
+/// A row of a table that holds texts too; texts with commas, quotes or line ends are quoted. A text
+/// that begins like a formula of a spreadsheet (= + - @) gets an apostrophe before it, and what is
+/// not printable() is written out.
 class CsvRow {
  public:
   CsvRow& text(const std::string& value);
@@ -47,14 +54,15 @@ class CsvRow {
 struct CsvTable {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
+  bool cut_off = false;  ///< the last row had no line end and was left out
 
   /// Column number, or -1.
   int column(const std::string& name) const;
 };
 
-/// Reads a table of numbers with a header row; an empty field is not-a-number. A last row without
-/// its line end and with too few fields is what a killed writer left, and is dropped.
-/// \throws FileError
+/// Reads a table of finite numbers with a header row. A last row without its line end is what a
+/// killed writer left, and is dropped.
+/// \throws FileError with file, line and column
 CsvTable read_csv(const std::string& path);
 
 }  // namespace perilink

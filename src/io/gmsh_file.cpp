@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
+#include <cstdint>
 #include <map>
-#include <memory>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/files.hpp"
 #include "io/gmsh_sections.hpp"
 #include "io/toml_tree.hpp"
 
@@ -21,6 +18,10 @@ namespace {
 
 /// More would overflow the 32-bit numbers of bonds at the usual horizons.
 constexpr std::size_t most_nodes = 30'000'000;
+
+/// What a mesh takes while it is read, its file included; 2.7 were measured, for a million triangles
+/// as text and in binary [bytes per byte of the file].
+constexpr double memory_per_byte = 3.0;
 
 /// Two-dimensional meshes lie in a plane of constant z to this fraction of their extent.
 constexpr double flatness = 1e-9;
@@ -178,23 +179,7 @@ Mesh parse_gmsh(std::string_view bytes, const std::string& path, int dim) {
 }
 
 Mesh read_gmsh_file(const std::string& path, int dim) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    throw FileError(fmt::format("{}: is not a file", path));
-  }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             std::fclose);
-  if (file == nullptr) {
-    throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  }
-  std::string bytes;
-  std::string block(std::size_t{1} << 20, '\0');
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
-    bytes.append(block, 0, count);
-  }
-  if (std::ferror(file.get()) != 0) {
-    throw FileError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  }
+  const std::string bytes = read_regular_file(path, SIZE_MAX, memory_per_byte);
   return parse_gmsh(bytes, path, dim);
 }
 

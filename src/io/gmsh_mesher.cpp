@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/files.hpp"
 #include "io/case_words.hpp"
 #include "io/gmsh_file.hpp"
 
@@ -188,8 +189,7 @@ Outcome mesh_in_child(const std::string& path, int dim, std::optional<double> si
 class TemporaryMesh {
  public:
   TemporaryMesh() {
-    std::string name =
-        (std::filesystem::temp_directory_path() / "perilink_XXXXXX.msh").string();
+    std::string name = (std::filesystem::temp_directory_path() / "perilink_XXXXXX.msh").string();
     const int descriptor = mkstemps(name.data(), 4);
     if (descriptor < 0) {
       throw FileError(fmt::format("{}: cannot be made: {}", name, std::strerror(errno)));
@@ -226,9 +226,7 @@ void check_script(const std::string& path) {
 bool has_gmsh() { return true; }
 
 Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size) {
-  if (std::ifstream file(path); !file) {
-    throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  }
+  read_regular_file(path, 0);  // refuses what gmsh would wait for
   if (is_gmsh_script(path) && size) check_script(path);
   const TemporaryMesh target;
   const Outcome outcome = mesh_in_child(path, dim, size, target.path());

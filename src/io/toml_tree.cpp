@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/plain_text.hpp"
 #include "io/toml_guard.hpp"
 
 namespace perilink {
@@ -151,7 +152,7 @@ std::string quoted(const std::string& text) {
     if (lead < 0x20 || lead == 0x7F) {
       result += fmt::format("\\x{:02x}", lead);
     } else {
-      result += text.substr(i, length);
+      result += printable(text.substr(i, length));
     }
     i += length;
   }

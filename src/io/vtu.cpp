@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <pugixml.hpp>
 #include <span>
+#include <sstream>
 #include <stdexcept>
-#include <system_error>
 
 #include "base/error.hpp"
+#include "base/files.hpp"
 #include "io/vtk_encoding.hpp"
 
 namespace perilink {
@@ -96,17 +96,10 @@ pugi::xml_node append_file_node(pugi::xml_document& document, const char* type) 
   return file;
 }
 
-void save_atomically(const std::string& path, const pugi::xml_document& document) {
-  const std::string temporary = path + ".part";
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    document.save(file, " ");
-    file.close();
-    if (!file) throw FileError(temporary + ": cannot be written: " + std::strerror(errno));
-  }
-  std::error_code failure;
-  std::filesystem::rename(temporary, path, failure);
-  if (failure) throw FileError(path + ": cannot be written: " + failure.message());
+void save(const std::string& path, const pugi::xml_document& document) {
+  std::ostringstream text;
+  document.save(text, " ");
+  write_whole_file(path, text.view());
 }
 
 // ---------------------------------------------------------------------------------- reading
@@ -115,8 +108,8 @@ void save_atomically(const std::string& path, const pugi::xml_document& document
 class Reader {
  public:
   Reader(const std::string& path, const char* type) : path_(path) {
-    const pugi::xml_parse_result result = document_.load_file(path.c_str());
-    if (result.status == pugi::status_file_not_found) fail("cannot be read: no such file");
+    const std::string text = read_regular_file(path);
+    const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
     if (!result) fail(std::string("is not XML: ") + result.description());
     file_ = document_.child("VTKFile");
     if (file_.attribute("type").as_string() != std::string(type)) {
@@ -150,8 +143,18 @@ class Reader {
     std::vector<VtuArray> result;
     for (pugi::xml_node node : parent.children("DataArray")) {
       result.push_back({node.attribute("Name").as_string(),
-                        node.attribute("NumberOfComponents").as_int(1),
-                        values<double>(node, "Float64")});
+                        node.attribute("NumberOfComponents").as_int(1), numbers(node)});
+    }
+    return result;
+  }
+
+  std::vector<double> numbers(pugi::xml_node array) const {
+    std::vector<double> result = values<double>(array, "Float64");
+    // Squares of what is larger leave the range of double precision.
+    const auto usable = [](double value) { return std::abs(value) <= 1e150; };
+    if (!std::all_of(result.begin(), result.end(), usable)) {
+      fail(std::string("array '") + array.attribute("Name").as_string() +
+           "' holds numbers that are not finite, or too large for any run");
     }
     return result;
   }
@@ -218,7 +221,7 @@ void write_vtu(const std::string& path, const VtuGrid& grid) {
   append_array<std::int32_t>(cells, "Int32", "connectivity", 1, grid.connectivity);
   append_array<std::int32_t>(cells, "Int32", "offsets", 1, grid.offsets);
   append_array<VtuCell>(cells, "UInt8", "types", 1, grid.types);
-  save_atomically(path, document);
+  save(path, document);
 }
 
 VtuGrid read_vtu(const std::string& path) {
@@ -233,7 +236,7 @@ VtuGrid read_vtu(const std::string& path) {
   for (const VtuArray& field : reader.arrays(body.child("FieldData"))) {
     if (field.values.size() == 1) grid.field_data.emplace_back(field.name, field.values.front());
   }
-  grid.points = reader.values<double>(piece.child("Points").child("DataArray"), "Float64");
+  grid.points = reader.numbers(piece.child("Points").child("DataArray"));
   read_cells(reader, piece.child("Cells"), grid);
   grid.point_data = reader.arrays(piece.child("PointData"));
   grid.cell_data = reader.arrays(piece.child("CellData"));
@@ -250,14 +253,18 @@ void write_pvd(const std::string& path, const std::vector<PvdEntry>& entries) {
     node.append_attribute("part") = 0;
     node.append_attribute("file") = entry.file.c_str();
   }
-  save_atomically(path, document);
+  save(path, document);
 }
 
 std::vector<PvdEntry> read_pvd(const std::string& path) {
   const Reader reader(path, "Collection");
   std::vector<PvdEntry> entries;
   for (pugi::xml_node node : reader.file().child("Collection").children("DataSet")) {
-    entries.push_back({node.attribute("timestep").as_double(), node.attribute("file").as_string()});
+    std::string file = node.attribute("file").as_string();
+    if (file.empty() || file == "." || file == ".." || file.find('/') != std::string::npos) {
+      reader.fail("names the file '" + file + "'; only files of its own folder are read");
+    }
+    entries.push_back({node.attribute("timestep").as_double(), std::move(file)});
   }
   return entries;
 }

@@ -36,8 +36,6 @@ struct VtuGrid {
   double field(const std::string& name, double otherwise) const;
 };
 
-/// Writes to a temporary file beside `path` and renames it, so that a reader never sees half a
-/// file.
 /// \throws FileError
 void write_vtu(const std::string& path, const VtuGrid& grid);
 
@@ -48,10 +46,12 @@ VtuGrid read_vtu(const std::string& path);
 /// One file of a series.
 struct PvdEntry {
   double time = 0.0;  ///< number of broken bonds, or step
-  std::string file;   ///< relative to the .pvd
+  std::string file;   ///< its name; it lies beside the .pvd
 };
 
+/// \throws FileError
 void write_pvd(const std::string& path, const std::vector<PvdEntry>& entries);
+/// \throws FileError, also where a file of the series would lie in another folder
 std::vector<PvdEntry> read_pvd(const std::string& path);
 
 }  // namespace perilink

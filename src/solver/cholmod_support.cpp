@@ -2,8 +2,10 @@
 
 #include <dlfcn.h>
 #include <omp.h>
+#include <sys/mman.h>
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 #include <string>
 
@@ -20,6 +22,24 @@ void use_one_blas_thread() {
   if (auto* set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) {
     set(1);
   }
+}
+
+/// OpenBLAS takes its buffer when it is first used, and where there is no room it asks for ever:
+/// taken here once, it is kept.
+void take_blas_buffer() {
+  static bool taken = false;
+  if (taken) return;
+  using Take = void* (*)(int);
+  using Give = void (*)(void*);
+  auto* take = reinterpret_cast<Take>(dlsym(RTLD_DEFAULT, "blas_memory_alloc"));
+  auto* give = reinterpret_cast<Give>(dlsym(RTLD_DEFAULT, "blas_memory_free"));
+  if (take == nullptr || give == nullptr) return;
+  constexpr std::size_t size = std::size_t{128} << 20;
+  void* room = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) throw std::bad_alloc();
+  munmap(room, size);
+  give(take(0));
+  taken = true;
 }
 
 /// Debian's CHOLMOD asks OpenMP for four threads in small copying loops, whatever the machine has;
@@ -53,6 +73,7 @@ void check(cholmod_common* common, const char* phase) {
 
 CholmodSession::CholmodSession() {
   use_one_blas_thread();
+  take_blas_buffer();
   cholmod_start(&common_);
   common_.print = 0;
   common_.supernodal = CHOLMOD_SUPERNODAL;

@@ -32,7 +32,10 @@ case $target in
     options="-max_len=4096" ;;
   *) echo "the target is case or mesh, not $target" >&2; exit 2 ;;
 esac
-sources="$root/tests/fuzz/fuzz_$target.cpp $src/base/error.cpp $sources"
+for name in error files memory plain_text; do
+  sources="$src/base/$name.cpp $sources"
+done
+sources="$root/tests/fuzz/fuzz_$target.cpp $sources"
 flags="-std=c++20 -g -O1 -fno-omit-frame-pointer -I$src"
 cd "$build"
 

@@ -17,6 +17,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/compare_command.cpp", "a command: tests/cli runs the program"},
       {"app/converge_command.cpp", "a command: tests/cli runs the program"},
       {"app/main.cpp", "only calls the commands; tests/cli runs the program"},
+      {"app/memory_at_start.cpp", "runs before main: tests/cli/test_memory.cpp"},
       {"app/run_command.cpp", "a command: tests/cli runs the program"},
       {"discretization/lattice_conforming.cpp", "a part of make_body: test_lattice.cpp"},
       {"discretization/lattice_facets.cpp", "a part of make_body: test_facets.cpp"},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/temporary_directory.hpp"
@@ -24,12 +26,16 @@ struct ProcessEnd {
   std::string err;
 };
 
+/// Limits on a process, RLIMIT_AS and the like [bytes].
+using ProcessLimits = std::vector<std::pair<int, rlim_t>>;
+
 /// The program as a process of its own, with its working directory and its output in files beside
 /// that directory.
 class ProgramProcess {
  public:
   /// \param directory  working directory; DIRECTORY.out and DIRECTORY.err take the output
-  ProgramProcess(const std::filesystem::path& directory, const std::vector<std::string>& arguments)
+  ProgramProcess(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
+                 const ProcessLimits& limits = {})
       : out_(directory.string() + ".out"), err_(directory.string() + ".err") {
     std::string program = PERILINK_PROGRAM;
     std::vector<std::string> words = arguments;
@@ -45,6 +51,10 @@ class ProgramProcess {
     if (chdir(directory.c_str()) != 0) _exit(126);
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
+    for (const auto& [resource, bytes] : limits) {
+      const rlimit limit{bytes, bytes};
+      if (setrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) _exit(126);
+    }
     execv(argv[0], argv.data());
     _exit(127);
   }
@@ -92,8 +102,9 @@ class ProgramProcess {
 
 /// Runs the program to its end.
 inline ProcessEnd run_program(const std::filesystem::path& directory,
-                              const std::vector<std::string>& arguments) {
-  return ProgramProcess(directory, arguments).wait();
+                              const std::vector<std::string>& arguments,
+                              const ProcessLimits& limits = {}) {
+  return ProgramProcess(directory, arguments, limits).wait();
 }
 
 }  // namespace perilink::test

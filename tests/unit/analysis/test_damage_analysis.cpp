@@ -147,6 +147,22 @@ TEST(DamageAnalysis, StopsWhenTheObserverAsks) {
 
 /// Asked before the second event of a step, the run ends with a row at the load that the body as it
 /// stands bears.
+TEST(DamageAnalysis, AnObserverThatFailsLeavesWhatWasFound) {
+  class FullDisk final : public StepObserver {
+   public:
+    void on_step(const StepRecord& record, StateSource&) override {
+      if (record.step == 2) throw FileError("no room");
+    }
+  } observer;
+  const AnalysisBody body = make_driven_chains();
+  const DamageResult result = run_damage_analysis(body.network, body.unknowns, body.loads,
+                                                  body.reference, {}, observer);
+  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_EQ(result.reason, "no room");
+  EXPECT_EQ(result.last.step, 2);
+  EXPECT_GT(result.peak_load, 0.0);
+}
+
 TEST(DamageAnalysis, StopsWithinAStep) {
   class Impatient final : public StepObserver {
    public:

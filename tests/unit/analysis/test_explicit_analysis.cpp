@@ -108,7 +108,9 @@ TEST(ExplicitAnalysis, TellsTheEndOnceAndPassesFailuresOn) {
   EXPECT_EQ(stopper.ends, 1);
   EXPECT_EQ(stopper.end, result.steps);
   stopper.fails = true;
-  EXPECT_THROW(run_explicit_analysis(model, state, options, stopper), std::runtime_error);
+  const ExplicitResult failed = run_explicit_analysis(model, state, options, stopper);
+  EXPECT_EQ(failed.ending, Ending::failed);
+  EXPECT_EQ(failed.reason, "disk full");
 }
 
 TEST(ExplicitAnalysis, RampRisesSmoothlyToOne) {

@@ -15,7 +15,7 @@ struct Nothing {};
 /// Counts what it is told of.
 struct Watcher {
   void on_row(const ExplicitRecord& record, const Nothing&) {
-    if (throws) throw std::runtime_error("a full disk");
+    if (record.step == throws_at) throw std::runtime_error("a full disk");
     rows.push_back(record.step);
   }
   void on_end(const ExplicitRecord&, const Nothing&) { ++ends; }
@@ -24,7 +24,7 @@ struct Watcher {
   std::vector<Index> rows;
   int ends = 0;
   Index now = 0, stop_at = -1;
-  bool throws = false;
+  Index throws_at = -1;
 };
 
 /// Thousand steps of one with ten rows, energies from `energy`.
@@ -124,10 +124,15 @@ TEST(ExplicitLoop, StopsBetweenRowsWhenAsked) {
   EXPECT_EQ(watcher.ends, 1);
 }
 
-TEST(ExplicitLoop, WhatObserversThrowComesThrough) {
+TEST(ExplicitLoop, WhatObserversThrowEndsTheRunWithWhatWasFound) {
   Watcher watcher;
-  watcher.throws = true;
-  EXPECT_THROW(run(watcher, balanced), std::runtime_error);
+  watcher.throws_at = 200;
+  const ExplicitResult result = run(watcher, balanced);
+  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_EQ(result.reason, "a full disk");
+  EXPECT_EQ(watcher.rows, (std::vector<Index>{0, 100}));
+  EXPECT_EQ(result.steps, 200);
+  EXPECT_EQ(result.peak_load, 200.0) << "of the steps so far";
 }
 
 TEST(ExplicitLoop, RefusesStepsThatAreNotStable) {

@@ -45,7 +45,7 @@ TEST(ExplicitHistory, KeepsTheClockInAFileOfItsOwn) {
   const test::TemporaryDirectory work;
   ExplicitHistory history(work.path().string(), CrackCount::cracked_particles);
   history.append(make_record());
-  history.flush();
+  history.finish();
   const CsvTable timing = read_csv((work / "timing.csv").string());
   EXPECT_EQ(timing.columns, (std::vector<std::string>{"step", "seconds"}));
   ASSERT_EQ(timing.rows.size(), 1u);

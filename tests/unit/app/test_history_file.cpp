@@ -93,8 +93,19 @@ TEST_F(HistoryFileTest, GaugesAreFurtherColumns) {
 TEST_F(HistoryFileTest, FlushedRowsAreInTheFile) {
   HistoryFile file(directory_);
   file.append(make_record());
-  file.flush();
+  file.finish();
   EXPECT_EQ(read_history(directory_ + "/history.csv").size(), 1u);
+}
+
+TEST_F(HistoryFileTest, NumbersThatNoRunWritesAreRefused) {
+  const std::string path = directory_ + "/other.csv";
+  for (const char* rows : {"1.5,1,2\n", "-7,1,2\n", "1e300,1,2\n", "2,1,2\n2,1,2\n",
+                           "3,1,2\n1,1,2\n", "1,1e300,2\n"}) {
+    std::ofstream(path) << "step,displacement,load\n" << rows;
+    EXPECT_THROW(read_history(path), FileError) << rows;
+  }
+  std::ofstream(path) << "displacement,broken_bonds,load\n1,0,2\n1,3,2\n";
+  EXPECT_EQ(read_history(path).at(1).broken_bonds, 3) << "columns in any order";
 }
 
 TEST_F(HistoryFileTest, TablesWithoutLoadAreRefused) {

@@ -35,6 +35,15 @@ TEST(PlotLabels, WithoutASummaryTheTitleIsThatOfTheDirectory) {
   EXPECT_EQ(with_unit("load", labels.force), "load");
 }
 
+TEST(PlotLabels, SteerNoTerminal) {
+  const test::TemporaryDirectory directory;
+  test::write_text(directory / "summary.json",
+                   R"({"title": "\u001b[2JBeam", "units": "N,\u0007mm"})");
+  const PlotLabels labels = read_labels(directory / "");
+  EXPECT_EQ(labels.title, "\\x1b[2JBeam");
+  EXPECT_EQ(labels.length, "\\x07mm");
+}
+
 TEST(PlotLabels, ADirectoryIsNamedByTheLastPartOfItsPath) {
   EXPECT_EQ(directory_name("results/beam"), "beam");
   EXPECT_EQ(directory_name("results/beam/"), "beam");

@@ -27,9 +27,9 @@ TEST(ResultDirectory, IsNamedAfterTheCase) {
 
 TEST(ResultDirectory, IsMadeWithItsParents) {
   const test::TemporaryDirectory work;
-  prepare_result_directory(work / "a/b/c", false);
+  ResultDirectory(work / "a/b/c", false);
   EXPECT_TRUE(fs::is_directory(work / "a/b/c"));
-  prepare_result_directory(work / "a/b/c", false);  // empty: nothing to lose
+  ResultDirectory(work / "a/b/c", false);  // empty: nothing to lose
 }
 
 TEST(ResultDirectory, RefusesAnEarlierResultAndLeavesItAlone) {
@@ -39,7 +39,7 @@ TEST(ResultDirectory, RefusesAnEarlierResultAndLeavesItAlone) {
     const test::TemporaryDirectory work;
     test::write_text(work / name, "old");
     try {
-      prepare_result_directory(work.path(), false);
+      ResultDirectory(work.path(), false);
       ADD_FAILURE() << name << " was not seen";
     } catch (const FileError& error) {
       EXPECT_NE(std::string(error.what()).find("--force"), std::string::npos);
@@ -59,7 +59,7 @@ TEST(ResultDirectory, ForceRemovesTheFilesOfARunAndOnlyThose) {
   }
   fs::create_directories(work / "sub");
   test::write_text(work / "sub/history.csv", "of another run");
-  prepare_result_directory(work.path(), true);
+  ResultDirectory(work.path(), true);
   std::set<std::string> left = own;
   left.insert("sub");
   EXPECT_EQ(names_in(work.path()), left);
@@ -68,16 +68,52 @@ TEST(ResultDirectory, ForceRemovesTheFilesOfARunAndOnlyThose) {
 
 TEST(ResultDirectory, ForceRemovesWhatAKilledRunLeftHalfWritten) {
   const test::TemporaryDirectory work;
-  test::write_text(work / "fields_000010.vtu.part", "half");
-  prepare_result_directory(work.path(), true);
-  EXPECT_TRUE(fs::is_empty(work.path()));
+  const std::set<std::string> own = {"notes.txt.0123abcd.part", "fields.pvd.part"};
+  for (const std::string& name : own) test::write_text(work / name, "mine");
+  for (const char* name : {"fields_000010.vtu.0123abcd.part", "summary.json.00000000.part"}) {
+    test::write_text(work / name, "half");
+  }
+  ResultDirectory(work.path(), true);
+  EXPECT_EQ(names_in(work.path()), own);
+}
+
+TEST(ResultDirectory, IsOneRunsAtATime) {
+  const test::TemporaryDirectory work;
+  fs::create_directory_symlink("a", work / "link");
+  {
+    const ResultDirectory first(work / "a", false);
+    for (const char* name : {"a", "link"}) {
+      try {
+        ResultDirectory(work / name, true);
+        ADD_FAILURE() << "a second run had the directory";
+      } catch (const FileError& error) {
+        EXPECT_NE(std::string(error.what()).find("another run writes"), std::string::npos);
+      }
+    }
+    const ResultDirectory other(work / "b", false);
+  }
+  ResultDirectory(work / "link", false);
+  EXPECT_TRUE(fs::is_empty(work / "a")) << "a lock leaves nothing behind";
+}
+
+TEST(ResultDirectory, LinksInItGoTheirTargetsStay) {
+  const test::TemporaryDirectory work;
+  test::write_text(work / "mine", "mine");
+  fs::create_directories(work / "r");
+  for (const char* name : {"history.csv", "log.txt", "summary.json", "table.csv"}) {
+    fs::create_symlink("../mine", work / "r" / name);
+  }
+  EXPECT_THROW(ResultDirectory(work / "r", false), FileError);
+  ResultDirectory(work / "r", true);
+  EXPECT_TRUE(fs::is_empty(work / "r"));
+  EXPECT_EQ(test::read_text(work / "mine"), "mine");
 }
 
 TEST(ResultDirectory, RefusesAFileInItsPlace) {
   const test::TemporaryDirectory work;
   test::write_text(work / "results", "a file");
-  EXPECT_THROW(prepare_result_directory(work / "results", true), FileError);
-  EXPECT_THROW(prepare_result_directory(work / "results/deeper", true), FileError);
+  EXPECT_THROW(ResultDirectory(work / "results", true), FileError);
+  EXPECT_THROW(ResultDirectory(work / "results/deeper", true), FileError);
   EXPECT_EQ(test::read_text(work / "results"), "a file");
 }
 

@@ -80,8 +80,23 @@ TEST_F(RunResults, AKilledRunIsReadWithANote) {
   const RunResult result = read();
   EXPECT_EQ(result.records.size(), 2u);
   EXPECT_EQ(result.horizon, 4.0) << "twice the spacing: the broken bonds are one long";
-  ASSERT_EQ(result.notes.size(), 1u);
-  EXPECT_THAT(result.notes[0], HasSubstr("summary.json"));
+  ASSERT_EQ(result.notes.size(), 2u);
+  EXPECT_THAT(result.notes[0], HasSubstr("ends within a row"));
+  EXPECT_THAT(result.notes[1], HasSubstr("summary.json"));
+  write("summary.json", R"({"status": "running"})");
+  EXPECT_THAT(read().notes.at(1), HasSubstr("unfinished or killed"));
+}
+
+TEST_F(RunResults, DamagedFilesAreRefused) {
+  for (const char* row : {"3,inf,1,0\n", "3,1,nan,0\n", "3,1,,0\n", "3,1,1\n", "1,1,1,1\n"}) {
+    write("history.csv", history + row);
+    EXPECT_THAT(refusal(), HasSubstr("history.csv:")) << row;
+  }
+  write("history.csv", history);
+  for (const char* summary : {"", "{", "[]", R"({"title": 7})", R"({"status": [1]})"}) {
+    write("summary.json", summary);
+    EXPECT_THAT(refusal(), HasSubstr("the file is damaged")) << summary;
+  }
 }
 
 TEST_F(RunResults, WithoutAHorizonTheLongestBrokenBondStandsForIt) {

@@ -50,6 +50,15 @@ TEST(Svg, IsXmlWithTextEscaped) {
   EXPECT_STREQ(root.child("text").text().get(), "a < b & c");
 }
 
+TEST(Svg, IsXmlWhateverATitleHolds) {
+  Svg svg(100.0, 50.0);
+  svg.text({1, 2}, std::string("a\x1b[31m\x01\xff\0 b", 11), "middle", "");
+  pugi::xml_document document;
+  const std::string text = svg.str();
+  ASSERT_TRUE(document.load_string(text.c_str()));
+  EXPECT_STREQ(document.child("svg").child("text").text().get(), "a\\x1b[31m\\x01\\xff\\x00 b");
+}
+
 TEST(Svg, SavesWholeFilesOrSaysWhyNot) {
   const std::string path = testing::TempDir() + "perilink_" + std::to_string(::getpid()) + ".svg";
   Svg(10.0, 10.0).save(path);

@@ -138,7 +138,7 @@ TEST(CaseFile, TellsFilesThatCannotBeRead) {
   const std::filesystem::path folder = testing::TempDir();
   EXPECT_THROW(read_case_file((folder / "no such case.toml").string()), FileError);
   EXPECT_THROW(read_case_file(folder.string()), FileError);
-  EXPECT_THROW(read_case_file("/dev/zero"), InputError) << "a device never ends";
+  EXPECT_THROW(read_case_file("/dev/zero"), FileError) << "a device never ends";
 }
 
 TEST(CaseFile, ReadsTheCasesOfThePaper) {

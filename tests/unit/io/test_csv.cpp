@@ -37,6 +37,22 @@ TEST(CsvRow, QuotesTextsThatWouldEndAField) {
             "plain,\"a, b\",\"so \"\"it\"\" is\",\"two\nlines\"\n");
 }
 
+TEST(CsvRow, TextsAreNoFormulasOfASpreadsheet) {
+  for (const char* text : {"=1+2", "+1", "-x", "@SUM(A1)", "\tx"}) {
+    CsvRow row;
+    const std::string written = row.text(text).end();
+    EXPECT_TRUE(written.starts_with("\"'")) << written;
+  }
+  CsvRow row;
+  EXPECT_EQ(row.text("=cmd|' /C calc'!A0").number(-3.0).text("a=b").end(),
+            "\"'=cmd|' /C calc'!A0\",-3,a=b\n");
+}
+
+TEST(CsvRow, WritesOutWhatSteersATerminal) {
+  CsvRow row;
+  EXPECT_EQ(row.text("a\x1b[2Jb").end(), "a\\x1b[2Jb\n");
+}
+
 TEST(CsvRow, LeavesMissingNumbersEmpty) {
   CsvRow row;
   EXPECT_EQ(row.empty().number(0.1).number(std::nan("")).number(-3.0).end(), ",0.1,,-3\n");
@@ -56,7 +72,7 @@ TEST_F(Csv, ReadsBackTheSameBits) {
                                       -0.0,
                                       std::numeric_limits<double>::denorm_min(),
                                       std::numeric_limits<double>::max(),
-                                      std::numeric_limits<double>::infinity(),
+                                      -std::numeric_limits<double>::max(),
                                       9007199254740993.0};
   {
     CsvWriter writer(path_, {"a", "b", "c", "d", "e", "f"});
@@ -79,17 +95,61 @@ TEST_F(Csv, OnlyWholeRowsReachTheFile) {
 }
 
 TEST_F(Csv, FindsColumns) {
-  put("step, load\r\n1, 2.5\r\n2,\r\n");
+  put("step, load\r\n1, 2.5\r\n2,-1\r\n");
   const CsvTable table = read_csv(path_);
   EXPECT_EQ(table.column("load"), 1);
   EXPECT_EQ(table.column("loads"), -1);
   EXPECT_EQ(table.rows[0][1], 2.5);
-  EXPECT_TRUE(std::isnan(table.rows[1][1]));
+  EXPECT_EQ(table.rows[1][1], -1.0);
 }
 
 TEST_F(Csv, DropsTheRowThatAKilledWriterLeftUnfinished) {
-  put("a,b\n1,2\n3");
-  EXPECT_EQ(read_csv(path_).rows.size(), 1u);
+  put("a,b\n1,2\n");
+  EXPECT_FALSE(read_csv(path_).cut_off);
+  // The last may be the beginning of 3,4.25.
+  for (const char* rest : {"3", "3,", "3,4", "3,4.", "3,4e", "3,4.2"}) {
+    put(std::string("a,b\n1,2\n") + rest);
+    const CsvTable table = read_csv(path_);
+    EXPECT_EQ(table.rows.size(), 1u) << rest;
+    EXPECT_TRUE(table.cut_off) << rest;
+  }
+}
+
+TEST_F(Csv, NumbersThatAreNoneAreRefusedWithTheirPlace) {
+  for (const auto& [field, fault] : std::vector<std::pair<std::string, std::string>>{
+           {"inf", " holds 'inf', which is not finite"},
+           {"-nan", " holds '-nan', which is not finite"},
+           {"1e400", " holds '1e400', which is not a number"},
+           {"", " is empty where a number should be"},
+           {"1 2", " holds '1 2', which is not a number"},
+           {std::string("1\0", 2), " holds '1\\x00', which is not a number"}}) {
+    put("a,b\n1,2\n3," + field + "\n");
+    try {
+      read_csv(path_);
+      ADD_FAILURE() << "accepted " << field;
+    } catch (const FileError& error) {
+      EXPECT_EQ(error.what(), path_ + ":3: column b" + fault);
+    }
+  }
+}
+
+TEST_F(Csv, HeadersNameEveryColumnOnce) {
+  for (const char* header : {"a,b,a", "a,,b", "a,b,"}) {
+    put(std::string(header) + "\n1,2,3\n");
+    EXPECT_THROW(read_csv(path_), FileError) << header;
+  }
+}
+
+TEST_F(Csv, ALinkInItsPlaceIsNotFollowed) {
+  const std::string victim = path_ + ".victim";
+  std::ofstream(victim) << "mine";
+  std::filesystem::create_symlink(victim, path_);
+  CsvWriter(path_, {"a"}).write_row({1.0});
+  std::ostringstream left;
+  left << std::ifstream(victim).rdbuf();
+  EXPECT_EQ(left.str(), "mine");
+  EXPECT_EQ(text(), "a\n1\n");
+  std::filesystem::remove(victim);
 }
 
 TEST_F(Csv, FaultsNameFileAndLine) {
@@ -98,7 +158,8 @@ TEST_F(Csv, FaultsNameFileAndLine) {
     read_csv(path_);
     FAIL() << "accepted a word";
   } catch (const FileError& error) {
-    EXPECT_EQ(std::string(error.what()), path_ + ":3: 'four' is not a number");
+    EXPECT_EQ(std::string(error.what()),
+              path_ + ":3: column b holds 'four', which is not a number");
   }
   put("a,b\n1\n2,3\n");
   EXPECT_THROW(read_csv(path_), FileError);

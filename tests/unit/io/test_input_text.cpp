@@ -31,8 +31,16 @@ TEST(InputText, SixteenMebibytesAreTheLimit) {
   EXPECT_THROW(refuse_large_input(text, "a.toml"), InputError);
 }
 
-TEST(InputText, ADeviceWithoutEndIsReadNoFurtherThanTheLimit) {
-  EXPECT_THROW(refuse_large_input(read_input_text("/dev/zero"), "/dev/zero"), InputError);
+TEST(InputText, IsReadNoFurtherThanTheLimit) {
+  const test::TemporaryDirectory directory;
+  const std::string path = (directory / "a.toml").string();
+  test::write_text(path, "");
+  std::filesystem::resize_file(path, std::uintmax_t{1} << 40);  // takes no room on the disk
+  EXPECT_THROW(refuse_large_input(read_input_text(path), path), InputError);
+}
+
+TEST(InputText, DevicesAreNotWaitedFor) {
+  EXPECT_THROW(read_input_text("/dev/zero"), FileError);
 }
 
 }  // namespace

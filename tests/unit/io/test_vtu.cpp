@@ -127,5 +127,25 @@ TEST_F(Vtu, SeriesComesBack) {
   EXPECT_THROW(read_vtu(path_), FileError);
 }
 
+TEST_F(Vtu, SeriesDoNotLeaveTheirFolder) {
+  for (const char* file : {"/etc/passwd", "../other/a.vtu", "sub/a.vtu", "..", ".", ""}) {
+    write_pvd(path_, {{0.0, "fields_0.vtu"}, {1.0, file}});
+    EXPECT_THROW(read_pvd(path_), FileError) << file;
+  }
+}
+
+TEST_F(Vtu, NumbersThatAreNotFiniteAreRefused) {
+  for (const double value : {HUGE_VAL, std::nan("")}) {
+    VtuGrid grid;
+    grid.points = {0.0, value, 0.0};
+    write_vtu(path_, grid);
+    EXPECT_THROW(read_vtu(path_), FileError);
+    grid.points = {0.0, 0.0, 0.0};
+    grid.point_data = {{"damage", 1, {value}}};
+    write_vtu(path_, grid);
+    EXPECT_THROW(read_vtu(path_), FileError);
+  }
+}
+
 }  // namespace
 }  // namespace perilink

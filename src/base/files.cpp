@@ -1,0 +1,178 @@
+#include "base/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <random>
+#include <utility>
+
+#include "base/memory.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr std::string_view temporary_end = ".part";
+constexpr std::size_t random_digits = 8;
+/// Neither an existing file nor what a link points to.
+constexpr int as_new_file = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+constexpr mode_t by_umask = 0666;
+
+[[noreturn]] void fail(const std::string& path, const char* what, int fault) {
+  const std::string text = fmt::format("{}: cannot be {}: {}", path, what, std::strerror(fault));
+  if (fault == ENOSPC || fault == EDQUOT || fault == EFBIG || fault == EIO) throw DiskFull(text);
+  throw FileError(text);
+}
+
+/// Closes a file whatever happens.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int number() const { return number_; }
+  /// \return 0 or the fault
+  int close() { return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
+
+ private:
+  int number_;
+};
+
+/// \return bytes that were written; `fault` tells why not all
+std::size_t write_bytes(int descriptor, std::string_view bytes, int& fault) {
+  std::size_t written = 0;
+  while (written < bytes.size()) {
+    const ssize_t count = ::write(descriptor, bytes.data() + written, bytes.size() - written);
+    if (count > 0) {
+      written += static_cast<std::size_t>(count);
+    } else if (count == 0 || errno != EINTR) {
+      fault = count == 0 ? EIO : errno;
+      break;
+    }
+  }
+  return written;
+}
+
+/// \return 0 or the fault; files that cannot be synced, such as those of some network disks, are
+/// none
+int sync_file(int descriptor) {
+  return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno;
+}
+
+std::string temporary_name(const std::string& path) {
+  std::random_device random;
+  return fmt::format("{}.{:0{}x}{}", path, random(), random_digits, temporary_end);
+}
+
+const char* kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a directory";
+  if (S_ISFIFO(mode)) return "a named pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
+}
+
+/// \return size of the file [bytes]
+std::size_t check_regular(const std::string& path, const struct stat& status) {
+  if (!S_ISREG(status.st_mode)) {
+    throw FileError(fmt::format("{}: is {}, not a file", path, kind_of(status.st_mode)));
+  }
+  return static_cast<std::size_t>(status.st_size);
+}
+
+}  // namespace
+
+void write_whole_file(const std::string& path, std::string_view bytes) {
+  std::string temporary = temporary_name(path);
+  int number = ::open(temporary.c_str(), as_new_file, by_umask);
+  for (int again = 0; number < 0 && errno == EEXIST && again < 100; ++again) {
+    temporary = temporary_name(path);
+    number = ::open(temporary.c_str(), as_new_file, by_umask);
+  }
+  if (number < 0) fail(path, "written", errno);
+  Descriptor file(number);
+  int fault = 0;
+  write_bytes(number, bytes, fault);
+  if (fault == 0) fault = sync_file(number);
+  const int at_end = file.close();
+  if (fault == 0) fault = at_end;
+  if (fault == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) fault = errno;
+  if (fault == 0) return;
+  ::unlink(temporary.c_str());
+  fail(path, "written", fault);
+}
+
+bool is_temporary_of(std::string_view name, std::string_view temporary) {
+  if (!temporary.starts_with(name) || !temporary.ends_with(temporary_end)) return false;
+  if (temporary.size() != name.size() + 1 + random_digits + temporary_end.size()) return false;
+  const std::string_view digits = temporary.substr(name.size() + 1, random_digits);
+  return temporary[name.size()] == '.' &&
+         digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+std::string read_regular_file(const std::string& path, std::size_t most, double memory) {
+  struct stat status {};
+  // Looked at before, for to open a device may do things; and after, for it may be another by then.
+  if (::stat(path.c_str(), &status) == 0) check_regular(path, status);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (file.number() < 0) fail(path, "opened", errno);
+  if (::fstat(file.number(), &status) != 0) fail(path, "read", errno);
+  const std::size_t size = std::min(check_regular(path, status), most);
+  const double needed = memory * static_cast<double>(size), at_hand = available_memory();
+  if (needed > at_hand) {
+    throw FileError(fmt::format("{}: has {}, to read it takes {}, and {} of memory are free", path,
+                                bytes_text(static_cast<double>(size)), bytes_text(needed),
+                                bytes_text(at_hand)));
+  }
+  std::string bytes;
+  std::size_t count = 0;
+  // Files of /proc say that they are empty, and others may grow: read until there is no more.
+  for (;;) {
+    bytes.resize(std::min(most, std::max(size + 1, count + (std::size_t{1} << 16))));
+    const ssize_t got = ::read(file.number(), bytes.data() + count, bytes.size() - count);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(path, "read", errno);
+    count += static_cast<std::size_t>(got);
+    if (got == 0 || count == most) break;
+  }
+  bytes.resize(count);
+  return bytes;
+}
+
+LineFile::LineFile(std::string path) : path_(std::move(path)) {
+  if (::unlink(path_.c_str()) != 0 && errno != ENOENT) fail(path_, "written", errno);
+  descriptor_ = ::open(path_.c_str(), as_new_file | O_APPEND, by_umask);
+  if (descriptor_ < 0) fail(path_, "written", errno);
+}
+
+LineFile::~LineFile() { ::close(descriptor_); }
+
+void LineFile::append(std::string& lines) {
+  int fault = 0;
+  std::size_t written = write_bytes(descriptor_, lines, fault);
+  if (fault != 0) {
+    const std::size_t line_end = written == 0 ? std::string::npos : lines.rfind('\n', written - 1);
+    written = line_end == std::string::npos ? 0 : line_end + 1;
+    // Where even this fails a reader leaves out the line that has no end.
+    [[maybe_unused]] const int ignored =
+        ::ftruncate(descriptor_, static_cast<off_t>(size_ + written));
+  }
+  size_ += written;
+  lines.erase(0, written);
+  if (fault != 0 && size_ == 0) ::unlink(path_.c_str());  // a file without a line says nothing
+  if (fault != 0) fail(path_, "written", fault);
+}
+
+void LineFile::sync() {
+  if (const int fault = sync_file(descriptor_); fault != 0) fail(path_, "written", fault);
+}
+
+}  // namespace perilink

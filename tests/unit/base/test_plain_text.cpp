@@ -1,0 +1,36 @@
+#include "base/plain_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace perilink {
+namespace {
+
+TEST(PlainText, LettersOfAllLanguagesStay) {
+  const std::string text = "Balken \xc3\x9f, \xe6\xa2\x81, \xf0\x9f\xa7\xb1\tm\xc2\xb3\n";
+  EXPECT_EQ(printable(text), text);
+}
+
+TEST(PlainText, WhatSteersATerminalIsWrittenOut) {
+  EXPECT_EQ(printable("\x1b[31mred\x07"), "\\x1b[31mred\\x07");
+  EXPECT_EQ(printable("\r\x7f"), "\\x0d\\x7f");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "\\x9b31m")
+      << "the same in one character beyond ASCII";
+  EXPECT_EQ(printable("a\xe2\x80\xae"
+                      "b"),
+            "a\\u202eb")
+      << "turns the text around";
+  EXPECT_EQ(printable(std::string("a\0b", 3)), "a\\x00b");
+}
+
+TEST(PlainText, WhatIsNoUtf8IsWrittenOut) {
+  EXPECT_EQ(printable("\xff"), "\\xff");
+  EXPECT_EQ(printable("\xc3"), "\\xc3") << "cut off";
+  EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf") << "longer than need be";
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half a character of UTF-16";
+  EXPECT_EQ(printable("\xef\xbf\xbf"), "\\uffff") << "XML allows none";
+}
+
+}  // namespace
+}  // namespace perilink
