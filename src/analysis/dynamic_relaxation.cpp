@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 
+#include "analysis/break_order.hpp"
 #include "analysis/particle_blocks.hpp"
 #include "base/memory.hpp"
 
@@ -27,7 +28,6 @@ struct BlockSums {
   double last_stiffness = 0.0, last_mass = 0.0;  // of the last step
   double driven = 0.0, supports = 0.0, loaded = 0.0;
   double fractured = 0.0;
-  Index broken_halves = 0;
 };
 
 class Relaxation {
@@ -45,7 +45,8 @@ class Relaxation {
         inertia_(fictitious_inertia(network, options.strain)),
         dt_(options.safety * inertia_.critical_time_step()),
         component_(main_component(unknowns, loads)),
-        blocks_(network.particles.size(), unknowns.width) {
+        blocks_(network.particles.size(), unknowns.width),
+        broken_(blocks_.count()) {
     const std::size_t slots = unknowns.number.size();
     motion_.displacement.assign(slots, 0.0);
     motion_.velocity.assign(slots, 0.0);
@@ -79,7 +80,7 @@ class Relaxation {
   }
 
  private:
-  BondRunState state() const { return {network_, motion_, *bonds_}; }
+  BondRunState state() { return {network_, motion_, *bonds_, broken_.so_far()}; }
 
   /// Where the body is in proportion to the last equilibrium, at rest.
   void start(double factor) {
@@ -102,7 +103,7 @@ class Relaxation {
       const BondLosses losses =
           bonds_->forces(blocks_.begin(b), blocks_.end(b), dt_, motion_, force_);
       sums_[b].fractured += losses.fractured;
-      sums_[b].broken_halves += losses.broken_halves;
+      broken_.add(b, result_.iterations, losses.broken);
       measure(b);
     }
 #pragma omp single
@@ -157,7 +158,6 @@ class Relaxation {
       all.mass += block.mass;
       all.last_stiffness += block.last_stiffness;
       all.last_mass += block.last_mass;
-      all.broken_halves += block.broken_halves;
       all.fractured += block.fractured;
       all.driven += block.driven;
       all.supports += block.supports;
@@ -260,7 +260,7 @@ class Relaxation {
     record_.load = reference_.driven ? sums_of_row_.driven / value : factor_ * value;
     record_.support_reaction = sums_of_row_.supports;
     record_.displacement = reference_.driven ? factor_ * value : sums_of_row_.loaded / value;
-    record_.broken_bonds = sums_of_row_.broken_halves / 2;
+    record_.broken_bonds = static_cast<Index>(broken_.so_far().size());
     EnergyBalance& energy = record_.energy;
     energy.stored = bonds_->stored(0, network_.particles.size(), 0.0, motion_);
     for (std::size_t slot = 0; slot < network_.support_stiffness.size(); ++slot) {
@@ -290,6 +290,7 @@ class Relaxation {
   double dt_;
   int component_;
   ParticleBlocks blocks_;
+  BreakOrder broken_;
   BondMotion motion_;
   std::vector<double> force_, before_;       ///< internal forces now and an iteration ago
   std::vector<double> first_, first_force_;  ///< where the damping began to be measured

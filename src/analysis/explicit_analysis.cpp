@@ -146,6 +146,7 @@ class ExplicitRun {
     record_.load = options_.driven ? driven / options_.reference : factor * options_.reference;
     record_.support_reaction = supports;
     loop_.note_reaction(supports, options_.driven ? factor * options_.reference : 0.0);
+    state_.step = step + 1;
   }
 
   void look(Index step) {

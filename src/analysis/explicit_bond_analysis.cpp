@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "analysis/break_order.hpp"
 #include "analysis/explicit_loop.hpp"
 #include "analysis/free_motion.hpp"
 #include "analysis/particle_blocks.hpp"
@@ -16,7 +17,6 @@ struct BlockSums {
   double fractured = 0.0;
   double damping = 0.0;
   double external_work = 0.0;
-  Index broken_halves = 0;
   double stored = 0.0, kinetic = 0.0;   // of the last row
   double driven = 0.0, supports = 0.0;  // of the last step
   double loaded = 0.0;                  // reference forces times displacements
@@ -43,6 +43,7 @@ class BondRun {
         bonds_(make_bonds(network, rules)),
         component_(main_component(unknowns, loads)),
         blocks_(network.particles.size(), unknowns.width),
+        broken_(blocks_.count()),
         loop_(options, inertia.critical_time_step()),
         dt_(loop_.time_step()),
         motion_end_(rules.constant_velocity ? options.duration : 0.0),
@@ -75,12 +76,12 @@ class BondRun {
     if (bonds_->has_states()) {
 #pragma omp for schedule(static)
       for (Index b = 0; b < blocks; ++b) {
-        lose(b, bonds_->prepare(blocks_.begin(b), blocks_.end(b), dt_, motion_));
+        lose(b, step, bonds_->prepare(blocks_.begin(b), blocks_.end(b), dt_, motion_));
       }
     }
 #pragma omp for schedule(static)
     for (Index b = 0; b < blocks; ++b) {
-      lose(b, bonds_->forces(blocks_.begin(b), blocks_.end(b), dt_, motion_, force_));
+      lose(b, step, bonds_->forces(blocks_.begin(b), blocks_.end(b), dt_, motion_, force_));
     }
     if (bonds_->has_states()) {
 #pragma omp single nowait
@@ -99,9 +100,9 @@ class BondRun {
     note_reactions(step);
   }
 
-  void lose(Index block, const BondLosses& losses) {
+  void lose(Index block, Index step, const BondLosses& losses) {
     sums_[block].fractured += losses.fractured;
-    sums_[block].broken_halves += losses.broken_halves;
+    broken_.add(block, step, losses.broken);
   }
 
   void measure(Index block) {
@@ -183,18 +184,15 @@ class BondRun {
       all.damping += block.damping;
       all.fractured += block.fractured;
       all.external_work += block.external_work;
-      all.broken_halves += block.broken_halves;
       all.loaded += block.loaded;
     }
     record_.energy = {all.kinetic, all.stored, 0.0, all.damping, all.fractured, all.external_work};
-    const BondRunState state{network_, motion_, *bonds_};
+    const BondRunState state{network_, motion_, *bonds_, broken_.so_far()};
     loop_.look(step, record_, observer_, state, [&](ExplicitRecord& record) {
       record.displacement = reference_.driven ? motion_factor(step) * reference_.value
                                               : all.loaded / reference_.value;
-      record.broken_bonds = all.broken_halves / 2;
-      const std::vector<double> damage = bonds_->damage();
-      record.cracked_particles = static_cast<Index>(
-          std::count_if(damage.begin(), damage.end(), [](double each) { return each > 0.0; }));
+      (bonds_->has_states() ? record.cracked_particles : record.broken_bonds) =
+          static_cast<Index>(state.broken.size());
     });
   }
 
@@ -208,6 +206,7 @@ class BondRun {
   std::unique_ptr<ExplicitBonds> bonds_;
   int component_;
   ParticleBlocks blocks_;
+  BreakOrder broken_;
   ExplicitLoop loop_;
   double dt_;
   double motion_end_;  ///< of constant velocities; zero: none

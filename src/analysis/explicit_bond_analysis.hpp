@@ -14,6 +14,9 @@ struct BondRunState {
   const Network& network;
   const BondMotion& motion;
   const ExplicitBonds& bonds;
+  /// Bonds that broke, where particles crack and not bonds those that did: first ones first, those
+  /// of one step in the order of their numbers.
+  const std::vector<Index>& broken;
 };
 
 /// Watches a run.

@@ -117,7 +117,7 @@ void Halves<Half>::give_way(std::size_t half, const double* own, const double* o
     next = tooth.secant;
   } else {
     limit_[half] = infinity;
-    ++losses.broken_halves;
+    losses.broken.push_back(element);
   }
   double past_own[width], past_far[width];
   before(own, own_speed, time_step, past_own);

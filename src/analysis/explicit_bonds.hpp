@@ -24,7 +24,11 @@ enum class Strain {
 /// What happened to the bonds of some particles in a step; halves of bonds count half.
 struct BondLosses {
   double fractured = 0.0;  ///< energy that breaking bonds and yielding bars gave up [force length]
-  Index broken_halves = 0;
+  /// Bonds whose halves at these particles broke, both where both ends are among them; where
+  /// particles crack and not bonds, the particles in which damage began.
+  std::vector<Index> broken;
+
+  Index broken_halves() const { return static_cast<Index>(broken.size()); }
 };
 
 /// The elements of a network as an explicit run sees them: every particle holds its own half of

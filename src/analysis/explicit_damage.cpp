@@ -108,6 +108,7 @@ bool LatticeDamage::grow(ExplicitState& state, Index row, Index slot) const {
   if (first || grows || model_.rules != LatticeRules::consistent) {
     watch(state, family, strain, std::max(damage, state.damage[slot]));
   }
+  if (grows && state.damage[slot] == 0.0) state.cracked_in[slot] = state.step;
   if (grows) state.next_damage[slot] = damage;
   return grows;
 }

@@ -257,7 +257,9 @@ BondLosses StateParticles<Dim>::prepare(Index begin, Index end, double time_step
       if (halves_[h].mine) sum += factors(h, e).mine * e;
     }
     sum_[i] = sum;
-    if (breakable_) grow(i);
+    if (!breakable_) continue;
+    grow(i);
+    if (damage_[i] == 0.0 && next_[i] > 0.0) losses.broken.push_back(i);
   }
   return losses;
 }

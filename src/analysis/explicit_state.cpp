@@ -82,6 +82,7 @@ ExplicitState::ExplicitState(const ExplicitModel& model)
   grow_at.assign(slots, never);
   wait.assign(slots, -never);
   if (!material.breakable) return;
+  cracked_in.assign(slots, 0);
   for (const Index slot : lattice.particle_slot) {
     const bool whole = lattice.bond_count[slot] == static_cast<Index>(2 * own);
     crack_at[slot] = material.softening.strength / (whole ? 1.0 : material.boundary_factor);

@@ -2,118 +2,175 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <utility>
 
-#include "assembly/stiffness.hpp"
+#include "analysis/box_preconditioner.hpp"
+#include "assembly/internal_force.hpp"
 #include "base/error.hpp"
-#include "solver/factor.hpp"
 
 namespace perilink {
 namespace {
 
-constexpr int most_iterations = 1000;
-/// Of the largest stiffness over mass: far below the slowest vibration of bodies of thousands of
-/// particles across, far above round-off.
-constexpr double relative_shift = 1e-10;
-constexpr double tolerance = 1e-9;  // change of the eigenvalue, of two iterations in a row
+using Eigen::VectorXd;
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-  return sum;
-}
+constexpr int most_iterations = 2000;
+/// Of the energy that the residual could still set free, over that of the vibration: ten times the
+/// error of the square of the frequency, or less.
+constexpr double tolerance = 1e-8;
+/// Below this part of the fastest stiffness over mass there is nothing but round-off: bodies a
+/// thousand times as long as high bend at 1e-12.
+constexpr double least_stiffness = 1e-14;
 
-/// Makes vectors free of some motions with respect to the masses.
-class Deflation {
+/// The slowest vibration: a motion of unit kinetic form, orthogonal to what nothing resists.
+class Vibration {
  public:
-  Deflation(const Unknowns& unknowns, std::span<const std::vector<double>> motions,
-            const std::vector<double>& mass)
-      : mass_(mass) {
-    for (const std::vector<double>& motion : motions) {
-      std::vector<double> own;
-      for (std::size_t slot = 0; slot < motion.size(); ++slot) {
-        if (unknowns.number[slot] != no_index) own.push_back(motion[slot]);
-      }
-      apply(own);
-      const double norm = std::sqrt(product(own, own));
-      for (double& value : own) value /= norm;
-      basis_.push_back(std::move(own));
+  Vibration(const Network& network, const Unknowns& unknowns, const Inertia& inertia,
+            std::span<const std::vector<double>> free)
+      : network_(network),
+        unknowns_(unknowns),
+        secants_(static_cast<std::size_t>(network.num_elements()), 1.0),
+        mass_(Eigen::Map<const VectorXd>(inertia.mass.data(),
+                                         static_cast<Eigen::Index>(inertia.mass.size()))),
+        inverse_(network, unknowns),
+        least_(least_stiffness * inverse_.fastest(inertia.mass)) {
+    for (const std::vector<double>& motion : free) {
+      VectorXd own = masked(Eigen::Map<const VectorXd>(motion.data(), mass_.size()));
+      make_orthogonal(own, free_);
+      free_.push_back(own / std::sqrt(product(own, own)));
     }
   }
 
-  bool empty() const { return basis_.empty(); }
-
-  void apply(std::vector<double>& x) const {
-    for (const std::vector<double>& motion : basis_) {
-      const double part = product(motion, x);
-      for (std::size_t k = 0; k < x.size(); ++k) x[k] -= part * motion[k];
-    }
-  }
+  /// \return the square of its circular frequency [1/time^2]
+  double settle();
 
  private:
-  double product(const std::vector<double>& a, const std::vector<double>& b) const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += mass_[k] * a[k] * b[k];
-    return sum;
-  }
+  struct Direction {
+    VectorXd u, force;  ///< K u
+  };
 
-  const std::vector<double>& mass_;
-  std::vector<std::vector<double>> basis_;
+  double product(const VectorXd& a, const VectorXd& b) const {
+    return (a.array() * mass_.array() * b.array()).sum();
+  }
+  VectorXd masked(VectorXd u) const {
+    for (Eigen::Index slot = 0; slot < u.size(); ++slot) {
+      if (unknowns_.number[slot] == no_index) u[slot] = 0.0;
+    }
+    return u;
+  }
+  void make_orthogonal(VectorXd& u, const std::vector<VectorXd>& others) const {
+    for (const VectorXd& other : others) u -= product(other, u) * other;
+  }
+  VectorXd force_of(const VectorXd& u) {
+    internal_force(network_, secants_, {u.data(), static_cast<std::size_t>(u.size())}, inner_);
+    return masked(Eigen::Map<const VectorXd>(inner_.forces.data(), u.size()));
+  }
+  VectorXd random_start() const;
+  bool append(Direction direction);
+  void improve(Direction& last);
+
+  const Network& network_;
+  const Unknowns& unknowns_;
+  std::vector<double> secants_;
+  VectorXd mass_;
+  BoxPreconditioner inverse_;
+  double least_;
+  std::vector<VectorXd> free_;
+  InternalForce inner_;
+  std::vector<Direction> basis_;  ///< orthonormal; the present motion is the first one
 };
 
-/// Adds a small multiple of the masses to a stiffness matrix that resists no free motion.
-/// \return the multiple [1/time^2]
-double add_shift(SparseMatrix& stiffness, const std::vector<double>& mass) {
-  double fastest = 0.0;
-  for (Index k = 0; k < stiffness.cols(); ++k) {
-    fastest = std::max(fastest, stiffness.coeff(k, k) / mass[k]);
+/// The same every time, with a part of every vibration, mostly of the slow ones.
+VectorXd Vibration::random_start() const {
+  std::mt19937 random(1);
+  VectorXd push(mass_.size());
+  for (double& value : push) value = static_cast<double>(random()) / std::mt19937::max() - 0.4;
+  VectorXd u = inverse_.times(masked(push.cwiseProduct(mass_)));
+  make_orthogonal(u, free_);
+  return u;
+}
+
+/// Makes a direction orthonormal to the basis. \return false where nothing of it is left
+bool Vibration::append(Direction direction) {
+  const double whole = std::sqrt(product(direction.u, direction.u));
+  if (!(whole > 0.0)) return false;
+  constexpr double least_part = 1e-10;    // less is round-off
+  for (int pass = 0; pass < 2; ++pass) {  // once leaves too much round-off
+    for (const Direction& other : basis_) {
+      const double part = product(other.u, direction.u);
+      direction.u -= part * other.u;
+      direction.force -= part * other.force;
+    }
   }
-  const double shift = relative_shift * fastest;
-  for (Index k = 0; k < stiffness.cols(); ++k) stiffness.coeffRef(k, k) += shift * mass[k];
-  return shift;
+  const double norm = std::sqrt(product(direction.u, direction.u));
+  if (!(norm > least_part * whole)) return false;
+  direction.u /= norm;
+  direction.force /= norm;
+  basis_.push_back(std::move(direction));
+  return true;
+}
+
+/// The slowest motion of the basis takes the first place of the next one.
+/// \param last  what the others add to it
+void Vibration::improve(Direction& last) {
+  const auto count = static_cast<Eigen::Index>(basis_.size());
+  Eigen::MatrixXd matrix(count, count);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    for (Eigen::Index c = 0; c < count; ++c) matrix(r, c) = basis_[r].u.dot(basis_[c].force);
+  }
+  const VectorXd part =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvectors().col(0);
+  Direction next{VectorXd::Zero(mass_.size()), VectorXd::Zero(mass_.size())};
+  for (Eigen::Index k = 1; k < count; ++k) {
+    next.u += part[k] * basis_[k].u;
+    next.force += part[k] * basis_[k].force;
+  }
+  last = next;
+  next.u += part[0] * basis_[0].u;
+  next.force += part[0] * basis_[0].force;
+  basis_.clear();
+  append(std::move(next));
+}
+
+double Vibration::settle() {
+  VectorXd start = random_start();
+  VectorXd force = force_of(start);
+  append({std::move(start), std::move(force)});
+  Direction last;
+  for (int k = 0; k < most_iterations && !basis_.empty(); ++k) {
+    const Direction& now = basis_.front();
+    const double square = now.u.dot(now.force);
+    if (!(square > least_)) throw SolverError("parts of the body can move freely");
+    const VectorXd residual = now.force - square * mass_.cwiseProduct(now.u);
+    VectorXd step = inverse_.times(residual);
+    make_orthogonal(step, free_);
+    if (residual.dot(step) <= tolerance * square) {
+      force_of(now.u);  // the energy is a sum of squares, which round-off hardly touches
+      return 2.0 * inner_.energy / product(now.u, now.u);
+    }
+    VectorXd resistance = force_of(step);
+    append({std::move(step), std::move(resistance)});
+    if (last.u.size() > 0) append(last);
+    improve(last);
+  }
+  throw SolverError(
+      fmt::format("the fundamental period is not settled after {} iterations; give it in the case",
+                  most_iterations));
 }
 
 }  // namespace
 
 double fundamental_period(const Network& network, const Unknowns& unknowns, const Inertia& inertia,
-                          int threads, std::span<const std::vector<double>> free) {
-  const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
-  std::vector<double> mass;
-  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
-    if (unknowns.number[slot] != no_index) mass.push_back(inertia.mass[slot]);
+                          std::span<const std::vector<double>> free) {
+  if (unknowns.count <= static_cast<Index>(free.size())) {
+    return std::numeric_limits<double>::infinity();
   }
-  const Deflation deflation(unknowns, free, mass);
-  SparseMatrix stiffness = assemble_stiffness(network, secants, unknowns);
-  const double shift = deflation.empty() ? 0.0 : add_shift(stiffness, mass);
-  const std::unique_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
-  factor->factorize(stiffness, particle_of_unknown(unknowns));
-  std::mt19937 random(1);  // the same start every time, with a part of every vibration
-  std::vector<double> x(mass.size()), push(mass.size());
-  for (double& value : x) value = static_cast<double>(random()) / std::mt19937::max() + 0.5;
-  deflation.apply(x);
-  double square = 0.0;
-  int settled = 0;
-  for (int k = 0; k < most_iterations; ++k) {
-    for (std::size_t i = 0; i < x.size(); ++i) push[i] = mass[i] * x[i];
-    const double norm = std::sqrt(dot(x, push));
-    for (double& value : push) value /= norm;
-    factor->solve(push, x);
-    deflation.apply(x);
-    // Rayleigh's quotient of x = K^-1 M y: y' M x / (x' M x), with y of unit mass.
-    double inertia_of_x = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) inertia_of_x += mass[i] * x[i] * x[i];
-    const double estimate = dot(push, x) / inertia_of_x - shift;
-    settled = std::abs(estimate - square) <= tolerance * estimate ? settled + 1 : 0;
-    square = estimate;
-    if (settled == 2) return 2.0 * std::numbers::pi / std::sqrt(square);
-  }
-  throw SolverError(
-      fmt::format("the fundamental period is not settled after {} iterations; give it in the case",
-                  most_iterations));
+  const double square = Vibration(network, unknowns, inertia, free).settle();
+  return 2.0 * std::numbers::pi / std::sqrt(square);
 }
 
 }  // namespace perilink

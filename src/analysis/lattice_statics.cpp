@@ -1,7 +1,6 @@
 #include "analysis/lattice_statics.hpp"
 
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -36,7 +35,7 @@ LatticeNetwork lattice_network(const ExplicitModel& model) {
   return lattice_network(model.lattice, own, model.moduli.sum, model.volume);
 }
 
-double fundamental_period(const ExplicitModel& model, int threads) {
+double fundamental_period(const ExplicitModel& model) {
   const LatticeNetwork body = lattice_network(model);
   const Network& network = body.network;
   const std::vector<std::uint8_t> held = held_components(model, body.slots);
@@ -46,15 +45,12 @@ double fundamental_period(const ExplicitModel& model, int threads) {
   }
   const Unknowns unknowns =
       number_unknowns(network.dim(), held, std::vector<double>(held.size(), 0.0));
-  if (unknowns.count <= static_cast<Index>(free.size())) {
-    return std::numeric_limits<double>::infinity();
-  }
   Inertia inertia;
   for (const Index slot : body.slots) {
     inertia.mass.insert(inertia.mass.end(), static_cast<std::size_t>(network.dim()),
                         model.mass[slot]);
   }
-  return fundamental_period(network, unknowns, inertia, threads, free);
+  return fundamental_period(network, unknowns, inertia, free);
 }
 
 }  // namespace perilink

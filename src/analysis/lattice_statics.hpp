@@ -12,6 +12,6 @@ LatticeNetwork lattice_network(const ExplicitModel& model);
 /// Period of the slowest vibration of the intact, undamped body about its prescribed displacements
 /// [time], rigid motions that these leave free set apart; infinite where nothing vibrates.
 /// \throws SolverError  as fundamental_period of networks
-double fundamental_period(const ExplicitModel& model, int threads);
+double fundamental_period(const ExplicitModel& model);
 
 }  // namespace perilink

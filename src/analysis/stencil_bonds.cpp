@@ -238,7 +238,7 @@ BondLosses StencilBonds<Dim>::break_halves(std::size_t group, Index begin, Index
   for_halves(group, begin, end, [&](const Half& half) {
     if (!half.kind->breaks || !(demand(half, motion.displacement.data()) > 1.0)) return;
     losses.fractured += energy(half, time_step, motion);
-    ++losses.broken_halves;
+    losses.broken.push_back(element_[half.slot]);
     intact_[half.slot / lanes] &= static_cast<std::uint8_t>(~bit(half.slot));
   });
   return losses;
@@ -263,7 +263,7 @@ BondLosses StencilBonds<Dim>::forces(Index begin, Index end, double time_step,
     if (add(sum)) {
       const BondLosses lost = break_halves(g, begin, end, time_step, motion);
       losses.fractured += lost.fractured;
-      losses.broken_halves += lost.broken_halves;
+      losses.broken.insert(losses.broken.end(), lost.broken.begin(), lost.broken.end());
       add(sum);
     }
     const Index first = g * lanes;

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <utility>
 
-#include "analysis/fundamental_period.hpp"
 #include "app/field_file.hpp"
 #include "app/gauges.hpp"
 #include "app/particle_model.hpp"
@@ -52,6 +53,35 @@ void choose_steps(const CaseFile& input, BondRunCase& built) {
   built.options.rows = analysis.rows;
 }
 
+/// Parts of the body, of a hundredth of its particles or more, in which no displacement is
+/// prescribed.
+Index loose_pieces(const Model& model, const BondRunState& state) {
+  const Bonds& bonds = model.network.bonds;
+  const Index count = model.network.particles.size();
+  std::vector<Index> piece(static_cast<std::size_t>(count));
+  std::iota(piece.begin(), piece.end(), 0);
+  const auto root = [&](Index i) {
+    while (piece[i] != i) i = piece[i] = piece[piece[i]];
+    return i;
+  };
+  const std::vector<double> secants = state.bonds.secants();
+  for (Index e = 0; e < bonds.size(); ++e) {
+    if (secants[e] != 0.0) piece[root(bonds.first[e])] = root(bonds.second[e]);
+  }
+  std::vector<Index> size(piece.size(), 0);
+  std::vector<std::uint8_t> is_held(piece.size(), 0);
+  for (std::size_t slot = 0; slot < model.unknowns.number.size(); ++slot) {
+    const Index own = root(static_cast<Index>(slot / model.unknowns.width));
+    if (slot % model.unknowns.width == 0) ++size[own];
+    if (model.unknowns.number[slot] == no_index) is_held[own] = 1;
+  }
+  Index loose = 0;
+  for (Index i = 0; i < count; ++i) {
+    loose += is_held[i] == 0 && size[i] >= std::max(1.0, 0.01 * count);
+  }
+  return loose;
+}
+
 /// Fields and gauges take displacements as they are: the load factor is in them.
 StepState present_state(const BondRunState& state, const std::vector<double>& secants) {
   return {state.network, secants, state.motion.displacement};
@@ -68,7 +98,7 @@ Strain strain_of(const AnalysisSection& analysis) {
   return analysis.strain == "green" ? Strain::green : Strain::small;
 }
 
-BondRunCase build_bond_run(const CaseFile& input, const Model& model, int threads) {
+BondRunCase build_bond_run(const CaseFile& input, const Model& model) {
   BondRunCase built;
   const bool uniform = input.analysis.masses == "uniform";
   built.rules.damping_rate = input.analysis.damping_rate;
@@ -82,8 +112,6 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model, int thread
       lumped_inertia(model.network, densities(input),
                      uniform ? MassScaling::uniform : MassScaling::none, built.rules.strain);
   choose_steps(input, built);
-  built.fundamental_period =
-      fundamental_period(model.network, model.unknowns, built.inertia, threads);
   return built;
 }
 
@@ -95,8 +123,7 @@ BondRunFiles::BondRunFiles(const CaseFile& input, const Model& model, Index step
       directory_(std::move(directory)),
       history_(directory_.string(), crack_count(input), names_of(model.gauges)),
       bar_(quiet),
-      families_(bonds_of_particles(model.network.bonds, model.network.particles.size())),
-      is_broken_(static_cast<std::size_t>(model.network.num_elements()), 0) {}
+      families_(bonds_of_particles(model.network.bonds, model.network.particles.size())) {}
 
 void BondRunFiles::write_fields(const ExplicitRecord& record, const BondRunState& state) {
   const std::string name = fmt::format("fields_{:06}.vtu", record.step);
@@ -104,22 +131,19 @@ void BondRunFiles::write_fields(const ExplicitRecord& record, const BondRunState
   const Timer timer;
   const std::vector<double> secants = state.bonds.secants();
   const bool bonds_break = !model_.network.has_states();
-  for (Index e = 0; e < model_.network.first_segment && bonds_break; ++e) {
-    if (secants[e] != 0.0 || is_broken_[e]) continue;
-    broken_.push_back(e);
-    is_broken_[e] = 1;
-  }
   StepRecord at;  // with a load factor of one, since the displacements are those of this moment
   at.step = record.step;
   at.broken_bonds = record.broken_bonds;
   at.load_factor = 1.0;
   at.load = record.load;
-  VtuGrid grid = make_field_grid(model_.network, present_state(state, secants), at, broken_,
-                                 families_, model_.lattice.spacing);
+  VtuGrid grid = make_field_grid(model_.network, present_state(state, secants), at,
+                                 bonds_break ? state.broken : std::vector<Index>{}, families_,
+                                 model_.lattice.spacing);
   for (auto& [key, value] : grid.field_data) {
     if (key == "load_factor") value = record.load_factor;
   }
   if (!bonds_break) {
+    number_cracks(grid, state.broken);
     for (VtuArray& field : grid.point_data) {
       if (field.name == "damage") field.values = state.bonds.damage();
     }
@@ -157,6 +181,17 @@ void BondRunFiles::on_row(const ExplicitRecord& record, const BondRunState& stat
 
 void BondRunFiles::on_end(const ExplicitRecord& last, const BondRunState& state) {
   write_fields(last, state);
+  if (!model_.network.has_states()) loose_pieces_ = loose_pieces(model_, state);
+}
+
+std::vector<std::string> BondRunFiles::doubts(const ExplicitResult& result) const {
+  const Particles& particles = model_.network.particles;
+  const double length = longest_side(particles.dim, particles.size(), [&](Index i, int axis) {
+    return particles.position(i)[axis];
+  });
+  RunFacts facts = run_facts(input_, length, peak_load_);
+  facts.loose_pieces = loose_pieces_;
+  return doubts_about(result, facts);
 }
 
 void BondRunFiles::on_iteration(Index load_step, Index iteration, double residual) {
@@ -174,8 +209,8 @@ void BondRunFiles::finish() {
 }
 
 void write_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const BondRunCase& built, const ExplicitResult& result,
-                   const BondRunFiles& files, const PhaseSeconds& seconds, int threads) {
+                   const Model& model, const ExplicitResult& result, const BondRunFiles& files,
+                   const PhaseSeconds& seconds, int threads) {
   const EnergyBalance& energy = result.last.energy;
   nlohmann::ordered_json json;
   json["title"] = input.title;
@@ -189,7 +224,6 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["rows"] = files.rows();
   json["time_step"] = result.time_step;
   json["critical_time_step"] = result.critical_time_step;
-  json["fundamental_period"] = built.fundamental_period;
   json["time"] = result.last.time;
   if (model.particle_fit) {
     json["cracked_particles"] = result.last.cracked_particles;
@@ -208,7 +242,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["spacing"] = model.lattice.spacing;
   json["horizon"] = model.horizon;
   json["notes"] = model.notes;
-  json["doubts"] = doubts_about(result, files.peak_load());
+  json["doubts"] = files.doubts(result);
   json["seconds"] = {
       {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
   json["peak_memory_bytes"] = peak_memory_bytes();
@@ -232,16 +266,18 @@ void print_summary(const std::filesystem::path& directory, const CaseFile& input
              input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
              result.time_step, result.critical_time_step, files.rows());
-  fmt::print("  {:<14} {:.6g} work, {:.6g} dissipated by {}, balance to {:.1e}\n", "energy",
-             energy.external_work, energy.fractured, cracks_text(model, result.last),
-             result.largest_surplus);
+  fmt::print(
+      "  {:<14} {:.6g} work, {:.6g} kinetic at the end, {:.6g} dissipated by {}, balance to "
+      "{:.1e}\n",
+      "energy", energy.external_work, energy.kinetic, energy.fractured,
+      cracks_text(model, result.last), result.largest_surplus);
   fmt::print("  {:<14} {} particles, {}\n", "size", model.network.particles.size(),
              elements_text(model));
   fmt::print(
       "  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} M bond-steps/s), output {:.2f} s\n",
       "time", seconds.set_up, seconds.analysis, rate / 1e6, seconds.output);
   for (const std::string& note : model.notes) fmt::print("  {:<14} {}\n", "note", note);
-  for (const std::string& doubt : doubts_about(result, files.peak_load())) {
+  for (const std::string& doubt : files.doubts(result)) {
     fmt::print("  {:<14} {}\n", "doubt", doubt);
   }
   fmt::print("  {:<14} {}\n", "results", directory.string());

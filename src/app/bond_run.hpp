@@ -17,8 +17,7 @@ namespace perilink {
 struct BondRunCase {
   Inertia inertia;
   BondRunRules rules;
-  double fundamental_period = 0.0;  ///< of the intact body [time]
-  ExplicitOptions options;          ///< threads left at one
+  ExplicitOptions options;  ///< threads left at one
   Index steps = 0;
 };
 
@@ -27,9 +26,9 @@ std::string cracks_text(const Model& model, const ExplicitRecord& record);
 
 Strain strain_of(const AnalysisSection& analysis);
 
-/// Masses, period and steps of a case with type = "explicit" whose body has bonds.
+/// Masses and steps of a case with type = "explicit" whose body has bonds.
 /// \throws InputError for a time step above the critical one, or too many steps
-BondRunCase build_bond_run(const CaseFile& input, const Model& model, int threads);
+BondRunCase build_bond_run(const CaseFile& input, const Model& model);
 
 /// Turns what happens in the run into files and progress: every row into the history, the states at
 /// the times that the case asks for (and the first and the last) into field files, of a dynamic
@@ -50,6 +49,7 @@ class BondRunFiles final : public BondRunObserver {
   Index rows() const { return rows_; }
   double peak_load() const { return peak_load_; }
   double peak_displacement() const { return peak_displacement_; }
+  std::vector<std::string> doubts(const ExplicitResult& result) const;
   double seconds_writing() const { return seconds_writing_; }
 
  private:
@@ -62,10 +62,9 @@ class BondRunFiles final : public BondRunObserver {
   ExplicitHistory history_;
   ProgressBar bar_;
   Csr families_;
-  std::vector<Index> broken_;  ///< in the order of the rows, within a row in that of their numbers
-  std::vector<std::uint8_t> is_broken_;
   Index rows_ = 0;
   double peak_load_ = 0.0, peak_displacement_ = 0.0;
+  Index loose_pieces_ = 0;     ///< at the end
   std::size_t next_time_ = 0;  ///< of the case's output.fields_times
   std::vector<PvdEntry> series_;
   double seconds_writing_ = 0.0;
@@ -73,8 +72,8 @@ class BondRunFiles final : public BondRunObserver {
 
 /// Writes DIR/summary.json. \throws FileError
 void write_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const BondRunCase& built, const ExplicitResult& result,
-                   const BondRunFiles& files, const PhaseSeconds& seconds, int threads);
+                   const Model& model, const ExplicitResult& result, const BondRunFiles& files,
+                   const PhaseSeconds& seconds, int threads);
 
 /// The same for people, on standard output.
 void print_summary(const std::filesystem::path& directory, const CaseFile& input,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/fundamental_period.hpp"
 #include "analysis/lattice_statics.hpp"
 #include "app/bond_run.hpp"
 #include "app/calibration_text.hpp"
@@ -166,24 +167,15 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
 constexpr double elastic_particle_steps_per_second = 60e6;
 constexpr double breakable_particle_steps_per_second = 15e6;
 
-/// Bodies of more particles than this take a factorisation of minutes, which nobody asked for.
-constexpr Index most_particles_for_period = 200000, most_in_space_for_period = 10000;
-
-/// What loading times are measured by, where the case does not give it.
-void print_period(const ExplicitCase& built) {
-  double period = built.fundamental_period;
-  const LatticeRows& lattice = built.model.lattice;
-  const bool small = lattice.particles() <=
-                     (lattice.dim == 2 ? most_particles_for_period : most_in_space_for_period);
-  if (period == 0.0 && small) {
-    try {
-      period = fundamental_period(built.model, 1);
-    } catch (const SolverError&) {
-      fmt::print("#   fundamental period not found: parts of the body can move freely\n");
-      return;
-    }
+/// What loading times are measured by.
+/// \param period  computes it
+template <class Period>
+void print_period(Period period) {
+  try {
+    fmt::print("#   fundamental period {:.6g}\n", period());
+  } catch (const SolverError& error) {
+    fmt::print("#   fundamental period not found: {}\n", error.what());
   }
-  if (period > 0.0) fmt::print("#   fundamental period {:.6g}\n", period);
 }
 
 /// From the first to the last particle; the cells of the outermost reach beyond.
@@ -225,7 +217,9 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
   for (const auto& row : model.applied) loaded += row.size();
   if (loaded > 0) fmt::print("#   forces             {} on components of particles\n", loaded);
   for (const std::string& note : built.notes) fmt::print("#   note               {}\n", note);
-  print_period(built);
+  print_period([&] {
+    return built.fundamental_period > 0.0 ? built.fundamental_period : fundamental_period(model);
+  });
   fmt::print("#   critical time step {:.6g}\n", built.critical_time_step);
   fmt::print("#   time step          {:.6g}\n", built.time_step);
   fmt::print("#   steps              {}, about {} rows of history\n", built.steps,
@@ -251,11 +245,11 @@ constexpr double bond_steps_per_second = 250e6;
 int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   const Timer timer;
   const Model model = build_model_visibly(input, false);
-  const BondRunCase built = build_bond_run(input, model, 1);
+  const BondRunCase built = build_bond_run(input, model);
   const double set_up = timer.seconds();
   fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
   print_sizes(model);
-  fmt::print("#   fundamental period {:.6g}\n", built.fundamental_period);
+  print_period([&] { return fundamental_period(model.network, model.unknowns, built.inertia); });
   fmt::print("#   critical time step {:.6g}\n", built.inertia.critical_time_step());
   fmt::print("#   time step          {:.6g}\n", built.options.time_step);
   fmt::print("#   steps              {}, about {} rows of history\n", built.steps,

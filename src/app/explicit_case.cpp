@@ -68,14 +68,14 @@ void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& b
 }
 
 /// External damping of a material that does not say what the fundamental period is.
-void damp_externally(const CaseFile& input, int threads, ExplicitCase& built) {
+void damp_externally(const CaseFile& input, ExplicitCase& built) {
   const LatticeMaterialSection& material = *input.materials.front().lattice;
   if (material.external_damping > 0.0) {
     built.fundamental_period = built.model.material.fundamental_period;
   }
   if (material.external_damping == 0.0 || material.fundamental_period) return;
   try {
-    built.fundamental_period = fundamental_period(built.model, threads);
+    built.fundamental_period = fundamental_period(built.model);
   } catch (const SolverError& error) {
     throw InputError(
         input.where("materials[1].external_damping"),
@@ -113,13 +113,13 @@ void choose_steps(const CaseFile& input, ExplicitCase& built) {
 
 }  // namespace
 
-ExplicitCase build_explicit_case(const CaseFile& input, int threads) {
+ExplicitCase build_explicit_case(const CaseFile& input) {
   ExplicitCase built;
   const LatticeShape shape(input);
   built.model = build_lattice(input, shape, built.notes);
   const LatticeRows& lattice = built.model.lattice;
   load_body(input, shape, built);
-  damp_externally(input, threads, built);
+  damp_externally(input, built);
   choose_steps(input, built);
   for (const Index slot : lattice.particle_slot) built.bonds += lattice.bond_count[slot];
   built.bonds /= 2;

@@ -29,7 +29,6 @@ struct ExplicitCase {
 /// \throws InputError where the case makes no sense for its body: no lattice point in a region,
 /// contradictory supports, a spacing too large for the softening, a time step above the critical, a
 /// fundamental period that is needed but cannot be found
-/// \param threads  for the fundamental period
-ExplicitCase build_explicit_case(const CaseFile& input, int threads = 1);
+ExplicitCase build_explicit_case(const CaseFile& input);
 
 }  // namespace perilink

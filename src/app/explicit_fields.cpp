@@ -1,5 +1,6 @@
 #include "app/explicit_fields.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -49,6 +50,18 @@ std::vector<double> plastic_strains(const ExplicitModel& model, const ExplicitSt
   return values;
 }
 
+/// In the order in which their damage began, those of one step in that of their slots.
+std::vector<Index> cracked_particles(const LatticeRows& lattice, const ExplicitState& state) {
+  std::vector<Index> cracked;
+  const auto step = [&](Index i) { return state.cracked_in[lattice.particle_slot[i]]; };
+  for (Index i = 0; i < lattice.particles(); ++i) {
+    if (state.damage[lattice.particle_slot[i]] > 0.0) cracked.push_back(i);
+  }
+  std::stable_sort(cracked.begin(), cracked.end(),
+                   [&](Index a, Index b) { return step(a) < step(b); });
+  return cracked;
+}
+
 void append_vertices(VtuGrid& grid, Index count) {
   for (Index i = 0; i < count; ++i) {
     grid.types.push_back(VtuCell::vertex);
@@ -70,6 +83,7 @@ VtuGrid make_lattice_grid(const ExplicitModel& model, const ExplicitState& state
   VtuGrid grid;
   grid.points = vectors_of(lattice, lattice.positions);
   append_vertices(grid, lattice.particles());
+  number_cracks(grid, cracked_particles(lattice, state));
   grid.point_data = {
       {"displacement", 3, vectors_of(lattice, state.displacement)},
       {"velocity", 3, vectors_of(lattice, state.velocity)},

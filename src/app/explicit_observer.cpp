@@ -7,6 +7,7 @@
 
 #include "app/explicit_fields.hpp"
 #include "app/gauges.hpp"
+#include "app/run_doubts.hpp"
 #include "app/signals.hpp"
 #include "base/timer.hpp"
 
@@ -72,6 +73,14 @@ void ExplicitRunObserver::on_row(const ExplicitRecord& record, const ExplicitSta
 
 void ExplicitRunObserver::on_end(const ExplicitRecord& last, const ExplicitState& state) {
   write_fields(last, state);
+}
+
+std::vector<std::string> ExplicitRunObserver::doubts(const ExplicitResult& result) const {
+  const LatticeRows& lattice = built_.model.lattice;
+  const double length = longest_side(lattice.dim, lattice.particles(), [&](Index i, int axis) {
+    return lattice.positions[lattice.at(axis, lattice.particle_slot[i])];
+  });
+  return doubts_about(result, run_facts(input_, length, peak_load_));
 }
 
 bool ExplicitRunObserver::stop_requested() { return stop_signal_received(); }

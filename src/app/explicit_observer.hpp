@@ -28,6 +28,7 @@ class ExplicitRunObserver final : public ExplicitObserver {
   double peak_load() const { return peak_load_; }
   /// Of the driven particles in that row [length].
   double peak_displacement() const { return peak_displacement_; }
+  std::vector<std::string> doubts(const ExplicitResult& result) const;
   double seconds_writing() const { return seconds_writing_; }
 
  private:

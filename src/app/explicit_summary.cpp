@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/run_doubts.hpp"
 #include "app/summary_file.hpp"
 #include "base/build_info.hpp"
 
@@ -50,7 +49,7 @@ void write_summary(const std::filesystem::path& directory, const ExplicitSummary
   json["spacing"] = summary.built.model.lattice.spacing;
   json["particle_steps_per_second"] = summary.particle_steps_per_second();
   json["notes"] = summary.built.notes;
-  json["doubts"] = doubts_about(result, summary.observer.peak_load());
+  json["doubts"] = summary.observer.doubts(result);
   json["seconds"] = {{"set_up", summary.seconds.set_up},
                      {"analysis", summary.seconds.analysis},
                      {"output", summary.seconds.output}};
@@ -76,9 +75,11 @@ void print_summary(const std::filesystem::path& directory, const ExplicitSummary
   const std::string flow =
       fmt::format(", {:.6g} by {} yielded ones", energy.plastic, result.last.yielded_particles);
   fmt::print(
-      "  {:<14} {:.6g} work, {:.6g} dissipated by {} cracked particles{}, balance to {:.1e}\n",
-      "energy", energy.external_work, energy.fractured, result.last.cracked_particles,
-      summary.built.model.material.yields ? flow : "", result.largest_surplus);
+      "  {:<14} {:.6g} work, {:.6g} kinetic at the end, {:.6g} dissipated by {} cracked "
+      "particles{}, balance to {:.1e}\n",
+      "energy", energy.external_work, energy.kinetic, energy.fractured,
+      result.last.cracked_particles, summary.built.model.material.yields ? flow : "",
+      result.largest_surplus);
   fmt::print("  {:<14} {} particles, {} bonds\n", "size", summary.built.model.lattice.particles(),
              summary.built.bonds);
   fmt::print(
@@ -87,7 +88,7 @@ void print_summary(const std::filesystem::path& directory, const ExplicitSummary
       "time", summary.seconds.set_up, summary.seconds.analysis,
       summary.particle_steps_per_second() / 1e6, summary.seconds.output);
   for (const std::string& note : summary.built.notes) fmt::print("  {:<14} {}\n", "note", note);
-  for (const std::string& doubt : doubts_about(result, summary.observer.peak_load())) {
+  for (const std::string& doubt : summary.observer.doubts(result)) {
     fmt::print("  {:<14} {}\n", "doubt", doubt);
   }
   fmt::print("  {:<14} {}\n", "results", directory.string());

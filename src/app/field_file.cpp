@@ -106,6 +106,15 @@ VtuGrid make_field_grid(const Network& network, const StepState& state, const St
   return grid;
 }
 
+void number_cracks(VtuGrid& grid, std::span<const Index> cracked) {
+  for (VtuArray& field : grid.cell_data) {
+    if (field.name != "broken_at") continue;
+    for (std::size_t k = 0; k < cracked.size(); ++k) {
+      field.values[cracked[k]] = static_cast<double>(k + 1);
+    }
+  }
+}
+
 VtuGrid make_element_grid(const LinearElements& elements, const Particles& particles,
                           std::span<const double> displacement, const StepRecord& record,
                           double spacing) {

@@ -28,6 +28,10 @@ VtuGrid make_field_grid(const Network& network, const StepState& state, const St
                         std::span<const Index> broken_elements_in_order, const Csr& families,
                         double spacing);
 
+/// Numbers the vertices of particles that crack, where no bonds break, in `broken_at`.
+/// \param cracked  particles, first one first
+void number_cracks(VtuGrid& grid, std::span<const Index> cracked);
+
 /// The state of linear elements. Cells: a vertex for each particle, then the triangles or
 /// tetrahedra. Fields as above; particles have the mean of the cells around them, and cells further
 ///   strain_energy_density, principal_strain and principal_stress (largest first; in the plane or

@@ -14,11 +14,14 @@ constexpr double terminal_interval = 0.1;  // [s]
 constexpr double log_interval = 10.0;      // [s]
 constexpr int bar_width = 24;
 
-/// Over the line that stands there.
-void draw_line(const std::string& text) {
-  std::fputs(fmt::format("\r{}\033[K", text).c_str(), stderr);  // nothing is thrown: see complain()
+/// Nobody may be there to read it: no reason for a run to end.
+void show(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
 }
+
+/// Over the line that stands there.
+void draw_line(const std::string& text) { show(fmt::format("\r{}\033[K", text)); }
 
 void erase_line() { draw_line(""); }
 
@@ -50,7 +53,7 @@ void ProgressBar::draw(const std::string& state, std::optional<double> done) {
       done && *done > 0.0 ? fmt::format(", {} left", format_duration(now / *done - now))
                           : fmt::format(", {} so far", format_duration(now));
   if (!terminal_) {
-    std::fputs(fmt::format("{}{}\n", state, left).c_str(), stderr);
+    show(fmt::format("{}{}\n", state, left));
     return;
   }
   std::string bar;

@@ -24,7 +24,7 @@ RelaxationOptions relaxation_options(const CaseFile& input, int threads) {
 
 double expected_iterations(const Model& model, const RelaxationOptions& options) {
   const Inertia inertia = fictitious_inertia(model.network, options.strain);
-  const double period = fundamental_period(model.network, model.unknowns, inertia, options.threads);
+  const double period = fundamental_period(model.network, model.unknowns, inertia);
   const double step = options.safety * inertia.critical_time_step();
   return -std::log(options.tolerance) * period / (2.0 * std::numbers::pi * step);
 }

@@ -18,7 +18,6 @@
 #include "app/mesh_input.hpp"
 #include "app/relaxation_run.hpp"
 #include "app/result_directory.hpp"
-#include "app/run_doubts.hpp"
 #include "app/run_model.hpp"
 #include "app/run_observer.hpp"
 #include "app/signals.hpp"
@@ -108,7 +107,7 @@ int exit_status_of(Ending ending) {
 int run_explicit(const RunOptions& options, const CaseFile& input, const fs::path& directory,
                  int threads) {
   Timer timer;
-  ExplicitCase built = build_explicit_case(input, threads);
+  ExplicitCase built = build_explicit_case(input);
   built.options.threads = threads;
   const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
@@ -136,7 +135,7 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
   log->info("{}: {}; {} steps, {} cracked particles, energy to {:.2e} of the work",
             to_string(result.ending), result.reason, result.steps, result.last.cracked_particles,
             result.largest_surplus);
-  for (const std::string& doubt : doubts_about(result, observer.peak_load())) {
+  for (const std::string& doubt : observer.doubts(result)) {
     log->info("doubt: {}", doubt);
   }
   if (!options.quiet) print_summary(directory, summary);
@@ -148,7 +147,7 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
                      int threads) {
   Timer timer;
   const Model model = build_model_visibly(input, options.quiet);
-  BondRunCase built = build_bond_run(input, model, threads);
+  BondRunCase built = build_bond_run(input, model);
   built.options.threads = threads;
   const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
@@ -172,10 +171,10 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   seconds.output = files.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
   conclude(result,
-           [&] { write_summary(directory, input, model, built, result, files, seconds, threads); });
+           [&] { write_summary(directory, input, model, result, files, seconds, threads); });
   log->info("{}: {}; {} steps, {}, energy to {:.2e} of the work", to_string(result.ending),
             result.reason, result.steps, cracks_text(model, result.last), result.largest_surplus);
-  for (const std::string& doubt : doubts_about(result, files.peak_load())) {
+  for (const std::string& doubt : files.doubts(result)) {
     log->info("doubt: {}", doubt);
   }
   if (!options.quiet) print_summary(directory, input, model, result, files, seconds);

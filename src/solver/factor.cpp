@@ -1,9 +1,11 @@
 #include "solver/factor.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
 
 #include "solver/cholmod_updown_factor.hpp"
+#include "solver/factor_count.hpp"
 #include "solver/in_place_factor.hpp"
 #include "solver/refactorizing_factor.hpp"
 
@@ -31,7 +33,16 @@ void Factor::downdate(std::span<const SparseVector> x, std::span<const double> l
   }
 }
 
+namespace {
+
+std::atomic<int> made = 0;
+
+}  // namespace
+
+int factors_made() { return made; }
+
 std::unique_ptr<Factor> make_factor(FactorRoute route, int threads) {
+  ++made;
   switch (route) {
     case FactorRoute::in_place: return std::make_unique<InPlaceFactor>(threads);
     case FactorRoute::cholmod_updown: return std::make_unique<CholmodUpdownFactor>();

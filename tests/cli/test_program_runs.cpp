@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pty.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "support/process.hpp"
@@ -56,6 +58,10 @@ int expect_whole_rows(const std::string& text) {
   return rows;
 }
 
+std::string name_of_signal(const testing::TestParamInfo<int>& signal) {
+  return signal.param == SIGINT ? "Int" : signal.param == SIGTERM ? "Term" : "Hup";
+}
+
 class StopSignals : public ProgramRuns, public testing::WithParamInterface<int> {};
 
 TEST_P(StopSignals, KeepTheResultsSoFar) {
@@ -72,10 +78,49 @@ TEST_P(StopSignals, KeepTheResultsSoFar) {
   EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, StopSignals, testing::Values(SIGINT, SIGTERM),
-                         [](const auto& signal) {
-                           return signal.param == SIGINT ? "Int" : "Term";
-                         });
+INSTANTIATE_TEST_SUITE_P(Signals, StopSignals, testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         name_of_signal);
+
+/// A run on a terminal of its own, which is closed while progress is drawn on it.
+TEST_F(ProgramRuns, KeepTheirResultsWhenTheirTerminalIsClosed) {
+  write_text(work() / "long.toml", lattice_strip_case(0.02, "safety = 1e-4\n"));
+  std::string program = PERILINK_PROGRAM;
+  std::string words[] = {"run", "long.toml", "--out", "r", "--threads", "1"};
+  std::vector<char*> arguments = {program.data()};
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (chdir(work().c_str()) != 0) _exit(126);
+    std::signal(SIGHUP, SIG_DFL);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  std::string drawn;
+  char text[256];
+  for (ssize_t size = 1; size > 0 && drawn.find("step ") == std::string::npos;) {
+    size = read(terminal, text, sizeof text);
+    if (size > 0) drawn.append(text, static_cast<std::size_t>(size));
+  }
+  close(terminal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status) << " after " << drawn;
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+  EXPECT_EQ(summary("r")["status"], "interrupted");
+}
+
+/// What nobody reads is no reason to lose results.
+TEST_F(ProgramRuns, EndWellWhenNobodyReadsTheirOutput) {
+  write_text(work() / "small.toml", small_ghost_case);
+  const std::string command = "cd " + work().string() + " && (" + PERILINK_PROGRAM +
+                              " run small.toml --out r; echo $? > status) 2>&1 | true";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(read_text(work() / "status"), "0\n");
+  EXPECT_EQ(summary("r")["broken_bonds"], 30);
+}
 
 TEST_F(ProgramRuns, KilledOnesLeaveAReadableHistory) {
   ProgramProcess process = start_long_run();
@@ -189,10 +234,8 @@ TEST_P(ExplicitStopSignals, KeepTheResultsSoFar) {
   EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, ExplicitStopSignals, testing::Values(SIGINT, SIGTERM),
-                         [](const auto& signal) {
-                           return signal.param == SIGINT ? "Int" : "Term";
-                         });
+INSTANTIATE_TEST_SUITE_P(Signals, ExplicitStopSignals, testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         name_of_signal);
 
 struct BarCase {
   const char* pattern;

@@ -144,9 +144,9 @@ TEST(GreenBondsThatBreak, BreakAtTheGreenStretch) {
     return motion;
   };
   std::vector<double> force(8);
-  EXPECT_EQ(bonds->forces(0, 4, 0.0, pulled(at_limit - 1e-9), force).broken_halves, 0);
+  EXPECT_EQ(bonds->forces(0, 4, 0.0, pulled(at_limit - 1e-9), force).broken_halves(), 0);
   const BondLosses losses = bonds->forces(0, 4, 0.0, pulled(at_limit + 1e-9), force);
-  EXPECT_EQ(losses.broken_halves, 4);
+  EXPECT_EQ(losses.broken_halves(), 4);
   EXPECT_NEAR(losses.fractured, 2.0 * 0.5 * 10.0 * 0.25, 1e-6);
   for (const double f : force) EXPECT_EQ(f, 0.0);
 }

@@ -19,6 +19,10 @@ class Recorder final : public BondRunObserver {
     rows.push_back(record);
     motion = state.motion;
     secants = state.bonds.secants();
+    broken = state.broken;
+    for (Index e = 0; e < state.network.first_segment; ++e) {
+      if (secants[e] == 0.0 && !std::count(seen.begin(), seen.end(), e)) seen.push_back(e);
+    }
   }
   void on_end(const ExplicitRecord&, const BondRunState&) override { ++ends; }
   bool stop_requested() override { return stop_after > 0 && rows.size() >= stop_after; }
@@ -28,6 +32,8 @@ class Recorder final : public BondRunObserver {
   std::vector<ExplicitRecord> rows;
   BondMotion motion;
   std::vector<double> secants;
+  std::vector<Index> broken;
+  std::vector<Index> seen;  ///< to be broken, row after row, in a row by their numbers
 };
 
 struct Outcome {
@@ -48,7 +54,7 @@ Outcome run(const AnalysisBody& body, const ExplicitOptions& options, const Bond
 
 ExplicitOptions slow_options(const AnalysisBody& body, double periods, double reference) {
   const Inertia inertia = lumped_inertia(body.network, std::vector{1.0});
-  const double period = fundamental_period(body.network, body.unknowns, inertia, 1);
+  const double period = fundamental_period(body.network, body.unknowns, inertia);
   ExplicitOptions options;
   options.duration = periods * period;
   options.ramp = 0.8 * options.duration;
@@ -110,6 +116,23 @@ TEST_P(BondRuns, ThreadsChangeNothing) {
     EXPECT_EQ(one.recorder.rows[r].load, two.recorder.rows[r].load);
     EXPECT_EQ(one.recorder.rows[r].energy.surplus(), two.recorder.rows[r].energy.surplus());
   }
+}
+
+/// A run of which every step is a row shows which bond broke in which step; one with next to no
+/// rows has to know it as well.
+TEST_P(BondRuns, KnowInWhichOrderBondsBroke) {
+  AnalysisBody body = overloaded(make_block(GetParam()));
+  ExplicitOptions options = slow_options(body, 1.0, body.reference.value);
+  options.rows = 1000000000;
+  const Outcome all = run(body, options, {1.0});
+  ASSERT_GT(all.recorder.seen.size(), 2U);
+  options.rows = 1;
+  const Outcome few = run(body, options, {1.0});
+  EXPECT_EQ(few.recorder.broken, all.recorder.seen);
+  EXPECT_EQ(all.recorder.broken, all.recorder.seen);
+  EXPECT_FALSE(std::is_sorted(few.recorder.broken.begin(), few.recorder.broken.end()))
+      << "else the test shows nothing";
+  EXPECT_EQ(few.result.last.broken_bonds, static_cast<Index>(few.recorder.broken.size()));
 }
 
 /// An elastic body that is loaded slowly and damped comes to rest in static equilibrium.

@@ -58,7 +58,7 @@ TEST_P(HalvesOfBlocks, ForcesAreThoseOfTheNetwork) {
   double largest = 0.0;
   for (const double f : expected.forces) largest = std::max(largest, std::abs(f));
   expect_near(found.force, expected.forces, round_off * largest);
-  EXPECT_EQ(found.losses.broken_halves, 0);
+  EXPECT_EQ(found.losses.broken_halves(), 0);
   EXPECT_EQ(found.losses.fractured, 0.0);
   // With no velocity the stored energy is that of the displacement.
   BondMotion still = motion;
@@ -95,7 +95,7 @@ TEST_P(HalvesOfBlocks, BondsBreakWhereTheirEnergyIsTooLarge) {
   }
   ASSERT_GT(broken, 0);
   ASSERT_LT(broken, network.first_segment);
-  EXPECT_EQ(found.losses.broken_halves, 2 * broken);
+  EXPECT_EQ(found.losses.broken_halves(), 2 * broken);
   const InternalForce expected = internal_force(network, secants, motion.displacement);
   double largest = 0.0;
   for (const double f : expected.forces) largest = std::max(largest, std::abs(f));
@@ -111,7 +111,7 @@ TEST_P(HalvesOfBlocks, LossesAreTheDifferenceOfStoredEnergies) {
   const double before = bonds->stored(0, all, 0.3, motion);
   const Forces found = all_forces(body, *bonds, motion, 0.3);
   const double after = bonds->stored(0, all, 0.3, motion);
-  ASSERT_GT(found.losses.broken_halves, 0);
+  ASSERT_GT(found.losses.broken_halves(), 0);
   EXPECT_NEAR(found.losses.fractured, before - after, round_off * std::abs(before));
 }
 
@@ -144,7 +144,7 @@ TEST(ExplicitBonds, BarsYieldEitherWay) {
       // Teeth lie within a factor sqrt(1.05) of the plateau.
       EXPECT_NEAR(secants[e] * 7.0, 1.0, 0.025);
     }
-    EXPECT_EQ(found.losses.broken_halves, 0);
+    EXPECT_EQ(found.losses.broken_halves(), 0);
     EXPECT_GT(found.losses.fractured, 0.0);
   }
 }

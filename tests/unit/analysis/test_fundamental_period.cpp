@@ -4,27 +4,78 @@
 
 #include <numbers>
 
+#include "assembly/rigid_modes.hpp"
 #include "base/error.hpp"
-#include "support/analysis_bodies.hpp"
+#include "support/dense_vibration.hpp"
 
 namespace perilink {
 namespace {
 
 using namespace test;
 
+double period_of(const AnalysisBody& body, const Inertia& inertia) {
+  return fundamental_period(body.network, body.unknowns, inertia);
+}
+
 /// N equal masses m behind one another on springs k, the first spring held: the slowest vibration
 /// is 2 sqrt(k/m) sin(pi / (2 (2 N + 1))).
 TEST(FundamentalPeriod, OfAChainIsTheClosedForm) {
-  const int columns = 12;
   const double stiffness = 3.0, mass = 0.7;
-  const AnalysisBody body = make_chains(columns, 3, false, stiffness, INFINITY);
-  Inertia inertia;
-  inertia.mass.assign(body.unknowns.number.size(), mass);
-  const double frequency = 2.0 * std::sqrt(stiffness / mass) *
-                           std::sin(std::numbers::pi / (2.0 * (2.0 * columns + 1.0)));
-  // Three equal chains: the eigenvalue comes three times, which the quotient does not mind.
-  EXPECT_NEAR(fundamental_period(body.network, body.unknowns, inertia, 1),
-              2.0 * std::numbers::pi / frequency, 1e-7 / frequency);
+  // Three equal chains: the eigenvalue comes three times, which the quotient does not mind. The
+  // long ones have many particles in a box.
+  for (const auto& [columns, tolerance] : {std::pair{12, 1e-7}, std::pair{900, 6e-7}}) {
+    const AnalysisBody body = make_chains(columns, 3, false, stiffness, INFINITY);
+    Inertia inertia;
+    inertia.mass.assign(body.unknowns.number.size(), mass);
+    const double frequency = 2.0 * std::sqrt(stiffness / mass) *
+                             std::sin(std::numbers::pi / (2.0 * (2.0 * columns + 1.0)));
+    EXPECT_NEAR(period_of(body, inertia), 2.0 * std::numbers::pi / frequency,
+                tolerance / frequency);
+  }
+}
+
+class Periods : public testing::TestWithParam<BlockCase> {};
+
+/// To ten times the tolerance of the iteration.
+TEST_P(Periods, AreThoseOfTheDenseMatrix) {
+  AnalysisBody body = make_block(GetParam());
+  const Inertia inertia = lumped_inertia(body.network, std::vector{1.0, 1.0});
+  const double exact = dense_period(body, inertia);
+  EXPECT_NEAR(period_of(body, inertia), exact, 1e-7 * exact);
+  body.network.support_stiffness.assign(body.unknowns.number.size(), 2.0);
+  const double on_springs = dense_period(body, inertia);
+  EXPECT_LT(on_springs, 0.99 * exact);
+  EXPECT_NEAR(period_of(body, inertia), on_springs, 1e-7 * on_springs);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, Periods,
+    testing::Values(BlockCase{{"plane", Pattern::rectangular, Surface::none}, false, false, 12},
+                    BlockCase{{"plane", Pattern::hexagonal, Surface::none}, true, true, 8},
+                    BlockCase{{"space", Pattern::cubic, Surface::none}, true, false, 5},
+                    BlockCase{
+                        {"plane", Pattern::rectangular, Surface::none}, true, false, 9, 0.1, true},
+                    BlockCase{{"space", Pattern::cubic, Surface::none}, true, false, 3, 0.1, true}),
+    [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
+
+/// Bends a hundred thousand times more easily than it stretches.
+TEST(FundamentalPeriod, OfASlenderBeamIsThatOfTheDenseMatrix) {
+  const AnalysisBody body = cantilever(130, 2);
+  const Inertia inertia = lumped_inertia(body.network, std::vector{1.0});
+  const double exact = dense_period(body, inertia);
+  EXPECT_NEAR(period_of(body, inertia), exact, 1e-7 * exact);
+}
+
+/// Bends 1e12 times more easily than bonds stretch, of which rounded forces know four digits. Twice
+/// the length L takes four times the period but for what particles next to the held end are softer,
+/// a part of a few 1 / L of it.
+TEST(FundamentalPeriod, OfABeamAThousandTimesAsLongAsHighIsFound) {
+  double period[2];
+  for (const int twice : {0, 1}) {
+    const AnalysisBody body = cantilever(twice ? 3000 : 1500, 2);
+    period[twice] = period_of(body, lumped_inertia(body.network, std::vector{1.0}));
+  }
+  EXPECT_NEAR(period[1], 4.0 * period[0], 4.0 * period[0] * 4.0 / 1500.0);
 }
 
 TEST(FundamentalPeriod, FreeBodiesHaveNone) {
@@ -32,7 +83,21 @@ TEST(FundamentalPeriod, FreeBodiesHaveNone) {
   body = free_body(body.network);
   number(body, [](Index, int) { return false; });
   const Inertia inertia = lumped_inertia(body.network, std::vector{1.0});
-  EXPECT_THROW(fundamental_period(body.network, body.unknowns, inertia, 1), SolverError);
+  EXPECT_THROW(period_of(body, inertia), SolverError);
+  // But for their rigid motions, of which there are three.
+  const std::vector<std::uint8_t> held(body.unknowns.number.size(), 0);
+  const std::vector<Fragment> parts = find_fragments(body.network, held);
+  ASSERT_EQ(parts.size(), 1U);
+  const double exact = dense_period(body, inertia, 3);
+  EXPECT_NEAR(fundamental_period(body.network, body.unknowns, inertia,
+                                 free_motions(body.network, parts[0], held)),
+              exact, 1e-7 * exact);
+}
+
+TEST(FundamentalPeriod, IsInfiniteWhereNothingIsFree) {
+  AnalysisBody body = make_block({{"plane", Pattern::rectangular, Surface::none}});
+  number(body, [](Index, int) { return true; });
+  EXPECT_TRUE(std::isinf(period_of(body, lumped_inertia(body.network, std::vector{1.0}))));
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ double period_of_column(int rows, Ends held) {
     }
   }
   prescribe(model, motions);
-  return fundamental_period(model, 1);
+  return fundamental_period(model);
 }
 
 /// Sums of stretches lack bonds along the sides, whose part of the body falls with the spacing.
@@ -149,7 +149,7 @@ TEST(LatticePeriod, OfAGrippedSpecimenIsThePrintedOne) {
     motions.push_back({slot, 1, 0.0});
   }
   prescribe(model, motions);
-  EXPECT_NEAR(fundamental_period(model, 1), 0.00035, 0.000005);  // half of its last digit
+  EXPECT_NEAR(fundamental_period(model), 0.00035, 0.000005);  // half of its last digit
 }
 
 TEST(LatticePeriod, IsInfiniteWhereNothingVibrates) {
@@ -160,7 +160,7 @@ TEST(LatticePeriod, IsInfiniteWhereNothingVibrates) {
     motions.push_back({slot, 1, 0.0});
   }
   prescribe(model, motions);
-  EXPECT_TRUE(std::isinf(fundamental_period(model, 1)));
+  EXPECT_TRUE(std::isinf(fundamental_period(model)));
 }
 
 }  // namespace

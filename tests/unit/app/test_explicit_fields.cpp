@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "analysis/explicit_kernels.hpp"
+#include "app/explicit_case.hpp"
 #include "app/field_file.hpp"
 #include "app/plot_body.hpp"
 #include "support/lattice_models.hpp"
+#include "support/program_cases.hpp"
 
 namespace perilink {
 namespace {
@@ -64,6 +67,42 @@ TEST(ExplicitFields, HoldEveryParticleOnce) {
   EXPECT_EQ(grid.field("load", 0.0), 3.0);
   EXPECT_EQ(grid.field("spacing", 0.0), 0.01);
   EXPECT_EQ(grid.field("thickness", 0.0), model.thickness);
+}
+
+/// A run of which every step is a row shows which particle cracked in which step.
+TEST(ExplicitFields, NumberCracksInTheOrderOfTime) {
+  struct Order final : ExplicitObserver {
+    explicit Order(const ExplicitModel& of) : model(of) {}
+    void on_row(const ExplicitRecord& record, const ExplicitState& state) override {
+      for (Index i = 0; i < model.lattice.particles(); ++i) {
+        if (state.damage[model.lattice.particle_slot[i]] == 0.0) continue;
+        if (std::count(seen.begin(), seen.end(), i) == 0) seen.push_back(i);
+      }
+      grid = make_lattice_grid(model, state, record);
+    }
+    const ExplicitModel& model;
+    std::vector<Index> seen;
+    VtuGrid grid;
+  };
+  std::string text = test::lattice_strip_case();
+  const std::string unbreakable = "fracture_energy = \"infinite\"";
+  text.replace(text.find(unbreakable), unbreakable.size(),
+               "tensile_strength = 1\nfracture_energy = 0.02");
+  ExplicitCase built = build_explicit_case(parse_case(text, ""));
+  const auto run = [&](int rows) {
+    built.options.rows = rows;
+    Order order(built.model);
+    ExplicitState state(built.model);
+    run_explicit_analysis(built.model, state, built.options, order);
+    return std::pair(order.seen, order.grid.find_cell_data("broken_at")->values);
+  };
+  const std::vector<Index> seen = run(1000000).first;
+  const std::vector<double> broken_at = run(1).second;
+  ASSERT_GT(seen.size(), 10U);
+  EXPECT_FALSE(std::is_sorted(seen.begin(), seen.end())) << "else this shows nothing";
+  std::vector<double> expected(broken_at.size(), 0.0);
+  for (std::size_t k = 0; k < seen.size(); ++k) expected[seen[k]] = static_cast<double>(k + 1);
+  EXPECT_EQ(broken_at, expected);
 }
 
 /// Hooke's law inside the body, where the constants of the lattice are exact to first order.

@@ -117,7 +117,7 @@ TEST(ParticleModel, RefusesParticlesTooFarApartForTheSoftening) {
   const CaseFile input = parse_case(text, "");
   const Model model = build_model(input);
   try {
-    build_bond_run(input, model, 1);
+    build_bond_run(input, model);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("body.spacing"));
@@ -127,21 +127,30 @@ TEST(ParticleModel, RefusesParticlesTooFarApartForTheSoftening) {
 
 class Rows final : public BondRunObserver {
  public:
-  void on_row(const ExplicitRecord& record, const BondRunState&) override {
+  void on_row(const ExplicitRecord& record, const BondRunState& state) override {
     records.push_back(record);
+    cracked = state.broken;
+    const std::vector<double> damage = state.bonds.damage();
+    for (Index i = 0; i < static_cast<Index>(damage.size()); ++i) {
+      if (damage[i] > 0.0 && !std::count(seen.begin(), seen.end(), i)) seen.push_back(i);
+    }
   }
   std::vector<ExplicitRecord> records;
+  std::vector<Index> cracked;  ///< in the order that the run tells
+  std::vector<Index> seen;     ///< to be damaged, row after row, in a row by their numbers
 };
 
-Rows run_bar(int threads, const std::string& spacing, const std::string& duration) {
+Rows run_bar(int threads, const std::string& spacing, const std::string& duration,
+             int number_of_rows = 500) {
   std::string text = bar_case(
       "type = \"explicit\"\nduration = " + duration + "\nsafety = 0.5\ndamping_rate = 0.3\n",
       0.004);
   text.replace(text.find("spacing = 0.1"), 13, "spacing = " + spacing);
   const CaseFile input = parse_case(text, "");
   const Model model = build_model(input);
-  BondRunCase built = build_bond_run(input, model, 1);
+  BondRunCase built = build_bond_run(input, model);
   built.options.threads = threads;
+  built.options.rows = number_of_rows;
   Rows rows;
   run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference, built.inertia,
                      built.rules, built.options, rows);
@@ -164,6 +173,15 @@ TEST(ParticleModel, CracksInTensionAndKeepsItsEnergy) {
   EXPECT_NEAR(peak, 0.003 * 0.5, 0.08 * 0.003 * 0.5);
   // Exact but for bonds that change sign while their factors differ, a matter of the step.
   EXPECT_LT(surplus, 1e-3 * work);
+}
+
+/// A run of which every step is a row shows which particle cracked in which step.
+TEST(ParticleModel, KnowsInWhichOrderParticlesCracked) {
+  const Rows all = run_bar(1, "0.1", "30", 1000000), few = run_bar(1, "0.1", "30", 1);
+  ASSERT_GT(all.seen.size(), 5U);
+  EXPECT_EQ(few.cracked, all.seen);
+  EXPECT_EQ(few.records.back().cracked_particles, static_cast<Index>(all.seen.size()));
+  EXPECT_FALSE(std::is_sorted(all.seen.begin(), all.seen.end())) << "else this shows nothing";
 }
 
 TEST(ParticleModel, GivesTheSameRowsForAnyNumberOfThreads) {

@@ -27,6 +27,31 @@ class SignalsDeathTest : public testing::Test {
 TEST_F(SignalsDeathTest, InterruptAndTerminateAreRemembered) {
   EXPECT_EXIT(catch_and_report(SIGINT), testing::ExitedWithCode(0), "");
   EXPECT_EXIT(catch_and_report(SIGTERM), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(catch_and_report(SIGHUP), testing::ExitedWithCode(0), "");
+}
+
+/// The system and the shell may both tell that the terminal is gone.
+TEST_F(SignalsDeathTest, TerminalsMayBeClosedTwice) {
+  EXPECT_EXIT(
+      {
+        catch_stop_signals();
+        std::raise(SIGHUP);
+        std::raise(SIGHUP);
+        std::exit(stop_signal_received() ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
+/// As under nohup.
+TEST_F(SignalsDeathTest, IgnoredSignalsStayIgnored) {
+  EXPECT_EXIT(
+      {
+        std::signal(SIGHUP, SIG_IGN);
+        catch_stop_signals();
+        std::raise(SIGHUP);
+        std::exit(stop_signal_received() ? 1 : 0);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 TEST_F(SignalsDeathTest, ASecondSignalEndsTheProgram) {

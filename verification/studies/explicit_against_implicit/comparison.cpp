@@ -66,7 +66,7 @@ Outcome run_explicit(const Specimen& specimen, const Outcome& implicit, double s
   const std::vector<Index>& materials = specimen.network.particles.material;
   const std::vector<double> density(*std::max_element(materials.begin(), materials.end()) + 1, 1.0);
   const Inertia inertia = lumped_inertia(specimen.network, density);
-  const double period = fundamental_period(specimen.network, specimen.unknowns, inertia, threads);
+  const double period = fundamental_period(specimen.network, specimen.unknowns, inertia);
   Unknowns unknowns = specimen.unknowns;
   ReferenceLoad reference = specimen.reference;
   const double factor = stretch * implicit.peak_displacement / reference.value;

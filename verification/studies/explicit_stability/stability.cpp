@@ -92,7 +92,7 @@ ExplicitResult run_at(const MovingBody& body, double factor, bool refuse) {
     return run_explicit_analysis(built.model, state, built.options, observer);
   }
   const Model model = build_model(input);
-  BondRunCase built = build_bond_run(input, model, 1);
+  BondRunCase built = build_bond_run(input, model);
   choose(built.options, built.inertia.critical_time_step(), factor, refuse);
   SilentBonds observer;
   return run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference,

@@ -138,7 +138,7 @@ ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built) {
   const Unknowns unknowns = pull(cloud, network, extension);
   const Loads loads{std::vector<double>(unknowns.number.size(), 0.0)};
   const Inertia inertia = lumped_inertia(network, std::vector{density, density});
-  const double period = fundamental_period(network, unknowns, inertia, 1);
+  const double period = fundamental_period(network, unknowns, inertia);
   BondRunRules rules;
   rules.damping_rate = 0.1 * 2.0 * 6.283 / period;  // a tenth of critical, slowest vibration
   StateMaterial material;
