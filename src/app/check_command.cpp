@@ -280,8 +280,9 @@ int check_relaxation(const std::string& case_path, const CaseFile& input) {
 
 }  // namespace
 
-int check_case(const std::string& case_path) {
-  const CaseFile input = read_case_file(case_path);
+int check_case(const std::string& case_path, bool trust_geometry) {
+  CaseFile input = read_case_file(case_path);
+  input.trust_geometry = trust_geometry;
   if (input.analysis.type == "explicit") {
     return input.body.model == "lattice" ? check_explicit(case_path, input)
                                          : check_moving_bonds(case_path, input);

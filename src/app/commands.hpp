@@ -15,6 +15,7 @@ struct RunOptions {
   int threads = 0;  ///< 0: all processors
   bool quiet = false;
   bool force = false;
+  bool trust_geometry = false;  ///< scripts of gmsh may run commands and write files
 };
 int run_case(const RunOptions& options);
 
@@ -35,6 +36,6 @@ int compare(const CompareOptions& options);
 
 /// perilink check: validates a case, builds its model with calibrated bonds, and prints what a run
 /// is and will cost; writes no file and solves nothing.
-int check_case(const std::string& case_path);
+int check_case(const std::string& case_path, bool trust_geometry);
 
 }  // namespace perilink

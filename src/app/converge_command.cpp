@@ -134,6 +134,7 @@ int converge(const RunOptions& options) {
   omp_set_num_threads(threads);
   Results results;
   results.study = read_study_file(options.case_path);
+  results.study.trust_geometry = options.trust_geometry;
   const CaseFile input = read_case_file(results.study.case_path);
   check_study(results.study, input);
   results.dim = dimension_of(input.body);

@@ -44,6 +44,11 @@ bool steers_terminal(std::string_view word) {
                      [](unsigned char c) { return c < 0x20 || c == 0x7F; });
 }
 
+void add_trust_option(CLI::App& command, bool& trust_geometry) {
+  command.add_flag("--trust-geometry", trust_geometry,
+                   "Give gmsh scripts (.geo) that may run commands and write files, too");
+}
+
 /// What all commands that compute have in common.
 void add_run_options(CLI::App& command, perilink::RunOptions& options) {
   command.add_option("--out", options.directory, "Directory of the results [results/<file name>]");
@@ -51,6 +56,7 @@ void add_run_options(CLI::App& command, perilink::RunOptions& options) {
       ->check(CLI::Range(1, 1024));
   command.add_flag("--quiet", options.quiet, "No progress, no summary");
   command.add_flag("--force", options.force, "Overwrite the results of an earlier run");
+  add_trust_option(command, options.trust_geometry);
 }
 
 const CLI::App* add_compare_command(CLI::App& app, perilink::CompareOptions& options) {
@@ -145,6 +151,9 @@ int main(int argc, char** argv) {
       "check", "Validate a case, calibrate its bonds; print its sizes, expected memory and time");
   check_command->add_option("case", checked_case, "Case file (.toml)")->required();
 
+  bool trust_geometry = false;
+  add_trust_option(*check_command, trust_geometry);
+
   PlotOptions plot;
   add_plot_command(app, plot);
 
@@ -169,7 +178,7 @@ int main(int argc, char** argv) {
     if (run_command->parsed()) return run_case(run);
     if (converge_command->parsed()) return converge(study);
     if (compare_command->parsed()) return compare(compared);
-    if (check_command->parsed()) return check_case(checked_case);
+    if (check_command->parsed()) return check_case(checked_case, trust_geometry);
     return plot_results(plot);
   });
 }

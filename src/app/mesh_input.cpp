@@ -77,7 +77,7 @@ Patches patches_of(const CaseFile& input, const Mesh& mesh) {
 Mesh read_mesh(const CaseFile& input, int dim) {
   try {
     const std::string path = mesh_path(input).string();
-    return is_geometry(path) ? mesh_geometry(path, dim, input.body.mesh_size)
+    return is_geometry(path) ? mesh_geometry(path, dim, input.body.mesh_size, input.trust_geometry)
                              : read_gmsh_file(path, dim);
   } catch (const FileError& error) {
     throw InputError(input.where("body.mesh"), error.what(),
@@ -120,7 +120,8 @@ Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& no
   try {
     return make_mesh_body(mesh, material, dim == 2 ? input.body.thickness : 1.0);
   } catch (const std::invalid_argument& error) {
-    throw InputError(input.where("body.mesh"), error.what(), "");
+    throw InputError(input.where("body.mesh"),
+                     fmt::format("names {}: {}", mesh_path(input).string(), error.what()), "");
   }
 }
 

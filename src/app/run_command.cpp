@@ -261,7 +261,8 @@ int run_case(const RunOptions& options) {
                           ? options.threads
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   omp_set_num_threads(threads);
-  const CaseFile input = read_case_file(options.case_path);
+  CaseFile input = read_case_file(options.case_path);
+  input.trust_geometry = options.trust_geometry;
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
   refuse_own_case(directory, options.case_path);

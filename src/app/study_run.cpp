@@ -91,6 +91,7 @@ Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int 
   Repeat repeat;
   Timer timer;
   repeat.input = read_case_file(study.case_path, keys);
+  repeat.input.trust_geometry = study.trust_geometry;
   repeat.model = build_model(repeat.input, on_search);
   repeat.seconds.set_up = timer.seconds();
   if (repeat.model.network.calibration) {

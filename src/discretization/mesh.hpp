@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct Mesh {
   std::vector<Index> cells;       ///< corners, shape (cells, dim + 1)
   std::vector<Index> facets;      ///< edges or triangles of the groups, shape (facets, dim)
   std::vector<MeshGroup> groups;
+  std::vector<std::int64_t> cell_tags;  ///< of the cells in their file; empty: 1, 2, 3, ...
 
   Index num_points() const { return static_cast<Index>(positions.size()) / dim; }
   Index num_cells() const { return static_cast<Index>(cells.size()) / (dim + 1); }

@@ -11,6 +11,7 @@
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_conformity.hpp"
 #include "discretization/mesh_faces.hpp"
+#include "discretization/mesh_overlap.hpp"
 
 namespace perilink {
 namespace {
@@ -156,6 +157,27 @@ struct Numbering {
                   group.name, fmt::join(x.begin(), x.begin() + mesh.dim, ", ")));
 }
 
+void refuse_overlap(const Mesh& mesh, const CellFaces& faces, const Numbering& numbering,
+                    const Body& body) {
+  const auto overlap = find_overlap(body.cells, body.particles.positions, faces);
+  if (!overlap) return;
+  const auto tag_of = [&](Index cell) {
+    const auto found = std::find(numbering.cell.begin(), numbering.cell.end(), cell);
+    const auto number = static_cast<std::size_t>(found - numbering.cell.begin());
+    return mesh.cell_tags.empty() ? static_cast<std::int64_t>(number) + 1 : mesh.cell_tags[number];
+  };
+  Vector3 centre{};
+  for (const Index i : body.cells.cell((*overlap)[0])) {
+    const Vector3 x = point_of(body.particles.positions, mesh.dim, i);
+    for (int axis = 0; axis < mesh.dim; ++axis) centre[axis] += x[axis] / (mesh.dim + 1);
+  }
+  throw std::invalid_argument(fmt::format(
+      "the elements {} and {} overlap at ({:.6g}), so their material would count twice; join the "
+      "parts of the geometry before they are meshed: BooleanFragments or Coherence in gmsh",
+      tag_of((*overlap)[0]), tag_of((*overlap)[1]),
+      fmt::join(centre.begin(), centre.begin() + mesh.dim, ", ")));
+}
+
 /// Facets of the surface that a group of facets names. Those between cells are not on the surface,
 /// and those of cells that were left out are not in the body.
 std::vector<Index> facets_of_facets(const Mesh& mesh, const MeshGroup& group,
@@ -253,6 +275,7 @@ Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double th
   numbering.cell = add_cells(mesh, material, thickness, numbering.particle, body);
   const CellFaces faces = find_faces(body.cells, body.particles.positions);
   body.facets = facets_of(body.cells, body.particles.positions, thickness);
+  refuse_overlap(mesh, faces, numbering, body);
   numbering.surface_facet = number_surface_facets(faces, body.cells);
   refuse_unjoined_parts(body.particles, body.facets);
   for (const MeshGroup& group : mesh.groups) {

@@ -214,6 +214,11 @@ struct CaseFile {
   StopSection stop;
   OutputSection output;
 
+  /// Keys and tables that this type of analysis does not use; those of another, for which the case
+  /// serves as well.
+  std::vector<std::string> unused;
+  bool trust_geometry = false;  ///< from the command line: `mesh` may be any script of gmsh
+
   /// Line of every key path that the file has; the entries of a list of tables count from one, as
   /// their reader does: "materials[2].region" belongs to the second [[materials]].
   std::map<std::string, int> lines;

@@ -97,12 +97,16 @@ double GmshCursor::number() {
     const std::string_view text = word();
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::result_out_of_range) {
-      value = 0.0;  // 1e-320: nothing at the scale of a body
+      refuse(fmt::format("has {}, a number that double precision does not hold",
+                         quoted(std::string(text))),
+             "the file is damaged, or needs other units: write the mesh again");
     } else if (error != std::errc() || end != text.data() + text.size()) {
       refuse(fmt::format("has {} where a number should be", quoted(std::string(text))));
     }
   }
-  if (!(std::abs(value) <= largest_coordinate)) refuse("has a coordinate that is not finite");
+  if (!(std::abs(value) <= largest_coordinate)) {
+    refuse(fmt::format("has the coordinate {}, which is not finite or too large", value));
+  }
   return value;
 }
 

@@ -151,6 +151,7 @@ void add_elements(const GmshSections& sections, const std::string& path, Mesh& m
     const std::size_t width = static_cast<std::size_t>(dim) + 1;
     const auto first = static_cast<Index>(elements != nullptr ? elements->size() / width : 0);
     if (elements != nullptr) elements->insert(elements->end(), nodes.begin(), nodes.end());
+    if (is_cell) mesh.cell_tags.insert(mesh.cell_tags.end(), block.tags.begin(), block.tags.end());
     if (!grouped) continue;
     std::vector<int> distinct = tags->second;
     std::sort(distinct.begin(), distinct.end());

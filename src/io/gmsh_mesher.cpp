@@ -18,6 +18,7 @@
 #include "base/files.hpp"
 #include "io/case_words.hpp"
 #include "io/gmsh_file.hpp"
+#include "io/gmsh_script.hpp"
 
 #ifdef PERILINK_GMSH_LIBRARY
 #include <dlfcn.h>
@@ -29,7 +30,8 @@ namespace perilink {
 
 bool has_gmsh() { return false; }
 
-Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> /*size*/) {
+Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> /*size*/,
+                   bool /*trusted*/) {
   throw FileError(fmt::format(
       "{}: is a geometry, and this program was built without gmsh to mesh it\n"
       "  mesh it by hand: gmsh -{} -format msh41 {}; or install libgmsh-dev and build again",
@@ -225,8 +227,9 @@ void check_script(const std::string& path) {
 
 bool has_gmsh() { return true; }
 
-Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size) {
+Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size, bool trusted) {
   read_regular_file(path, 0);  // refuses what gmsh would wait for
+  if (!trusted) refuse_unsafe_geometry(path);
   if (is_gmsh_script(path) && size) check_script(path);
   const TemporaryMesh target;
   const Outcome outcome = mesh_in_child(path, dim, size, target.path());

@@ -14,9 +14,11 @@ bool has_gmsh();
 /// Meshes a geometry with gmsh's library.
 /// \param size  of the cells: of a script the value of its constant `h`, else of every cell
 ///     [length]
+/// \param trusted  scripts may run commands and write files (gmsh_script.hpp)
 /// \throws FileError   where the geometry cannot be read
-/// \throws InputError  where gmsh is missing or cannot mesh it, or a script has no constant `h` to
-///     set
-Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size);
+/// \throws InputError  where gmsh is missing or cannot mesh it, a script has no constant `h` to set,
+///     or is not trusted and does more than draw and mesh
+Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size,
+                   bool trusted = false);
 
 }  // namespace perilink

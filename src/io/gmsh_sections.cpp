@@ -141,7 +141,7 @@ void read_elements(GmshCursor& file, GmshSections& sections) {
     const std::size_t count = file.count(static_cast<std::size_t>(width) + 1, "elements");
     block.nodes.reserve(count * width);
     for (std::size_t i = 0; i < count; ++i) {
-      file.size();  // tag of the element
+      block.tags.push_back(file.size());
       for (int k = 0; k < width; ++k) block.nodes.push_back(file.size());
     }
     sections.blocks.push_back(std::move(block));

@@ -16,7 +16,8 @@ using GmshKey = std::pair<int, int>;
 struct GmshBlock {
   GmshKey entity;
   int type = 0;                     ///< gmsh's number: 1 line, 2 triangle, 4 tetrahedron, 15 point
-  std::vector<std::int64_t> nodes;  ///< tags, element after element
+  std::vector<std::int64_t> tags;   ///< of the elements
+  std::vector<std::int64_t> nodes;  ///< their tags, element after element
 };
 
 /// What a .msh 4.1 file says of a mesh, as it says it.

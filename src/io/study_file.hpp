@@ -55,6 +55,7 @@ struct StudyFile {
   int repeats = 1;        ///< of every member; the shortest time counts
   VarySection vary;
   std::vector<ErrorSection> errors;
+  bool trust_geometry = false;  ///< from the command line, as in CaseFile
 };
 
 /// Numbers of a run that a study can measure.

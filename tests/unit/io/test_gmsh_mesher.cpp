@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <string>
 
@@ -55,6 +56,21 @@ TEST(GmshMesher, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(path, {}), HasSubstr("body.geo"));
   test::write_text(path, "// nothing\n");
   EXPECT_THAT(refusal(path, {}), AllOf(HasSubstr("body.geo"), HasSubstr("holds no mesh")));
+}
+
+TEST(GmshMesher, RunsNoCommandsOfScriptsUnlessTrusted) {
+  if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
+  const test::TemporaryDirectory directory;
+  const std::string written = (directory / "written").string();
+  for (const std::string& command :
+       {"SystemCall \"touch " + written + "\";", "Printf(\"x\") > \"" + written + "\";"}) {
+    const std::string path = (directory / "body.geo").string();
+    test::write_text(path, "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 1};\n" + command);
+    EXPECT_THAT(refusal(path, {}), HasSubstr("--trust-geometry"));
+    EXPECT_FALSE(std::filesystem::exists(written)) << command;
+    EXPECT_GT(mesh_geometry(path, 2, {}, true).num_cells(), 0);
+    EXPECT_TRUE(std::filesystem::remove(written)) << "this test would see the file";
+  }
 }
 
 /// The meshes of the folder are those of their geometries.
