@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/explicit_bond_analysis.hpp"
+#include "analysis/load_curve.hpp"
 #include "app/configure.hpp"
 #include "app/explicit_history.hpp"
 #include "app/progress.hpp"
@@ -48,8 +49,7 @@ class BondRunFiles final : public BondRunObserver {
   /// Brings everything to the disk, ends the progress line.
   void finish();
   Index rows() const { return rows_; }
-  double peak_load() const { return peak_load_; }
-  double peak_displacement() const { return peak_displacement_; }
+  const PeakWatch& peaks() const { return peaks_; }
   double seconds_writing() const { return seconds_writing_; }
 
  private:
@@ -65,7 +65,7 @@ class BondRunFiles final : public BondRunObserver {
   std::vector<Index> broken_;  ///< in the order of the rows, within a row in that of their numbers
   std::vector<std::uint8_t> is_broken_;
   Index rows_ = 0;
-  double peak_load_ = 0.0, peak_displacement_ = 0.0;
+  PeakWatch peaks_;
   std::size_t next_time_ = 0;  ///< of the case's output.fields_times
   std::vector<PvdEntry> series_;
   double seconds_writing_ = 0.0;

@@ -55,10 +55,7 @@ std::vector<double> ExplicitRunObserver::gauge_values(const ExplicitState& state
 void ExplicitRunObserver::on_row(const ExplicitRecord& record, const ExplicitState& state) {
   history_.append(record, gauge_values(state));
   ++rows_;
-  if (std::abs(record.load) > std::abs(peak_load_)) {
-    peak_load_ = record.load;
-    peak_displacement_ = record.displacement;
-  }
+  peaks_.add({record.displacement, record.load}, record.cracked_particles == 0);
   const double now = record.time * (1.0 + round_off);
   const std::vector<double>& times = input_.output.fields_times;
   bool wanted = rows_ == 1;

@@ -24,8 +24,11 @@ void write_summary(const std::filesystem::path& directory, const ExplicitSummary
   json["units"] = summary.input.units;
   json["status"] = to_string(result.ending);
   json["reason"] = result.reason;
-  json["peak_load"] = summary.observer.peak_load();
-  json["peak_displacement"] = summary.observer.peak_displacement();
+  const PeakWatch& peaks = summary.observer.peaks();
+  json["peak_load"] = peaks.highest().load;
+  json["peak_displacement"] = peaks.highest().displacement;
+  json["first_peak_load"] = peaks.first().load;
+  json["first_peak_displacement"] = peaks.first().displacement;
   json["peak_reaction"] = result.peak_load;
   json["steps"] = result.steps;
   json["rows"] = summary.observer.rows();
@@ -51,7 +54,7 @@ void write_summary(const std::filesystem::path& directory, const ExplicitSummary
   json["spacing"] = summary.built.model.lattice.spacing;
   json["particle_steps_per_second"] = summary.particle_steps_per_second();
   json["notes"] = summary.built.notes;
-  json["doubts"] = doubts_about(result, summary.observer.peak_load());
+  json["doubts"] = doubts_about(result, summary.observer.peaks().highest().load);
   json["seconds"] = {{"set_up", summary.seconds.set_up},
                      {"analysis", summary.seconds.analysis},
                      {"output", summary.seconds.output}};
@@ -74,7 +77,8 @@ void print_summary(const std::filesystem::path& directory, const ExplicitSummary
   fmt::print("{}\n", input.title.empty() ? input.path : input.title);
   fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
   fmt::print("  {:<14} {:.6g} at displacement {:.6g}, reaction of supports {:.6g}{}\n", "peak load",
-             summary.observer.peak_load(), summary.observer.peak_displacement(), result.peak_load,
+             summary.observer.peaks().highest().load,
+             summary.observer.peaks().highest().displacement, result.peak_load,
              input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
              result.time_step, result.critical_time_step, summary.observer.rows());
@@ -92,7 +96,7 @@ void print_summary(const std::filesystem::path& directory, const ExplicitSummary
       "time", summary.seconds.set_up, summary.seconds.analysis,
       summary.particle_steps_per_second() / 1e6, summary.seconds.output);
   for (const std::string& note : summary.built.notes) fmt::print("  {:<14} {}\n", "note", note);
-  for (const std::string& doubt : doubts_about(result, summary.observer.peak_load())) {
+  for (const std::string& doubt : doubts_about(result, summary.observer.peaks().highest().load)) {
     fmt::print("  {:<14} {}\n", "doubt", doubt);
   }
   fmt::print("  {:<14} {}\n", "results", directory.string());

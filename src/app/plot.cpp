@@ -11,7 +11,6 @@
 #include "app/history_file.hpp"
 #include "app/plot_curve.hpp"
 #include "app/plot_fields.hpp"
-#include "io/csv.hpp"
 #include "io/vtu.hpp"
 
 namespace perilink {
@@ -52,14 +51,11 @@ void plot_series(const fs::path& directory, const fs::path& out, const PlotLabel
 int plot_results(const PlotOptions& options) {
   const fs::path directory = options.directory;
   const fs::path out = options.out.empty() ? directory : fs::path(options.out);
-  const std::string history = (directory / "history.csv").string();
-  const std::vector<StepRecord> records = read_history(history);
-  const HistoryPath path =
-      read_csv(history).column("time") < 0 ? HistoryPath::events : HistoryPath::time;
+  const std::vector<StepRecord> records = read_history((directory / "history.csv").string());
   const PlotLabels labels = read_labels(directory);
   std::error_code failure;
   fs::create_directories(out, failure);  // saving reports what is wrong with it
-  save(draw_load_displacement(records, labels, path), out / "load_displacement.svg");
+  save(draw_load_displacement(records, labels), out / "load_displacement.svg");
   if (fs::exists(directory / "fields.pvd")) plot_series(directory, out, labels, options.scale);
   return exit_done;
 }

@@ -15,6 +15,7 @@
 #include "app/explicit_observer.hpp"
 #include "app/explicit_summary.hpp"
 #include "app/mesh_input.hpp"
+#include "app/peak_note.hpp"
 #include "app/relaxation_run.hpp"
 #include "app/result_directory.hpp"
 #include "app/run_doubts.hpp"
@@ -57,6 +58,14 @@ void refuse_own_case(const fs::path& directory, const std::string& case_path) {
                   case_path));
 }
 
+/// What is known only when the run is over.
+void add_note(const std::optional<std::string>& note, std::vector<std::string>& notes,
+              spdlog::logger& log) {
+  if (!note) return;
+  notes.push_back(*note);
+  log.info("note: {}", *note);
+}
+
 int exit_status_of(Ending ending) {
   if (ending == Ending::interrupted) return exit_interrupted;
   return ending == Ending::failed ? exit_solver : exit_done;
@@ -92,6 +101,7 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
   if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
   seconds.output = observer.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
+  add_note(note_of_peaks(observer.peaks()), built.notes, *log);
   const ExplicitSummary summary{input, built, result, observer, seconds, threads};
   try {
     write_summary(directory, summary);
@@ -102,7 +112,7 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
   log->info("{}: {}; {} steps, {} cracked particles, energy to {:.2e} of the work",
             to_string(result.ending), result.reason, result.steps, result.last.cracked_particles,
             result.largest_surplus);
-  for (const std::string& doubt : doubts_about(result, observer.peak_load())) {
+  for (const std::string& doubt : doubts_about(result, observer.peaks().highest().load)) {
     log->info("doubt: {}", doubt);
   }
   if (!options.quiet) print_summary(directory, summary);
@@ -113,7 +123,7 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
 int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs::path& directory,
                      int threads) {
   Timer timer;
-  const Model model = build_model_visibly(input, options.quiet);
+  Model model = build_model_visibly(input, options.quiet);
   BondRunCase built = build_bond_run(input, model, threads);
   built.options.threads = threads;
   prepare_result_directory(directory, options.force);
@@ -141,6 +151,7 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
   seconds.output = files.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
+  add_note(note_of_peaks(files.peaks()), model.notes, *log);
   try {
     write_summary(directory, input, model, built, result, files, seconds, threads);
   } catch (const FileError& error) {
@@ -149,7 +160,7 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   }
   log->info("{}: {}; {} steps, {}, energy to {:.2e} of the work", to_string(result.ending),
             result.reason, result.steps, cracks_text(model, result.last), result.largest_surplus);
-  for (const std::string& doubt : doubts_about(result, files.peak_load())) {
+  for (const std::string& doubt : doubts_about(result, files.peaks().highest().load)) {
     log->info("doubt: {}", doubt);
   }
   if (!options.quiet) print_summary(directory, input, model, result, files, seconds);
@@ -160,7 +171,7 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
 int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::path& directory,
                    int threads) {
   Timer timer;
-  const Model model = build_model_visibly(input, options.quiet);
+  Model model = build_model_visibly(input, options.quiet);
   prepare_result_directory(directory, options.force);
   catch_stop_signals();
   write_resolved_case(directory, seen_from(input, directory));
@@ -187,6 +198,7 @@ int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::p
   if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
   seconds.output = files.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
+  add_note(note_of_peaks(files.peaks()), model.notes, *log);
   try {
     write_summary(directory, input, model, result, files, seconds, threads);
   } catch (const FileError& error) {
@@ -226,9 +238,9 @@ int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::
     result.ending = Ending::failed;
     result.reason = error.what();
   }
-  if (const auto note = note_of_grips(model, observer.broken())) {
-    model.notes.push_back(*note);
-    log->info("note: {}", *note);
+  for (const auto& note :
+       {note_of_grips(model, observer.broken()), note_of_peaks(result, model, observer.broken())}) {
+    add_note(note, model.notes, *log);
   }
   if (result.ending == Ending::failed) fmt::print(stderr, "perilink: {}\n", result.reason);
   seconds.output = observer.seconds_writing();
