@@ -64,6 +64,7 @@ class Run {
     }
     result_.last = row_;
     result_.broken_bonds = broken_bonds_;
+    result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
     result_.factor = engine_->factor_statistics();
     return result_;
   }
@@ -75,6 +76,7 @@ class Run {
     return work.forces + work.supports < separated_stiffness * initial_work_;
   }
   void record(double load_factor, const LoadWork& work, Index element);
+  void note_peaks();
   void check();
   double expected_residual() const;
   void record_separated(double load_factor, const LoadWork& work);
@@ -103,6 +105,7 @@ class Run {
   Index broken_bonds_ = 0;
   Index yield_events_ = 0;
   StepRecord row_;
+  std::vector<StepRecord> rows_;  ///< of control by events
   DamageResult result_;
 };
 
@@ -151,15 +154,22 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
     result_.energy_error =
         std::max(result_.energy_error, std::abs(error) / std::abs(row_.external_work));
   }
-  if (std::abs(row_.load) > std::abs(result_.peak_load)) {
-    result_.peak_load = row_.load;
-    result_.peak_displacement = row_.displacement;
-  }
+  note_peaks();
   const bool below = options_.stop.load_fraction &&
                      std::abs(row_.load) <
                          *options_.stop.load_fraction * std::abs(result_.peak_load);
   rows_below_ = below ? rows_below_ + 1 : 0;
   observer_.on_step(row_, state_);
+}
+
+void Run::note_peaks() {
+  PeakWatch& peaks = result_.peaks;
+  const bool held = !peaks.gave_way();
+  peaks.add({row_.displacement, row_.load});
+  if (held) result_.broken_as_gave_way = broken_bonds_;
+  result_.peak_load = peaks.highest().load;
+  result_.peak_displacement = peaks.highest().displacement;
+  if (options_.load_factors.empty()) rows_.push_back(row_);
 }
 
 /// Lets the element fail. \return false when that separates the body
@@ -277,6 +287,7 @@ DamageResult Run::finish() {
   observer_.on_end(row_, state_);
   result_.last = row_;
   result_.broken_bonds += broken_bonds_;
+  result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
   result_.factor = engine_->factor_statistics();
   return result_;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/event_engine.hpp"
+#include "analysis/load_curve.hpp"
 #include "analysis/observer.hpp"
 #include "assembly/network.hpp"
 #include "assembly/unknowns.hpp"
@@ -35,6 +36,9 @@ struct DamageResult {
   Index broken_bonds = 0;           ///< with the one that separated the body, if it did
   double peak_load = 0.0;
   double peak_displacement = 0.0;   ///< displacement at the peak load
+  PeakWatch peaks;                  ///< the same, and what the load did after its first peak
+  Index broken_as_gave_way = 0;     ///< bonds broken when the body first gave way
+  std::optional<double> smoothed_peak_load;  ///< of paths of events that are long enough
   double initial_stiffness = 0.0;   ///< load / displacement of the intact body
   double largest_residual = 0.0;
   /// Largest |work - stored - dissipated| / work of all rows, the stored energy summed over the

@@ -123,7 +123,8 @@ BondRunFiles::BondRunFiles(const CaseFile& input, const Model& model, Index step
       directory_(std::move(directory)),
       history_(directory_.string(), crack_count(input), names_of(model.gauges)),
       bar_(quiet),
-      families_(bonds_of_particles(model.network.bonds, model.network.particles.size())) {}
+      families_(bonds_of_particles(model.network.bonds, model.network.particles.size())),
+      peaks_(input.analysis.type == "relaxation" ? 1 : vibrating_rows) {}
 
 void BondRunFiles::write_fields(const ExplicitRecord& record, const BondRunState& state) {
   const std::string name = fmt::format("fields_{:06}.vtu", record.step);
@@ -164,10 +165,8 @@ void BondRunFiles::on_row(const ExplicitRecord& record, const BondRunState& stat
   }
   history_.append(record, gauges);
   ++rows_;
-  if (std::abs(record.load) > std::abs(peak_load_)) {
-    peak_load_ = record.load;
-    peak_displacement_ = record.displacement;
-  }
+  const bool intact = record.broken_bonds == 0 && record.cracked_particles == 0;
+  peaks_.add({record.displacement, record.load}, intact);
   const double now = record.time * (1.0 + round_off);
   const std::vector<double>& times = input_.output.fields_times;
   bool wanted = rows_ == 1 || input_.analysis.type == "relaxation";
@@ -189,7 +188,7 @@ std::vector<std::string> BondRunFiles::doubts(const ExplicitResult& result) cons
   const double length = longest_side(particles.dim, particles.size(), [&](Index i, int axis) {
     return particles.position(i)[axis];
   });
-  RunFacts facts = run_facts(input_, length, peak_load_);
+  RunFacts facts = run_facts(input_, length, peaks_.highest().load);
   facts.loose_pieces = loose_pieces_;
   return doubts_about(result, facts);
 }
@@ -217,8 +216,10 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["units"] = input.units;
   json["status"] = to_string(result.ending);
   json["reason"] = result.reason;
-  json["peak_load"] = files.peak_load();
-  json["peak_displacement"] = files.peak_displacement();
+  json["peak_load"] = files.peaks().highest().load;
+  json["peak_displacement"] = files.peaks().highest().displacement;
+  json["first_peak_load"] = files.peaks().first().load;
+  json["first_peak_displacement"] = files.peaks().first().displacement;
   json["peak_reaction"] = result.peak_load;
   json["steps"] = result.steps;
   json["rows"] = files.rows();
@@ -262,7 +263,7 @@ void print_summary(const std::filesystem::path& directory, const CaseFile& input
   fmt::print("{}\n", input.title.empty() ? input.path : input.title);
   fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
   fmt::print("  {:<14} {:.6g} at displacement {:.6g}, reaction of supports {:.6g}{}\n", "peak load",
-             files.peak_load(), files.peak_displacement(), result.peak_load,
+             files.peaks().highest().load, files.peaks().highest().displacement, result.peak_load,
              input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
              result.time_step, result.critical_time_step, files.rows());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/explicit_bond_analysis.hpp"
+#include "analysis/load_curve.hpp"
 #include "app/configure.hpp"
 #include "app/explicit_history.hpp"
 #include "app/progress.hpp"
@@ -47,8 +48,7 @@ class BondRunFiles final : public BondRunObserver {
   /// Brings everything to the disk, ends the progress line.
   void finish();
   Index rows() const { return rows_; }
-  double peak_load() const { return peak_load_; }
-  double peak_displacement() const { return peak_displacement_; }
+  const PeakWatch& peaks() const { return peaks_; }
   std::vector<std::string> doubts(const ExplicitResult& result) const;
   double seconds_writing() const { return seconds_writing_; }
 
@@ -63,8 +63,8 @@ class BondRunFiles final : public BondRunObserver {
   ProgressBar bar_;
   Csr families_;
   Index rows_ = 0;
-  double peak_load_ = 0.0, peak_displacement_ = 0.0;
-  Index loose_pieces_ = 0;     ///< at the end
+  Index loose_pieces_ = 0;  ///< at the end
+  PeakWatch peaks_;
   std::size_t next_time_ = 0;  ///< of the case's output.fields_times
   std::vector<PvdEntry> series_;
   double seconds_writing_ = 0.0;

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "analysis/load_curve.hpp"
 #include "app/plot_axes.hpp"
 #include "app/svg.hpp"
 
@@ -9,12 +10,6 @@
 /// The frame of pictures of load–displacement curves.
 
 namespace perilink {
-
-/// A point of a load–displacement curve.
-struct CurvePoint {
-  double displacement = 0.0;
-  double load = 0.0;
-};
 
 inline constexpr double curve_figure_width = 820.0;   ///< [px]
 inline constexpr double curve_figure_height = 560.0;  ///< [px]

@@ -56,10 +56,7 @@ std::vector<double> ExplicitRunObserver::gauge_values(const ExplicitState& state
 void ExplicitRunObserver::on_row(const ExplicitRecord& record, const ExplicitState& state) {
   history_.append(record, gauge_values(state));
   ++rows_;
-  if (std::abs(record.load) > std::abs(peak_load_)) {
-    peak_load_ = record.load;
-    peak_displacement_ = record.displacement;
-  }
+  peaks_.add({record.displacement, record.load}, record.cracked_particles == 0);
   const double now = record.time * (1.0 + round_off);
   const std::vector<double>& times = input_.output.fields_times;
   bool wanted = rows_ == 1;
@@ -80,7 +77,7 @@ std::vector<std::string> ExplicitRunObserver::doubts(const ExplicitResult& resul
   const double length = longest_side(lattice.dim, lattice.particles(), [&](Index i, int axis) {
     return lattice.positions[lattice.at(axis, lattice.particle_slot[i])];
   });
-  return doubts_about(result, run_facts(input_, length, peak_load_));
+  return doubts_about(result, run_facts(input_, length, peaks_.highest().load));
 }
 
 bool ExplicitRunObserver::stop_requested() { return stop_signal_received(); }

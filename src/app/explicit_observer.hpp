@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "analysis/load_curve.hpp"
 #include "app/explicit_case.hpp"
 #include "app/explicit_history.hpp"
 #include "app/progress.hpp"
@@ -24,10 +25,7 @@ class ExplicitRunObserver final : public ExplicitObserver {
   /// Brings everything to the disk and ends the progress line.
   void finish();
   Index rows() const { return rows_; }
-  /// Largest |load| of all rows, with its sign [force].
-  double peak_load() const { return peak_load_; }
-  /// Of the driven particles in that row [length].
-  double peak_displacement() const { return peak_displacement_; }
+  const PeakWatch& peaks() const { return peaks_; }
   std::vector<std::string> doubts(const ExplicitResult& result) const;
   double seconds_writing() const { return seconds_writing_; }
 
@@ -42,7 +40,7 @@ class ExplicitRunObserver final : public ExplicitObserver {
   ExplicitHistory history_;
   ProgressBar bar_;
   Index rows_ = 0;
-  double peak_load_ = 0.0, peak_displacement_ = 0.0;
+  PeakWatch peaks_{vibrating_rows};
   std::size_t next_time_ = 0;  ///< of the case's output.fields_times
   std::vector<PvdEntry> series_;
   double seconds_writing_ = 0.0;

@@ -22,8 +22,11 @@ void write_summary(const std::filesystem::path& directory, const ExplicitSummary
   json["units"] = summary.input.units;
   json["status"] = to_string(result.ending);
   json["reason"] = result.reason;
-  json["peak_load"] = summary.observer.peak_load();
-  json["peak_displacement"] = summary.observer.peak_displacement();
+  const PeakWatch& peaks = summary.observer.peaks();
+  json["peak_load"] = peaks.highest().load;
+  json["peak_displacement"] = peaks.highest().displacement;
+  json["first_peak_load"] = peaks.first().load;
+  json["first_peak_displacement"] = peaks.first().displacement;
   json["peak_reaction"] = result.peak_load;
   json["steps"] = result.steps;
   json["rows"] = summary.observer.rows();
@@ -68,7 +71,8 @@ void print_summary(const std::filesystem::path& directory, const ExplicitSummary
   fmt::print("{}\n", input.title.empty() ? input.path : input.title);
   fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
   fmt::print("  {:<14} {:.6g} at displacement {:.6g}, reaction of supports {:.6g}{}\n", "peak load",
-             summary.observer.peak_load(), summary.observer.peak_displacement(), result.peak_load,
+             summary.observer.peaks().highest().load,
+             summary.observer.peaks().highest().displacement, result.peak_load,
              input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
              result.time_step, result.critical_time_step, summary.observer.rows());

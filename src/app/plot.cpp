@@ -66,7 +66,6 @@ int plot_results(const PlotOptions& options) {
   const std::string history = (directory / "history.csv").string();
   const CsvTable table = read_csv(history);
   const std::vector<StepRecord> records = history_records(table, history);
-  const HistoryPath path = table.column("time") < 0 ? HistoryPath::events : HistoryPath::time;
   const PlotLabels labels = read_labels(directory);
   if (table.cut_off) complain(std::string("note: ") + cut_off_note);
   const auto summary = read_summary_file(directory);
@@ -75,7 +74,7 @@ int plot_results(const PlotOptions& options) {
   }
   std::error_code failure;
   fs::create_directories(out, failure);  // saving reports what is wrong with it
-  save(draw_load_displacement(records, labels, path), out / "load_displacement.svg");
+  save(draw_load_displacement(records, labels), out / "load_displacement.svg");
   if (fs::exists(directory / "fields.pvd")) plot_series(directory, out, labels, options.scale);
   return exit_done;
 }

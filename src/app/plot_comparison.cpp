@@ -46,10 +46,11 @@ std::vector<CurvePoint> points_of(const RunResult& result) {
   return points;
 }
 
-/// Rows over time scatter about no path of events.
-bool wants_envelope(const RunResult& result) {
-  return result.records.size() > events_for_envelope &&
-         std::isnan(number_of(result.last_row, "time"));
+/// The smooth curve of a long path of events, else none.
+std::vector<CurvePoint> envelope_of(const RunResult& result) {
+  const std::vector<CurvePoint> path = event_path(result.records);
+  if (path.size() <= events_for_envelope) return {};
+  return smooth_envelope(path, envelope_window(path.size()));
 }
 
 /// The title that both have, else the names of both.
@@ -96,20 +97,13 @@ Svg draw_comparison(const RunResult& a, const RunResult& b) {
            "font-size=\"18\" font-weight=\"bold\" fill=\"#222\"");
   draw_axes(svg, frame.x, frame.y, with_unit("displacement", one_unit ? a.labels.length : ""),
             with_unit("load", one_unit ? a.labels.force : ""), Grid::lines);
-  svg.clip_rect("frame", {frame.x.pixel_low, frame.y.pixel_high},
-                frame.x.pixel_high - frame.x.pixel_low, frame.y.pixel_low - frame.y.pixel_high);
-  svg.open_group("clip-path=\"url(#frame)\"");
+  const std::array<std::vector<CurvePoint>, 2> smooth = {envelope_of(a), envelope_of(b)};
   for (std::size_t k = 0; k < 2; ++k) {
-    if (wants_envelope(*results[k])) svg.path(curve_path(frame, points[k]), pale(looks[k]));
+    if (!smooth[k].empty()) svg.path(curve_path(frame, points[k]), pale(looks[k]));
   }
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::vector<StepRecord>& records = results[k]->records;
-    const bool smooth = wants_envelope(*results[k]);
-    svg.path(curve_path(frame, smooth ? smooth_envelope(records, envelope_window(records.size()))
-                                      : points[k]),
-             strong(looks[k]));
+    svg.path(curve_path(frame, smooth[k].empty() ? points[k] : smooth[k]), strong(looks[k]));
   }
-  svg.close_group();
   for (std::size_t k = 0; k < 2; ++k) {
     svg.circle(frame.at(points[k][peak_row(results[k]->records)]), 4.5,
                fmt::format("fill=\"#fff\" stroke=\"{}\" stroke-width=\"2\"", looks[k].color));

@@ -51,15 +51,28 @@ struct PeakLabel {
   }
 };
 
-PeakLabel label_of(const CurveFrame& frame, const StepRecord& peak, const PlotLabels& labels) {
+PeakLabel label_of(const CurveFrame& frame, const char* name, const CurvePoint& peak,
+                   const PlotLabels& labels) {
   PeakLabel label;
-  label.text = fmt::format("peak {} at {}", in_unit(short_number(peak.load), labels.force),
+  label.text = fmt::format("{} {} at {}", name, in_unit(short_number(peak.load), labels.force),
                            in_unit(short_number(peak.displacement), labels.length));
-  label.peak = frame.at({peak.displacement, peak.load});
+  label.peak = frame.at(peak);
   label.left_half = label.peak.x < (frame.x.pixel_low + frame.x.pixel_high) / 2;
   label.at = {label.peak.x + (label.left_half ? 10.0 : -10.0),
               label.peak.y + (peak.load < 0.0 ? 20.0 : -8.0)};
   return label;
+}
+
+/// The peak, and where the load climbed again after the body had given way the first one too.
+std::vector<PeakLabel> labels_of(const CurveFrame& frame, std::span<const StepRecord> records,
+                                 int rows, const PlotLabels& labels) {
+  PeakWatch peaks(rows);
+  for (const StepRecord& record : records) {
+    peaks.add({record.displacement, record.load}, record.broken_bonds == 0);
+  }
+  std::vector<PeakLabel> all = {label_of(frame, "peak", peaks.highest(), labels)};
+  if (peaks.climbed_again()) all.push_back(label_of(frame, "first peak", peaks.first(), labels));
+  return all;
 }
 
 void mark_peak(Svg& svg, const PeakLabel& label) {
@@ -69,9 +82,9 @@ void mark_peak(Svg& svg, const PeakLabel& label) {
            "paint-order=\"stroke\"");
 }
 
-/// The corner of the frame where the legend meets neither the label nor, as far as that is
-/// possible, the curve.
-Area legend_area(const CurveFrame& frame, const PeakLabel& label,
+/// The corner of the frame where the legend meets neither labels nor, as far as that is possible,
+/// the curve.
+Area legend_area(const CurveFrame& frame, std::span<const PeakLabel> labels,
                  std::span<const CurvePoint> curve) {
   constexpr double width = 222.0, height = 48.0, margin = 2.0;
   const double right = frame.x.pixel_high - width, left = frame.x.pixel_low + margin;
@@ -81,7 +94,8 @@ Area legend_area(const CurveFrame& frame, const PeakLabel& label,
   for (const SvgPoint corner :
        {SvgPoint{right, top}, {right, bottom}, {left, top}, {left, bottom}}) {
     const Area area{corner, width, height};
-    std::size_t hidden = area.meets(label.area()) ? curve.size() + 1 : 0;
+    std::size_t hidden = 0;
+    for (const PeakLabel& label : labels) hidden += area.meets(label.area()) ? curve.size() + 1 : 0;
     for (const CurvePoint& point : curve) hidden += area.holds(frame.at(point));
     if (hidden >= least) continue;
     least = hidden;
@@ -110,41 +124,6 @@ void draw_legend(Svg& svg, const Area& area) {
 
 }  // namespace
 
-std::size_t envelope_window(std::size_t events) { return std::max<std::size_t>(10, events / 120); }
-
-std::vector<CurvePoint> smooth_envelope(std::span<const StepRecord> records, std::size_t window) {
-  std::vector<CurvePoint> curve;
-  const auto compliance = [&](std::size_t k) {
-    return records[k].displacement / records[k].load_factor;
-  };
-  // Event k takes the compliance from row k to row k + 1, so the last row has none.
-  for (std::size_t begin = 0; begin + 1 < records.size(); begin += window) {
-    const std::size_t end = std::min(begin + window, records.size() - 1);
-    double growth = 0.0, weighted = 0.0;
-    CurvePoint mean;
-    bool usable = records[end].load_factor != 0.0;
-    for (std::size_t k = begin; k < end; ++k) {
-      const StepRecord& record = records[k];
-      mean.displacement += record.displacement / static_cast<double>(end - begin);
-      mean.load += record.load / static_cast<double>(end - begin);
-      usable = usable && record.load_factor != 0.0 && records[k + 1].load_factor != 0.0;
-      if (!usable) continue;
-      const double change = compliance(k + 1) - compliance(k);
-      growth += change;
-      weighted += record.load_factor * record.load_factor * change;
-    }
-    if (!usable || !(growth > 0.0) || !(weighted > 0.0)) {
-      curve.push_back(mean);
-      continue;
-    }
-    const double factor = std::copysign(std::sqrt(weighted / growth), records[begin].load_factor);
-    const double reference_load = records[begin].load / records[begin].load_factor;
-    const double middle = 0.5 * (compliance(begin) + compliance(end));
-    curve.push_back({factor * middle, factor * reference_load});
-  }
-  return curve;
-}
-
 std::size_t peak_row(std::span<const StepRecord> records) {
   const auto peak = std::max_element(
       records.begin(), records.end(),
@@ -152,8 +131,7 @@ std::size_t peak_row(std::span<const StepRecord> records) {
   return static_cast<std::size_t>(peak - records.begin());
 }
 
-Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
-                           HistoryPath path) {
+Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels) {
   std::vector<CurvePoint> events;
   events.reserve(records.size());
   for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
@@ -164,21 +142,18 @@ Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels
             with_unit("load", labels.force), Grid::lines);
   if (records.empty()) return svg;
 
-  const PeakLabel label = label_of(frame, records[peak_row(records)], labels);
-  if (path == HistoryPath::events && records.size() > events_for_envelope) {
-    // Where events snap back far the mean of a window can lie beyond all of them.
-    svg.clip_rect("frame", {frame.x.pixel_low, frame.y.pixel_high},
-                  frame.x.pixel_high - frame.x.pixel_low, frame.y.pixel_low - frame.y.pixel_high);
-    svg.open_group("clip-path=\"url(#frame)\"");
+  const std::vector<CurvePoint> path = event_path(records);
+  const std::vector<PeakLabel> peaks =
+      labels_of(frame, records, path.empty() ? vibrating_rows : 1, labels);
+  if (path.size() > events_for_envelope) {
     svg.path(curve_path(frame, events), many_events_style);
-    const std::size_t window = envelope_window(records.size());
-    svg.path(curve_path(frame, smooth_envelope(records, window)), envelope_style);
-    svg.close_group();
-    draw_legend(svg, legend_area(frame, label, events));
+    svg.path(curve_path(frame, smooth_envelope(path, envelope_window(path.size()))),
+             envelope_style);
+    draw_legend(svg, legend_area(frame, peaks, events));
   } else {
     svg.path(curve_path(frame, events), few_events_style);
   }
-  mark_peak(svg, label);
+  for (const PeakLabel& peak : peaks) mark_peak(svg, peak);
   return svg;
 }
 

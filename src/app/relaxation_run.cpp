@@ -38,8 +38,10 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["units"] = input.units;
   json["status"] = to_string(result.ending);
   json["reason"] = result.reason;
-  json["peak_load"] = files.peak_load();
-  json["peak_displacement"] = files.peak_displacement();
+  json["peak_load"] = files.peaks().highest().load;
+  json["peak_displacement"] = files.peaks().highest().displacement;
+  json["first_peak_load"] = files.peaks().first().load;
+  json["first_peak_displacement"] = files.peaks().first().displacement;
   json["peak_reaction"] = result.peak_load;
   json["iterations"] = result.iterations;
   json["residual"] = result.residual;
@@ -74,7 +76,7 @@ void print_summary(const std::filesystem::path& directory, const CaseFile& input
   fmt::print("{}\n", input.title.empty() ? input.path : input.title);
   fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
   fmt::print("  {:<14} {:.6g} at displacement {:.6g}, reaction of supports {:.6g}{}\n", "peak load",
-             files.peak_load(), files.peak_displacement(), result.peak_load,
+             files.peaks().highest().load, files.peaks().highest().displacement, result.peak_load,
              input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {}, residual {:.1e}, displacements to {:.1e}\n", "iterations",
              result.iterations, result.residual, result.error);
@@ -86,6 +88,7 @@ void print_summary(const std::filesystem::path& directory, const CaseFile& input
   fmt::print(
       "  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} M bond-steps/s), output {:.2f} s\n",
       "time", seconds.set_up, seconds.analysis, rate / 1e6, seconds.output);
+  for (const std::string& note : model.notes) fmt::print("  {:<14} {}\n", "note", note);
   fmt::print("  {:<14} {}\n", "results", directory.string());
 }
 

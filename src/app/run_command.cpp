@@ -16,6 +16,7 @@
 #include "app/explicit_observer.hpp"
 #include "app/explicit_summary.hpp"
 #include "app/mesh_input.hpp"
+#include "app/peak_note.hpp"
 #include "app/relaxation_run.hpp"
 #include "app/result_directory.hpp"
 #include "app/run_model.hpp"
@@ -99,6 +100,14 @@ void refuse_own_case(const fs::path& directory, const std::string& case_path) {
                   case_path));
 }
 
+/// What is known only when the run is over.
+void add_note(const std::optional<std::string>& note, std::vector<std::string>& notes,
+              spdlog::logger& log) {
+  if (!note) return;
+  notes.push_back(*note);
+  log.info("note: {}", *note);
+}
+
 int exit_status_of(Ending ending) {
   if (ending == Ending::interrupted) return exit_interrupted;
   return ending == Ending::failed ? exit_solver : exit_done;
@@ -130,6 +139,7 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
   attempt(result, [&] { observer.finish(); });
   seconds.output = observer.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
+  add_note(note_of_peaks(observer.peaks()), built.notes, *log);
   const ExplicitSummary summary{input, built, result, observer, seconds, threads};
   conclude(result, [&] { write_summary(directory, summary); });
   log->info("{}: {}; {} steps, {} cracked particles, energy to {:.2e} of the work",
@@ -146,7 +156,7 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
 int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs::path& directory,
                      int threads) {
   Timer timer;
-  const Model model = build_model_visibly(input, options.quiet);
+  Model model = build_model_visibly(input, options.quiet);
   BondRunCase built = build_bond_run(input, model);
   built.options.threads = threads;
   const ResultDirectory hold(directory, options.force);
@@ -170,6 +180,7 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   attempt(result, [&] { files.finish(); });
   seconds.output = files.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
+  add_note(note_of_peaks(files.peaks()), model.notes, *log);
   conclude(result,
            [&] { write_summary(directory, input, model, result, files, seconds, threads); });
   log->info("{}: {}; {} steps, {}, energy to {:.2e} of the work", to_string(result.ending),
@@ -185,7 +196,7 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
 int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::path& directory,
                    int threads) {
   Timer timer;
-  const Model model = build_model_visibly(input, options.quiet);
+  Model model = build_model_visibly(input, options.quiet);
   const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
   write_first_files(directory, seen_from(input, directory));
@@ -208,6 +219,7 @@ int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::p
   attempt(result, [&] { files.finish(); });
   seconds.output = files.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;
+  add_note(note_of_peaks(files.peaks()), model.notes, *log);
   conclude(result,
            [&] { write_summary(directory, input, model, result, files, seconds, threads); });
   log->info("{}: {}; {} iterations, {} broken bonds, residual {:.2e}", to_string(result.ending),
@@ -240,9 +252,9 @@ int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::
     if (run.elastic) seconds.elastic = run.elastic->seconds;
   });
   attempt(result, [&] { observer.finish(); });
-  if (const auto note = note_of_grips(model, observer.broken())) {
-    model.notes.push_back(*note);
-    log->info("note: {}", *note);
+  for (const auto& note :
+       {note_of_grips(model, observer.broken()), note_of_peaks(result, model, observer.broken())}) {
+    add_note(note, model.notes, *log);
   }
   seconds.output = observer.seconds_writing();
   seconds.analysis = timer.seconds() - seconds.output;

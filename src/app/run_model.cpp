@@ -36,6 +36,7 @@ DamageResult as_history(const Model& model, const ElasticResult& elastic) {
   row.displacement = row.load != 0.0 ? 2.0 * elastic.strain_energy / row.load : 0.0;
   row.residual = result.largest_residual = elastic.residual;
   row.factorizations = 1;
+  result.peaks.add({row.displacement, row.load});
   result.peak_load = row.load;
   result.peak_displacement = row.displacement;
   result.initial_stiffness = row.displacement != 0.0 ? row.load / row.displacement : 0.0;

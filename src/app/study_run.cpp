@@ -11,6 +11,7 @@
 
 #include "analysis/convergence.hpp"
 #include "app/gauges.hpp"
+#include "app/peak_note.hpp"
 #include "app/run_model.hpp"
 #include "app/signals.hpp"
 #include "assembly/fields.hpp"
@@ -121,6 +122,9 @@ double quantity_of(const DamageResult& result, const std::string& word) {
   if (word == "strain_energy") return result.last.strain_energy;
   if (word == "peak_load") return result.peak_load;
   if (word == "peak_displacement") return result.peak_displacement;
+  if (word == "first_peak_load") return result.peaks.first().load;
+  if (word == "first_peak_displacement") return result.peaks.first().displacement;
+  if (word == "smoothed_peak_load") return result.smoothed_peak_load.value_or(no_number);
   if (word == "initial_stiffness") return result.initial_stiffness;
   return result.last.dissipated_energy;
 }
@@ -140,6 +144,7 @@ void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) 
   member.particles = model.network.particles.size();
   member.bonds = model.elements ? 0 : model.network.first_segment;
   member.unknowns = model.unknowns.count;
+  member.note = note_of_peaks(repeat.run.result.peaks).value_or("");
   for (const ErrorSection& error : study.errors) {
     if (error.is_field()) {
       member.values.push_back(

@@ -34,6 +34,7 @@ struct StudyMember {
   TomlValue refinement;    ///< key and value
   std::string failure;     ///< why there is no result; empty where there is one
   bool bad_input = false;  ///< the failure is one of the input
+  std::string note;        ///< on its peaks; empty: none
   std::string method, surface;
   double spacing = 0.0;  ///< that the lattice or mesh has [length]
   double horizon = 0.0;  ///< [length]

@@ -44,9 +44,12 @@ class Report {
     append("  {:>14}", refinement_text(member.refinement));
     if (member.failed()) {
       append(" {:>10}\n", "failed");
-      failures_ +=
+      below_ +=
           fmt::format("  {}: {}\n", refinement_text(member.refinement), first_line(member.failure));
       return;
+    }
+    if (!member.note.empty()) {
+      below_ += fmt::format("  {}: note: {}\n", refinement_text(member.refinement), member.note);
     }
     append(" {:>10}", member.unknowns);
     for (std::size_t e = 0; e < study_.errors.size(); ++e) {
@@ -59,8 +62,8 @@ class Report {
   }
 
   void end_series() {
-    text_ += failures_;
-    failures_.clear();
+    text_ += below_;
+    below_.clear();
   }
 
   const std::string& text() const { return text_; }
@@ -76,7 +79,7 @@ class Report {
 
   const StudyFile& study_;
   std::string text_;
-  std::string failures_;
+  std::string below_;  ///< what is to be said of the members of a series
 };
 
 }  // namespace
@@ -110,7 +113,7 @@ std::string study_table(const StudyFile& study, std::span<const StudySeries> ser
     if (!error.is_field()) header.text(error.name);
     header.text(error.name + "_error").text(error.name + "_order");
   }
-  std::string table = header.text("failure").end();
+  std::string table = header.text("failure").text("note").end();
   for (const StudyMember& member : members) {
     CsvRow row;
     begin_row(row, series, member);
@@ -125,7 +128,7 @@ std::string study_table(const StudyFile& study, std::span<const StudySeries> ser
       if (!field) failed ? row.empty() : row.number(member.values[e]);
       failed ? row.empty().empty() : row.number(member.errors[e]).number(member.orders[e]);
     }
-    table += row.text(first_line(member.failure)).end();
+    table += row.text(first_line(member.failure)).text(member.note).end();
   }
   return table;
 }

@@ -19,11 +19,15 @@ std::string elements_text(const Model& model) {
                         : fmt::format("{} bonds", model.network.first_segment);
 }
 
-std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken) {
+std::size_t count_at_grips(const Model& model, std::span<const Index> elements) {
   const Bonds& bonds = model.network.bonds;
-  const auto at_grip = std::count_if(broken.begin(), broken.end(), [&](Index e) {
+  return std::count_if(elements.begin(), elements.end(), [&](Index e) {
     return model.gripped[bonds.first[e]] != 0 || model.gripped[bonds.second[e]] != 0;
   });
+}
+
+std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken) {
+  const std::size_t at_grip = count_at_grips(model, broken);
   if (at_grip == 0) return std::nullopt;
   return fmt::format(
       "{} of {} broken bonds end at particles of [[supports]] or [[displacements]]; where the body "
@@ -48,6 +52,9 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["reason"] = result.reason;
   json["peak_load"] = result.peak_load;
   json["peak_displacement"] = result.peak_displacement;
+  json["first_peak_load"] = result.peaks.first().load;
+  json["first_peak_displacement"] = result.peaks.first().displacement;
+  if (result.smoothed_peak_load) json["smoothed_peak_load"] = *result.smoothed_peak_load;
   json["initial_stiffness"] = result.initial_stiffness;
   json["steps"] = result.last.step;
   json["broken_bonds"] = result.broken_bonds;
@@ -65,6 +72,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   if (model.network.calibration) json["calibration"] = calibration_json(*model.network.calibration);
   json["spacing"] = model.lattice.spacing;
   json["horizon"] = model.horizon;
+  json["notes"] = model.notes;
   json["factorizations"] = result.factor.factorizations;
   json["factor_bytes"] = result.factor.bytes;
   json["seconds"] = {
@@ -93,6 +101,10 @@ void print_summary(const CaseFile& input, const Model& model, const DamageResult
   fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
   fmt::print("  {:<14} {:.6g} at displacement {:.6g}{}\n", "peak load", result.peak_load,
              result.peak_displacement, input.units.empty() ? "" : "  [" + input.units + "]");
+  if (result.smoothed_peak_load) {
+    fmt::print("  {:<14} {:.6g} of the smooth curve through the events\n", "",
+               *result.smoothed_peak_load);
+  }
   fmt::print("  {:<14} {} broken bonds, {} yield events, {} rows\n", "events", result.broken_bonds,
              result.last.yield_events, result.last.step);
   fmt::print("  {:<14} {:.6g} dissipated, balance to {:.1e}\n", "energy",

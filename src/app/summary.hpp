@@ -25,6 +25,9 @@ std::string elements_text(const Model& model);
 /// Peak memory of this process [bytes].
 double peak_memory_bytes();
 
+/// How many elements end at particles that supports or driven displacements hold.
+std::size_t count_at_grips(const Model& model, std::span<const Index> elements);
+
 /// Where bonds broke at particles that supports or driven displacements hold: nothing of the body
 /// may be wrong with that, but often the grips are.
 /// \param broken  elements that broke

@@ -248,7 +248,8 @@ void write_refinement(TomlWriter& out, const StudyFile& study, const std::string
 
 const std::vector<std::string_view>& quantity_words() {
   static const std::vector<std::string_view> words = {
-      "strain_energy", "peak_load", "peak_displacement", "initial_stiffness", "dissipated_energy"};
+      "strain_energy",           "peak_load",          "peak_displacement", "first_peak_load",
+      "first_peak_displacement", "smoothed_peak_load", "initial_stiffness", "dissipated_energy"};
   return words;
 }
 

@@ -72,6 +72,23 @@ TEST(DamageAnalysis, CollapsesExactlyWhenTheLastLoadPathGoes) {
   EXPECT_EQ(recorder.broken_at_end, 1) << "the body before it separated";
 }
 
+/// Four chains break at a displacement of 0.01 under half of that each; the fifth bears 0.2.
+TEST(DamageAnalysis, TellsTheFirstPeakFromWhatIsBorneAfterwards) {
+  AnalysisBody body = make_chains(2, 5, true, 1.0, infinity);
+  for (int row = 0; row < 5; ++row) {
+    const double limit = row < 4 ? 0.005 : 0.1;
+    body.network.critical_stretch[bonds_of_row(body.network, row)[0]] = limit;
+  }
+  Recorder recorder;
+  const DamageResult result = run(body, {}, recorder);
+  EXPECT_TRUE(result.peaks.climbed_again());
+  EXPECT_NEAR(result.peaks.first().load, 5 * 0.5 * 0.01, 1e-15);
+  EXPECT_NEAR(result.peaks.first().displacement, 0.01, 1e-15);
+  EXPECT_NEAR(result.peak_load, 0.5 * 0.2, 1e-15);
+  EXPECT_EQ(result.broken_as_gave_way, 4);
+  EXPECT_FALSE(result.smoothed_peak_load) << "five events are no curve";
+}
+
 /// A limit that is not a number is no bond that never breaks.
 TEST(DamageAnalysis, FailsWhereAMeasureIsNotANumber) {
   AnalysisBody body = make_square();

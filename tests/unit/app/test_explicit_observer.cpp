@@ -43,8 +43,8 @@ TEST_F(ExplicitObserverTest, WritesARowOfHistoryForEveryRow) {
   double peak = 0.0;
   const int load = table.column("load");
   for (const auto& row : table.rows) peak = std::max(peak, std::abs(row[load]));
-  EXPECT_EQ(std::abs(observer.peak_load()), peak);
-  EXPECT_GT(observer.peak_displacement(), 0.0);
+  EXPECT_EQ(std::abs(observer.peaks().highest().load), peak);
+  EXPECT_GT(observer.peaks().highest().displacement, 0.0);
 }
 
 TEST_F(ExplicitObserverTest, WritesFieldsAtTheBeginningAtTheTimesAndAtTheEnd) {

@@ -21,64 +21,15 @@ std::vector<StepRecord> make_path(int events) {
   for (int k = 0; k < events; ++k) {
     StepRecord record;
     record.step = k;
+    record.broken_bonds = k;
     record.load_factor = 2.0 * std::exp(-2.0 * k / events) * (0.5 + unit(random));
     record.load = reference_load * record.load_factor;
     record.displacement = compliance * record.load_factor;
+    record.strain_energy = 0.5 * record.load * record.displacement;
     compliance += 0.01 * unit(random);
     records.push_back(record);
   }
   return records;
-}
-
-double compliance_of(const StepRecord& record) { return record.displacement / record.load_factor; }
-
-TEST(Envelope, DissipatesWhatTheEventsDissipate) {
-  const std::vector<StepRecord> records = make_path(1001);
-  const std::size_t window = 37;  // does not divide the number of events
-  const std::vector<CurvePoint> curve = smooth_envelope(records, window);
-  double of_events = 0.0;
-  for (std::size_t k = 0; k + 1 < records.size(); ++k) {
-    of_events += 0.5 * std::pow(records[k].load_factor, 2) *
-                 (compliance_of(records[k + 1]) - compliance_of(records[k]));
-  }
-  double of_envelope = 0.0;
-  for (std::size_t w = 0; w < curve.size(); ++w) {
-    const std::size_t end = std::min((w + 1) * window, records.size() - 1);
-    const double factor = curve[w].load / reference_load;
-    of_envelope +=
-        0.5 * factor * factor * (compliance_of(records[end]) - compliance_of(records[w * window]));
-  }
-  EXPECT_NEAR(of_envelope, of_events, 1e-12 * of_events);  // equal in exact arithmetic
-}
-
-TEST(Envelope, PointsLieOnTheMiddleComplianceOfTheirWindow) {
-  const std::vector<StepRecord> records = make_path(21);
-  const std::vector<CurvePoint> curve = smooth_envelope(records, 10);
-  ASSERT_EQ(curve.size(), 2u);
-  const double middle = 0.5 * (compliance_of(records[10]) + compliance_of(records[20]));
-  EXPECT_NEAR(curve[1].displacement / (curve[1].load / reference_load), middle, 1e-12);
-}
-
-TEST(Envelope, OfAConstantLoadIsThatLoad) {
-  std::vector<StepRecord> records = make_path(101);
-  for (StepRecord& record : records) {
-    record.displacement /= -record.load_factor;
-    record.load_factor = -1.0;  // compression
-    record.load = -reference_load;
-  }
-  for (const CurvePoint& point : smooth_envelope(records, 10)) {
-    EXPECT_NEAR(point.load, -reference_load, 1e-12);
-    EXPECT_LT(point.displacement, 0.0);
-  }
-}
-
-TEST(Envelope, TakesMeansWhereTheComplianceDoesNotGrow) {
-  std::vector<StepRecord> records(3);
-  records[1].load = 2.0;  // load factors are zero
-  const std::vector<CurvePoint> curve = smooth_envelope(records, 10);
-  ASSERT_EQ(curve.size(), 1u);
-  EXPECT_EQ(curve[0].load, 1.0);
-  EXPECT_TRUE(smooth_envelope({}, 10).empty());
 }
 
 TEST(LoadDisplacement, MarksThePeak) {
@@ -89,6 +40,19 @@ TEST(LoadDisplacement, MarksThePeak) {
   EXPECT_NE(svg.find("peak −99.5 kip"), std::string::npos);
   EXPECT_NE(svg.find("load (kip)"), std::string::npos);
   EXPECT_EQ(svg.find("envelope"), std::string::npos);
+}
+
+TEST(LoadDisplacement, MarksTheFirstPeakWhereTheLoadClimbedAgain) {
+  std::vector<StepRecord> records = make_path(6);
+  const double loads[] = {10.0, 20.0, 3.0, 12.0, 40.0, 1.0};
+  for (int k = 0; k < 6; ++k) {
+    records[k].load = loads[k];
+    records[k].displacement = 1.0 + k + 10.0 * (k > 2);
+    records[k].strain_energy = 0.5 * loads[k] * records[k].displacement;
+  }
+  const std::string svg = draw_load_displacement(records, {"Beam", "kip", "in"}).str();
+  EXPECT_NE(svg.find(">peak 40 kip at 15 in"), std::string::npos);
+  EXPECT_NE(svg.find(">first peak 20 kip at 2 in"), std::string::npos);
 }
 
 TEST(LoadDisplacement, ManyEventsGetAnEnvelopeAndASmallFile) {
@@ -106,6 +70,8 @@ std::vector<StepRecord> tent(double middle) {
     records[k].displacement = x;
     records[k].load = x < middle ? x / middle : (1.0 - x) / (1.0 - middle);
     records[k].load_factor = records[k].load;
+    records[k].broken_bonds = k;
+    records[k].strain_energy = 0.5 * records[k].load * x;
   }
   return records;
 }
@@ -137,11 +103,12 @@ TEST(LoadDisplacement, EmptyHistoryIsAnEmptyFrame) {
             std::string::npos);
 }
 
-/// Rows in time vibrate; no envelope of events has a meaning for them.
-TEST(LoadDisplacement, HistoriesInTimeHaveNoEnvelope) {
-  const std::vector<StepRecord> records = make_path(1000);
+/// Rows in time or of load steps are no path of events, whose area an envelope could keep.
+TEST(LoadDisplacement, OtherRowsThanEventsHaveNoEnvelope) {
+  std::vector<StepRecord> records = make_path(1000);
   EXPECT_NE(draw_load_displacement(records, {}).str().find("envelope"), std::string::npos);
-  const std::string svg = draw_load_displacement(records, {}, HistoryPath::time).str();
+  for (StepRecord& record : records) record.broken_bonds /= 2;
+  const std::string svg = draw_load_displacement(records, {}).str();
   EXPECT_EQ(svg.find("envelope"), std::string::npos);
   EXPECT_NE(svg.find("peak"), std::string::npos);
 }

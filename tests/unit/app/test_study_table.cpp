@@ -36,6 +36,7 @@ struct Sample {
     good.values = {0.125, 5.0};
     good.errors = {0.125, 0.25};
     good.orders = {none, 1.5};
+    good.note = "the load climbed again";
     good.seconds = {0.5, 0.25, 0.25, 2.0, 0.125, 3.0};
     StudyMember bad;
     bad.series = 1;
@@ -49,9 +50,10 @@ TEST(StudyTable, HasAColumnForEveryErrorAndNoneForTheClock) {
   const Sample sample;
   EXPECT_EQ(study_table(sample.study, sample.series, sample.members),
             "combination,spacing,method,surface,mean_spacing,horizon,particles,bonds,unknowns,"
-            "displacement_error,displacement_order,energy,energy_error,energy_order,failure\n"
-            "\"none, horizon ratio 2\",0.2,bonds,none,0.25,0.5,6,9,10,0.125,,5,0.25,1.5,\n"
-            "ghost,0.1,,,,,,,,,,,,,\"a.toml: \"\"ghost\"\" is refused, here\"\n");
+            "displacement_error,displacement_order,energy,energy_error,energy_order,failure,note\n"
+            "\"none, horizon ratio 2\",0.2,bonds,none,0.25,0.5,6,9,10,0.125,,5,0.25,1.5,,the load "
+            "climbed again\n"
+            "ghost,0.1,,,,,,,,,,,,,\"a.toml: \"\"ghost\"\" is refused, here\",\n");
 }
 
 TEST(StudyTable, TimingHasTheRowsThatRan) {
@@ -70,6 +72,7 @@ TEST(StudyTable, TheReportSaysWhatFailedAndWhy) {
   EXPECT_THAT(report, HasSubstr("2.500e-01   1.50"));
   EXPECT_THAT(report, HasSubstr("0.1     failed\n"));
   EXPECT_THAT(report, HasSubstr("0.1: a.toml: \"ghost\" is refused, here\n"));
+  EXPECT_THAT(report, HasSubstr("0.2: note: the load climbed again\n"));
   EXPECT_THAT(report, Not(HasSubstr("nan")));
 }
 

@@ -27,6 +27,10 @@ DamageResult some_result() {
   result.broken_bonds = 8;
   result.peak_load = 1.0 / 3.0;
   result.peak_displacement = 0.125;
+  for (const CurvePoint row : {CurvePoint{0.0625, 0.25}, {0.09, 0.1}, {0.125, 1.0 / 3.0}}) {
+    result.peaks.add(row);
+  }
+  result.smoothed_peak_load = 0.1875;
   result.initial_stiffness = 64.0;
   result.largest_residual = 1e-14;
   result.energy_error = 2e-13;
@@ -40,6 +44,7 @@ TEST(Summary, HoldsEveryFigureUnderItsKey) {
   const CaseFile input = test::strip_case();
   Model model = build_model(input);
   model.network.calibration.value().seconds = 0.125;
+  model.notes = {"mind the gap"};
   write_summary(work.path(), input, model, some_result(), {0.25, 0.5, 0.75}, 3);
   const auto json = nlohmann::ordered_json::parse(test::read_text(work / "summary.json"));
 
@@ -50,6 +55,9 @@ TEST(Summary, HoldsEveryFigureUnderItsKey) {
       {"reason", "the body \"separated\""},
       {"peak_load", 1.0 / 3.0},
       {"peak_displacement", 0.125},
+      {"first_peak_load", 0.25},
+      {"first_peak_displacement", 0.0625},
+      {"smoothed_peak_load", 0.1875},
       {"initial_stiffness", 64.0},
       {"steps", 9},
       {"broken_bonds", 8},
@@ -65,6 +73,7 @@ TEST(Summary, HoldsEveryFigureUnderItsKey) {
       {"calibration", calibration_json(model.network.calibration.value())},
       {"spacing", 10.0},
       {"horizon", 31.0},
+      {"notes", {"mind the gap"}},
       {"factorizations", 2},
       {"factor_bytes", 1024.0},
       {"seconds", {{"set_up", 0.25}, {"analysis", 0.5}, {"output", 0.75}, {"calibration", 0.125}}},
@@ -145,7 +154,7 @@ TEST(Summary, ForPeopleSaysHowItEndedAndWhereTheResultsAre) {
   const std::string text = testing::internal::GetCapturedStdout();
   for (const char* part : {"A strip in tension", "collapsed", "0.333333 at displacement 0.125",
                            "[kip, in]", "8 broken bonds, 2 yield events, 9 rows", "45 particles",
-                           "mind the gap", "results/strip"}) {
+                           "0.1875 of the smooth curve", "mind the gap", "results/strip"}) {
     EXPECT_THAT(text, testing::HasSubstr(part));
   }
 }

@@ -81,7 +81,9 @@ std::size_t bonds_per_horizon(const Lattice& lattice, double horizon, int across
 
 double smooth_peak_of(const std::vector<StepRecord>& rows, std::size_t window) {
   double peak = 0.0;
-  for (const CurvePoint& point : smooth_envelope(rows, window)) peak = std::max(peak, point.load);
+  for (const CurvePoint& point : smooth_envelope(event_path(rows), window)) {
+    peak = std::max(peak, point.load);
+  }
   return peak;
 }
 
