@@ -173,11 +173,13 @@ BondStencil find_stencil(const Network& network) {
       break;
     }
   }
-  drop_thin_kinds(sort_halves(network, kind), found.kinds.size(), kind);
+  HalvesOfGroups groups = sort_halves(network, kind);
+  drop_thin_kinds(groups, found.kinds.size(), kind);
 
   BondStencil stencil;
   std::map<std::vector<StencilLine>, int> patterns;
-  for (const std::vector<Half>& halves : sort_halves(network, kind)) {
+  for (std::vector<Half>& halves : groups) {
+    std::erase_if(halves, [&](const Half& half) { return kind[half.element] == no_kind; });
     const std::size_t first_slot = stencil.element.size();
     std::vector<StencilLine> lines = make_lines(halves, stencil.element);
     const auto [entry, is_new] =

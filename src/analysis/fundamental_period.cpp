@@ -19,11 +19,12 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int most_iterations = 2000;
-/// Of the energy that the residual could still set free, over that of the vibration: ten times the
-/// error of the square of the frequency, or less.
+constexpr double round_off = 1e-16;  ///< of forces, which very slender bodies multiply
+/// Of the energy that the residual could still set free, over that of the vibration: a tenth of the
+/// error of the square of the frequency, or more.
 constexpr double tolerance = 1e-8;
-/// Below this part of the fastest stiffness over mass there is nothing but round-off: bodies a
-/// thousand times as long as high bend at 1e-12.
+/// Below this part of the fastest stiffness over mass there is nothing but round-off: a body 1500
+/// times as long as high bends at 1.5e-14.
 constexpr double least_stiffness = 1e-14;
 
 /// The slowest vibration: a motion of unit kinetic form, orthogonal to what nothing resists.
@@ -37,7 +38,7 @@ class Vibration {
         mass_(Eigen::Map<const VectorXd>(inertia.mass.data(),
                                          static_cast<Eigen::Index>(inertia.mass.size()))),
         inverse_(network, unknowns),
-        least_(least_stiffness * inverse_.fastest(inertia.mass)) {
+        fastest_(inverse_.fastest(inertia.mass)) {
     for (const std::vector<double>& motion : free) {
       VectorXd own = masked(Eigen::Map<const VectorXd>(motion.data(), mass_.size()));
       make_orthogonal(own, free_);
@@ -78,7 +79,7 @@ class Vibration {
   std::vector<double> secants_;
   VectorXd mass_;
   BoxPreconditioner inverse_;
-  double least_;
+  double fastest_;  ///< about the square of the fastest frequency [1/time^2]
   std::vector<VectorXd> free_;
   InternalForce inner_;
   std::vector<Direction> basis_;  ///< orthonormal; the present motion is the first one
@@ -100,6 +101,7 @@ bool Vibration::append(Direction direction) {
   if (!(whole > 0.0)) return false;
   constexpr double least_part = 1e-10;    // less is round-off
   for (int pass = 0; pass < 2; ++pass) {  // once leaves too much round-off
+    make_orthogonal(direction.u, free_);  // which has no force
     for (const Direction& other : basis_) {
       const double part = product(other.u, direction.u);
       direction.u -= part * other.u;
@@ -144,11 +146,14 @@ double Vibration::settle() {
   for (int k = 0; k < most_iterations && !basis_.empty(); ++k) {
     const Direction& now = basis_.front();
     const double square = now.u.dot(now.force);
-    if (!(square > least_)) throw SolverError("parts of the body can move freely");
+    if (!(square > least_stiffness * fastest_)) {
+      throw SolverError("parts of the body can move freely, or it is too slender to tell");
+    }
     const VectorXd residual = now.force - square * mass_.cwiseProduct(now.u);
     VectorXd step = inverse_.times(residual);
     make_orthogonal(step, free_);
-    if (residual.dot(step) <= tolerance * square) {
+    const double noise = round_off * fastest_ / square;
+    if (residual.dot(step) <= std::max(tolerance, noise * noise) * square) {
       force_of(now.u);  // the energy is a sum of squares, which round-off hardly touches
       return 2.0 * inner_.energy / product(now.u, now.u);
     }

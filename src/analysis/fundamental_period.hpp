@@ -14,7 +14,7 @@ namespace perilink {
 /// three-term conjugate gradients of Knyazev (2001), T = 2 pi / omega. What loading times of
 /// explicit runs are measured by. Takes internal forces and no matrix of the body, of whatever
 /// size; the preconditioner knows the rigid motions of some hundred boxes of particles. Exact to
-/// about 1e-6 (docs/theory/explicit_bonds.md, section 4).
+/// about 1e-7 (docs/theory/explicit_bonds.md, section 4).
 /// \param free  rigid motions that nothing resists (free_motions), shape (particles, width): the
 ///              vibrations that are looked for have no part in them
 /// \throws SolverError when parts can move freely, or the iteration does not settle

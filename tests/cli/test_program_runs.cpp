@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, StopSignals, testing::Values(SIGINT, SIGTERM, 
 
 /// A run on a terminal of its own, which is closed while progress is drawn on it.
 TEST_F(ProgramRuns, KeepTheirResultsWhenTheirTerminalIsClosed) {
-  write_text(work() / "long.toml", lattice_strip_case(0.02, "safety = 1e-4\n"));
+  write_text(work() / "long.toml", lattice_strip_case(0.02, "safety = 1e-2\n"));
   std::string program = PERILINK_PROGRAM;
   std::string words[] = {"run", "long.toml", "--out", "r", "--threads", "1"};
   std::vector<char*> arguments = {program.data()};
