@@ -29,6 +29,12 @@ struct DamageOptions {
   int check_interval = 50;           ///< events between looks at the residual
 };
 
+/// Force on the body at a loaded or driven place.
+struct PlaceForce {
+  std::string name;
+  std::vector<double> force;  ///< size dim [force]
+};
+
 struct DamageResult {
   Ending ending = Ending::completed;
   std::string reason;               ///< in words
@@ -38,6 +44,7 @@ struct DamageResult {
   double peak_displacement = 0.0;   ///< displacement at the peak load
   PeakWatch peaks;                  ///< the same, and what the load did after its first peak
   Index broken_as_gave_way = 0;     ///< bonds broken when the body first gave way
+  std::vector<PlaceForce> places;   ///< at the peak, of several; filled in by who knows them
   std::optional<double> smoothed_peak_load;  ///< of paths of events that are long enough
   double initial_stiffness = 0.0;   ///< load / displacement of the intact body
   double largest_residual = 0.0;
@@ -47,11 +54,11 @@ struct DamageResult {
   FactorStatistics factor;
 };
 
-/// Reference load and displacement that turn load factors into the two axes of the load curve.
+/// Reference load or displacement that turns load factors into the two axes of the load curve, each
+/// work-conjugate to the other.
 struct ReferenceLoad {
-  bool driven = false;  ///< displacements drive the body (forces may help them): the load is then
-                        ///< the reaction that is work-conjugate to the largest of them
-  double value = 0.0;   ///< largest resultant of a loaded region, or largest driven displacement
+  bool driven = false;  ///< displacements drive the body (forces may help them)
+  double value = 0.0;   ///< load of all loaded places, or relative displacement of driven ones
 };
 
 /// THE MAIN JOB: proportional loading of a network of brittle bonds to collapse, event by event.

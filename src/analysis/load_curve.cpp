@@ -59,11 +59,18 @@ std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::s
 std::size_t envelope_window(std::size_t events) { return std::max<std::size_t>(10, events / 120); }
 
 std::optional<double> smoothed_peak(std::span<const CurvePoint> path) {
+  PeakWatch rows;
+  std::size_t held = 0;  // rows before the body gave way
+  for (const CurvePoint& row : path) {
+    rows.add(row);
+    if (!rows.gave_way()) ++held;
+  }
+  if (rows.climbed_again()) path = path.first(held);
   const std::size_t window = envelope_window(path.size());
   if (path.size() <= 2 * window) return std::nullopt;
   PeakWatch peaks;
   for (const CurvePoint& point : smooth_envelope(path, window)) peaks.add(point);
-  return peaks.first().load;
+  return peaks.highest().load;
 }
 
 void PeakWatch::add(const CurvePoint& row, bool intact) {

@@ -33,8 +33,8 @@ std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::s
 /// Number of events per window that leaves about 120 points, at least 10.
 std::size_t envelope_window(std::size_t events);
 
-/// Largest load of the envelope before it falls below collapsed_part of that, with its sign [force];
-/// none of fewer than two windows.
+/// Largest load of the envelope, with its sign [force]; none of fewer than two windows. Where the
+/// load climbed again after the body gave way only the events before count.
 std::optional<double> smoothed_peak(std::span<const CurvePoint> path);
 
 /// Below this part of an earlier peak a body has given way.

@@ -262,9 +262,9 @@ void print_summary(const std::filesystem::path& directory, const CaseFile& input
                           : 0.0;
   fmt::print("{}\n", input.title.empty() ? input.path : input.title);
   fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
-  fmt::print("  {:<14} {:.6g} at displacement {:.6g}, reaction of supports {:.6g}{}\n", "peak load",
-             files.peaks().highest().load, files.peaks().highest().displacement, result.peak_load,
-             input.units.empty() ? "" : "  [" + input.units + "]");
+  fmt::print("  {:<14} {:.6g} at displacement {:.6g}{}{}\n", "peak load",
+             files.peaks().highest().load, files.peaks().highest().displacement,
+             reaction_text(result.peak_load), input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
              result.time_step, result.critical_time_step, files.rows());
   fmt::print(

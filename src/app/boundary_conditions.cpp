@@ -129,15 +129,26 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
   }
 }
 
-/// Largest displacement that is driven; where only rotations are, the largest of these.
-double largest_driven(const Network& network, const Prescription& prescription) {
-  double displacement = 0.0, rotation = 0.0;
-  for (std::size_t slot = 0; slot < prescription.value.size(); ++slot) {
-    const bool turns = static_cast<int>(slot % network.width()) >= network.dim();
-    double& largest = turns ? rotation : displacement;
-    largest = std::max(largest, std::abs(prescription.value[slot]));
+/// The load and displacement that stand for all places, and the places.
+void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
+                 Prescription& prescription) {
+  std::array<bool, 6> held = prescription.kept;
+  const std::vector<double>& springs = model.network.support_stiffness;
+  for (std::size_t slot = 0; slot < springs.size(); ++slot) {
+    if (springs[slot] > 0.0) held[slot % model.network.width()] = true;
   }
-  return displacement > 0.0 ? displacement : rotation;
+  const double driven = relative_motion(prescription.driven, held, model.network.dim());
+  model.reference.driven = driven > 0.0;
+  model.reference.value = model.reference.driven ? driven : total_load(applied.places);
+  if (model.reference.value == 0.0) {
+    throw InputError(input.where(input.displacements.empty() ? "tractions" : "displacements"),
+                     "nothing loads the body: all formulas are zero on their particles", "");
+  }
+  if (model.reference.driven) {
+    model.driven_places = std::move(prescription.driven);
+  } else {
+    model.loaded_places = std::move(applied.places);
+  }
 }
 
 }  // namespace
@@ -148,13 +159,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.loads = std::move(applied.loads);
   model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
   model.network.support_stiffness = collect_springs(input, model);
-  const double driven = largest_driven(model.network, prescription);
-  model.reference.driven = driven > 0.0;
-  model.reference.value = model.reference.driven ? driven : applied.reference;
-  if (model.reference.value == 0.0) {
-    throw InputError(input.where(input.displacements.empty() ? "tractions" : "displacements"),
-                     "nothing loads the body: all formulas are zero on their particles", "");
-  }
+  choose_axes(input, model, applied, prescription);
   model.resultant = load_resultant(model.network, model.loads);
   refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/damage_analysis.hpp"
+#include "app/loaded_places.hpp"
 #include "assembly/linear_elements.hpp"
 #include "assembly/network.hpp"
 #include "assembly/particle_network.hpp"
@@ -47,6 +48,8 @@ struct Model {
   Unknowns unknowns;
   Loads loads;
   ReferenceLoad reference;
+  std::vector<LoadedPlace> loaded_places;  ///< by forces, where nothing is driven
+  std::vector<DrivenPlace> driven_places;
   std::vector<Gauge> gauges;
   /// Of each particle: a displacement of it is prescribed by a support or driven (planes of
   /// symmetry grip nothing: a crack may run into them).

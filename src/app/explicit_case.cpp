@@ -19,21 +19,19 @@ namespace {
 
 constexpr double most_steps = 2e9;  ///< steps have 32-bit numbers
 
-/// Supports and driven displacements. \return the largest driven displacement [length]; zero: none
+/// Supports and driven displacements. \return what stands for all that are driven [length]
 double prescribe_motions(const CaseFile& input, const Model& places, ExplicitModel& model) {
   const Prescription prescription = collect_prescriptions(input, places);
   const std::size_t dim = model.lattice.dim;
   std::vector<PrescribedMotion> motions;
-  double largest = 0.0;
   for (std::size_t slot = 0; slot < prescription.held.size(); ++slot) {
     if (!prescription.held[slot]) continue;
     const double amplitude = prescription.value[slot];
     motions.push_back(
         {model.lattice.particle_slot[slot / dim], static_cast<int>(slot % dim), amplitude});
-    largest = std::max(largest, std::abs(amplitude));
   }
   prescribe(model, motions);
-  return largest;
+  return relative_motion(prescription.driven, prescription.kept, model.lattice.dim);
 }
 
 /// Forces on the particles. \return the reference load [force]; zero: none
@@ -49,7 +47,7 @@ double load_particles(const CaseFile& input, const Model& places, ExplicitCase& 
   }
   if (!forces.empty()) apply_forces(built.model, forces);
   built.notes.insert(built.notes.end(), applied.notes.begin(), applied.notes.end());
-  return applied.reference;
+  return total_load(applied.places);
 }
 
 /// What moves the body, and what is measured.

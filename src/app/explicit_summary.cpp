@@ -70,9 +70,9 @@ void print_summary(const std::filesystem::path& directory, const ExplicitSummary
   const CaseFile& input = summary.input;
   fmt::print("{}\n", input.title.empty() ? input.path : input.title);
   fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
-  fmt::print("  {:<14} {:.6g} at displacement {:.6g}, reaction of supports {:.6g}{}\n", "peak load",
+  fmt::print("  {:<14} {:.6g} at displacement {:.6g}{}{}\n", "peak load",
              summary.observer.peaks().highest().load,
-             summary.observer.peaks().highest().displacement, result.peak_load,
+             summary.observer.peaks().highest().displacement, reaction_text(result.peak_load),
              input.units.empty() ? "" : "  [" + input.units + "]");
   fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
              result.time_step, result.critical_time_step, summary.observer.rows());

@@ -17,9 +17,6 @@ namespace {
 /// A point load this close to its particle, in spacings, has not moved.
 constexpr double moved = 1e-6;
 
-/// An entry whose resultant is less than this fraction of its forces' sizes is in balance.
-constexpr double balanced = 1e-9;
-
 std::span<const Expression> components_of(const ExpressionVector& vector, int dim) {
   return {vector.data(), static_cast<std::size_t>(dim)};
 }
@@ -27,45 +24,41 @@ std::span<const Expression> components_of(const ExpressionVector& vector, int di
 std::vector<Index> solid_particles_of(const CaseFile& input, const Model& model,
                                       const std::string& region, const std::string& key) {
   std::vector<Index> members = particles_of_region(input, model, region, key);
-  std::erase_if(members, [&](Index i) {
-    return model.network.particles.kind[i] != ParticleKind::solid;
-  });
+  std::erase_if(members,
+                [&](Index i) { return model.network.particles.kind[i] != ParticleKind::solid; });
   return members;
 }
 
 /// Shares a total force over the solid particles of a region in proportion to their volumes, or
-/// integrates a uniform body force. \return norm of the resultant
-double add_uniform_load(const LoadSection& section, const Particles& particles,
-                        std::span<const Index> region, Loads& loads) {
+/// integrates a uniform body force.
+void add_uniform_load(const LoadSection& section, const Particles& particles,
+                      std::span<const Index> region, Loads& loads, LoadedPlace& place) {
   const std::size_t width = loads.forces.size() / static_cast<std::size_t>(particles.size());
   double volume = 0.0;
   for (const Index i : region) volume += particles.volumes[i];
-  double square = 0.0;
+  Vector3 sum{};
   for (int a = 0; a < particles.dim; ++a) {
-    const double total =
-        section.force ? (*section.force)[a] : (*section.body_force)[a].number * volume;
-    square += total * total;
+    sum[a] = section.force ? (*section.force)[a] : (*section.body_force)[a].number * volume;
+    place.force[a] += sum[a];
     for (const Index i : region) {
-      loads.forces[i * width + a] += total * particles.volumes[i] / volume;
+      loads.forces[i * width + a] += sum[a] * particles.volumes[i] / volume;
     }
   }
-  return std::sqrt(square);
+  place.sizes += std::hypot(sum[0], sum[1], sum[2]);
 }
 
-double resultant_of(const Particles& particles, const Loads& entry) {
+/// Adds the forces of an entry to all loads and to its place.
+void add_entry(const Particles& particles, const Loads& entry, Loads& loads, LoadedPlace& place) {
   const std::size_t width = entry.forces.size() / static_cast<std::size_t>(particles.size());
-  Vector3 sum{};
-  double sizes = 0.0;
   for (Index i = 0; i < particles.size(); ++i) {
     Vector3 force{};
     for (int a = 0; a < particles.dim; ++a) {
       force[a] = entry.forces[i * width + a];
-      sum[a] += force[a];
+      loads.forces[i * width + a] += force[a];
+      place.force[a] += force[a];
     }
-    sizes += std::hypot(force[0], force[1], force[2]);
+    place.sizes += std::hypot(force[0], force[1], force[2]);
   }
-  const double resultant = std::hypot(sum[0], sum[1], sum[2]);
-  return resultant > balanced * sizes ? resultant : sizes;
 }
 
 void add_body_force(const CaseFile& input, const Model& model, std::size_t k,
@@ -112,8 +105,8 @@ bool resists_rotation(const Network& network, Index particle) {
   return !rotating.empty() && rotating[particle];
 }
 
-/// Force and moment of a point load. \return norm of the force, or of the moment of a mere moment
-double add_point_load(const CaseFile& input, const Model& model, std::size_t k, AppliedLoads& all) {
+/// Force and moment of a point load.
+void add_point_load(const CaseFile& input, const Model& model, std::size_t k, AppliedLoads& all) {
   const PointLoadSection& section = input.point_loads[k];
   const Particles& particles = model.network.particles;
   const int dim = particles.dim;
@@ -122,11 +115,11 @@ double add_point_load(const CaseFile& input, const Model& model, std::size_t k, 
   const NearestParticle nearest = nearest_particle(particles, at);
   const double spacing = model.lattice.spacing;
   if (nearest.distance > spacing) {
-    throw InputError(input.where(item_key("point_loads", k, "at")),
-                     fmt::format("is ({}), {:.6g} from the nearest particle", fmt::join(at, ", "),
-                                 nearest.distance),
-                     fmt::format("particles are {:.6g} apart; the load must lie within that of one",
-                                 spacing));
+    throw InputError(
+        input.where(item_key("point_loads", k, "at")),
+        fmt::format("is ({}), {:.6g} from the nearest particle", fmt::join(at, ", "),
+                    nearest.distance),
+        fmt::format("particles are {:.6g} apart; the load must lie within that of one", spacing));
   }
   if (nearest.distance > moved * spacing) {
     all.notes.push_back(fmt::format("the point load at ({}) acts on the particle at ({})",
@@ -142,9 +135,14 @@ double add_point_load(const CaseFile& input, const Model& model, std::size_t k, 
   double* force = all.loads.forces.data() + nearest.particle * width;
   for (int a = 0; a < dim; ++a) force[a] += section.force[a];
   for (std::size_t a = dim; a < width; ++a) force[a] += section.moment[dim == 2 ? 2 : a - dim];
-  const double size = std::hypot(section.force[0], section.force[1], section.force[2]);
-  return size > 0.0 ? size
-                    : std::hypot(section.moment[0], section.moment[1], section.moment[2]);
+  LoadedPlace& place = place_named(
+      all.places,
+      fmt::format("particle at ({})", fmt::join(particles.position(nearest.particle), ", ")));
+  for (int a = 0; a < 3; ++a) {
+    place.force[a] += section.force[a];
+    place.moment[a] += section.moment[a];
+  }
+  place.sizes += std::hypot(section.force[0], section.force[1], section.force[2]);
 }
 
 }  // namespace
@@ -157,24 +155,22 @@ AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width)
     const LoadSection& section = input.loads[k];
     const std::vector<Index> region =
         solid_particles_of(input, model, section.region, item_key("loads", k, "region"));
+    LoadedPlace& place = place_named(all.places, section.region);
     if (section.force || section.body_force->is_constant()) {
-      all.reference =
-          std::max(all.reference, add_uniform_load(section, particles, region, all.loads));
+      add_uniform_load(section, particles, region, all.loads, place);
       continue;
     }
     Loads entry{std::vector<double>(all.loads.forces.size(), 0.0)};
     add_body_force(input, model, k, region, entry);
-    all.reference = std::max(all.reference, resultant_of(particles, entry));
-    for (std::size_t s = 0; s < entry.forces.size(); ++s) all.loads.forces[s] += entry.forces[s];
+    add_entry(particles, entry, all.loads, place);
   }
   for (std::size_t k = 0; k < input.tractions.size(); ++k) {
     Loads entry{std::vector<double>(all.loads.forces.size(), 0.0)};
     add_traction(input, model, k, entry);
-    all.reference = std::max(all.reference, resultant_of(particles, entry));
-    for (std::size_t s = 0; s < entry.forces.size(); ++s) all.loads.forces[s] += entry.forces[s];
+    add_entry(particles, entry, all.loads, place_named(all.places, input.tractions[k].region));
   }
   for (std::size_t k = 0; k < input.point_loads.size(); ++k) {
-    all.reference = std::max(all.reference, add_point_load(input, model, k, all));
+    add_point_load(input, model, k, all);
   }
   return all;
 }

@@ -7,9 +7,7 @@ namespace perilink {
 /// All loads of a case on the particles of its model.
 struct AppliedLoads {
   Loads loads;
-  /// Largest resultant of an entry [force]. An entry that is in balance by itself, such as a
-  /// pressure all around, counts with the sum of its forces' sizes.
-  double reference = 0.0;
+  std::vector<LoadedPlace> places;
   std::vector<std::string> notes;  ///< point loads that had to move
 };
 

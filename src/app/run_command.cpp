@@ -252,6 +252,7 @@ int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::
     if (run.elastic) seconds.elastic = run.elastic->seconds;
   });
   attempt(result, [&] { observer.finish(); });
+  result.places = observer.places();
   for (const auto& note :
        {note_of_grips(model, observer.broken()), note_of_peaks(result, model, observer.broken())}) {
     add_note(note, model.notes, *log);

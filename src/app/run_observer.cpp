@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/field_file.hpp"
 #include "app/gauges.hpp"
 #include "app/signals.hpp"
 #include "assembly/fields.hpp"
+#include "assembly/internal_force.hpp"
 #include "base/timer.hpp"
 
 namespace perilink {
@@ -45,6 +47,32 @@ void RunObserver::note_broken(const StepRecord& record, StateSource& source) {
     if (secants[e] != 0.0 || is_broken_[e]) continue;
     broken_.push_back(e);
     is_broken_[e] = 1;
+  }
+}
+
+/// One place bears the whole load.
+void RunObserver::note_places(const StepRecord& record, StateSource& source) {
+  if (model_.loaded_places.size() + model_.driven_places.size() < 2) return;
+  if (!(std::abs(record.load) > highest_)) return;
+  highest_ = std::abs(record.load);
+  places_.clear();
+  const std::size_t dim = model_.network.dim(), width = model_.network.width();
+  for (const LoadedPlace& place : model_.loaded_places) {
+    PlaceForce& at = places_.emplace_back(PlaceForce{place.name, {}});
+    for (std::size_t a = 0; a < dim; ++a) at.force.push_back(record.load_factor * place.force[a]);
+  }
+  if (model_.driven_places.empty()) return;
+  const StepState state = source.state();
+  const InternalForce internal =
+      model_.elements ? internal_force(*model_.elements, state.displacement)
+                      : internal_force(model_.network, state.secants, state.displacement);
+  for (const DrivenPlace& place : model_.driven_places) {
+    PlaceForce& at = places_.emplace_back(PlaceForce{place.name, std::vector<double>(dim, 0.0)});
+    for (const std::size_t slot : place.slots) {
+      if (slot % width >= dim) continue;  // a moment
+      const double reaction = internal.forces[slot] - model_.loads.forces[slot];
+      at.force[slot % width] += record.load_factor * reaction;
+    }
   }
 }
 
@@ -92,6 +120,7 @@ void RunObserver::write_fields(const StepRecord& record, StateSource& source) {
 
 void RunObserver::on_step(const StepRecord& record, StateSource& source) {
   note_broken(record, source);
+  note_places(record, source);
   if (model_.gauges.empty()) {
     history_.append(record);
   } else {

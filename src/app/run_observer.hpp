@@ -28,9 +28,12 @@ class RunObserver final : public StepObserver {
   void finish();
   /// Broken bonds and ties of the last row, in the order of breaking.
   const std::vector<Index>& broken() const { return broken_; }
+  /// Forces of the places, where there are several, in the row of the largest |load|.
+  const std::vector<PlaceForce>& places() const { return places_; }
   double seconds_writing() const { return seconds_writing_; }
 
  private:
+  void note_places(const StepRecord& record, StateSource& source);
   void note_broken(const StepRecord& record, StateSource& source);
   bool wants_fields(Index broken_bonds) const;
   VtuGrid make_grid(const StepRecord& record, StateSource& source);
@@ -41,12 +44,14 @@ class RunObserver final : public StepObserver {
   std::filesystem::path directory_;
   HistoryFile history_;
   Progress progress_;
-  Csr families_;                   ///< made with the first field file
-  std::vector<Index> broken_;      ///< in the order of breaking
+  Csr families_;               ///< made with the first field file
+  std::vector<Index> broken_;  ///< in the order of breaking
   std::vector<std::uint8_t> is_broken_;
   Index last_element_ = no_index;  ///< that failed at the end of the last row
   std::set<Index> written_;        ///< numbers of broken bonds that have a field file
   std::vector<PvdEntry> series_;
+  double highest_ = 0.0;  ///< |load| so far
+  std::vector<PlaceForce> places_;
   double seconds_writing_ = 0.0;
 };
 

@@ -42,6 +42,10 @@ double peak_memory_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts kilobytes
 }
 
+std::string reaction_text(double reaction) {
+  return reaction == 0.0 ? "" : fmt::format(", reaction of supports {:.6g}", reaction);
+}
+
 void write_summary(const std::filesystem::path& directory, const CaseFile& input,
                    const Model& model, const DamageResult& result, const PhaseSeconds& seconds,
                    int threads) {
@@ -55,6 +59,12 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["first_peak_load"] = result.peaks.first().load;
   json["first_peak_displacement"] = result.peaks.first().displacement;
   if (result.smoothed_peak_load) json["smoothed_peak_load"] = *result.smoothed_peak_load;
+  if (!result.places.empty()) {
+    json["places"] = nlohmann::ordered_json::array();
+    for (const PlaceForce& place : result.places) {
+      json["places"].push_back({{"name", place.name}, {"force", place.force}});
+    }
+  }
   json["initial_stiffness"] = result.initial_stiffness;
   json["steps"] = result.last.step;
   json["broken_bonds"] = result.broken_bonds;
@@ -104,6 +114,9 @@ void print_summary(const CaseFile& input, const Model& model, const DamageResult
   if (result.smoothed_peak_load) {
     fmt::print("  {:<14} {:.6g} of the smooth curve through the events\n", "",
                *result.smoothed_peak_load);
+  }
+  for (const PlaceForce& place : result.places) {
+    fmt::print("  {:<14} ({:.6g}) by {}\n", "", fmt::join(place.force, ", "), place.name);
   }
   fmt::print("  {:<14} {} broken bonds, {} yield events, {} rows\n", "events", result.broken_bonds,
              result.last.yield_events, result.last.step);

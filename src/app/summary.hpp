@@ -33,6 +33,9 @@ std::size_t count_at_grips(const Model& model, std::span<const Index> elements);
 /// \param broken  elements that broke
 std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken);
 
+/// ", reaction of supports 12.3"; nothing where supports bear none of the load.
+std::string reaction_text(double reaction);
+
 /// Writes DIR/summary.json. \throws FileError
 void write_summary(const std::filesystem::path& directory, const CaseFile& input,
                    const Model& model, const DamageResult& result, const PhaseSeconds& seconds,

@@ -94,9 +94,25 @@ void hold_in_plane(const CaseFile& input, const Model& model, std::size_t k,
   const int axis = input.symmetry[k].axis;
   const int dim = model.network.dim();
   prescribe(input, model, prescription, particles, key, axis, values);
+  prescription.kept[axis] = true;
   for (int component = dim; component < model.network.width(); ++component) {
     if (dim == 3 && component - dim == axis) continue;
     prescribe(input, model, prescription, particles, key, component, values);
+  }
+}
+
+/// Notes that a place drives a component of particles, whose values are prescribed already.
+void note_driven(const Network& network, Prescription& prescription,
+                 std::span<const Index> particles, int component, const std::string& region) {
+  DrivenPlace& place = place_named(prescription.driven, region);
+  for (const Index i : particles) {
+    const std::size_t slot = static_cast<std::size_t>(i) * network.width() + component;
+    const double value = prescription.value[slot];
+    const bool first = !place.drives[component];
+    place.low[component] = first ? value : std::min(place.low[component], value);
+    place.high[component] = first ? value : std::max(place.high[component], value);
+    place.drives[component] = true;
+    place.slots.push_back(slot);
   }
 }
 
@@ -115,6 +131,7 @@ void drive(const CaseFile& input, const Model& model, Prescription& prescription
       const int component = component_of(model.network, entry);
       prescribe(input, model, prescription, particles, item_key(table, k), component, values,
                 factor);
+      note_driven(model.network, prescription, particles, component, sections[k].region);
       grip(model.network, prescription, particles, component);
     }
   }
@@ -137,6 +154,7 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
       if (!input.supports[k].fix[entry]) continue;
       const int component = component_of(model.network, entry);
       prescribe(input, model, prescription, particles, item_key("supports", k), component, values);
+      prescription.kept[component] = true;
       grip(model.network, prescription, particles, component);
     }
   }

@@ -13,6 +13,8 @@ struct Prescription {
   std::vector<double> value;          ///< at load factor 1 [length], of rotations [-];
                                       ///< of velocities at the end of the duration
   std::vector<std::uint8_t> gripped;  ///< see Model::gripped
+  std::vector<DrivenPlace> driven;
+  std::array<bool, 6> kept{};  ///< components that supports or planes of symmetry hold at zero
 };
 
 /// Supports, planes of symmetry, driven displacements and velocities of a case.

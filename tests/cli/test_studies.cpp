@@ -123,6 +123,63 @@ TEST_F(Study, TheWrittenStudyRunsAgainToTheSameTable) {
   EXPECT_EQ(file("first/table.csv"), file("second/table.csv"));
 }
 
+/// A weak part of a body breaks, and a strong one beside it bears more afterwards.
+TEST_F(Study, APeakAfterCollapseIsTold) {
+  write_text(work() / "parts.toml", R"(
+[body]
+spacing = 10
+horizon_ratio = 1.5
+[[regions]]
+name = "weak"
+x = [0, 40]
+y = [0, 40]
+[[regions]]
+name = "strong"
+x = [50, 60]
+y = [0, 40]
+[[regions]]
+name = "lower end"
+x = [0, 60]
+y = [0, 5]
+[[regions]]
+name = "upper end"
+x = [0, 60]
+y = [35, 40]
+[[materials]]
+name = "weak"
+region = "weak"
+youngs_modulus = 1000
+fracture_energy = 1e-3
+[[materials]]
+name = "strong"
+region = "strong"
+youngs_modulus = 1000
+fracture_energy = 10
+[[supports]]
+region = "lower end"
+fix = ["x", "y"]
+[[displacements]]
+region = "upper end"
+x = 0
+y = 1
+)");
+  const ProcessEnd end =
+      converge("case = \"parts.toml\"\n[vary]\nspacing = [10, 5]\n"
+               "[[error]]\nquantity = \"peak_load\"\nreference = \"finest\"\n"
+               "[[error]]\nquantity = \"first_peak_load\"\nreference = \"finest\"\n");
+  ASSERT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("10: note: the load reached"));
+  const auto table = rows(file("results/study/table.csv"));
+  ASSERT_EQ(table.size(), 3u);
+  EXPECT_EQ(table[0][9], "peak_load");
+  EXPECT_EQ(table[0][12], "first_peak_load");
+  EXPECT_GT(std::stod(table[1][9]), 2.0 * std::stod(table[1][12]));
+  EXPECT_THAT(file("results/study/table.csv"), HasSubstr("climbed again"));
+  ASSERT_EQ(run_program(work(), {"run", "parts.toml"}).exit_status, 0);
+  EXPECT_THAT(file("results/parts/summary.json"), HasSubstr("climbed again"));
+  EXPECT_THAT(file("results/parts/log.txt"), HasSubstr("climbed again"));
+}
+
 TEST_F(Study, AMemberThatFailsDoesNotStopTheOthers) {
   // The horizon stays 0.6: no spacing of 1 can have it.
   const ProcessEnd end =

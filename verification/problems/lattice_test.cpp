@@ -27,14 +27,14 @@ constexpr double crack = 0.9;  ///< damage of what counts as one
 
 class PeakWatch final : public ExplicitObserver {
  public:
-  /// \param sides  driven ends whose forces are summed in the load
+  /// \param sides  driven ends that share the displacement
   PeakWatch(double sides, bool only_to_peak) : sides_(sides), only_to_peak_(only_to_peak) {}
 
   void on_row(const ExplicitRecord& record, const ExplicitState& /*state*/) override {
-    force_ = std::abs(record.load) / sides_;
+    force_ = std::abs(record.load);
     if (!(force_ > peak_force)) return;  // nor where the motion has grown beyond numbers
     peak_force = force_;
-    peak_displacement = record.displacement;
+    peak_displacement = record.displacement / sides_;
   }
   bool stop_requested() override { return only_to_peak_ && force_ < 0.5 * peak_force; }
 

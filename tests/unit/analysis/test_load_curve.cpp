@@ -148,6 +148,19 @@ TEST(Envelope, PassesOverSingleTeeth) {
   EXPECT_FALSE(smoothed_peak(std::span(path).first(20))) << "one window is no curve";
 }
 
+/// What is left of a body bears more, in as many events again.
+TEST(Envelope, ItsPeakIsThatBeforeTheBodyGaveWay) {
+  std::vector<CurvePoint> path;
+  for (int k = 0; k <= 40; ++k) path.push_back({1.0 + k, 3.0});
+  for (int k = 0; k <= 40; ++k) path.push_back({1000.0 + 10.0 * k, k == 0 ? 1.0 : 8.0});
+  EXPECT_NEAR(smoothed_peak(path).value(), 3.0, 1e-14);
+  path.resize(42);
+  EXPECT_NEAR(smoothed_peak(path).value(), 3.0, 1e-14) << "it stays weak";
+  path.erase(path.begin(), path.begin() + 30);
+  for (int k = 0; k <= 40; ++k) path.push_back({2000.0 + 10.0 * k, 8.0});
+  EXPECT_FALSE(smoothed_peak(path)) << "too few events before";
+}
+
 PeakWatch watch(const std::vector<CurvePoint>& rows, int successive = 1) {
   PeakWatch peaks(successive);
   for (const CurvePoint& row : rows) peaks.add(row);

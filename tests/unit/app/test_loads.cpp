@@ -69,8 +69,8 @@ TEST(Loads, LinearTractionsHaveExactForcesAndMoments) {
   EXPECT_NEAR(moment, 2.0 * (3.0 * 800.0 - 64000.0 / 30.0), 1e-9);
 }
 
-/// Pressure pushes inwards; all around a body it is in balance, and the reference is then the sum
-/// of sizes: per particle the area vector, so diagonal at the four corners.
+/// Pressure pushes inwards; all around a body it is in balance, and the reference is then half the
+/// sum of sizes: per particle the area vector, so diagonal at the four corners.
 TEST(Loads, PressurePushesInwardsAndBalancesAllAround) {
   CaseFile input = strip_with_top();
   TractionSection section;
@@ -85,7 +85,7 @@ TEST(Loads, PressurePushesInwardsAndBalancesAllAround) {
   EXPECT_NEAR(total_force(around, 0), 0.0, 1e-12);
   EXPECT_NEAR(total_force(around, 1), 0.0, 1e-12);
   const double rim = 2.0 * (40.0 + 80.0) - 40.0 + 4.0 * 5.0 * std::sqrt(2.0);
-  EXPECT_NEAR(around.reference.value, 2.0 * 2.0 * rim, 1e-10);
+  EXPECT_NEAR(around.reference.value, 0.5 * 2.0 * 2.0 * rim, 1e-10);
 }
 
 TEST(Loads, TractionsOnAFaceInSpaceAddUp) {
@@ -187,6 +187,24 @@ TEST(Loads, PointLoadsGoToTheNearestParticle) {
   EXPECT_EQ(moved.notes[0], "the point load at (23, 81) acts on the particle at (20, 80)");
   input.point_loads[0].at = {20.0, 91.0, 0.0};
   expect_refused(input, "point_loads[1].at", "is (20, 91), 11 from the nearest particle");
+}
+
+/// Two forces side by side bear their sum over the mean of their deflections; a force and a
+/// traction on one region are one place.
+TEST(Loads, PlacesSideBySideAddUpAndEntriesOfOneRegionAreOnePlace) {
+  CaseFile input = strip_with_top();
+  input.point_loads.push_back({{10.0, 80.0, 0.0}, {0.0, -4.0, 0.0}, {}});
+  input.point_loads.push_back({{30.0, 80.0, 0.0}, {0.0, -4.0, 0.0}, {}});
+  const Model apart = build_model(input);
+  EXPECT_DOUBLE_EQ(apart.reference.value, 8.0);
+  ASSERT_EQ(apart.loaded_places.size(), 2u);
+  EXPECT_EQ(apart.loaded_places[1].name, "particle at (30, 80)");
+  input.point_loads.clear();
+  input.tractions.push_back(traction_on("top", 0.5, 0.0));
+  input.tractions.push_back(traction_on("top", 0.0, 3.0));
+  const Model one = build_model(input);
+  EXPECT_EQ(one.loaded_places.size(), 1u);
+  EXPECT_NEAR(one.reference.value, std::hypot(0.5, 3.0) * 80.0, 1e-11);
 }
 
 TEST(Loads, PointMomentsTurnMicropolarParticles) {

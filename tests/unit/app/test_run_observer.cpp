@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "app/run_model.hpp"
 #include "io/vtu.hpp"
 #include "support/strip_case.hpp"
 #include "support/temporary_directory.hpp"
@@ -198,6 +199,43 @@ TEST_F(RunObserverTest, ARunWithoutRowsLeavesNoFields) {
   EXPECT_TRUE(field_files().empty());
   EXPECT_FALSE(fs::exists(work_ / "fields.pvd"));
   EXPECT_FALSE(observer.stop_requested());
+}
+
+/// Platens that both move press with the same force, the load of the row.
+TEST(RunObserverPlaces, HaveTheForcesOfTheHighestRow) {
+  CaseFile input = test::strip_case();
+  input.analysis.type = "elastic";
+  input.loads.clear();
+  input.supports[0].fix = {true, false, false};
+  DisplacementSection platen;
+  platen.region = "upper end";
+  platen.value[1] = -0.2;
+  input.displacements.push_back(platen);
+  platen.region = "lower end";
+  platen.value[1] = 0.1;
+  input.displacements.push_back(platen);
+  const Model model = build_model(input);
+  const test::TemporaryDirectory work;
+  RunObserver observer(input, model, work.path(), true);
+  const StepRecord last = run_model(input, model, 1, observer).result.last;
+  EXPECT_NEAR(last.displacement, 0.3, 1e-12);
+  ASSERT_EQ(observer.places().size(), 2u);
+  EXPECT_EQ(observer.places()[0].name, "upper end");
+  // Round-off of sums over some hundred bonds.
+  EXPECT_NEAR(observer.places()[0].force[1], -last.load, 1e-10 * last.load);
+  EXPECT_NEAR(observer.places()[1].force[1], last.load, 1e-10 * last.load);
+}
+
+TEST(RunObserverPlaces, OfLoadsAreTheirForcesAtTheLoadFactor) {
+  CaseFile input = test::free_strip_case();
+  input.analysis.type = "elastic";
+  const Model model = build_model(input);
+  const test::TemporaryDirectory work;
+  RunObserver observer(input, model, work.path(), true);
+  EXPECT_DOUBLE_EQ(run_model(input, model, 1, observer).result.peak_load, 12.0);
+  ASSERT_EQ(observer.places().size(), 2u);
+  EXPECT_EQ(observer.places()[0].force, (std::vector<double>{0.0, 12.0}));
+  EXPECT_EQ(observer.places()[1].force, (std::vector<double>{0.0, -12.0}));
 }
 
 }  // namespace

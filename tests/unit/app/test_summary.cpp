@@ -31,6 +31,7 @@ DamageResult some_result() {
     result.peaks.add(row);
   }
   result.smoothed_peak_load = 0.1875;
+  result.places = {{"upper platen", {0.0, -0.25}}, {"lower platen", {0.0, 0.25}}};
   result.initial_stiffness = 64.0;
   result.largest_residual = 1e-14;
   result.energy_error = 2e-13;
@@ -58,6 +59,9 @@ TEST(Summary, HoldsEveryFigureUnderItsKey) {
       {"first_peak_load", 0.25},
       {"first_peak_displacement", 0.0625},
       {"smoothed_peak_load", 0.1875},
+      {"places",
+       {{{"name", "upper platen"}, {"force", {0.0, -0.25}}},
+        {{"name", "lower platen"}, {"force", {0.0, 0.25}}}}},
       {"initial_stiffness", 64.0},
       {"steps", 9},
       {"broken_bonds", 8},
@@ -140,6 +144,11 @@ TEST(Summary, NotesBondsThatBreakAtParticlesWithPrescribedDisplacements) {
               testing::HasSubstr("2 of 4 broken bonds end at particles of [[supports]]"));
 }
 
+TEST(Summary, LeavesOutAReactionWhereSupportsBearNothing) {
+  EXPECT_EQ(reaction_text(0.0), "");
+  EXPECT_EQ(reaction_text(-12.5), ", reaction of supports -12.5");
+}
+
 TEST(Summary, AFailureToWriteIsReported) {
   const CaseFile input = test::strip_case();
   EXPECT_THROW(write_summary("/no/such/folder", input, build_model(input), {}, {}, 1), FileError);
@@ -152,9 +161,10 @@ TEST(Summary, ForPeopleSaysHowItEndedAndWhereTheResultsAre) {
   testing::internal::CaptureStdout();
   print_summary(input, model, some_result(), {0.25, 0.5, 0.75}, "results/strip");
   const std::string text = testing::internal::GetCapturedStdout();
-  for (const char* part : {"A strip in tension", "collapsed", "0.333333 at displacement 0.125",
-                           "[kip, in]", "8 broken bonds, 2 yield events, 9 rows", "45 particles",
-                           "0.1875 of the smooth curve", "mind the gap", "results/strip"}) {
+  for (const char* part :
+       {"A strip in tension", "collapsed", "0.333333 at displacement 0.125", "[kip, in]",
+        "8 broken bonds, 2 yield events, 9 rows", "45 particles", "0.1875 of the smooth curve",
+        "(0, -0.25) by upper platen", "mind the gap", "results/strip"}) {
     EXPECT_THAT(text, testing::HasSubstr(part));
   }
 }
