@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/loads.hpp"
+#include "app/position_field.hpp"
 #include "app/supports.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
@@ -140,6 +142,51 @@ double largest_driven(const Network& network, const Prescription& prescription) 
   return displacement > 0.0 ? displacement : rotation;
 }
 
+/// The first table that loads the body.
+std::string key_of_loads(const CaseFile& input) {
+  if (!input.displacements.empty()) return "displacements[1]";
+  if (!input.velocities.empty()) return "velocities[1]";
+  if (!input.loads.empty()) return "loads[1]";
+  return input.tractions.empty() ? "point_loads[1]" : "tractions[1]";
+}
+
+/// Forces on supports do no work.
+void refuse_idle_loads(const CaseFile& input, const Model& model) {
+  if (model.reference.driven) return;
+  for (std::size_t slot = 0; slot < model.loads.forces.size(); ++slot) {
+    if (model.loads.forces[slot] != 0.0 && model.unknowns.number[slot] != no_index) return;
+  }
+  throw InputError(input.where(key_of_loads(input)),
+                   "loads nothing that can move: supports hold all particles along all forces on "
+                   "them",
+                   "load other particles, or hold fewer");
+}
+
+/// Values that a shift of the whole body meets strain nothing.
+void refuse_mere_shift(const CaseFile& input, const Model& model,
+                       const Prescription& prescription) {
+  const auto not_zero = [](double value) { return value != 0.0; };
+  const std::vector<double>& springs = model.network.support_stiffness;
+  if (input.analysis.type == "explicit" || !model.reference.driven ||
+      std::any_of(model.loads.forces.begin(), model.loads.forces.end(), not_zero) ||
+      std::any_of(springs.begin(), springs.end(), not_zero)) {
+    return;
+  }
+  const auto width = static_cast<std::size_t>(model.network.width());
+  std::vector<std::optional<double>> shift(width);
+  for (std::size_t a = model.network.dim(); a < width; ++a) shift[a] = 0.0;  // no rotation
+  for (std::size_t slot = 0; slot < prescription.value.size(); ++slot) {
+    if (!prescription.held[slot]) continue;
+    const double value = prescription.value[slot];
+    std::optional<double>& known = shift[slot % width];
+    if (!known) known = value;
+    if (*known != value) return;
+  }
+  throw InputError(input.where(key_of_loads(input)),
+                   "only moves the body as a whole, which strains nothing",
+                   "hold another part of the body along the axis that is driven");
+}
+
 }  // namespace
 
 void apply_boundary_conditions(const CaseFile& input, Model& model) {
@@ -151,10 +198,14 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   const double driven = largest_driven(model.network, prescription);
   model.reference.driven = driven > 0.0;
   model.reference.value = model.reference.driven ? driven : applied.reference;
-  if (model.reference.value == 0.0) {
-    throw InputError(input.where(input.displacements.empty() ? "tractions" : "displacements"),
-                     "nothing loads the body: all formulas are zero on their particles", "");
+  if (!(model.reference.value >= smallest_load)) {
+    throw InputError(
+        input.where(key_of_loads(input)),
+        "nothing loads the body: all formulas are zero on their particles, or too "
+        "small to compute with",
+        fmt::format("write a formula that is {:.0e} or more somewhere", smallest_load));
   }
+  refuse_mere_shift(input, model, prescription);
   model.resultant = load_resultant(model.network, model.loads);
   refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);
@@ -168,6 +219,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
         "every displacement of every particle is prescribed, which leaves nothing to solve",
         "prescribe those of fewer particles; the surface of the body is region = \"surface\"");
   }
+  refuse_idle_loads(input, model);
 }
 
 }  // namespace perilink

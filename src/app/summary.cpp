@@ -66,6 +66,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   if (model.network.calibration) json["calibration"] = calibration_json(*model.network.calibration);
   json["spacing"] = model.lattice.spacing;
   json["horizon"] = model.horizon;
+  json["notes"] = model.notes;
   json["factorizations"] = result.factor.factorizations;
   json["factor_bytes"] = result.factor.bytes;
   json["seconds"] = {
