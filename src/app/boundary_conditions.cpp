@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/loads.hpp"
+#include "app/position_field.hpp"
 #include "app/supports.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
@@ -129,6 +131,14 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
   }
 }
 
+/// The first table that loads the body.
+std::string key_of_loads(const CaseFile& input) {
+  if (!input.displacements.empty()) return "displacements[1]";
+  if (!input.velocities.empty()) return "velocities[1]";
+  if (!input.loads.empty()) return "loads[1]";
+  return input.tractions.empty() ? "point_loads[1]" : "tractions[1]";
+}
+
 /// The load and displacement that stand for all places, and the places.
 void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
                  Prescription& prescription) {
@@ -140,15 +150,55 @@ void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
   const double driven = relative_motion(prescription.driven, held, model.network.dim());
   model.reference.driven = driven > 0.0;
   model.reference.value = model.reference.driven ? driven : total_load(applied.places);
-  if (model.reference.value == 0.0) {
-    throw InputError(input.where(input.displacements.empty() ? "tractions" : "displacements"),
-                     "nothing loads the body: all formulas are zero on their particles", "");
+  if (!(model.reference.value >= smallest_load)) {
+    throw InputError(
+        input.where(key_of_loads(input)),
+        "nothing loads the body: all formulas are zero on their particles, or too "
+        "small to compute with",
+        fmt::format("write a formula that is {:.0e} or more somewhere", smallest_load));
   }
   if (model.reference.driven) {
     model.driven_places = std::move(prescription.driven);
   } else {
     model.loaded_places = std::move(applied.places);
   }
+}
+
+/// Forces on supports do no work.
+void refuse_idle_loads(const CaseFile& input, const Model& model) {
+  if (model.reference.driven) return;
+  for (std::size_t slot = 0; slot < model.loads.forces.size(); ++slot) {
+    if (model.loads.forces[slot] != 0.0 && model.unknowns.number[slot] != no_index) return;
+  }
+  throw InputError(input.where(key_of_loads(input)),
+                   "loads nothing that can move: supports hold all particles along all forces on "
+                   "them",
+                   "load other particles, or hold fewer");
+}
+
+/// Values that a shift of the whole body meets strain nothing.
+void refuse_mere_shift(const CaseFile& input, const Model& model,
+                       const Prescription& prescription) {
+  const auto not_zero = [](double value) { return value != 0.0; };
+  const std::vector<double>& springs = model.network.support_stiffness;
+  if (input.analysis.type == "explicit" || !model.reference.driven ||
+      std::any_of(model.loads.forces.begin(), model.loads.forces.end(), not_zero) ||
+      std::any_of(springs.begin(), springs.end(), not_zero)) {
+    return;
+  }
+  const auto width = static_cast<std::size_t>(model.network.width());
+  std::vector<std::optional<double>> shift(width);
+  for (std::size_t a = model.network.dim(); a < width; ++a) shift[a] = 0.0;  // no rotation
+  for (std::size_t slot = 0; slot < prescription.value.size(); ++slot) {
+    if (!prescription.held[slot]) continue;
+    const double value = prescription.value[slot];
+    std::optional<double>& known = shift[slot % width];
+    if (!known) known = value;
+    if (*known != value) return;
+  }
+  throw InputError(input.where(key_of_loads(input)),
+                   "only moves the body as a whole, which strains nothing",
+                   "hold another part of the body along the axis that is driven");
 }
 
 }  // namespace
@@ -160,6 +210,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
   model.network.support_stiffness = collect_springs(input, model);
   choose_axes(input, model, applied, prescription);
+  refuse_mere_shift(input, model, prescription);
   model.resultant = load_resultant(model.network, model.loads);
   refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);
@@ -173,6 +224,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
         "every displacement of every particle is prescribed, which leaves nothing to solve",
         "prescribe those of fewer particles; the surface of the body is region = \"surface\"");
   }
+  refuse_idle_loads(input, model);
 }
 
 }  // namespace perilink

@@ -9,36 +9,23 @@
 #include "app/calibration_text.hpp"
 #include "app/element_model.hpp"
 #include "app/gauges.hpp"
+#include "app/horizon_limits.hpp"
 #include "app/lattice_model.hpp"
 #include "app/mesh_input.hpp"
 #include "app/particle_model.hpp"
+#include "app/solid_boxes.hpp"
 #include "assembly/network_builder.hpp"
 #include "base/error.hpp"
 #include "discretization/triangulate.hpp"
 #include "io/case_lattice.hpp"
 #include "io/case_particles.hpp"
+#include "io/case_unused.hpp"
 
 namespace perilink {
 namespace {
 
 /// More particles than this would overflow the 32-bit numbers of bonds at the usual horizons.
 constexpr double most_particles = 3e7;
-
-const Region& region_named(const CaseFile& input, const std::string& name) {
-  return *std::find_if(input.regions.begin(), input.regions.end(),
-                       [&](const Region& region) { return region.name == name; });
-}
-
-Box bounding_box(const std::vector<Box>& boxes) {
-  Box all = boxes.front();
-  for (const Box& box : boxes) {
-    for (int a = 0; a < 3; ++a) {
-      all.lower[a] = std::min(all.lower[a], box.lower[a]);
-      all.upper[a] = std::max(all.upper[a], box.upper[a]);
-    }
-  }
-  return all;
-}
 
 /// Spacing that the case asks for: given, or from the number of particles across the body, which
 /// stand in cells (ghost surface) or on both ends (conforming lattice). The particles of a row of
@@ -71,11 +58,6 @@ double horizon_on_lattice(const BodySection& body, const Lattice& lattice) {
   return horizon_of(body, lattice.spacing) * stretch;
 }
 
-std::string horizon_key(const BodySection& body) {
-  if (body.horizon) return "body.horizon";
-  return body.horizon_ratio ? "body.horizon_ratio" : "body.horizon_level";
-}
-
 void refuse_too_many_particles(const CaseFile& input, const Box& box, double spacing, int dim) {
   double count = 1.0;
   for (int a = 0; a < dim; ++a) count *= std::max(1.0, (box.upper[a] - box.lower[a]) / spacing);
@@ -86,15 +68,6 @@ void refuse_too_many_particles(const CaseFile& input, const Box& box, double spa
       fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_particles));
 }
 
-void refuse_short_horizon(const CaseFile& input, double horizon, double spacing) {
-  if (horizon >= spacing * (1.0 - 1e-9)) return;
-  throw InputError(input.where(horizon_key(input.body)),
-                   fmt::format("the horizon {:.6g} is smaller than the spacing {:.6g}: no particle "
-                               "would have a neighbour",
-                               horizon, spacing),
-                   "use two to four spacings");
-}
-
 bool has_horizon(const BodySection& body) { return body.method == "bonds" && !is_particles(body); }
 
 Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
@@ -103,8 +76,8 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   lattice.surface = input.body.surface;
   lattice.thickness = dim == 2 ? input.body.thickness : 1.0;
   for (std::size_t m = 0; m < input.materials.size(); ++m) {
-    for (const std::string& name : input.materials[m].regions) {
-      lattice.solid.push_back(region_named(input, name).box);
+    for (const Box& box : boxes_of(input, m)) {
+      lattice.solid.push_back(box);
       lattice.material.push_back(static_cast<Index>(m));
     }
   }
@@ -114,7 +87,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   const bool bonds = has_horizon(input.body);
   if (bonds) {
     lattice.horizon = horizon_of(input.body, lattice.spacing);
-    refuse_short_horizon(input, lattice.horizon, lattice.spacing);
+    refuse_impossible_horizon(input, reach_of(box, dim, lattice.horizon, lattice.spacing));
   } else {
     lattice.surface = Surface::calibrated;  // the same particles
   }
@@ -123,6 +96,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
     Body body = make_body(lattice);
     if (bonds) {
       horizon = horizon_on_lattice(input.body, body.lattice);
+      refuse_shearing_lattice(input, body.lattice, horizon);
     } else {
       body.cells = triangulate(lattice, body);
     }
@@ -138,7 +112,7 @@ Body build_body(const CaseFile& input, int dim, double& horizon, std::vector<std
   if (!has_horizon(input.body)) return body;
   body.lattice.surface = input.body.surface;
   horizon = horizon_of(input.body, body.lattice.spacing);
-  refuse_short_horizon(input, horizon, body.lattice.spacing);
+  refuse_impossible_horizon(input, reach_of(body.particles, horizon, body.lattice.spacing));
   return body;
 }
 
@@ -228,10 +202,11 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
       input.body.micromodulus == "lattice" ? Constants::lattice : Constants::continuum;
   network.critical_stretch =
       input.body.critical_stretch == "lattice" ? Constants::lattice : Constants::continuum;
+  for (std::size_t m = 0; m < input.materials.size() && !input.body.mesh; ++m) {
+    const std::vector<Box> boxes = boxes_of(input, m);
+    network.solid.insert(network.solid.end(), boxes.begin(), boxes.end());
+  }
   for (const MaterialSection& material : input.materials) {
-    for (const std::string& name : material.regions) {
-      if (!input.body.mesh) network.solid.push_back(region_named(input, name).box);
-    }
     network.materials.push_back(
         {material.youngs_modulus, material.fracture_energy, material.poissons_ratio.value_or(0.0)});
   }
@@ -260,10 +235,29 @@ void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
                    "give a material a finite fracture energy, or set analysis.type = \"elastic\"");
 }
 
+/// Next to the ratio of bonds that do not bend, nothing is left for bending.
+void refuse_unbending_materials(const CaseFile& input, const NetworkInput& network) {
+  if (network.model != BondModel::micropolar) return;
+  const double largest = bond_poissons_ratio(network.problem);
+  for (std::size_t m = 0; m < input.materials.size(); ++m) {
+    const double ratio = network.materials[m].poissons_ratio;
+    if (ratio <= 0.999 * largest) continue;
+    throw InputError(
+        input.where(item_key("materials", m, "poissons_ratio")),
+        fmt::format("is {}, next to {:.6g}, which bonds have that do not bend: no stiffnesses of "
+                    "bonds that bend are found for it",
+                    ratio, largest),
+        fmt::format(
+            "set model = \"bond_based\" in [body] and delete the key, or give at most {:.4f}",
+            0.999 * largest));
+  }
+}
+
 Network build_case_network(const CaseFile& input, const Body& body, const NetworkInput& network) {
   try {
     return build_network(body, network);
   } catch (const std::invalid_argument& error) {
+    refuse_unbending_materials(input, network);
     throw InputError(input.where(horizon_key(input.body)), error.what(),
                      "use two to four spacings, or set surface = \"none\"");
   }
@@ -335,6 +329,7 @@ Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
 Model build_model_with(const CaseFile& input, const BondOptions& options) {
   Model model =
       is_lattice(input.body) ? build_lattice_model(input) : build_bodies_model(input, options);
+  if (const auto note = note_of_unused(input)) model.notes.push_back(*note);
   apply_boundary_conditions(input, model);
   model.gauges = build_gauges(input, model);
   for (const MaterialSection& material : input.materials) {

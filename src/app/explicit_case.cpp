@@ -11,8 +11,10 @@
 #include "app/gauges.hpp"
 #include "app/lattice_model.hpp"
 #include "app/loads.hpp"
+#include "app/position_field.hpp"
 #include "app/supports.hpp"
 #include "base/error.hpp"
+#include "io/case_unused.hpp"
 
 namespace perilink {
 namespace {
@@ -57,9 +59,10 @@ void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& b
   const double loaded = load_particles(input, places, built);
   built.options.driven = driven > 0.0;
   built.options.reference = built.options.driven ? driven : loaded;
-  if (built.options.reference == 0.0) {
-    throw InputError(input.where(input.displacements.empty() ? "loads" : "displacements"),
-                     "nothing moves the body: all formulas are zero on their particles",
+  if (!(built.options.reference >= smallest_load)) {
+    throw InputError(input.where(input.displacements.empty() ? "loads[1]" : "displacements[1]"),
+                     "nothing moves the body: all formulas are zero on their particles, or too "
+                     "small to compute with",
                      "change a formula, or the region that it is for");
   }
   built.gauges = build_gauges(input, places);
@@ -113,6 +116,7 @@ void choose_steps(const CaseFile& input, ExplicitCase& built) {
 
 ExplicitCase build_explicit_case(const CaseFile& input) {
   ExplicitCase built;
+  if (const auto note = note_of_unused(input)) built.notes.push_back(*note);
   const LatticeShape shape(input);
   built.model = build_lattice(input, shape, built.notes);
   const LatticeRows& lattice = built.model.lattice;

@@ -62,6 +62,24 @@ double distance(const Region& region, std::span<const double> point) {
   return std::sqrt(square);
 }
 
+/// Where the particle nearest to a box or a round region is; of groups nothing.
+std::string nearest_text(const Particles& particles, const Region* region) {
+  if (region == nullptr || !region->group.empty()) return "";
+  Index nearest = no_index;
+  double least = INFINITY;
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (particles.kind[i] != ParticleKind::solid) continue;
+    const double away = distance(*region, particles.position(i));
+    if (away < least) {
+      least = away;
+      nearest = i;
+    }
+  }
+  if (nearest == no_index) return "";
+  return fmt::format("the nearest one is {:.4g} outside, at ({:.6g}); ", least,
+                     fmt::join(particles.position(nearest), ", "));
+}
+
 [[noreturn]] void refuse_without_facets(const CaseFile& input, const Model& model,
                                         const Region& region, const std::string& key) {
   if (!region.group.empty()) {
@@ -109,8 +127,8 @@ std::vector<Index> particles_of_region(const CaseFile& input, const Model& model
   if (!any_solid) {
     throw InputError(
         input.where(key), fmt::format("no particle lies in the region \"{}\"", region),
-        fmt::format("particles are {:.6g} apart; make the region larger or move it onto the body",
-                    model.lattice.spacing));
+        fmt::format("{}particles are {:.6g} apart; make the region larger or move it onto the body",
+                    nearest_text(particles, find_region(input, region)), model.lattice.spacing));
   }
   return inside;
 }

@@ -21,11 +21,12 @@ Vector3 PositionField::at(std::span<const double> position) const {
   Vector3 values{};
   for (std::size_t k = 0; k < formulas_.size(); ++k) {
     values[k] = formulas_[k].at(position);
-    if (std::isfinite(values[k])) continue;
+    if (std::abs(values[k]) <= largest_value) continue;
     throw InputError(
         input_.where(key_),
         fmt::format("is {} at the position ({})", values[k], fmt::join(position, ", ")),
-        "write a formula that is finite wherever it is used");
+        fmt::format("write a formula that is finite and below {:.0e} wherever it is used",
+                    largest_value));
   }
   return values;
 }

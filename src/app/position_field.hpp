@@ -8,6 +8,11 @@
 
 namespace perilink {
 
+/// Bounds of what formulas may give, as for the numbers of a case: powers of others would leave the
+/// range of double precision. Loads that are smaller everywhere count as none.
+inline constexpr double largest_value = 1e50;
+inline constexpr double smallest_load = 1e-50;
+
 /// Values of a key of the case as functions of the reference position.
 class PositionField {
  public:

@@ -1,7 +1,10 @@
 #include "discretization/isotropic_weights.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <stdexcept>
 
 #include "discretization/least_change.hpp"
@@ -9,21 +12,24 @@
 namespace perilink {
 namespace {
 
-/// Index of the opposite of every offset.
+/// Index of the opposite of every offset. Those of a lattice are as many on either side, so the
+/// first of them in the order of their coordinates is opposite to the last, and so on.
 std::vector<std::size_t> opposites(std::span<const Vector3> offsets) {
-  std::vector<std::size_t> opposite(offsets.size());
-  for (std::size_t k = 0; k < offsets.size(); ++k) {
-    double nearest = 1e300;
-    for (std::size_t m = 0; m < offsets.size(); ++m) {
-      double square = 0.0;
-      for (int a = 0; a < 3; ++a) {
-        square += (offsets[k][a] + offsets[m][a]) * (offsets[k][a] + offsets[m][a]);
-      }
-      if (square >= nearest) continue;
-      nearest = square;
-      opposite[k] = m;
-    }
+  double shortest = 1e300;
+  for (const Vector3& offset : offsets) {
+    shortest = std::min(shortest, std::hypot(offset[0], offset[1], offset[2]));
   }
+  std::vector<std::array<std::int64_t, 3>> places;  // free of round-off
+  for (const Vector3& offset : offsets) {
+    auto& place = places.emplace_back();
+    for (int a = 0; a < 3; ++a) place[a] = std::llround(1e6 * offset[a] / shortest);
+  }
+  std::vector<std::size_t> order(offsets.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t k, std::size_t m) { return places[k] < places[m]; });
+  std::vector<std::size_t> opposite(offsets.size());
+  for (std::size_t k = 0; k < order.size(); ++k) opposite[order[k]] = order[order.size() - 1 - k];
   return opposite;
 }
 

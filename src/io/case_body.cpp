@@ -194,6 +194,18 @@ std::vector<std::string> read_material_regions(const CaseTable& table) {
   return names;
 }
 
+std::vector<std::string> read_holes(const CaseTable& table, const BodySection& body) {
+  const std::vector<std::string> holes = table.texts("holes").value_or(std::vector<std::string>{});
+  if (table.has("holes") && holes.empty()) {
+    table.refuse("holes", "names no region", "name one, or delete the key");
+  }
+  if (!holes.empty() && body.mesh && !is_lattice(body)) {
+    table.refuse("holes", "is given, but the mesh is the body",
+                 "leave the hole out of the geometry");
+  }
+  return holes;
+}
+
 }  // namespace
 
 void read_mesh_file(const CaseTable& table, BodySection& body) {
@@ -292,6 +304,7 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
     table.refuse("name", "is empty", "name the material, or delete the key");
   }
   material.regions = read_material_regions(table);
+  material.holes = read_holes(table, body);
   material.youngs_modulus =
       table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");
   if (is_lattice(body)) {

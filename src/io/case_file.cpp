@@ -9,6 +9,7 @@
 #include "io/case_schema.hpp"
 #include "io/case_sections.hpp"
 #include "io/case_table.hpp"
+#include "io/case_unused.hpp"
 #include "io/input_text.hpp"
 #include "io/toml_tree.hpp"
 
@@ -141,6 +142,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.analysis = read_analysis(document.table("analysis"));
   input.stop = read_stop(document.table("stop"));
   input.output = read_output(document.table("output"));
+  set_aside_unused(input);
   check_rules(input);
   return input;
 }

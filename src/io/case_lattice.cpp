@@ -19,17 +19,10 @@ namespace {
 
 constexpr int most_rows = 1000000;
 constexpr std::array body_keys = {"rotation", "offset", "variant"};
-constexpr std::array material_keys = {"holes",
-                                      "tensile_strength",
-                                      "critical_opening",
-                                      "knee_stress_ratio",
-                                      "knee_opening_ratio",
-                                      "compression_ratio",
-                                      "compression_threshold",
-                                      "boundary_factor",
-                                      "internal_damping",
-                                      "external_damping",
-                                      "fundamental_period"};
+constexpr std::array material_keys = {
+    "tensile_strength",  "critical_opening",      "knee_stress_ratio", "knee_opening_ratio",
+    "compression_ratio", "compression_threshold", "boundary_factor",   "internal_damping",
+    "external_damping",  "fundamental_period"};
 /// Of these, what an unbreakable material has no use for.
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
@@ -42,9 +35,7 @@ bool is_of_particles(std::string_view key) {
   }
   return false;
 }
-constexpr std::array explicit_keys = {"duration", "ramp_time",    "time_step", "safety",
-                                      "rows",     "damping_rate", "masses"};
-/// Of these and the other keys of [analysis], what only bonds have.
+/// Keys of [analysis] that only bonds have.
 constexpr std::array bond_keys = {"damping_rate", "masses", "rigid_body_modes"};
 
 /// A number above zero and below one.
@@ -97,34 +88,14 @@ void refuse_table(const CaseFile& input, const std::string& table,
                    "is given, but a body with model = \"lattice\" " + why, suggestion);
 }
 
-void check_output(const CaseFile& input, bool is_explicit) {
-  const OutputSection& output = input.output;
-  if (!is_explicit) {
-    if (output.fields_times.empty()) return;
-    throw InputError(input.where("output.fields_times"),
-                     "is given, but only an explicit analysis goes through time",
-                     "give `fields_at` or `fields_every`");
-  }
-  for (const char* key : {"output.fields_at", "output.fields_every"}) {
-    if (input.lines.count(key) == 0) continue;
-    throw InputError(input.where(key),
-                     "counts broken bonds, but an explicit analysis writes fields at times",
-                     "give `fields_times`");
-  }
-  for (const double time : output.fields_times) {
+void check_times(const CaseFile& input) {
+  for (const double time : input.output.fields_times) {
     if (time <= input.analysis.duration) continue;
     throw InputError(
         input.where("output.fields_times"),
         fmt::format("holds {}, later than the duration {}", time, input.analysis.duration),
         "give times from 0 to analysis.duration");
   }
-}
-
-void check_stop(const CaseFile& input) {
-  const StopSection& stop = input.stop;
-  if (!stop.broken_bonds && !stop.load_fraction && !stop.displacement) return;
-  throw InputError(input.where("stop"), "is given, but an explicit analysis ends by its duration",
-                   "delete it, and give analysis.duration");
 }
 
 /// What explicit runs of bonds need.
@@ -263,10 +234,6 @@ void read_state_material(const CaseTable& table, const BodySection& body,
 void read_lattice_material(const CaseTable& table, const BodySection& body,
                            MaterialSection& material) {
   read_state_material(table, body, material);
-  if (const auto holes = table.texts("holes")) {
-    if (holes->empty()) table.refuse("holes", "names no region", "name one, or delete the key");
-    material.holes = *holes;
-  }
   read_lattice_yielding(table, body, *material.lattice);
   read_damping(table, *material.lattice);
 }
@@ -285,17 +252,13 @@ void refuse_lattice_material_keys(const CaseTable& table) {
 }
 
 void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
-  for (const char* key : {"control", "load_factors", "factor"}) {
-    if (!table.has(key)) continue;
-    table.refuse(key, "is given, but an explicit analysis goes through time and solves nothing",
-                 "delete it; `duration` and `ramp_time` say how the body is loaded");
-  }
-  analysis.duration =
-      table.need("duration", table.positive("duration"), "the time that the run covers");
+  const bool runs = analysis.type == "explicit";  // else the keys are only checked
+  const auto duration = table.positive("duration");
+  if (runs) analysis.duration = table.need("duration", duration, "the time that the run covers");
   analysis.ramp_time = analysis.duration;
   assign(analysis.ramp_time, table.positive("ramp_time"));
   analysis.time_step = table.positive("time_step");
-  if (analysis.time_step && table.has("safety")) {
+  if (runs && analysis.time_step && table.has("safety")) {
     table.refuse("safety", "is given beside `time_step`",
                  "give the time step, or its part of the critical one; delete one of the two");
   }
@@ -308,17 +271,7 @@ void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
   }
   assign(analysis.rows, table.integer("rows", 1, most_rows));
   assign(analysis.damping_rate, not_negative(table, "damping_rate"));
-  read_strain(table, analysis);
   assign(analysis.masses, table.choice("masses", {"volume", "uniform"}));
-  assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
-}
-
-void refuse_explicit_keys(const CaseTable& table, const AnalysisSection& analysis) {
-  for (const char* key : explicit_keys) {
-    if (!table.has(key)) continue;
-    table.refuse(key, fmt::format("is given, but type is \"{}\"", analysis.type),
-                 "delete it, or set type = \"explicit\"");
-  }
 }
 
 void write_lattice_body(TomlWriter& out, const BodySection& body) {
@@ -371,12 +324,11 @@ void write_explicit_analysis(TomlWriter& out, const CaseFile& input) {
 
 void check_lattice(const CaseFile& input) {
   const bool lattice = is_lattice(input.body), is_explicit = input.analysis.type == "explicit";
-  check_output(input, is_explicit);
+  check_times(input);
   if (lattice && input.analysis.type == "damage") {
     throw InputError(input.where("body.model"), "is \"lattice\", but analysis.type is \"damage\"",
                      "set type = \"explicit\" or \"elastic\" in [analysis], or take another model");
   }
-  if (is_explicit) check_stop(input);
   if (!lattice) {
     if (is_explicit) check_explicit_bonds(input);
     return;

@@ -34,10 +34,8 @@ void read_lattice_yielding(const CaseTable& table, const BodySection& body,
 /// Refuses keys of lattice materials in those of others.
 void refuse_lattice_material_keys(const CaseTable& table);
 
-/// The keys of [analysis] with type = "explicit".
+/// Keys of [analysis] that only type = "explicit" has; it must have a duration.
 void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis);
-/// Refuses them with other types.
-void refuse_explicit_keys(const CaseTable& table, const AnalysisSection& analysis);
 
 void write_lattice_body(TomlWriter& out, const BodySection& body);
 void write_lattice_material(TomlWriter& out, const MaterialSection& material);

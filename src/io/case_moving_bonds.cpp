@@ -13,7 +13,8 @@ namespace {
 constexpr int most_iterations = 2000000000;
 
 void check_strain(const CaseFile& input) {
-  if (input.lines.count("analysis.strain") == 0) return;
+  const bool moves = input.analysis.type == "explicit" || input.analysis.type == "relaxation";
+  if (!moves || input.lines.count("analysis.strain") == 0) return;
   const SourceLocation where = input.where("analysis.strain");
   if (input.body.model == "lattice") {
     throw InputError(where, "is given, but lattice particles stretch by their true lengths",
@@ -56,19 +57,6 @@ void check_velocities(const CaseFile& input) {
   }
 }
 
-void check_relaxation(const CaseFile& input) {
-  if (input.analysis.type != "relaxation") return;
-  for (const char* key : {"output.fields_at", "output.fields_every", "output.fields_times"}) {
-    if (input.lines.count(key) == 0) continue;
-    throw InputError(input.where(key),
-                     "is given, but dynamic relaxation writes fields at the end of every load step",
-                     "delete it; analysis.load_factors says which load steps there are");
-  }
-  if (input.lines.count("stop") == 0) return;
-  throw InputError(input.where("stop"), "is given, but dynamic relaxation takes every load step",
-                   "delete it, and give analysis.load_factors");
-}
-
 }  // namespace
 
 void read_strain(const CaseTable& table, AnalysisSection& analysis) {
@@ -76,31 +64,12 @@ void read_strain(const CaseTable& table, AnalysisSection& analysis) {
 }
 
 void read_relaxation(const CaseTable& table, AnalysisSection& analysis) {
-  for (const char* key : {"control", "factor"}) {
-    if (!table.has(key)) continue;
-    table.refuse(key, "is given, but dynamic relaxation takes load steps and factorises nothing",
-                 "delete it; `load_factors` says which load steps there are");
-  }
-  analysis.load_factors = {1.0};
-  if (table.has("load_factors")) analysis.load_factors = read_load_factors(table);
-  read_strain(table, analysis);
   assign(analysis.tolerance, table.positive("tolerance"));
   if (analysis.tolerance >= 1.0) {
     table.refuse("tolerance", fmt::format("is {}, but must be less than 1", analysis.tolerance),
                  "1e-6 is the default");
   }
   assign(analysis.iterations, table.integer("iterations", 1, most_iterations));
-}
-
-void refuse_relaxation_keys(const CaseTable& table, const AnalysisSection& analysis) {
-  const auto refuse = [&](const char* key, const char* others) {
-    if (!table.has(key)) return;
-    table.refuse(key, fmt::format("is given, but type is \"{}\"", analysis.type),
-                 fmt::format("delete it, or set type = {}", others));
-  };
-  refuse("tolerance", "\"relaxation\"");
-  refuse("iterations", "\"relaxation\"");
-  if (analysis.type != "explicit") refuse("strain", "\"explicit\" or \"relaxation\"");
 }
 
 void write_relaxation(TomlWriter& out, const CaseFile& input) {
@@ -114,7 +83,6 @@ void write_relaxation(TomlWriter& out, const CaseFile& input) {
 void check_moving_bonds(const CaseFile& input) {
   check_strain(input);
   check_velocities(input);
-  check_relaxation(input);
 }
 
 }  // namespace perilink

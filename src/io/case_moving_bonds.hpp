@@ -13,13 +13,11 @@ namespace perilink {
 /// The key `strain` of [analysis].
 void read_strain(const CaseTable& table, AnalysisSection& analysis);
 
-/// The keys of [analysis] with type = "relaxation".
+/// Keys of [analysis] that only type = "relaxation" has.
 void read_relaxation(const CaseTable& table, AnalysisSection& analysis);
-/// Refuses them with other types, and `strain` where bonds do not move.
-void refuse_relaxation_keys(const CaseTable& table, const AnalysisSection& analysis);
 void write_relaxation(TomlWriter& out, const CaseFile& input);
 
-/// Refuses what dynamic relaxation, Green strains and [[velocities]] cannot be combined with.
+/// Refuses what Green strains and [[velocities]] cannot be combined with.
 void check_moving_bonds(const CaseFile& input);
 
 }  // namespace perilink

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -42,6 +43,28 @@ std::set<std::string> check_region_names(const CaseFile& input) {
   std::set<std::string> names;
   for (const auto& [name, index] : first) names.insert(name);
   return names;
+}
+
+/// Stiffer materials beside soft ones leave the soft ones no digits: where a half of a strip was so
+/// much stiffer, the load of the other was wrong by 2e-7 for a ratio of 1e10, 1e-3 for 1e14.
+constexpr double largest_stiffness_ratio = 1e10;
+
+void check_stiffness_ratio(const CaseFile& input) {
+  const auto softer = [](const MaterialSection& a, const MaterialSection& b) {
+    return a.youngs_modulus < b.youngs_modulus;
+  };
+  const auto [soft, stiff] =
+      std::minmax_element(input.materials.begin(), input.materials.end(), softer);
+  const double ratio = stiff->youngs_modulus / soft->youngs_modulus;
+  if (ratio <= largest_stiffness_ratio) return;
+  const auto m = static_cast<std::size_t>(stiff - input.materials.begin());
+  throw InputError(
+      input.where(item_key("materials", m, "youngs_modulus")),
+      fmt::format(
+          "is {:.6g}, {:.2g} times that of {}, {:.6g}: numbers of 16 digits do not hold both",
+          stiff->youngs_modulus, ratio, quoted(soft->name), soft->youngs_modulus),
+      fmt::format("at most {:.0e} times is possible; a thousand times is rigid to the eye",
+                  largest_stiffness_ratio));
 }
 
 /// Regions that need not be declared are for what holds and loads the body, not for materials.
@@ -135,6 +158,7 @@ void check_materials(const CaseFile& input, const std::set<std::string>& names) 
     for (const std::string& hole : input.materials[i].holes) {
       const std::string where = item_key("materials", i, "holes");
       check_reference(input, names, where, hole, Reserved::refused);
+      if (!is_lattice(input.body)) check_shape(input, where, hole);
       if (owner.count(hole) == 0) continue;
       throw InputError(input.where(where),
                        fmt::format("is {}, a region of the material", quoted(hole)),
@@ -242,6 +266,7 @@ void check_rules(const CaseFile& input) {
   const std::set<std::string> names = check_region_names(input);
   check_groups(input);
   check_materials(input, names);
+  check_stiffness_ratio(input);
   check_references(input, names, "supports", input.supports);
   check_references(input, names, "displacements", input.displacements);
   check_references(input, names, "velocities", input.velocities);

@@ -55,6 +55,12 @@ std::size_t find_held_component(const CaseTable& table, const BodySection& body,
                         : (rotates ? "Allowed: x, y, z, rx, ry, rz" : "Allowed: x, y, z"));
 }
 
+/// Keys of [analysis] that only quasistatic analyses have.
+void read_events(const CaseTable& table, AnalysisSection& analysis) {
+  assign(analysis.control, table.choice("control", {"events", "steps"}));
+  assign(analysis.factor, table.choice("factor", {"in_place", "cholmod_updown", "refactorize"}));
+}
+
 std::string need_region(const CaseTable& table, const std::string& use) {
   return table.need("region", table.text("region"), "the name of the region " + use);
 }
@@ -187,25 +193,23 @@ std::vector<double> read_load_factors(const CaseTable& table) {
 AnalysisSection read_analysis(const CaseTable& table) {
   AnalysisSection analysis;
   assign(analysis.type, table.choice("type", {"damage", "elastic", "explicit", "relaxation"}));
-  if (analysis.type != "relaxation") refuse_relaxation_keys(table, analysis);
-  if (analysis.type == "explicit") {
-    read_explicit_analysis(table, analysis);
-    return analysis;
-  }
-  refuse_explicit_keys(table, analysis);
   assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
-  if (analysis.type == "relaxation") {
-    read_relaxation(table, analysis);
-    return analysis;
-  }
-  assign(analysis.control, table.choice("control", {"events", "steps"}));
-  assign(analysis.factor, table.choice("factor", {"in_place", "cholmod_updown", "refactorize"}));
-  if (analysis.control == "steps") {
-    analysis.load_factors = read_load_factors(table);
-  } else if (table.has("load_factors")) {
+  const bool is_explicit = analysis.type == "explicit", relaxes = analysis.type == "relaxation";
+  // Keys of other types are checked, too, and then forgotten.
+  AnalysisSection other;
+  read_strain(table, is_explicit || relaxes ? analysis : other);
+  read_explicit_analysis(table, is_explicit ? analysis : other);
+  read_relaxation(table, relaxes ? analysis : other);
+  read_events(table, is_explicit || relaxes ? other : analysis);
+  if (relaxes) analysis.load_factors = {1.0};
+  if (!table.has("load_factors") && analysis.control != "steps") return analysis;
+  const std::vector<double> factors = read_load_factors(table);
+  if (is_explicit) return analysis;
+  if (!relaxes && analysis.control == "events") {
     table.refuse("load_factors", "is given, but control = \"events\" finds the load factors itself",
                  "set control = \"steps\", or delete `load_factors`");
   }
+  analysis.load_factors = factors;
   return analysis;
 }
 

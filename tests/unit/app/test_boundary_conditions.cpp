@@ -226,15 +226,15 @@ TEST(BoundaryConditions, EachPinnedPartNeedsBalancedLoadsOfItsOwn) {
 TEST(BoundaryConditions, LooseParticlesAreRefused) {
   CaseFile input = strip_case();
   input.body.surface = Surface::none;
-  input.body.horizon = 10.0;
-  RebarSection bar;  // its outer node hangs on one line
-  bar.from = {40.0, 40.0, 0.0};
-  bar.to = {50.0, 40.0, 0.0};
+  input.body.horizon = 14.2;
+  RebarSection bar;  // its outer node, off the corner of the body, hangs on one line
+  bar.from = {40.0, 80.0, 0.0};
+  bar.to = {47.0, 87.0, 0.0};
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;
   input.rebar.push_back(bar);
-  expect_refused(input, "body.horizon", "(50, 40) is held by bonds in fewer than 2 directions");
-  input.regions[3].box = {{0.0, 40.0, 0.0}, {50.0, 40.5, 0.0}};
+  expect_refused(input, "body.horizon", "(47, 87) is held by bonds in fewer than 2 directions");
+  input.regions[3].box = {{40.0, 80.0, 0.0}, {50.0, 90.0, 0.0}};
   input.supports.push_back({"middle", {true, true, false}});
   EXPECT_NO_THROW(build_model(input)) << "a support holds it";
 }

@@ -60,6 +60,7 @@ TEST(ModelRegions, EmptyOnesAreRefusedAtTheKeyThatAsks) {
   input.regions[3].box = {{11.0, 31.0, 0.0}, {19.0, 39.0, 0.0}};
   input.loads[0].region = "middle";
   test::expect_refused(input, "loads[1].region", "no particle lies in the region \"middle\"");
+  test::expect_refused(input, "loads[1].region", "the nearest one is 1.414 outside, at (10, 30)");
   input.loads[0].region = "upper end";
   input.supports[0].region = "middle";
   test::expect_refused(input, "supports[1].region", "10 apart");

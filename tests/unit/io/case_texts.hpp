@@ -64,7 +64,7 @@ fracture_energy = 0.1
 
 [[materials]]
 regions = ["cap"]
-youngs_modulus = 1e-7
+youngs_modulus = 1e-2
 fracture_energy = "infinite"
 
 [[supports]]

@@ -80,29 +80,13 @@ TEST(CaseMovingBonds, IsWrittenSoThatItReadsBack) {
 
 TEST(CaseMovingBonds, RefusesWhatRelaxationHasNot) {
   const std::string type = "type = \"relaxation\"\n";
-  EXPECT_THAT(refusal(with_analysis(type + "control = \"steps\"")),
-              HasSubstr("factorises nothing"));
-  EXPECT_THAT(refusal(with_analysis(type + "duration = 4")), HasSubstr("type is \"relaxation\""));
   EXPECT_THAT(refusal(with_analysis(type + "tolerance = 1")), HasSubstr("less than 1"));
   EXPECT_THAT(refusal(with_analysis(type + "iterations = 0")), HasSubstr("iterations"));
   EXPECT_THAT(refusal(with_analysis(type + "load_factors = [0, 0]")), HasSubstr("only zeros"));
   EXPECT_THAT(refusal(with_analysis(type + "strain = \"large\"")), HasSubstr("green"));
-  EXPECT_THAT(refusal(with_analysis(type) + "[stop]\nbroken_bonds = 3\n"),
-              HasSubstr("takes every load step"));
-  EXPECT_THAT(refusal(with_analysis(type) + "[output]\nfields_at = [3]\n"),
-              HasSubstr("end of every load step"));
   EXPECT_THAT(
       refusal(replaced(with_analysis(type), "[body]\n", "[body]\nmethod = \"linear_elements\"\n")),
       HasSubstr("linear_elements"));
-}
-
-TEST(CaseMovingBonds, OtherAnalysesRefuseItsKeys) {
-  EXPECT_THAT(refusal(with_analysis("tolerance = 1e-3")), HasSubstr("type is \"damage\""));
-  EXPECT_THAT(refusal(with_analysis("type = \"elastic\"\niterations = 3")),
-              HasSubstr("type is \"elastic\""));
-  EXPECT_THAT(refusal(with_analysis("type = \"elastic\"\nstrain = \"green\"")),
-              HasSubstr("\"explicit\" or \"relaxation\""));
-  EXPECT_THAT(refusal(explicit_case("tolerance = 1e-3")), HasSubstr("type is \"explicit\""));
 }
 
 TEST(CaseMovingBonds, GreenStrainsAreOfBondsWithoutMoments) {

@@ -91,8 +91,8 @@ TEST(CaseParticles, RefuseWhatBondsWithinAHorizonHave) {
 }
 
 TEST(CaseParticles, RefuseWhatOnlyLatticesHave) {
-  for (const char* line : {"internal_damping = 0.1", "yield_strength = 0.1", "holes = [\"top\"]",
-                           "boundary_factor = 0.2"}) {
+  for (const char* line :
+       {"internal_damping = 0.1", "yield_strength = 0.1", "boundary_factor = 0.2"}) {
     const std::string key(line, std::string(line).find(' '));
     expect_refusal(replaced(particle_case, "density", std::string(line) + "\ndensity"), key,
                    "only bodies with model = \"lattice\"");
