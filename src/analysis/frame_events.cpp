@@ -81,9 +81,11 @@ void SingleEventEngine::measure_pivots(Removal& removal, Index element) {
     return removal.pivot[0];
   };
   double prepared = prepare();
-  if (prepared > doubtful_pivot) return;
+  if (prepared > doubtful_pivot && !look_closer_) return;
   removal = modes;
   look_closely(removal, element);
+  look_closer_ = std::abs(prepared - removal.pivot[0]) > noisy_pivot;
+  if (removal.pivot[0] > doubtful_pivot) return;
   const auto agree = [&](double tolerance) {
     return std::abs(prepared - removal.pivot[0]) < tolerance * removal.pivot[0];
   };
@@ -124,6 +126,7 @@ void SingleEventEngine::commit_frame(const Removal& removal, Index element) {
   factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
   scatter_solution();
   stale_ = partial_;
+  if (look_closer_) polish();
 }
 
 EventOutcome SingleEventEngine::break_frame(Index element) {
@@ -142,8 +145,8 @@ EventOutcome SingleEventEngine::break_frame(Index element) {
   outcome.mechanism = hangs_on_weak_supports(outcome.compliance_growth) ||
                       (must_rebuild_ && !rebuild_without(element, 0.0));
   if (outcome.mechanism) return outcome;
-  commit_frame(removal, element);
   follow(outcome);
+  commit_frame(removal, element);
   return outcome;
 }
 

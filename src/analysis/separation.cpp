@@ -128,8 +128,10 @@ double SingleEventEngine::pivot_of(const Change& change, Index element, double k
   must_rebuild_ = supports_alone_ = false;
   if (change.x.size == 0) return 1.0;
   double prepared = factor_->prepare_downdate(change.x);
-  if (prepared > doubtful_pivot) return prepared;
+  if (prepared > doubtful_pivot && !look_closer_) return prepared;
   double pivot = pivot_by_energy(change.x, element, kept);
+  look_closer_ = std::abs(prepared - pivot) > noisy_pivot;
+  if (pivot > doubtful_pivot) return pivot;
   if (pivot == 0.0 || std::abs(prepared - pivot) < same_pivot * pivot) return pivot;
   factorize();
   pivot = pivot_by_energy(change.x, element, kept);
@@ -163,8 +165,10 @@ bool SingleEventEngine::rebuild_without(Index element, double kept) {
   }
 }
 
-/// Refines the displacements in extended precision; they are kept rounded.
+/// Refines the displacements in extended precision; they are kept rounded. Where that is needed the
+/// factor's pivots may be noise too.
 Equilibrium SingleEventEngine::polish() {
+  look_closer_ = true;
   if (stale_) refresh();
   std::vector<double> load(solution_.size());
   for (std::size_t k = 0; k < load.size(); ++k) {

@@ -180,13 +180,15 @@ void SingleEventEngine::commit(const Change& change, Index element, double secan
   factor_->commit_downdate(change.load_change, solution_);
   scatter_solution();
   stale_ = partial_;
+  if (look_closer_) polish();
 }
 
 /// Work products grow with the compliance.
 void SingleEventEngine::follow(const EventOutcome& outcome) {
   if (!must_rebuild_) force_work_ += outcome.compliance_growth;
   followed_compliance_ += outcome.compliance_growth;
-  events_to_follow_ = outcome.pivot > doubtful_pivot ? events_to_follow_ - 1 : 0;
+  const bool sure = outcome.pivot > doubtful_pivot && !look_closer_;
+  events_to_follow_ = sure ? events_to_follow_ - 1 : 0;
 }
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
@@ -208,8 +210,8 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
                       (must_rebuild_ && !rebuild_without(element, next));
   if (outcome.mechanism) return outcome;
   if (network_.is_segment(element)) ++teeth_[element - network_.first_segment];
-  commit(change, element, next);
   follow(outcome);
+  commit(change, element, next);
   return outcome;
 }
 

@@ -62,6 +62,9 @@ class SingleEventEngine final : public EventEngine {
   /// How far a pivot from the factor may be from the one from energies before a fresh factor is
   /// worth its price, and before that has to be made without the element.
   static constexpr double same_pivot = 1e-8, usable_pivot = 1e-6;
+  /// Where pivots of the factor are this far off, each event is looked at: its energy is off by as
+  /// much.
+  static constexpr double noisy_pivot = 1e-8;
   struct Refined {
     double residual = 0.0;  ///< norm of the forces out of balance
     double energy = 0.0;    ///< u'K u of the refined motion
@@ -113,6 +116,7 @@ class SingleEventEngine final : public EventEngine {
   ForcesAndEnergy<long double> fine_;
   double stiffness_sum_ = 0.0;        ///< of all elements and supports
   bool must_rebuild_ = false;         ///< the pivot is known better than the factor can follow
+  bool look_closer_ = false;          ///< pivots that are not small may be noise too
   bool supports_alone_ = false;       ///< elastic supports hold most of the motion looked at last
   bool resists_ = true;               ///< the polished body stores energy that is no round-off
   double last_work_ = 0.0;            ///< f'u + R'd of a driven body when last asked for

@@ -47,7 +47,8 @@ TEST_P(SlenderBody, PeaksWhereAShortOneDoes) {
 
 INSTANTIATE_TEST_SUITE_P(
     Property, SlenderBody,
-    testing::Values(SlenderCase{800, 2, SlenderLoad::driven_across},
+    testing::Values(SlenderCase{3000, 2, SlenderLoad::driven_across},
+                    SlenderCase{3000, 2, SlenderLoad::force_across},
                     SlenderCase{800, 3, SlenderLoad::driven_across},
                     SlenderCase{800, 3, SlenderLoad::force_across},
                     SlenderCase{600, 2, SlenderLoad::force_across},
