@@ -18,8 +18,10 @@ struct Event {
 
 /// What became of an event.
 struct EventOutcome {
-  bool mechanism = false;  ///< the element held the last load path: nothing was changed
-  double pivot = 1.0;      ///< 1 - x' K^-1 x; of a micropolar bond the smallest of its modes
+  bool mechanism = false;  ///< the element held the last load path, weak elastic supports not
+                           ///< counted: nothing was changed
+  /// 1 - x' K^-1 x, of a micropolar bond the smallest of its modes; 0: cannot be told from zero
+  double pivot = 1.0;
   /// Growth of f'u - R'd at load factor 1: k e^2 / pivot [force length]. The event dissipates
   /// lambda_k lambda_(k+1) / 2 times this along the path drawn through the events.
   double compliance_growth = 0.0;
@@ -30,6 +32,9 @@ struct EventOutcome {
 struct LoadWork {
   double forces = 0.0;    ///< f'u: applied forces on their displacements
   double supports = 0.0;  ///< R'd: reactions of driven particles on their displacements
+  /// The body no longer resists what drives it: nothing does, and both are zero, or nothing but
+  /// elastic supports that are weak beside what it was.
+  bool separated = false;
 };
 
 /// Figures that need a pass over all elements.
@@ -74,11 +79,8 @@ class EventEngine {
 /// Relative width within which load factors count as equal.
 inline constexpr double tie_tolerance = 1e-10;
 
-/// Below this pivot an event leaves a mechanism: the specimen has separated.
-inline constexpr double mechanism_pivot = 1e-6;
-
-/// Pivots below this are computed again with refinement: a body that is about to separate has a
-/// condition number that takes most digits of what the factor says.
+/// Pivots below this are computed again from energies: a body that is slender or about to separate
+/// has a condition number that takes most digits of what the factor says.
 inline constexpr double doubtful_pivot = 1e-2;
 
 /// What an engine needs to know.

@@ -16,6 +16,10 @@ namespace {
 /// follows would mean anything.
 constexpr double hopeless_residual = 1e-3;
 
+/// A driven body whose work is less than this share of the sum of the sizes of its terms has lost
+/// eight of sixteen digits in that sum.
+constexpr double cancelled_work = 1e-8;
+
 }  // namespace
 
 std::unique_ptr<EventEngine> make_event_engine(const Network& network, const Unknowns& unknowns,
@@ -59,6 +63,8 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
     if (std::isfinite(network.yield_strain[k])) yielding_.push_back(static_cast<Index>(k));
   }
   teeth_.assign(network.yield_strain.size(), 0);
+  for (const double stiffness : network.stiffness) stiffness_sum_ += stiffness;
+  for (const double stiffness : network.support_stiffness) stiffness_sum_ += stiffness;
   factor_->factorize(assemble_stiffness(network_, secants_, unknowns_),
                      particle_of_unknown(unknowns_));
   const std::vector<double> load = present_load();
@@ -161,62 +167,28 @@ SingleEventEngine::Change SingleEventEngine::make_change(Index element,
   // Prescribed displacements are zero where there is an unknown.
   for (int a = 0; a < dim; ++a) {
     change.extension += root * n[a] * (displacement_[j + a] - displacement_[i + a]);
-    change.load_change +=
-        root * n[a] * (unknowns_.prescribed[j + a] - unknowns_.prescribed[i + a]);
+    change.load_change += root * n[a] * (unknowns_.prescribed[j + a] - unknowns_.prescribed[i + a]);
   }
   return change;
-}
-
-/// K^-1 x refined against the elements themselves.
-void SingleEventEngine::refined_solve(const SparseVector& x, std::vector<double>& direction) {
-  std::vector<double> rhs(solution_.size(), 0.0);
-  direction.assign(solution_.size(), 0.0);
-  for (int k = 0; k < x.size; ++k) rhs[x.rows[k]] = x.values[k];
-  std::vector<double> residual = rhs;
-  std::vector<double> spread(displacement_.size(), 0.0);
-  for (int pass = 0; pass < 3; ++pass) {
-    factor_->solve(residual, residual);
-    for (std::size_t k = 0; k < direction.size(); ++k) {
-      direction[k] += residual[k];
-      spread[slot_of_[k]] = direction[k];
-    }
-    internal_force(network_, secants_, spread, internal_);
-    for (std::size_t k = 0; k < direction.size(); ++k) {
-      residual[k] = rhs[k] - internal_.forces[slot_of_[k]];
-      if (!ground_stiffness_.empty()) residual[k] -= ground_stiffness_[k] * direction[k];
-    }
-  }
-}
-
-double SingleEventEngine::refined_pivot(const SparseVector& x) {
-  std::vector<double> direction;
-  refined_solve(x, direction);
-  double removed = 0.0;
-  for (int k = 0; k < x.size; ++k) removed += x.values[k] * direction[x.rows[k]];
-  return 1.0 - removed;
-}
-
-/// Pivot of a removal, prepared in the factor; where it is small, from a factor and a solution that
-/// can be trusted.
-double SingleEventEngine::pivot_of(const Change& change) {
-  if (change.x.size == 0) return 1.0;
-  double pivot = factor_->prepare_downdate(change.x);
-  if (pivot > doubtful_pivot) return pivot;
-  double refined = refined_pivot(change.x);
-  if (refined < mechanism_pivot || std::abs(pivot - refined) < 1e-8 * refined) return refined;
-  factorize();
-  pivot = factor_->prepare_downdate(change.x);
-  refined = refined_pivot(change.x);
-  return refined < mechanism_pivot ? refined : pivot;
 }
 
 void SingleEventEngine::commit(const Change& change, Index element, double secant) {
   secants_[element] = secant;
   if (secant == 0.0) search_->remove(element);
+  if (must_rebuild_) return;       // done already
   if (change.x.size == 0) return;  // both ends prescribed: nothing unknown is held by this element
   factor_->commit_downdate(change.load_change, solution_);
   scatter_solution();
   stale_ = partial_;
+  if (look_closer_) polish();
+}
+
+/// Work products grow with the compliance.
+void SingleEventEngine::follow(const EventOutcome& outcome) {
+  if (!must_rebuild_) force_work_ += outcome.compliance_growth;
+  followed_compliance_ += outcome.compliance_growth;
+  const bool sure = outcome.pivot > doubtful_pivot && !look_closer_;
+  events_to_follow_ = sure ? events_to_follow_ - 1 : 0;
 }
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
@@ -230,16 +202,15 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
   const double lost = network_.stiffness[element] * (secants_[element] - next);
   Change change = make_change(element, lost);
   EventOutcome outcome;
-  outcome.pivot = pivot_of(change);
+  outcome.pivot = pivot_of(change, element, next);
   change = make_change(element, lost);  // looking closer may have sharpened the displacements
   outcome.released = 0.5 * change.extension * change.extension;
-  if (outcome.pivot < mechanism_pivot) {
-    outcome.mechanism = true;
-    return outcome;
-  }
   outcome.compliance_growth = change.extension * change.extension / outcome.pivot;
-  force_work_ += outcome.compliance_growth;
+  outcome.mechanism = outcome.pivot == 0.0 || hangs_on_weak_supports(outcome.compliance_growth) ||
+                      (must_rebuild_ && !rebuild_without(element, next));
+  if (outcome.mechanism) return outcome;
   if (network_.is_segment(element)) ++teeth_[element - network_.first_segment];
+  follow(outcome);
   commit(change, element, next);
   return outcome;
 }
@@ -247,22 +218,33 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
 LoadWork SingleEventEngine::load_work() {
   if (partial_) return {force_work_, 0.0};
   LoadWork work{work_of_forces(), driven_spring_work_};
+  double sizes = driven_spring_work_;
   const int dim = network_.dim();
   for (const Index e : driven_elements_) {
     if (secants_[e] == 0.0) continue;
     if (network_.carries_moments()) {
-      work.supports += driven_work_of(e);
+      const auto [share, size] = driven_work_of(e);
+      work.supports += share;
+      sizes += size;
       continue;
     }
     const std::span<const double> n = network_.bonds.direction(e);
     const std::size_t i = static_cast<std::size_t>(network_.bonds.first[e]) * dim;
     const std::size_t j = static_cast<std::size_t>(network_.bonds.second[e]) * dim;
-    double extension = 0.0, driven = 0.0;
+    double extension = 0.0, driven = 0.0, size = 0.0;
     for (int a = 0; a < dim; ++a) {
       extension += n[a] * (displacement_[j + a] - displacement_[i + a]);
+      size += std::abs(n[a]) * (std::abs(displacement_[j + a]) + std::abs(displacement_[i + a]));
       driven += n[a] * (unknowns_.prescribed[j + a] - unknowns_.prescribed[i + a]);
     }
     work.supports += network_.stiffness[e] * secants_[e] * extension * driven;
+    sizes += network_.stiffness[e] * secants_[e] * size * std::abs(driven);
+  }
+  if (!driven_elements_.empty()) {
+    const bool lost = !(work.forces + work.supports > cancelled_work * sizes);
+    if (lost) work = work_by_energy();
+    if (!lost) events_to_follow_ = 0;
+    last_work_ = work.forces + work.supports;
   }
   return work;
 }
@@ -284,30 +266,27 @@ double SingleEventEngine::measure_residual(std::vector<double>& residual) {
 Equilibrium SingleEventEngine::check_equilibrium() {
   if (stale_) refresh();
   std::vector<double> residual;
-  double size = measure_residual(residual);
+  const double size = measure_residual(residual);
   const double tolerance = std::max(options_.residual_tolerance, residual_floor_);
   // Written so that a residual that is not a number is not within any tolerance.
-  if (!(size <= tolerance)) {
-    refine(residual);
-    size = measure_residual(residual);
-  }
-  if (!(size <= tolerance)) {
+  if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
+  if (size <= tolerance) return {size, internal_.energy};
+  Equilibrium equilibrium = polish();
+  if (!(equilibrium.residual <= tolerance)) {
     factorize();
-    measure_residual(residual);
-    refine(residual);
-    size = measure_residual(residual);
+    equilibrium = polish();
     // A body on the verge of separation moves so far that even a fresh factor leaves more than the
     // tolerance; factorising again for less than twice that would be work for nothing.
-    residual_floor_ = 2.0 * size;
-    if (!(size <= hopeless_residual)) {
+    residual_floor_ = 2.0 * equilibrium.residual;
+    if (!(equilibrium.residual <= hopeless_residual)) {
       throw SolverError(fmt::format(
           "a fresh factor leaves {:.1e} of the load out of balance: the body is on the verge of "
           "separation and its stiffness matrix is singular to working precision",
-          size));
+          equilibrium.residual));
     }
   }
-  if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
-  return {size, internal_.energy};
+  if (equilibrium.residual <= options_.residual_tolerance) residual_floor_ = 0.0;
+  return equilibrium;
 }
 
 void SingleEventEngine::factorize() {
@@ -377,8 +356,8 @@ int SingleEventEngine::cut(std::span<const Index> elements) {
       continue;
     }
     const Change change = make_change(element, network_.stiffness[element] * secants_[element]);
-    double pivot = pivot_of(change);
-    for (int tries = 0; pivot < mechanism_pivot; ++tries) {
+    double pivot = pivot_of(change, element, 0.0);
+    for (int tries = 0; pivot == 0.0; ++tries) {
       if (tries == most) {
         throw SolverError("a part that comes loose cannot be held by ground springs");
       }
@@ -389,7 +368,10 @@ int SingleEventEngine::cut(std::span<const Index> elements) {
       }
       add_ground_spring(most_mobile_unknown(change.x));
       ++springs;
-      pivot = factor_->prepare_downdate(change.x);
+      pivot = pivot_of(change, element, 0.0);
+    }
+    if (must_rebuild_ && !rebuild_without(element, 0.0)) {
+      throw SolverError("the body without the part that comes loose cannot be factorised");
     }
     commit(change, element, 0.0);
   }

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "analysis/event_engine.hpp"
 #include "analysis/break_search.hpp"
+#include "analysis/event_engine.hpp"
 #include "analysis/removal.hpp"
 #include "assembly/internal_force.hpp"
 #include "material/bond_law.hpp"
@@ -41,10 +41,8 @@ class SingleEventEngine final : public EventEngine {
   };
   Change make_change(Index element, double stiffness_lost) const;
   void factorize();
-  double pivot_of(const Change& change);
-  double refined_pivot(const SparseVector& x);
-  void refined_solve(const SparseVector& x, std::vector<double>& direction);
   void commit(const Change& change, Index element, double secant);
+  void follow(const EventOutcome& outcome);
   void scatter_solution();
   void choose_current_unknowns();
   void refresh();
@@ -60,14 +58,36 @@ class SingleEventEngine final : public EventEngine {
     return network_.carries_moments() && network_.bending[element] > 0.0;
   }
 
+  // Separation and extended precision: separation.cpp.
+  /// How far a pivot from the factor may be from the one from energies before a fresh factor is
+  /// worth its price, and before that has to be made without the element.
+  static constexpr double same_pivot = 1e-8, usable_pivot = 1e-6;
+  /// Where pivots of the factor are this far off, each event is looked at: its energy is off by as
+  /// much.
+  static constexpr double noisy_pivot = 1e-8;
+  struct Refined {
+    double residual = 0.0;  ///< norm of the forces out of balance
+    double energy = 0.0;    ///< u'K u of the refined motion
+    double error = 0.0;     ///< of this: what the last correction and round-off leave in doubt
+  };
+  Refined refine_finely(std::span<const double> load, std::vector<long double>& motion);
+  std::pair<std::vector<long double>, double> motion_of(const SparseVector& x);
+  double pivot_by_energy(const SparseVector& x, Index element, double kept);
+  double pivot_of(const Change& change, Index element, double kept);
+  bool hangs_on_weak_supports(double compliance_growth) const;
+  bool rebuild_without(Index element, double kept);
+  Equilibrium polish();
+  LoadWork work_by_energy();
+
   // Micropolar bonds: frame_events.cpp.
   std::vector<double> refined_compliance(const Removal& removal);
-  void measure_pivots(Removal& removal);
+  void measure_pivots(Removal& removal, Index element);
+  void look_closely(Removal& removal, Index element);
   bool hold_free_modes(Removal& removal, Index element, double unloaded, int& springs);
   void commit_frame(const Removal& removal, Index element);
   EventOutcome break_frame(Index element);
   int cut_frame(Index element);
-  double driven_work_of(Index element) const;
+  std::pair<double, double> driven_work_of(Index element) const;
 
   const Network& network_;
   const Unknowns& unknowns_;
@@ -84,15 +104,25 @@ class SingleEventEngine final : public EventEngine {
   std::vector<std::size_t> loaded_slots_;
   bool partial_ = false;  ///< events keep only the displacements current that the search looks at
   bool stale_ = false;    ///< the other displacements are those of an earlier event
-  double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
-  double driven_spring_work_ = 0.0;  ///< of elastic supports at driven displacements
-  std::vector<std::size_t> slot_of_;    ///< particle * width + component of every unknown
-  std::vector<double> solution_;        ///< per unknown
+  double force_work_ = 0.0;           ///< f'u, followed through the events while partial_
+  double driven_spring_work_ = 0.0;   ///< of elastic supports at driven displacements
+  std::vector<std::size_t> slot_of_;  ///< particle * width + component of every unknown
+  std::vector<double> solution_;      ///< per unknown
   std::vector<double> displacement_;
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_
   std::vector<double> ground_stiffness_;  ///< per unknown, empty until a fragment came loose
   std::vector<double> ground_load_;
   InternalForce internal_;
+  ForcesAndEnergy<long double> fine_;
+  double stiffness_sum_ = 0.0;        ///< of all elements and supports
+  bool must_rebuild_ = false;         ///< the pivot is known better than the factor can follow
+  bool look_closer_ = false;          ///< pivots that are not small may be noise too
+  bool supports_alone_ = false;       ///< elastic supports hold most of the motion looked at last
+  bool resists_ = true;               ///< the polished body stores energy that is no round-off
+  double last_work_ = 0.0;            ///< f'u + R'd of a driven body when last asked for
+  int events_to_follow_ = 0;          ///< for which it follows the growth of the compliance ...
+  double followed_compliance_ = 0.0;  ///< ... f'u - R'd, ...
+  double followed_from_ = 0.0;        ///< ... since it was this
   double load_norm_ = 0.0;
   double residual_floor_ = 0.0;  ///< what a fresh factor can reach
 };

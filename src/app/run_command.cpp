@@ -263,6 +263,7 @@ int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::
   log->info("{}: {}; {} broken bonds, {} factorisations, largest residual {:.2e}",
             to_string(result.ending), result.reason, result.broken_bonds,
             result.factor.factorizations, result.largest_residual);
+  for (const std::string& doubt : doubts_about(result)) log->info("doubt: {}", doubt);
   if (!options.quiet) print_summary(input, model, result, seconds, directory);
   return exit_status_of(result.ending);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/damage_analysis.hpp"
 #include "analysis/explicit_analysis.hpp"
 #include "io/case_file.hpp"
 
@@ -41,5 +42,8 @@ RunFacts run_facts(const CaseFile& input, double length, double peak_load);
 /// ends before a wave has come back, and more than a tenth of the work in motion at the end, unless
 /// the run is an impact.
 std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFacts& facts);
+
+/// The same of a quasistatic run: energies that balance, or forces, to no more than six digits.
+std::vector<std::string> doubts_about(const DamageResult& result);
 
 }  // namespace perilink

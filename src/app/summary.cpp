@@ -9,6 +9,7 @@
 #include "app/calibration_text.hpp"
 #include "app/particle_model.hpp"
 #include "app/progress.hpp"
+#include "app/run_doubts.hpp"
 #include "app/summary_file.hpp"
 #include "base/build_info.hpp"
 
@@ -74,6 +75,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["dissipated_energy"] = result.last.dissipated_energy;
   json["energy_error"] = result.energy_error;
   json["largest_residual"] = result.largest_residual;
+  json["doubts"] = doubts_about(result);
   json["particles"] = model.network.particles.size();
   json["bonds"] = model.elements ? 0 : model.network.first_segment;
   if (model.elements) json["cells"] = model.elements->cells.size();
@@ -129,6 +131,9 @@ void print_summary(const CaseFile& input, const Model& model, const DamageResult
   fmt::print("  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} ms per row), output {:.2f} s\n",
              "time", seconds.set_up, seconds.analysis, per_event, seconds.output);
   for (const std::string& note : model.notes) fmt::print("  {:<14} {}\n", "note", note);
+  for (const std::string& doubt : doubts_about(result)) {
+    fmt::print("  {:<14} {}\n", "doubt", doubt);
+  }
   fmt::print("  {:<14} {}\n", "results", directory.string());
 }
 

@@ -35,8 +35,9 @@ struct FrameModes {
   std::array<std::array<double, width>, count> second{};  ///< b of the second end
 
   /// e_m of the motion of all particles, shape (particles, width).
-  double deformation(int mode, const double* first_end, const double* second_end) const {
-    double sum = 0.0;
+  template <class Real>
+  Real deformation(int mode, const Real* first_end, const Real* second_end) const {
+    Real sum = 0.0;
     for (int a = 0; a < width; ++a) {
       sum += first[mode][a] * first_end[a] + second[mode][a] * second_end[a];
     }

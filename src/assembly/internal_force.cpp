@@ -6,19 +6,19 @@ namespace perilink {
 namespace {
 
 /// One thread: the sums then have one order, and reading the elements costs most of the time.
-template <int Dim>
+template <int Dim, class Real>
 void add_elements(const Network& network, std::span<const double> secants,
-                  std::span<const double> displacement, InternalForce& result) {
+                  std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   const Bonds& bonds = network.bonds;
   for (Index e = 0; e < network.num_elements(); ++e) {
     const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
     const std::size_t first = static_cast<std::size_t>(bonds.first[e]) * Dim;
     const std::size_t second = static_cast<std::size_t>(bonds.second[e]) * Dim;
-    double extension = 0.0;
+    Real extension = 0.0;
     for (int axis = 0; axis < Dim; ++axis) {
       extension += n[axis] * (displacement[second + axis] - displacement[first + axis]);
     }
-    const double tension = network.stiffness[e] * secants[e] * extension;
+    const Real tension = network.stiffness[e] * secants[e] * extension;
     result.energy += 0.5 * tension * extension;
     for (int axis = 0; axis < Dim; ++axis) {
       result.forces[first + axis] -= tension * n[axis];
@@ -27,13 +27,32 @@ void add_elements(const Network& network, std::span<const double> secants,
   }
 }
 
+template <class Real>
+std::vector<Real> sums_of_extensions(const Network& network, std::span<const double> secants,
+                                     std::span<const Real> displacement) {
+  const Bonds& bonds = network.bonds;
+  const std::size_t dim = network.dim();
+  std::vector<Real> sums(static_cast<std::size_t>(network.particles.size()));
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const auto n = bonds.direction(e);
+    const std::size_t first = bonds.first[e], second = bonds.second[e];
+    Real extension = 0.0;
+    for (std::size_t axis = 0; axis < dim; ++axis) {
+      extension += n[axis] * (displacement[second * dim + axis] - displacement[first * dim + axis]);
+    }
+    if (network.counts_for(e, first_end)) sums[first] += secants[e] * extension;
+    if (network.counts_for(e, second_end)) sums[second] += secants[e] * extension;
+  }
+  return sums;
+}
+
 /// What the sums of the extensions add: the bond between i and j pulls with c_i s_i + c_j s_j more,
 /// where it counts in these sums.
-template <int Dim>
+template <int Dim, class Real>
 void add_states(const Network& network, std::span<const double> secants,
-                std::span<const double> displacement, InternalForce& result) {
+                std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   const Bonds& bonds = network.bonds;
-  std::vector<double> tension = extension_sums(network, secants, displacement);
+  std::vector<Real> tension = sums_of_extensions(network, secants, displacement);
   for (std::size_t i = 0; i < tension.size(); ++i) {
     result.energy += 0.5 * network.state_stiffness[i] * tension[i] * tension[i];
     tension[i] *= network.state_stiffness[i];
@@ -41,8 +60,8 @@ void add_states(const Network& network, std::span<const double> secants,
   for (Index e = 0; e < network.num_elements(); ++e) {
     const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
     const std::size_t first = bonds.first[e], second = bonds.second[e];
-    const double pull = secants[e] * ((network.counts_for(e, first_end) ? tension[first] : 0.0) +
-                                      (network.counts_for(e, second_end) ? tension[second] : 0.0));
+    const Real pull = secants[e] * ((network.counts_for(e, first_end) ? tension[first] : Real()) +
+                                    (network.counts_for(e, second_end) ? tension[second] : Real()));
     for (int axis = 0; axis < Dim; ++axis) {
       result.forces[first * Dim + axis] -= pull * n[axis];
       result.forces[second * Dim + axis] += pull * n[axis];
@@ -50,9 +69,9 @@ void add_states(const Network& network, std::span<const double> secants,
   }
 }
 
-template <int Dim>
+template <int Dim, class Real>
 void add_frames(const Network& network, std::span<const double> secants,
-                std::span<const double> displacement, InternalForce& result) {
+                std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   using Modes = FrameModes<Dim>;
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (secants[e] == 0.0) continue;
@@ -60,9 +79,9 @@ void add_frames(const Network& network, std::span<const double> secants,
     const std::size_t first = static_cast<std::size_t>(network.bonds.first[e]) * Modes::width;
     const std::size_t second = static_cast<std::size_t>(network.bonds.second[e]) * Modes::width;
     for (int m = 0; m < Modes::count; ++m) {
-      const double deformation =
+      const Real deformation =
           modes.deformation(m, displacement.data() + first, displacement.data() + second);
-      const double tension = modes.stiffness[m] * secants[e] * deformation;
+      const Real tension = modes.stiffness[m] * secants[e] * deformation;
       result.energy += 0.5 * tension * deformation;
       for (int a = 0; a < Modes::width; ++a) {
         result.forces[first + a] += tension * modes.first[m][a];
@@ -72,11 +91,10 @@ void add_frames(const Network& network, std::span<const double> secants,
   }
 }
 
-}  // namespace
-
-void internal_force(const Network& network, std::span<const double> secants,
-                    std::span<const double> displacement, InternalForce& result) {
-  result.energy = 0.0;
+template <class Real>
+void add_all(const Network& network, std::span<const double> secants,
+             std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
+  result.energy = result.support_energy = 0.0;
   result.forces.assign(displacement.size(), 0.0);
   if (network.carries_moments()) {
     network.dim() == 2 ? add_frames<2>(network, secants, displacement, result)
@@ -91,10 +109,24 @@ void internal_force(const Network& network, std::span<const double> secants,
                        : add_states<3>(network, secants, displacement, result);
   }
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
-    const double force = network.support_stiffness[slot] * displacement[slot];
+    const Real force = network.support_stiffness[slot] * displacement[slot];
     result.forces[slot] += force;
-    result.energy += 0.5 * force * displacement[slot];
+    result.support_energy += 0.5 * force * displacement[slot];
   }
+  result.energy += result.support_energy;
+}
+
+}  // namespace
+
+void internal_force(const Network& network, std::span<const double> secants,
+                    std::span<const double> displacement, InternalForce& result) {
+  add_all(network, secants, displacement, result);
+}
+
+void internal_force(const Network& network, std::span<const double> secants,
+                    std::span<const long double> displacement,
+                    ForcesAndEnergy<long double>& result) {
+  add_all(network, secants, displacement, result);
 }
 
 InternalForce internal_force(const Network& network, std::span<const double> secants,
@@ -106,20 +138,7 @@ InternalForce internal_force(const Network& network, std::span<const double> sec
 
 std::vector<double> extension_sums(const Network& network, std::span<const double> secants,
                                    std::span<const double> displacement) {
-  const Bonds& bonds = network.bonds;
-  const std::size_t dim = network.dim();
-  std::vector<double> sums(static_cast<std::size_t>(network.particles.size()), 0.0);
-  for (Index e = 0; e < network.num_elements(); ++e) {
-    const auto n = bonds.direction(e);
-    const std::size_t first = bonds.first[e], second = bonds.second[e];
-    double extension = 0.0;
-    for (std::size_t axis = 0; axis < dim; ++axis) {
-      extension += n[axis] * (displacement[second * dim + axis] - displacement[first * dim + axis]);
-    }
-    if (network.counts_for(e, first_end)) sums[first] += secants[e] * extension;
-    if (network.counts_for(e, second_end)) sums[second] += secants[e] * extension;
-  }
-  return sums;
+  return sums_of_extensions(network, secants, displacement);
 }
 
 }  // namespace perilink

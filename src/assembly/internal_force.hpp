@@ -8,11 +8,14 @@
 namespace perilink {
 
 /// Forces of all elements and elastic supports on all particles, and their energy.
-struct InternalForce {
-  std::vector<double> forces;  ///< K u: force needed to hold each particle, shape
-                               ///< (particles, width), moments behind the forces
-  double energy = 0.0;         ///< sum of k e^2 / 2 (and of c s^2 / 2 of states) [force length]
+template <class Real>
+struct ForcesAndEnergy {
+  std::vector<Real> forces;   ///< K u: force needed to hold each particle, shape
+                              ///< (particles, width), moments behind the forces
+  Real energy = 0.0;          ///< sum of k e^2 / 2 (and of c s^2 / 2 of states) [force length]
+  Real support_energy = 0.0;  ///< part of it that is in elastic supports
 };
+using InternalForce = ForcesAndEnergy<double>;
 
 /// \param displacement  of all particles, rotations included; shape (particles, width)
 InternalForce internal_force(const Network& network, std::span<const double> secants,
@@ -21,6 +24,12 @@ InternalForce internal_force(const Network& network, std::span<const double> sec
 /// The same with memory that is used again from call to call.
 void internal_force(const Network& network, std::span<const double> secants,
                     std::span<const double> displacement, InternalForce& result);
+
+/// In extended precision, for bodies that move so far that double precision takes away the
+/// digits of their strains. Three times the time.
+void internal_force(const Network& network, std::span<const double> secants,
+                    std::span<const long double> displacement,
+                    ForcesAndEnergy<long double>& result);
 
 /// Of every particle of a truss, the sum of the extensions of its bonds, each times its secant
 /// [length]; of a state-based lattice particle L_0 theta.

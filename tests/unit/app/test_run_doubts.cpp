@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace perilink {
 namespace {
 
@@ -87,6 +89,27 @@ TEST(RunDoubts, LeaveSupportsOfSymmetryAlone) {
   result.peak_load = 0.0;
   EXPECT_THAT(doubts_about(result, {0.0}), IsEmpty());
   EXPECT_THAT(doubts_about(result, {50.0}), IsEmpty());
+}
+
+TEST(RunDoubts, AreNoneWhereEquilibriaAreExactButForRoundOff) {
+  DamageResult result;
+  result.energy_error = result.largest_residual = 1e-9;
+  EXPECT_THAT(doubts_about(result), IsEmpty());
+}
+
+TEST(RunDoubts, NameEnergiesAndForcesOutOfBalance) {
+  DamageResult result;
+  result.energy_error = 0.99;
+  EXPECT_THAT(doubts_about(result), ElementsAre(HasSubstr("up to 0.99 of the work")));
+  result.largest_residual = 3e-6;
+  EXPECT_THAT(doubts_about(result),
+              ElementsAre(HasSubstr("of the work"), HasSubstr("up to 3e-06 of the load")));
+}
+
+TEST(RunDoubts, NameWhatIsNotANumber) {
+  DamageResult result;
+  result.energy_error = NAN;
+  EXPECT_THAT(doubts_about(result), ElementsAre(HasSubstr("out of balance")));
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ TEST(Summary, HoldsEveryFigureUnderItsKey) {
       {"dissipated_energy", 4.5},
       {"energy_error", 2e-13},
       {"largest_residual", 1e-14},
+      {"doubts", nlohmann::json::array()},
       {"particles", 45},
       {"bonds", model.network.num_elements()},
       {"unknowns", 60},
@@ -158,13 +159,15 @@ TEST(Summary, ForPeopleSaysHowItEndedAndWhereTheResultsAre) {
   const CaseFile input = test::strip_case();
   Model model = build_model(input);
   model.notes.push_back("mind the gap");
+  DamageResult result = some_result();
+  result.energy_error = 0.5;
   testing::internal::CaptureStdout();
-  print_summary(input, model, some_result(), {0.25, 0.5, 0.75}, "results/strip");
+  print_summary(input, model, result, {0.25, 0.5, 0.75}, "results/strip");
   const std::string text = testing::internal::GetCapturedStdout();
   for (const char* part :
        {"A strip in tension", "collapsed", "0.333333 at displacement 0.125", "[kip, in]",
         "8 broken bonds, 2 yield events, 9 rows", "45 particles", "0.1875 of the smooth curve",
-        "(0, -0.25) by upper platen", "mind the gap", "results/strip"}) {
+        "(0, -0.25) by upper platen", "mind the gap", "up to 0.5 of the work", "results/strip"}) {
     EXPECT_THAT(text, testing::HasSubstr(part));
   }
 }
