@@ -1,6 +1,5 @@
 #include "solver/cholmod_support.hpp"
 
-#include <dlfcn.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -8,19 +7,11 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "solver/dense_kernels.hpp"
 #include "solver/ordering.hpp"
 
 namespace perilink {
 namespace {
-
-/// OpenBLAS splits sums by its number of threads, which would make results depend on it: one
-/// thread. Other BLAS libraries lack the function; the reference BLAS has one thread anyway.
-void use_one_blas_thread() {
-  using SetThreads = void (*)(int);
-  if (auto* set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) {
-    set(1);
-  }
-}
 
 /// Debian's CHOLMOD asks OpenMP for four threads in small copying loops, whatever the machine has;
 /// on fewer processors they wait for each other longer than they work. No region is parallel while
@@ -94,9 +85,8 @@ CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix&
                                     std::span<const Index> groups) {
   std::vector<Index> permutation = order_by_particles(lower, groups);
   cholmod_sparse matrix = view_lower(lower);
-  CholmodFactorPtr factor(
-      cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, session.get()),
-      CholmodFactorDeleter{session.get()});
+  CholmodFactorPtr factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, session.get()),
+                          CholmodFactorDeleter{session.get()});
   check(session.get(), "analysing the stiffness matrix");
   return factor;
 }
