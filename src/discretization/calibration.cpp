@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "discretization/calibration_equations.hpp"
-#include "discretization/coarse_space.hpp"
 #include "discretization/facet_shares.hpp"
 #include "discretization/least_change.hpp"
 
@@ -35,6 +34,10 @@ constexpr int most_iterations = 8000;
 /// Of what is left of the equations of forces and moments. Multipliers of bodies that can be in
 /// balance are up to 1e3.
 constexpr double price = 1e5, no_price = std::numeric_limits<double>::infinity();
+
+/// With fewer variables per equation (horizons of two spacings) a third of all fields on boxes are
+/// soft, and a factor of all equations is made as fast.
+constexpr Index least_freedom = 3;
 
 /// Intermediate passes need no more digits; what they leave is no contradiction.
 constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
@@ -84,14 +87,14 @@ class Calibration {
   bool soft_moments_ = false;
   CalibrationEquations equations_;
   CalibrationReport report_;
-  std::unique_ptr<CoarseSpace> factor_;  // of the force equations
+  KeptPreconditioner kept_;  // of the force equations
 };
 
 /// One search, whose answer becomes the present state.
 LeastChange Calibration::seek(const PointEquations& equations, const LeastChangeOptions& options) {
   ++searches_;
   if (on_search_) on_search_(searches_, unbalanced());
-  LeastChange change = least_change(equations, options, factor_);
+  LeastChange change = least_change(equations, options, kept_);
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
   return change;
@@ -103,15 +106,15 @@ void Calibration::settle() {
   const CalibrationEquations::State start = equations_.save();
   LeastChangeOptions options;
   options.tolerance = settling_tolerance;
-  options.preconditioner = Preconditioner::aggregates;
+  options.preconditioner = Preconditioner::blocks_then_boxes;
   for (const Method method : {Method::newton, Method::interior_point}) {
     if (in_space_ && method == Method::newton) continue;
     equations_.restore(start);
     options.method = method;
-    factor_.reset();  // coefficients are those of the stiffnesses now
+    kept_.reset();  // coefficients are those of the stiffnesses now
     if (seek(equations_.settling(), options).converged) break;
   }
-  factor_.reset();
+  kept_.reset();
 }
 
 /// One solution of the exact equations.
@@ -121,11 +124,13 @@ void Calibration::search(Method method, double charge, double tolerance) {
   options.iterations = most_iterations;
   options.method = method;
   options.price = charge;
-  const bool iterated = irregular_ || method == Method::interior_point;
-  options.preconditioner = !in_space_ ? Preconditioner::factor
-                           : iterated ? Preconditioner::aggregates
-                                      : Preconditioner::blocks_then_factor;
-  seek(equations_.balance(), options);
+  const PointEquations equations = equations_.balance();
+  const bool tight =
+      equations.num_variables() / least_freedom < static_cast<Index>(equations.right.size());
+  options.preconditioner = !in_space_             ? Preconditioner::factor
+                           : tight && !irregular_ ? Preconditioner::blocks_then_factor
+                                                  : Preconditioner::blocks_then_boxes;
+  seek(equations, options);
   equations_.report_balance(report_);
 }
 
@@ -148,9 +153,9 @@ bool Calibration::balance(double tolerance) {
     const CalibrationEquations::State climbed = equations_.save();
     const double reached = left();
     equations_.restore(settled);
-    factor_.reset();
+    kept_.reset();
     search(Method::interior_point, irregular_ ? price : no_price, tolerance);
-    factor_.reset();
+    kept_.reset();
     if (left() > reached) {
       equations_.restore(climbed);
       equations_.report_balance(report_);

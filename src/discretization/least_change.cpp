@@ -176,9 +176,9 @@ void DualNewton<Normal>::report() {
 
 template <int Rows, int Odd, bool Grouped>
 LeastChange solve(const PointEquations& equations, const LeastChangeOptions& options,
-                  std::unique_ptr<CoarseSpace>& coarse) {
+                  KeptPreconditioner& kept) {
   using Normal = NormalEquations<Rows, Odd, Grouped>;
-  Normal normal(equations, options, coarse);
+  Normal normal(equations, options, kept);
   return DualNewton<Normal>(equations, options, normal).solve();
 }
 
@@ -192,33 +192,41 @@ LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions
 
 }  // namespace
 
+KeptPreconditioner::KeptPreconditioner() = default;
+KeptPreconditioner::~KeptPreconditioner() = default;
+
+void KeptPreconditioner::reset() {
+  boxes.reset();
+  factor.reset();
+}
+
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
-                         std::unique_ptr<CoarseSpace>& factor) {
+                         KeptPreconditioner& kept) {
   if (!equations.unknown.empty()) return solve_tied(equations, options);
   const auto are = [&](int rows, int odd, bool grouped) {
     return equations.rows == rows && equations.odd == odd && equations.group.empty() != grouped;
   };
   // Moduli of a family of bonds without and with moments in two and three dimensions.
-  if (are(5, 0, false)) return solve<5, 0, false>(equations, options, factor);
-  if (are(8, 0, false)) return solve<8, 0, false>(equations, options, factor);
-  if (are(15, 0, false)) return solve<15, 0, false>(equations, options, factor);
-  if (are(26, 0, false)) return solve<26, 0, false>(equations, options, factor);
+  if (are(5, 0, false)) return solve<5, 0, false>(equations, options, kept);
+  if (are(8, 0, false)) return solve<8, 0, false>(equations, options, kept);
+  if (are(15, 0, false)) return solve<15, 0, false>(equations, options, kept);
+  if (are(26, 0, false)) return solve<26, 0, false>(equations, options, kept);
   // Their forces and moments, and with them energies.
-  if (are(4, 4, false)) return solve<4, 4, false>(equations, options, factor);
-  if (are(5, 4, true)) return solve<5, 4, true>(equations, options, factor);
-  if (are(8, 6, false)) return solve<8, 6, false>(equations, options, factor);
-  if (are(9, 6, true)) return solve<9, 6, true>(equations, options, factor);
-  if (are(10, 10, false)) return solve<10, 10, false>(equations, options, factor);
-  if (are(11, 10, true)) return solve<11, 10, true>(equations, options, factor);
-  if (are(18, 13, false)) return solve<18, 13, false>(equations, options, factor);
-  if (are(19, 13, true)) return solve<19, 13, true>(equations, options, factor);
+  if (are(4, 4, false)) return solve<4, 4, false>(equations, options, kept);
+  if (are(5, 4, true)) return solve<5, 4, true>(equations, options, kept);
+  if (are(8, 6, false)) return solve<8, 6, false>(equations, options, kept);
+  if (are(9, 6, true)) return solve<9, 6, true>(equations, options, kept);
+  if (are(10, 10, false)) return solve<10, 10, false>(equations, options, kept);
+  if (are(11, 10, true)) return solve<11, 10, true>(equations, options, kept);
+  if (are(18, 13, false)) return solve<18, 13, false>(equations, options, kept);
+  if (are(19, 13, true)) return solve<19, 13, true>(equations, options, kept);
   throw std::invalid_argument(std::to_string(equations.rows) + " equations per point, " +
                               std::to_string(equations.odd) + " of them odd, are not built in");
 }
 
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options) {
-  std::unique_ptr<CoarseSpace> factor;
-  return least_change(equations, options, factor);
+  KeptPreconditioner kept;
+  return least_change(equations, options, kept);
 }
 
 }  // namespace perilink

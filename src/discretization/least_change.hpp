@@ -55,10 +55,10 @@ struct PointEquations {
 
 /// What speeds up the conjugate gradients.
 enum class Preconditioner {
-  blocks,      ///< of the single points: for few points
-  aggregates,  ///< and what varies slowly, solved for on aggregates: points that fill a solid
-  factor,      ///< of all equations: bodies and boundaries in the plane
-  blocks_then_factor,  ///< the factor where blocks need many iterations: boundaries of solids
+  blocks,              ///< of the single points: for few points
+  factor,              ///< of all equations: bodies and boundaries in the plane
+  blocks_then_boxes,   ///< and the soft fields of boxes where blocks take many iterations: solids
+  blocks_then_factor,  ///< the factor where they do: solids with few variables
 };
 
 /// How the bounds are met.
@@ -77,7 +77,18 @@ struct LeastChangeOptions {
   Method method = Method::newton;
 };
 
-class CoarseSpace;
+class BoxSpace;
+class EquationsFactor;
+
+/// Made for one problem and good for the next with the same points and about these coefficients.
+struct KeptPreconditioner {
+  std::unique_ptr<BoxSpace> boxes;
+  std::unique_ptr<EquationsFactor> factor;
+
+  KeptPreconditioner();
+  ~KeptPreconditioner();
+  void reset();
+};
 
 /// What came out.
 struct LeastChange {
@@ -103,9 +114,8 @@ struct LeastChange {
 /// \throws std::invalid_argument for numbers of rows, odd ones and groups that are not built in
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);
 
-/// The same, where `factor` is that of equations of the same points and about these coefficients,
-/// or none. It is made or made anew where it serves badly, and kept for the next.
+/// The same. What speeds it up is made, or made anew where it serves badly, and kept for the next.
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
-                         std::unique_ptr<CoarseSpace>& factor);
+                         KeptPreconditioner& kept);
 
 }  // namespace perilink

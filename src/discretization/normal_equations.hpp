@@ -8,7 +8,8 @@
 
 #include <Eigen/Dense>
 
-#include "discretization/coarse_space.hpp"
+#include "discretization/box_space.hpp"
+#include "discretization/equations_factor.hpp"
 #include "discretization/least_change.hpp"
 #include "discretization/variable_parts.hpp"
 
@@ -30,7 +31,7 @@ class NormalEquations {
   using Vector = std::vector<double>;  // shape (points, Rows)
 
   NormalEquations(const PointEquations& equations, const LeastChangeOptions& options,
-                  std::unique_ptr<CoarseSpace>& coarse)
+                  KeptPreconditioner& kept)
       : mobility(static_cast<std::size_t>(equations.num_variables()), 1.0),
         equations_(equations),
         options_(options),
@@ -38,9 +39,10 @@ class NormalEquations {
         num_paired_(
             static_cast<std::size_t>(std::min(equations.num_variables(), equations.one_ended))),
         scaled_(size_),
-        coarse_(coarse),
+        kept_(kept),
         by_factor_(options.preconditioner == Preconditioner::factor ||
-                   (options.preconditioner == Preconditioner::blocks_then_factor && coarse)) {
+                   (options.preconditioner == Preconditioner::blocks_then_factor && kept.factor)),
+        with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes) {
     if (std::isfinite(options.price)) compliance.assign(size_, 0.0);
   }
 
@@ -80,15 +82,15 @@ class NormalEquations {
   /// a boundary have singular values that fall with the square of their length: a factor of the
   /// equations allows a smaller weight.
   static constexpr double proximity = 1e-10;
-  static constexpr double factor_proximity = 1e-14;
-  /// Fewer points converge without a coarse space.
-  static constexpr Index smallest_coarse_problem = 2000;
+  static constexpr double factor_proximity = 1e-18;
   /// As many iterations take about the time of a factor.
   static constexpr int worth_of_factor = 15;
   /// A factor is made anew when the last solution needed more iterations than this.
   static constexpr int stale_iterations = 40;
-  /// Iterations of a solution after which Preconditioner::blocks_then_factor turns to the factor.
-  static constexpr int patience = 500;
+  /// Iterations of a solution after which blocks get help.
+  static constexpr int patience = 150;
+  /// New fields of boxes are found where a solution needs more iterations than this.
+  static constexpr int stale_fields = 50;
 
   template <class Values>
   auto& last_row(Values& values, Index point) const {
@@ -96,9 +98,13 @@ class NormalEquations {
   }
   int iterate(const Vector& residual, double reduction, int most, Vector& direction);
   void precondition(const Vector& residual, Vector& result) const;
+  /// Blocks without help, that may get some.
+  bool alone() const {
+    return !by_factor_ && !with_boxes_ && options_.preconditioner != Preconditioner::blocks;
+  }
   void build_blocks();
   void build_factor();
-  std::vector<double> shifts() const;
+  Vector diagonal() const;
 
   const PointEquations& equations_;
   const LeastChangeOptions& options_;
@@ -106,8 +112,10 @@ class NormalEquations {
   std::size_t num_paired_;  // variables that act at both ends in all rows
   Vector scaled_;
   std::vector<Block> inverse_blocks_;
-  std::unique_ptr<CoarseSpace>& coarse_;
+  KeptPreconditioner& kept_;
   bool by_factor_;
+  bool with_boxes_;
+  bool own_factor_ = false;  // made for these equations, not for those of the last search
   int last_iterations_ = 0;
   Vector compliance_of_factor_;
 };
@@ -179,56 +187,32 @@ void NormalEquations<Rows, Odd, Grouped>::measure(const std::vector<double>& wei
 
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
-  const Index points = equations_.num_points();
-  inverse_blocks_.assign(static_cast<std::size_t>(points), Block::Zero());
-  ColumnBlocks<Eigen::Matrix<double, Rows, 1>> column;
-  for (std::size_t v = 0; v < mobility.size(); ++v) {
-    if (mobility[v] == 0.0) continue;
-    column.count = 0;
-    const double* a = equations_.coefficients.data() + v * Rows;
-    for_each_part(equations_, static_cast<Index>(v), [&](Index p, int from, int to, double sign) {
-      const double* scale = equations_.scale.data() + static_cast<std::size_t>(p) * Rows;
-      auto& part = column.of(p);
-      for (int r = from; r < to; ++r) part[r] += sign * a[r] * scale[r];
-    });
-    for (int k = 0; k < column.count; ++k) {
-      inverse_blocks_[column.keys[k]].noalias() +=
-          mobility[v] * column.blocks[k] * column.blocks[k].transpose();
-    }
-  }
-  const std::vector<double> shift = shifts();
+  const std::vector<double> added = diagonal();
+  const std::vector<double> blocks = point_blocks(equations_, mobility, added);
+  inverse_blocks_.resize(size_ / Rows);
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
-    Block& block = inverse_blocks_[p];
-    // What no variable between the bounds acts on keeps the identity.
-    const double floor = 1e-11 * block.trace();
-    for (int r = 0; r < Rows; ++r) {
-      block(r, r) += block(r, r) > 0.0 ? floor + shift[r] : 1.0;
-      if (!compliance.empty()) block(r, r) += compliance[p * Rows + r];
-    }
-    block = block.llt().solve(Block::Identity()).eval();
+    inverse_blocks_[p] =
+        Eigen::Map<const Block>(blocks.data() + p * Rows * Rows).llt().solve(Block::Identity());
   }
-  if (options_.preconditioner == Preconditioner::aggregates && points >= smallest_coarse_problem) {
-    coarse_ = std::make_unique<CoarseSpace>(equations_, mobility, shift, compliance,
-                                            CoarseSpace::Boxes::of_many_points);
-  }
+  if (with_boxes_) kept_.boxes->refactorize(equations_, mobility, added);
 }
 
-/// Ridge and proximity of each row.
+/// What the diagonal of the system holds beside A D A', shape (points, Rows).
 template <int Rows, int Odd, bool Grouped>
-std::vector<double> NormalEquations<Rows, Odd, Grouped>::shifts() const {
-  std::vector<double> result;
-  for (std::size_t r = 0; r < Rows; ++r) {
-    result.push_back(equations_.ridge_of(r) + (by_factor_ ? factor_proximity : proximity));
+auto NormalEquations<Rows, Odd, Grouped>::diagonal() const -> Vector {
+  Vector result(size_);
+  for (std::size_t k = 0; k < size_; ++k) {
+    result[k] = equations_.ridge_of(k % Rows) + (by_factor_ ? factor_proximity : proximity) +
+                (compliance.empty() ? 0.0 : compliance[k]);
   }
   return result;
 }
 
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::build_factor() {
-  by_factor_ = true;
-  inverse_blocks_.clear();
-  coarse_ = std::make_unique<CoarseSpace>(equations_, mobility, shifts(), compliance,
-                                          CoarseSpace::Boxes::of_single_points);
+  if (!own_factor_) kept_.factor = std::make_unique<EquationsFactor>(equations_);
+  own_factor_ = true;
+  kept_.factor->factorize(equations_, mobility, diagonal());
   compliance_of_factor_ = compliance;
   last_iterations_ = 0;
 }
@@ -237,7 +221,7 @@ template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::prepare() {
   if (!by_factor_) {
     build_blocks();
-  } else if (!coarse_ || last_iterations_ > worth_of_factor) {
+  } else if (!kept_.factor || last_iterations_ > worth_of_factor) {
     build_factor();
   }
 }
@@ -246,7 +230,7 @@ template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled) {
   if (!by_factor_) {
     if (!settled) build_blocks();
-  } else if (!coarse_ || last_iterations_ > stale_iterations ||
+  } else if (!kept_.factor || last_iterations_ > stale_iterations ||
              compliance_of_factor_ != compliance) {
     build_factor();
   }
@@ -256,33 +240,38 @@ template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
                                                        Vector& result) const {
   using Column = Eigen::Matrix<double, Rows, 1>;
-  if (by_factor_) std::fill(result.begin(), result.end(), 0.0);
+  if (by_factor_) return kept_.factor->solve(residual, result);
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
     Eigen::Map<Column>(result.data() + p * Rows).noalias() =
         inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
   }
-  if (coarse_) coarse_->add_correction(residual.data(), result.data());
+  if (with_boxes_) kept_.boxes->add_correction(residual.data(), result.data());
 }
 
 template <int Rows, int Odd, bool Grouped>
 int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double reduction,
                                                Vector& direction) {
-  const bool impatient =
-      !by_factor_ && options_.preconditioner == Preconditioner::blocks_then_factor;
-  int count = iterate(residual, reduction, impatient ? patience : options_.iterations, direction);
-  if (impatient && count == patience) {
+  int most = options_.iterations;
+  if (with_boxes_) most = stale_fields;
+  if (alone()) most = patience;
+  int count = iterate(residual, reduction, most, direction);
+  if (count < most || most == options_.iterations) return last_iterations_ = count;
+  if (options_.preconditioner == Preconditioner::blocks_then_factor) {
+    by_factor_ = true;
     build_factor();
-    last_iterations_ = iterate(residual, reduction, options_.iterations, direction);
-    return count + last_iterations_;
+  } else {
+    with_boxes_ = true;
+    kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal());
   }
-  return last_iterations_ = count;
+  last_iterations_ = iterate(residual, reduction, options_.iterations, direction);
+  return count + last_iterations_;
 }
 
 /// Conjugate gradients on (S + proximity) direction = residual.
 template <int Rows, int Odd, bool Grouped>
 int NormalEquations<Rows, Odd, Grouped>::iterate(const Vector& residual, double reduction, int most,
                                                  Vector& direction) {
-  const std::vector<double> shift = shifts();
+  const Vector shift = diagonal();
   Vector r = residual, z(size_), q(size_);
   std::vector<double> stretch(mobility.size());
   direction.assign(size_, 0.0);
@@ -295,8 +284,7 @@ int NormalEquations<Rows, Odd, Grouped>::iterate(const Vector& residual, double 
     apply_transpose(p, stretch);
     for (std::size_t v = 0; v < stretch.size(); ++v) stretch[v] *= mobility[v];
     apply(stretch, q);
-    for (std::size_t k = 0; k < size_; ++k) q[k] += shift[k % Rows] * p[k];
-    for (std::size_t k = 0; k < compliance.size(); ++k) q[k] += compliance[k] * p[k];
+    for (std::size_t k = 0; k < size_; ++k) q[k] += shift[k] * p[k];
     const double step = rz / dot(p, q);
     for (std::size_t k = 0; k < size_; ++k) {
       direction[k] += step * p[k];

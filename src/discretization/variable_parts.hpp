@@ -59,4 +59,16 @@ struct ColumnBlocks {
   }
 };
 
+/// The scaled column of a variable.
+template <class Vector>
+void gather_column(const PointEquations& equations, Index variable, ColumnBlocks<Vector>& column) {
+  const std::size_t rows = static_cast<std::size_t>(equations.rows);
+  const double* a = equations.coefficients.data() + variable * rows;
+  column.count = 0;
+  for_each_part(equations, variable, [&](Index p, int from, int to, double sign) {
+    Vector& part = column.of(p);
+    for (int r = from; r < to; ++r) part[r] += sign * a[r] * equations.scale[p * rows + r];
+  });
+}
+
 }  // namespace perilink

@@ -1,46 +1,17 @@
 #include "solver/cholmod_support.hpp"
 
-#include <dlfcn.h>
 #include <omp.h>
-#include <sys/mman.h>
 
 #include <algorithm>
-#include <new>
 #include <numeric>
 #include <string>
 
 #include "base/error.hpp"
+#include "solver/dense_kernels.hpp"
 #include "solver/ordering.hpp"
 
 namespace perilink {
 namespace {
-
-/// OpenBLAS splits sums by its number of threads, which would make results depend on it: one
-/// thread. Other BLAS libraries lack the function; the reference BLAS has one thread anyway.
-void use_one_blas_thread() {
-  using SetThreads = void (*)(int);
-  if (auto* set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) {
-    set(1);
-  }
-}
-
-/// OpenBLAS takes its buffer when it is first used, and where there is no room it asks for ever:
-/// taken here once, it is kept.
-void take_blas_buffer() {
-  static bool taken = false;
-  if (taken) return;
-  using Take = void* (*)(int);
-  using Give = void (*)(void*);
-  auto* take = reinterpret_cast<Take>(dlsym(RTLD_DEFAULT, "blas_memory_alloc"));
-  auto* give = reinterpret_cast<Give>(dlsym(RTLD_DEFAULT, "blas_memory_free"));
-  if (take == nullptr || give == nullptr) return;
-  constexpr std::size_t size = std::size_t{128} << 20;
-  void* room = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (room == MAP_FAILED) throw std::bad_alloc();
-  munmap(room, size);
-  give(take(0));
-  taken = true;
-}
 
 /// Debian's CHOLMOD asks OpenMP for four threads in small copying loops, whatever the machine has;
 /// on fewer processors they wait for each other longer than they work. No region is parallel while
@@ -72,8 +43,7 @@ void check(cholmod_common* common, const char* phase) {
 }  // namespace
 
 CholmodSession::CholmodSession() {
-  use_one_blas_thread();
-  take_blas_buffer();
+  prepare_blas();
   cholmod_start(&common_);
   common_.print = 0;
   common_.supernodal = CHOLMOD_SUPERNODAL;
@@ -115,9 +85,8 @@ CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix&
                                     std::span<const Index> groups) {
   std::vector<Index> permutation = order_by_particles(lower, groups);
   cholmod_sparse matrix = view_lower(lower);
-  CholmodFactorPtr factor(
-      cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, session.get()),
-      CholmodFactorDeleter{session.get()});
+  CholmodFactorPtr factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, session.get()),
+                          CholmodFactorDeleter{session.get()});
   check(session.get(), "analysing the stiffness matrix");
   return factor;
 }

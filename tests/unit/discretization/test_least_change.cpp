@@ -128,10 +128,10 @@ TEST(LeastChange, LastRowsHoldForGroups) {
 TEST(LeastChange, ThePreconditionerChangesNoAnswerForGroups) {
   std::vector<double> weights;
   const PointEquations equations = group_by_three(ring(2500, 5, 4, weights, 6));
-  LeastChangeOptions factor, aggregates;
+  LeastChangeOptions factor, boxes;
   factor.preconditioner = Preconditioner::factor;
-  aggregates.preconditioner = Preconditioner::aggregates;
-  const LeastChange iterated = least_change(equations, aggregates);
+  boxes.preconditioner = Preconditioner::blocks_then_boxes;
+  const LeastChange iterated = least_change(equations, boxes);
   const LeastChange factorised = least_change(equations, factor);
   EXPECT_TRUE(iterated.converged);
   EXPECT_TRUE(factorised.converged);
@@ -143,12 +143,12 @@ TEST(LeastChange, ThePreconditionerChangesNoAnswerForGroups) {
 /// 2500 points are more than smallest_coarse_problem; all three ways minimise the same squares.
 TEST(LeastChange, ThePreconditionerChangesNoAnswer) {
   std::vector<double> weights;
-  LeastChangeOptions factor, aggregates;
+  LeastChangeOptions factor, boxes;
   factor.preconditioner = Preconditioner::factor;
-  aggregates.preconditioner = Preconditioner::aggregates;
+  boxes.preconditioner = Preconditioner::blocks_then_boxes;
   for (const Index points : {Index{400}, Index{2500}}) {
     const PointEquations equations = ring(points, 4, 4, weights, 6);
-    const LeastChange iterated = least_change(equations, aggregates);
+    const LeastChange iterated = least_change(equations, boxes);
     const LeastChange factorised = least_change(equations, factor);
     EXPECT_TRUE(iterated.converged);
     EXPECT_TRUE(factorised.converged);

@@ -1,0 +1,277 @@
+#include "discretization/box_space.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "discretization/variable_parts.hpp"
+#include "solver/dense_kernels.hpp"
+
+namespace perilink {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Points of a box. More make the fields dear, fewer the coarse system.
+constexpr Index points_in_plane = 36, points_in_space = 64;
+
+/// Fields whose stiffness over that of the points' own blocks is below this are left to the coarse
+/// system.
+constexpr double soft = 0.01;
+
+/// Halves the points along the longest axis until the parts are boxes.
+void bisect(std::span<Index> points, const PointEquations& equations, Index parts,
+            std::vector<std::vector<Index>>& boxes) {
+  if (parts <= 1) {
+    boxes.emplace_back(points.begin(), points.end());
+    std::sort(boxes.back().begin(), boxes.back().end());
+    return;
+  }
+  const int dim = equations.dim;
+  const auto at = [&](Index p, int axis) { return equations.positions[p * dim + axis]; };
+  int longest = 0;
+  double length = -1.0;
+  for (int axis = 0; axis < dim; ++axis) {
+    const auto [low, high] = std::minmax_element(
+        points.begin(), points.end(), [&](Index a, Index b) { return at(a, axis) < at(b, axis); });
+    if (at(*high, axis) - at(*low, axis) <= length) continue;
+    length = at(*high, axis) - at(*low, axis);
+    longest = axis;
+  }
+  const Index left = parts / 2;
+  const std::size_t middle = points.size() * static_cast<std::size_t>(left) / parts;
+  std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(middle),
+                   points.end(), [&](Index a, Index b) {
+                     return std::pair(at(a, longest), a) < std::pair(at(b, longest), b);
+                   });
+  bisect(points.first(middle), equations, left, boxes);
+  bisect(points.subspan(middle), equations, parts - left, boxes);
+}
+
+}  // namespace
+
+std::vector<double> point_blocks(const PointEquations& equations, const std::vector<double>& active,
+                                 const std::vector<double>& diagonal) {
+  const std::size_t rows = static_cast<std::size_t>(equations.rows);
+  std::vector<double> blocks(diagonal.size() * rows, 0.0);
+  ColumnBlocks<VectorXd> column;
+  column.blocks.fill(VectorXd::Zero(equations.rows));
+  for (Index v = 0; v < equations.num_variables(); ++v) {
+    if (active[v] == 0.0) continue;
+    gather_column(equations, v, column);
+    for (int k = 0; k < column.count; ++k) {
+      Eigen::Map<MatrixXd>(blocks.data() + column.keys[k] * rows * rows, equations.rows,
+                           equations.rows)
+          .noalias() += active[v] * column.blocks[k] * column.blocks[k].transpose();
+    }
+  }
+  for (std::size_t p = 0; p < diagonal.size() / rows; ++p) {
+    Eigen::Map<MatrixXd> block(blocks.data() + p * rows * rows, equations.rows, equations.rows);
+    // What no variable between the bounds acts on keeps the identity.
+    const double floor = 1e-11 * block.trace();
+    for (std::size_t r = 0; r < rows; ++r) {
+      double& entry = block(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(r));
+      entry += entry > 0.0 ? floor + diagonal[p * rows + r] : 1.0;
+    }
+  }
+  return blocks;
+}
+
+BoxSpace::BoxSpace(const PointEquations& equations, const std::vector<double>& active,
+                   const std::vector<double>& diagonal)
+    : rows_(equations.rows) {
+  prepare_blas();
+  make_boxes(equations);
+  find_fields(equations, active, diagonal);
+  refactorize(equations, active, diagonal);
+}
+
+void BoxSpace::make_boxes(const PointEquations& equations) {
+  const Index count = equations.num_points();
+  std::vector<Index> points(static_cast<std::size_t>(count));
+  std::iota(points.begin(), points.end(), 0);
+  const Index most = equations.dim == 2 ? points_in_plane : points_in_space;
+  bisect(points, equations, (count + most - 1) / most, boxes_);
+  box_of_.resize(points.size());
+  place_.resize(points.size());
+  for (Index b = 0; b < num_boxes(); ++b) {
+    for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
+      box_of_[boxes_[b][k]] = b;
+      place_[boxes_[b][k]] = static_cast<Index>(k);
+    }
+  }
+}
+
+void BoxSpace::find_fields(const PointEquations& equations, const std::vector<double>& active,
+                           const std::vector<double>& diagonal) {
+  const std::vector<double> blocks = point_blocks(equations, active, diagonal);
+  std::vector<std::vector<Index>> inside(boxes_.size());  // variables
+  for (Index v = 0; v < equations.num_variables(); ++v) {
+    if (active[v] == 0.0) continue;
+    const Index box = box_of_[equations.first[v]];
+    bool all = true;
+    for_each_part(equations, v, [&](Index p, int, int, double) { all = all && box_of_[p] == box; });
+    if (all) inside[box].push_back(v);
+  }
+  fields_.resize(boxes_.size());
+  first_field_.assign(boxes_.size() + 1, 0);
+  const std::size_t rows = static_cast<std::size_t>(rows_);
+  for (Index b = 0; b < num_boxes(); ++b) {
+    const Eigen::Index size = static_cast<Eigen::Index>(boxes_[b].size()) * rows_;
+    MatrixXd matrix = MatrixXd::Zero(size, size);
+    ColumnBlocks<VectorXd> column;
+    column.blocks.fill(VectorXd::Zero(rows_));
+    for (const Index v : inside[b]) {
+      gather_column(equations, v, column);
+      for (int k = 0; k < column.count; ++k) {
+        for (int l = 0; l < column.count; ++l) {
+          matrix.block(place_[column.keys[k]] * rows_, place_[column.keys[l]] * rows_, rows_, rows_)
+              .noalias() += active[v] * column.blocks[k] * column.blocks[l].transpose();
+        }
+      }
+    }
+    // Relative to the blocks of the points.
+    std::vector<Eigen::LLT<MatrixXd>> own;
+    for (const Index p : boxes_[b]) {
+      own.emplace_back(Eigen::Map<const MatrixXd>(blocks.data() + p * rows * rows, rows_, rows_));
+    }
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      auto part = matrix.middleRows(static_cast<Eigen::Index>(k) * rows_, rows_);
+      own[k].matrixL().solveInPlace(part);
+    }
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      auto part = matrix.middleCols(static_cast<Eigen::Index>(k) * rows_, rows_);
+      own[k].matrixU().solveInPlace<Eigen::OnTheRight>(part);
+    }
+    MatrixXd vectors = eigenvectors_below(std::move(matrix), soft);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      auto part = vectors.middleRows(static_cast<Eigen::Index>(k) * rows_, rows_);
+      own[k].matrixU().solveInPlace(part);
+    }
+    fields_[b] = vectors.transpose();
+    first_field_[b + 1] = first_field_[b] + static_cast<Index>(fields_[b].rows());
+  }
+}
+
+void BoxSpace::refactorize(const PointEquations& equations, const std::vector<double>& active,
+                           const std::vector<double>& diagonal) {
+  using Key = std::array<Index, 4>;  // boxes of a variable, ascending
+  const std::size_t rows = static_cast<std::size_t>(rows_);
+  std::vector<std::pair<Key, Index>> order;
+  for (Index v = 0; v < equations.num_variables(); ++v) {
+    if (active[v] == 0.0) continue;
+    Key key;
+    int count = 0;
+    key.fill(no_index);
+    for_each_part(equations, v, [&](Index p, int, int, double) {
+      const Index box = box_of_[p];
+      int k = 0;
+      while (k < count && key[k] < box) ++k;
+      if (k < count && key[k] == box) return;
+      for (int last = count++; last > k; --last) key[last] = key[last - 1];
+      key[k] = box;
+    });
+    order.emplace_back(key, v);
+  }
+  std::sort(order.begin(), order.end());
+  std::map<std::pair<Index, Index>, MatrixXd> blocks;
+  const auto block = [&](Index a, Index b) -> MatrixXd& {
+    MatrixXd& found = blocks[{a, b}];
+    if (found.size() == 0) found = MatrixXd::Zero(fields_[a].rows(), fields_[b].rows());
+    return found;
+  };
+  for (Index b = 0; b < num_boxes(); ++b) {
+    MatrixXd& own = block(b, b);
+    MatrixXd weighted = fields_[b];
+    for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
+      for (int r = 0; r < rows_; ++r) {
+        weighted.col(static_cast<Eigen::Index>(k) * rows_ + r) *=
+            diagonal[boxes_[b][k] * rows + static_cast<std::size_t>(r)];
+      }
+    }
+    add_product(weighted, fields_[b], own);
+  }
+  constexpr std::size_t most = 256;
+  std::array<MatrixXd, 4> work;
+  ColumnBlocks<VectorXd> column;
+  column.blocks.fill(VectorXd::Zero(rows_));
+  for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
+    const Key& key = order[begin].first;
+    end = begin;
+    while (end < order.size() && end - begin < most && order[end].first == key) ++end;
+    int count = 0;
+    while (count < 4 && key[count] != no_index) ++count;
+    for (int k = 0; k < count; ++k) work[k].setZero(fields_[key[k]].rows(), end - begin);
+    for (std::size_t n = begin; n < end; ++n) {
+      const Index v = order[n].second;
+      const double root = std::sqrt(active[v]);
+      gather_column(equations, v, column);
+      for (int c = 0; c < column.count; ++c) {
+        const Index p = column.keys[c];
+        const int k =
+            static_cast<int>(std::find(key.begin(), key.begin() + count, box_of_[p]) - key.begin());
+        work[k].col(static_cast<Eigen::Index>(n - begin)).noalias() +=
+            fields_[box_of_[p]].middleCols(place_[p] * rows_, rows_) * (root * column.blocks[c]);
+      }
+    }
+    for (int k = 0; k < count; ++k) {
+      for (int l = 0; l <= k; ++l) {
+        add_product(work[k], work[l], block(key[k], key[l]));
+      }
+    }
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Index> group;
+  for (auto& [place, matrix] : blocks) {
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) {
+      if (place.first == place.second) group.push_back(place.first);
+      for (Eigen::Index r = place.first == place.second ? c : 0; r < matrix.rows(); ++r) {
+        double value = matrix(r, c);
+        if (place.first == place.second && r == c)
+          value = value > 0.0 ? (1.0 + 1e-13) * value : 1.0;
+        entries.emplace_back(first_field_[place.first] + static_cast<Index>(r),
+                             first_field_[place.second] + static_cast<Index>(c), value);
+      }
+    }
+  }
+  if (num_fields() == 0) return;
+  SparseMatrix coarse(num_fields(), num_fields());
+  coarse.setFromTriplets(entries.begin(), entries.end());
+  factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
+  factor_->factorize(coarse, group);
+}
+
+void BoxSpace::add_correction(const double* residual, double* result) const {
+  if (num_fields() == 0) return;
+  VectorXd coarse(num_fields()), local;
+  const auto at = [](auto* values, Index point, int rows) {
+    return Eigen::Map<std::conditional_t<std::is_const_v<std::remove_pointer_t<decltype(values)>>,
+                                         const VectorXd, VectorXd>>(
+        values + static_cast<std::size_t>(point) * static_cast<std::size_t>(rows), rows);
+  };
+  for (Index b = 0; b < num_boxes(); ++b) {
+    local.resize(fields_[b].cols());
+    for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
+      local.segment(static_cast<Eigen::Index>(k) * rows_, rows_) =
+          at(residual, boxes_[b][k], rows_);
+    }
+    coarse.segment(first_field_[b], fields_[b].rows()).noalias() = fields_[b] * local;
+  }
+  const std::size_t size = static_cast<std::size_t>(coarse.size());
+  factor_->solve({coarse.data(), size}, {coarse.data(), size});
+  for (Index b = 0; b < num_boxes(); ++b) {
+    local.noalias() = fields_[b].transpose() * coarse.segment(first_field_[b], fields_[b].rows());
+    for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
+      at(result, boxes_[b][k], rows_) += local.segment(static_cast<Eigen::Index>(k) * rows_, rows_);
+    }
+  }
+}
+
+}  // namespace perilink

@@ -1,0 +1,44 @@
+#include "solver/dense_kernels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace perilink {
+namespace {
+
+TEST(DenseKernels, AddAProduct) {
+  const Eigen::MatrixXd a{{1.0, 2.0}, {3.0, 4.0}, {5.0, 6.0}}, b{{1.0, -1.0}};
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Ones(3, 1);
+  add_product(a, b, sum);
+  EXPECT_EQ(sum, Eigen::MatrixXd::Zero(3, 1));
+}
+
+/// A chain of n points that can move as a whole: eigenvalues 2 - 2 cos(pi k / n).
+TEST(DenseKernels, FindEigenvectorsBelowALimit) {
+  constexpr int n = 40;
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 0; k + 1 < n; ++k) {
+    chain(k, k) += 1.0;
+    chain(k + 1, k + 1) += 1.0;
+    chain(k + 1, k) = chain(k, k + 1) = -1.0;
+  }
+  const double limit = 2.0 - 2.0 * std::cos(3.141592653589793 * 4.5 / n);
+  const Eigen::MatrixXd found = eigenvectors_below(chain, limit);
+  ASSERT_EQ(found.cols(), 5);
+  EXPECT_LT((chain * found.col(0)).norm(), 1e-13);
+  EXPECT_LT((found.transpose() * found - Eigen::MatrixXd::Identity(5, 5)).norm(), 1e-13);
+  EXPECT_EQ(eigenvectors_below(chain, -1.0).cols(), 0);
+}
+
+TEST(DenseKernels, RefuseWhatIsNotFinite) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(3, 3);
+  matrix(1, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(eigenvectors_below(matrix, 1.0), SolverError);
+}
+
+}  // namespace
+}  // namespace perilink
