@@ -19,6 +19,7 @@
 #include "app/peak_note.hpp"
 #include "app/relaxation_run.hpp"
 #include "app/result_directory.hpp"
+#include "app/run_doubts.hpp"
 #include "app/run_model.hpp"
 #include "app/run_observer.hpp"
 #include "app/signals.hpp"
