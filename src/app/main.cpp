@@ -2,8 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <span>
@@ -98,7 +101,10 @@ template <class Command>
 int with_exit_status(const Command& command) {
   using namespace perilink;
   try {
-    return command();
+    const int status = command();
+    if (std::fflush(stdout) == 0 || errno == EPIPE || status != exit_done) return status;
+    complain(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
+    return exit_solver;
   } catch (const InputError& error) {
     complain(std::string("bad input: ") + error.what());
     return exit_bad_input;

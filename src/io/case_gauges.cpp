@@ -13,13 +13,13 @@
 namespace perilink {
 namespace {
 
-/// Names head columns of a table and name pictures.
+/// Names head columns of a table, where a minus sign would begin a formula, and name pictures.
 bool is_plain(const std::string& name) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  return !name.empty() && std::all_of(name.begin(), name.end(), plain);
+  return !name.empty() && name[0] != '-' && std::all_of(name.begin(), name.end(), plain);
 }
 
 std::vector<std::string_view> stress_names(int dim) {
@@ -38,7 +38,7 @@ GaugeSection read_gauge(const CaseTable& table, int dim) {
   gauge.name = table.need("name", table.text("name"), "the heading of its column");
   if (!is_plain(gauge.name)) {
     table.refuse("name", fmt::format("is {}", quoted(gauge.name)),
-                 "use letters, digits, _ and -, since it heads a column");
+                 "use letters, digits, _ and - (not as the first), since it heads a column");
   }
   table.need_one_of({"between", "at", "region"});
   assign(gauge.between, table.vectors("between", dim));

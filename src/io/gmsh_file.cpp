@@ -19,8 +19,8 @@ namespace {
 /// More would overflow the 32-bit numbers of bonds at the usual horizons.
 constexpr std::size_t most_nodes = 30'000'000;
 
-/// What a mesh takes while it is read, its file included; 2.7 were measured, for a million triangles
-/// as text and in binary [bytes per byte of the file].
+/// What a mesh takes while it is read, its file included [bytes per byte of the file]; 2.7 were
+/// measured, for a million triangles as text and in binary.
 constexpr double memory_per_byte = 3.0;
 
 /// Two-dimensional meshes lie in a plane of constant z to this fraction of their extent.

@@ -90,6 +90,14 @@ TEST_F(FullDisks, ARunThatCannotWriteItsHistoryTellsWhatItFound) {
   EXPECT_LE(fs::file_size(work() / "r/history.csv"), size);
 }
 
+/// Where standard output is a file.
+TEST_F(FullDisks, WhatCannotBePrintedIsNoSuccess) {
+  write_text(work() / "damage.toml", damage_case());
+  const ProcessEnd end = run_program(work(), {"check", "damage.toml"}, {{RLIMIT_FSIZE, 1000}});
+  EXPECT_EQ(end.exit_status, 3);
+  EXPECT_THAT(end.err, HasSubstr("standard output cannot be written: File too large"));
+}
+
 TEST_F(FullDisks, EveryFileIsWholeWhereverTheRoomEnds) {
   write_text(work() / "damage.toml", damage_case());
   bool ran_out = false, told = false;

@@ -36,8 +36,10 @@ TEST(CaseGauges, ReadBackFromWhatIsWritten) {
 
 TEST(CaseGauges, RefuseWhatCannotBeMeasured) {
   EXPECT_THAT(message_of(with("at = [0, 0]\naxis = \"x\"\n")), HasSubstr("heading of its column"));
-  EXPECT_THAT(message_of(with("name = \"a b\"\nat = [0, 0]\naxis = \"x\"\n")),
-              HasSubstr("use letters, digits, _ and -"));
+  for (const std::string name : {"a b", "-1", "=a", ""}) {
+    EXPECT_THAT(message_of(with("name = \"" + name + "\"\nat = [0, 0]\naxis = \"x\"\n")),
+                HasSubstr("use letters, digits, _ and -"));
+  }
   EXPECT_THAT(message_of(with("name = \"a\"\naxis = \"x\"\n")),
               HasSubstr("none of `between`, `at` or `region`"));
   EXPECT_THAT(message_of(with("name = \"a\"\nat = [0, 0]\n")),
