@@ -221,6 +221,12 @@ TEST_F(BondRunTest, DoubtsABodyThatFliesApart) {
   EXPECT_GT(result.last.energy.kinetic, 0.9 * result.last.energy.external_work);
   EXPECT_THAT(files.doubts(result),
               testing::Contains(testing::HasSubstr("a piece of the body is held by nothing")));
+  write_summary(work_.path(), input_, model_, result, files, {}, 1);
+  std::ifstream file(work_ / "summary.json");
+  EXPECT_EQ(nlohmann::json::parse(file)["doubts"], files.doubts(result));
+  testing::internal::CaptureStdout();
+  print_summary(work_.path(), input_, model_, result, files, {});
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::HasSubstr("held by nothing"));
 }
 
 TEST_F(BondRunTest, SummaryTellsHowItEnded) {
