@@ -14,6 +14,23 @@
 #include "base/build_info.hpp"
 
 namespace perilink {
+namespace {
+
+void add_peaks(nlohmann::ordered_json& json, const DamageResult& result) {
+  json["peak_load"] = result.peak_load;
+  json["peak_displacement"] = result.peak_displacement;
+  json["first_peak_load"] = result.peaks.first().load;
+  json["first_peak_displacement"] = result.peaks.first().displacement;
+  if (result.smoothed_peak_load) json["smoothed_peak_load"] = *result.smoothed_peak_load;
+  if (!result.places.empty()) {
+    json["places"] = nlohmann::ordered_json::array();
+    for (const PlaceForce& place : result.places) {
+      json["places"].push_back({{"name", place.name}, {"force", place.force}});
+    }
+  }
+}
+
+}  // namespace
 
 std::string elements_text(const Model& model) {
   return model.elements ? fmt::format("{} linear elements", model.elements->cells.size())
@@ -55,17 +72,7 @@ void write_summary(const std::filesystem::path& directory, const CaseFile& input
   json["units"] = input.units;
   json["status"] = to_string(result.ending);
   json["reason"] = result.reason;
-  json["peak_load"] = result.peak_load;
-  json["peak_displacement"] = result.peak_displacement;
-  json["first_peak_load"] = result.peaks.first().load;
-  json["first_peak_displacement"] = result.peaks.first().displacement;
-  if (result.smoothed_peak_load) json["smoothed_peak_load"] = *result.smoothed_peak_load;
-  if (!result.places.empty()) {
-    json["places"] = nlohmann::ordered_json::array();
-    for (const PlaceForce& place : result.places) {
-      json["places"].push_back({{"name", place.name}, {"force", place.force}});
-    }
-  }
+  add_peaks(json, result);
   json["initial_stiffness"] = result.initial_stiffness;
   json["steps"] = result.last.step;
   json["broken_bonds"] = result.broken_bonds;
