@@ -17,8 +17,8 @@ namespace {
 constexpr double hopeless_residual = 1e-3;
 
 /// A driven body whose work is less than this share of the sum of the sizes of its terms has lost
-/// eight of sixteen digits in that sum.
-constexpr double cancelled_work = 1e-8;
+/// seven of sixteen digits in that sum.
+constexpr double cancelled_work = 1e-7;
 
 }  // namespace
 
@@ -187,7 +187,9 @@ void SingleEventEngine::commit(const Change& change, Index element, double secan
 void SingleEventEngine::follow(const EventOutcome& outcome) {
   if (!must_rebuild_) force_work_ += outcome.compliance_growth;
   followed_compliance_ += outcome.compliance_growth;
-  const bool sure = outcome.pivot > doubtful_pivot && !look_closer_;
+  // Small events leave the displacements as exact as they were.
+  const bool sure = outcome.pivot > doubtful_pivot && !look_closer_ &&
+                    outcome.compliance_growth < 0.01 * last_work_;
   events_to_follow_ = sure ? events_to_follow_ - 1 : 0;
 }
 
