@@ -12,6 +12,9 @@ namespace {
 
 constexpr int most_iterations = 2000000000;
 
+/// A run at rest is left with a residual of some 1e-15 of its forces.
+constexpr double least_tolerance = 1e-13;
+
 void check_strain(const CaseFile& input) {
   const bool moves = input.analysis.type == "explicit" || input.analysis.type == "relaxation";
   if (!moves || input.lines.count("analysis.strain") == 0) return;
@@ -68,6 +71,11 @@ void read_relaxation(const CaseTable& table, AnalysisSection& analysis) {
   if (analysis.tolerance >= 1.0) {
     table.refuse("tolerance", fmt::format("is {}, but must be less than 1", analysis.tolerance),
                  "1e-6 is the default");
+  }
+  if (analysis.tolerance < least_tolerance) {
+    table.refuse("tolerance",
+                 fmt::format("is {}, below the round-off of the forces", analysis.tolerance),
+                 fmt::format("give at least {}; 1e-6 is the default", least_tolerance));
   }
   assign(analysis.iterations, table.integer("iterations", 1, most_iterations));
 }

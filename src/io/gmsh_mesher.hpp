@@ -16,8 +16,8 @@ bool has_gmsh();
 ///     [length]
 /// \param trusted  scripts may run commands and write files (gmsh_script.hpp)
 /// \throws FileError   where the geometry cannot be read
-/// \throws InputError  where gmsh is missing or cannot mesh it, a script has no constant `h` to set,
-///     or is not trusted and does more than draw and mesh
+/// \throws InputError  where gmsh is missing or cannot mesh it, or a script has no constant `h` to
+///     set, or does more than draw and mesh without being trusted
 Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size,
                    bool trusted = false);
 

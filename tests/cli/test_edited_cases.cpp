@@ -1,4 +1,4 @@
-// One small case with an edit each: what `check` and `run` refuse alike, with the same words, before
+// One small case with an edit each: what `check` and `run` refuse alike, in the same words, before
 // anything is computed.
 
 #include <gmock/gmock.h>

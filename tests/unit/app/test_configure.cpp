@@ -215,7 +215,7 @@ TEST(Configure, BarsEndWithinOneSpacingOfTheBody) {
 
 TEST(Configure, BarsEndWithinOneSpacingAlsoOfTheSmallestHorizon) {
   CaseFile input = barred_case();
-  input.body.horizon = 10.0;
+  input.body.horizon = 14.2;
   input.rebar[0].to = {22.0, 500.0, 0.0};
   expect_refused(input, "rebar[1].to", "(22, 500)");
 }
@@ -272,7 +272,8 @@ TEST(Configure, BodiesThatCannotBreakAreRefusedInADamageAnalysis) {
 
 TEST(Configure, WhatCalibrationDoesNotChangeIsRefusedBeforeIt) {
   CaseFile input = prism_case();
-  input.body.horizon_ratio = 1.0;  // six neighbours: no calibration can make them isotropic
+  input.body.pattern = Pattern::face_centred;
+  input.body.horizon_ratio = 1.0;  // twelve neighbours: no calibration can make them isotropic
   expect_refused(input, "body.horizon_ratio", "use two to four spacings");
   CaseFile free = input;
   free.supports.clear();

@@ -140,7 +140,7 @@ TEST(Loads, TractionsOffTheSurfaceAreRefusedWithTheNearestFacet) {
 TEST(Loads, FormulasThatAreZeroEverywhereAreRefused) {
   CaseFile input = strip_with_top();
   input.tractions.push_back(traction_on("top", 0.0, Expression("y - 80")));
-  expect_refused(input, "tractions", "nothing loads the body");
+  expect_refused(input, "tractions[1]", "nothing loads the body");
 }
 
 /// A mesh of two triangles over a rectangle; cells carry the body force, not the particles.

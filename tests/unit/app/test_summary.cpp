@@ -78,7 +78,7 @@ TEST(Summary, HoldsEveryFigureUnderItsKey) {
       {"calibration", calibration_json(model.network.calibration.value())},
       {"spacing", 10.0},
       {"horizon", 31.0},
-      {"notes", {"mind the gap"}},
+      {"notes", model.notes},
       {"factorizations", 2},
       {"factor_bytes", 1024.0},
       {"seconds", {{"set_up", 0.25}, {"analysis", 0.5}, {"output", 0.75}, {"calibration", 0.125}}},

@@ -81,6 +81,7 @@ TEST(CaseMovingBonds, IsWrittenSoThatItReadsBack) {
 TEST(CaseMovingBonds, RefusesWhatRelaxationHasNot) {
   const std::string type = "type = \"relaxation\"\n";
   EXPECT_THAT(refusal(with_analysis(type + "tolerance = 1")), HasSubstr("less than 1"));
+  EXPECT_THAT(refusal(with_analysis(type + "tolerance = 1e-14")), HasSubstr("round-off"));
   EXPECT_THAT(refusal(with_analysis(type + "iterations = 0")), HasSubstr("iterations"));
   EXPECT_THAT(refusal(with_analysis(type + "load_factors = [0, 0]")), HasSubstr("only zeros"));
   EXPECT_THAT(refusal(with_analysis(type + "strain = \"large\"")), HasSubstr("green"));
