@@ -1,7 +1,5 @@
 #include "discretization/box_space.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -244,7 +242,7 @@ void BoxSpace::refactorize(const PointEquations& equations, const std::vector<do
   if (num_fields() == 0) return;
   SparseMatrix coarse(num_fields(), num_fields());
   coarse.setFromTriplets(entries.begin(), entries.end());
-  factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
+  factor_ = make_factor(FactorRoute::in_place, 1);  // threads wait longer than they work
   factor_->factorize(coarse, group);
 }
 
