@@ -72,7 +72,7 @@ std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& c
                      count);
 }
 
-void print_breakable(const Network& network) {
+void print_breakable(const Network& network, const std::vector<double>& crack_cost) {
   if (network.has_states()) return;  // particles crack, not bonds
   Index breakable = 0;
   double smallest = INFINITY, largest = 0.0;
@@ -87,6 +87,10 @@ void print_breakable(const Network& network) {
   } else {
     fmt::print("#   breakable bonds    {}, critical stretch {:.5g} to {:.5g}\n", breakable,
                smallest, largest);
+  }
+  for (std::size_t m = 0; m < crack_cost.size() && breakable > 0; ++m) {
+    fmt::print("#   cost of a crack    {:.4g} of what its bonds release, material {}\n",
+               crack_cost[m], m + 1);
   }
 }
 
@@ -104,7 +108,7 @@ void print_elements(const Model& model) {
   for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
     fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
   }
-  print_breakable(network);
+  print_breakable(network, model.crack_cost);
 }
 
 void print_spacing(const Model& model) {

@@ -8,6 +8,7 @@
 #include "app/boundary_conditions.hpp"
 #include "app/calibration_text.hpp"
 #include "app/element_model.hpp"
+#include "app/fracture_rule.hpp"
 #include "app/gauges.hpp"
 #include "app/horizon_limits.hpp"
 #include "app/lattice_model.hpp"
@@ -200,8 +201,9 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
   network.thickness = input.body.thickness;
   network.micromodulus =
       input.body.micromodulus == "lattice" ? Constants::lattice : Constants::continuum;
-  network.critical_stretch =
-      input.body.critical_stretch == "lattice" ? Constants::lattice : Constants::continuum;
+  const bool on_lattice = input.body.critical_stretch == "lattice" ||
+                          (input.body.critical_stretch == "dissipated" && !input.body.mesh);
+  network.critical_stretch = on_lattice ? Constants::lattice : Constants::continuum;
   for (std::size_t m = 0; m < input.materials.size() && !input.body.mesh; ++m) {
     const std::vector<Box> boxes = boxes_of(input, m);
     network.solid.insert(network.solid.end(), boxes.begin(), boxes.end());
@@ -297,10 +299,12 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   network.draft = options.draft;
   refuse_poissons_ratios(input, body, network);
   refuse_impossible_cracks(input, body.particles.dim);
+  model.crack_cost = count_on_the_path(input, body, network);
   if (!options.draft) refuse_before_calibration(input, body, network, model);
   model.network = build_case_network(input, body, network);
   refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
+  if (const auto text = short_horizon_note(input, model)) model.notes.push_back(*text);
   if (const auto text = calibration_shortfall(model.network)) model.notes.push_back(*text);
   body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
 }

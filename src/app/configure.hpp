@@ -40,6 +40,8 @@ struct Model {
   Simplices cells;            ///< of a mesh
   std::vector<Group> groups;  ///< of a mesh
   double horizon = 0.0;       ///< [length]
+  /// Of each material, where critical_stretch = "dissipated": see crack_cost() [-].
+  std::vector<double> crack_cost;
   /// Of linear elements the particles with the edges of the cells as bonds that stand for them in
   /// all questions of what holds what; their stiffness means nothing.
   Network network;

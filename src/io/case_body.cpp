@@ -47,7 +47,7 @@ void read_lattice(const CaseTable& table, BodySection& body) {
 void read_mesh(const CaseTable& table, BodySection& body) {
   read_mesh_file(table, body);
   body.pattern = Pattern::irregular;
-  body.micromodulus = body.critical_stretch = "continuum";
+  body.micromodulus = "continuum";
   if (table.has("pattern")) {
     table.refuse("pattern", "is given beside `mesh`", "delete it: the mesh places the particles");
   }
@@ -60,8 +60,16 @@ void read_mesh(const CaseTable& table, BodySection& body) {
     table.refuse("horizon_level", "is given, but a mesh has no levels",
                  "give `horizon` or `horizon_ratio`");
   }
+}
+
+/// Where the constants of bonds come from.
+void read_constants(const CaseTable& table, BodySection& body) {
+  assign(body.micromodulus, table.choice("micromodulus", {"lattice", "continuum"}));
+  assign(body.critical_stretch,
+         table.choice("critical_stretch", {"dissipated", "lattice", "continuum"}));
+  if (body.pattern != Pattern::irregular) return;
   for (const char* key : {"micromodulus", "critical_stretch"}) {
-    if (table.choice(key, {"lattice", "continuum"}) != "lattice") continue;
+    if (table.text(key) != "lattice") continue;
     table.refuse(key, "is \"lattice\", but a mesh has no lattice to count on",
                  "delete it, or write \"continuum\"");
   }
@@ -291,8 +299,7 @@ BodySection read_body(const CaseTable& table) {
     return body;
   }
   if (body.method == "bonds") read_horizon(table, body);
-  assign(body.micromodulus, table.choice("micromodulus", {"lattice", "continuum"}));
-  assign(body.critical_stretch, table.choice("critical_stretch", {"lattice", "continuum"}));
+  read_constants(table, body);
   refuse_unused_micromodulus(table, body);
   return body;
 }

@@ -39,7 +39,8 @@ struct BodySection {
   std::optional<int> horizon_level;      ///< 0–8 of Gerstle, Sau & Silling 2005, Fig. 5
   std::optional<double> horizon_ratio;   ///< horizon / spacing
   std::string micromodulus = "lattice";  ///< lattice | continuum, of a mesh always continuum
-  std::string critical_stretch = "lattice";  ///< lattice | continuum, of a mesh always continuum
+  /// dissipated | lattice (not of a mesh) | continuum: what a crack's fracture energy counts.
+  std::string critical_stretch = "dissipated";
   double rotation = 0.0;  ///< of the rows of model = lattice against x, about z [degrees]
   Vector3 offset{};       ///< one of its lattice points [length]
   std::string variant = "consistent";  ///< its rules: consistent | 2018 | 2017

@@ -15,6 +15,7 @@ units = "kip, in"
 problem = "plane_stress"
 thickness = 1.0
 surface = "{surface}"
+critical_stretch = "lattice"
 {layout}
 [[regions]]
 name = "specimen"

@@ -34,7 +34,7 @@ TEST(CaseBody, TakesAMeshInPlaceOfALattice) {
   EXPECT_EQ(input.body.mesh, "meshes/plate \"a\".msh");
   EXPECT_EQ(input.body.pattern, Pattern::irregular);
   EXPECT_EQ(input.body.micromodulus, "continuum");
-  EXPECT_EQ(input.body.critical_stretch, "continuum");
+  EXPECT_EQ(input.body.critical_stretch, "dissipated");
   EXPECT_EQ(input.regions[0].group, "plate");
   EXPECT_EQ(input.regions[1].group, "");
   const std::string long_path = "mesh = \"" + std::string(3000, 'p') + "\"\nhorizon_ratio = 3";

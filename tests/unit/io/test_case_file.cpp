@@ -27,7 +27,7 @@ TEST(CaseFile, FillsInDefaults) {
   EXPECT_EQ(input.body.spacing, std::nullopt);
   EXPECT_EQ(input.body.horizon_ratio, 3.0);
   EXPECT_EQ(input.body.micromodulus, "lattice");
-  EXPECT_EQ(input.body.critical_stretch, "lattice");
+  EXPECT_EQ(input.body.critical_stretch, "dissipated");
   ASSERT_EQ(input.materials.size(), 1u);
   EXPECT_EQ(input.materials[0].name, "material 1");
   EXPECT_EQ(input.materials[0].poissons_ratio, std::nullopt);

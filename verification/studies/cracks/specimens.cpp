@@ -46,7 +46,7 @@ std::string beam_heading(const std::string& title, double spacing, int horizon_r
                          Surface surface) {
   return fmt::format(
       "title = \"{}\"\nunits = \"N, mm\"\n[body]\nproblem = \"plane_stress\"\nthickness = {}\n"
-      "spacing = {}\nhorizon_ratio = {}\nsurface = \"{}\"\n",
+      "spacing = {}\nhorizon_ratio = {}\nsurface = \"{}\"\ncritical_stretch = \"lattice\"\n",
       title, beam_thickness, spacing, horizon_ratio, surface_word(surface));
 }
 

@@ -33,7 +33,8 @@ class ExplicitRecorder final : public BondRunObserver {
 }  // namespace
 
 Specimen read_specimen(const std::string& name, const std::string& path) {
-  const CaseFile input = read_case_file(path);
+  CaseFile input = read_case_file(path);
+  input.body.critical_stretch = "lattice";  // of both modes the same: what was recorded
   Model model = build_model(input);
   return {name,
           std::move(model.network),

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/configure.hpp"
+#include "assembly/network_builder.hpp"
+#include "io/case_file.hpp"
+
+namespace perilink {
+
+/// Where the path of the events is to dissipate the fracture energy (critical_stretch =
+/// "dissipated"), bonds may release only a part of it: divides the fracture energies of the
+/// network's materials by what a crack costs.
+/// \return crack_cost() of each material [-]; empty with the other rules
+std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
+                                      NetworkInput& network);
+
+/// Says that the energy of a crack is uncertain, where bonds can break that reach less than
+/// least_ratio_of_cracks spacings.
+std::optional<std::string> short_horizon_note(const CaseFile& input, const Model& model);
+
+}  // namespace perilink
