@@ -156,9 +156,7 @@ int main(int argc, char** argv) {
   CLI::App* check_command = app.add_subcommand(
       "check", "Validate a case, calibrate its bonds; print its sizes, expected memory and time");
   check_command->add_option("case", checked_case, "Case file (.toml)")->required();
-
-  bool trust_geometry = false;
-  add_trust_option(*check_command, trust_geometry);
+  add_trust_option(*check_command, run.trust_geometry);
 
   PlotOptions plot;
   add_plot_command(app, plot);
@@ -184,7 +182,7 @@ int main(int argc, char** argv) {
     if (run_command->parsed()) return run_case(run);
     if (converge_command->parsed()) return converge(study);
     if (compare_command->parsed()) return compare(compared);
-    if (check_command->parsed()) return check_case(checked_case, trust_geometry);
+    if (check_command->parsed()) return check_case(checked_case, run.trust_geometry);
     return plot_results(plot);
   });
 }
