@@ -158,10 +158,9 @@ void BoxSpace::find_fields(const PointEquations& equations, const std::vector<do
   }
 }
 
-void BoxSpace::refactorize(const PointEquations& equations, const std::vector<double>& active,
-                           const std::vector<double>& diagonal) {
-  using Key = std::array<Index, 4>;  // boxes of a variable, ascending
-  const std::size_t rows = static_cast<std::size_t>(rows_);
+auto BoxSpace::variables_by_boxes(const PointEquations& equations,
+                                  const std::vector<double>& active) const
+    -> std::vector<std::pair<Key, Index>> {
   std::vector<std::pair<Key, Index>> order;
   for (Index v = 0; v < equations.num_variables(); ++v) {
     if (active[v] == 0.0) continue;
@@ -179,22 +178,33 @@ void BoxSpace::refactorize(const PointEquations& equations, const std::vector<do
     order.emplace_back(key, v);
   }
   std::sort(order.begin(), order.end());
-  std::map<std::pair<Index, Index>, MatrixXd> blocks;
+  return order;
+}
+
+/// Adds what the diagonal of the system gives to a box's own block.
+void BoxSpace::add_diagonal(Index box, const std::vector<double>& diagonal, MatrixXd& own) const {
+  MatrixXd weighted = fields_[box];
+  for (std::size_t k = 0; k < boxes_[box].size(); ++k) {
+    for (int r = 0; r < rows_; ++r) {
+      weighted.col(static_cast<Eigen::Index>(k) * rows_ + r) *=
+          diagonal[boxes_[box][k] * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(r)];
+    }
+  }
+  add_product(weighted, fields_[box], own);
+}
+
+void BoxSpace::refactorize(const PointEquations& equations, const std::vector<double>& active,
+                           const std::vector<double>& diagonal) {
+  if (num_fields() == 0) return;
+  const std::vector<std::pair<Key, Index>> order = variables_by_boxes(equations, active);
+  Blocks blocks;
   const auto block = [&](Index a, Index b) -> MatrixXd& {
     MatrixXd& found = blocks[{a, b}];
     if (found.size() == 0) found = MatrixXd::Zero(fields_[a].rows(), fields_[b].rows());
     return found;
   };
   for (Index b = 0; b < num_boxes(); ++b) {
-    MatrixXd& own = block(b, b);
-    MatrixXd weighted = fields_[b];
-    for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
-      for (int r = 0; r < rows_; ++r) {
-        weighted.col(static_cast<Eigen::Index>(k) * rows_ + r) *=
-            diagonal[boxes_[b][k] * rows + static_cast<std::size_t>(r)];
-      }
-    }
-    add_product(weighted, fields_[b], own);
+    add_diagonal(b, diagonal, block(b, b));
   }
   constexpr std::size_t most = 256;
   std::array<MatrixXd, 4> work;
@@ -225,9 +235,13 @@ void BoxSpace::refactorize(const PointEquations& equations, const std::vector<do
       }
     }
   }
+  factorize(blocks);
+}
+
+void BoxSpace::factorize(const Blocks& blocks) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<Index> group;
-  for (auto& [place, matrix] : blocks) {
+  for (const auto& [place, matrix] : blocks) {
     for (Eigen::Index c = 0; c < matrix.cols(); ++c) {
       if (place.first == place.second) group.push_back(place.first);
       for (Eigen::Index r = place.first == place.second ? c : 0; r < matrix.rows(); ++r) {
@@ -239,7 +253,6 @@ void BoxSpace::refactorize(const PointEquations& equations, const std::vector<do
       }
     }
   }
-  if (num_fields() == 0) return;
   SparseMatrix coarse(num_fields(), num_fields());
   coarse.setFromTriplets(entries.begin(), entries.end());
   factor_ = make_factor(FactorRoute::in_place, 1);  // threads wait longer than they work

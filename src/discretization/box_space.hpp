@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -32,6 +35,12 @@ class BoxSpace {
 
  private:
   Index num_boxes() const { return static_cast<Index>(boxes_.size()); }
+  using Key = std::array<Index, 4>;  // boxes on which a variable acts, ascending
+  using Blocks = std::map<std::pair<Index, Index>, Eigen::MatrixXd>;  // of the coarse system
+  std::vector<std::pair<Key, Index>> variables_by_boxes(const PointEquations& equations,
+                                                        const std::vector<double>& active) const;
+  void add_diagonal(Index box, const std::vector<double>& diagonal, Eigen::MatrixXd& own) const;
+  void factorize(const Blocks& blocks);
   void make_boxes(const PointEquations& equations);
   void find_fields(const PointEquations& equations, const std::vector<double>& active,
                    const std::vector<double>& diagonal);

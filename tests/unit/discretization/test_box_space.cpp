@@ -47,8 +47,8 @@ std::vector<double> some_active(const PointEquations& equations) {
   return active;
 }
 
-/// Pair forces do no work on the third power of a rotation g, the symmetric tensor g g g: g.n is the
-/// same at both ends of a bond. Such fields are in the space, whatever the weights, so that its
+/// Pair forces do no work on the third power of a rotation g, the symmetric tensor g g g: g.n is
+/// the same at both ends of a bond. Such fields are in the space, whatever the weights, so that its
 /// correction finds them again. 1e-6: round-off over the diagonal of 1e-8, which is all that
 /// resists them.
 TEST(BoxSpace, HoldsTensorsOnWhichPairForcesDoNoWork) {
