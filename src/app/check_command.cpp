@@ -6,12 +6,12 @@
 #include "analysis/fundamental_period.hpp"
 #include "analysis/lattice_statics.hpp"
 #include "app/bond_run.hpp"
-#include "app/calibration_text.hpp"
 #include "app/commands.hpp"
 #include "app/configure.hpp"
 #include "app/explicit_case.hpp"
 #include "app/progress.hpp"
 #include "app/relaxation_run.hpp"
+#include "app/run_cost.hpp"
 #include "app/run_model.hpp"
 #include "app/summary.hpp"
 #include "assembly/stiffness.hpp"
@@ -22,38 +22,6 @@
 
 namespace perilink {
 namespace {
-
-/// Rough rates of a quiet server core, for estimates only (verification/benchmarks).
-constexpr double factor_flops_per_second = 15e9;
-constexpr double read_bytes_per_second = 36e9;
-constexpr double search_seconds_per_bond = 1e-9;
-
-/// What a run will take, beside the set-up that has just been done.
-struct ExpectedCost {
-  double memory = 0.0;         ///< [bytes]
-  double factorization = 0.0;  ///< [s]
-  double broken_bond = 0.0;    ///< [s]
-};
-
-/// Passes through the factor per break. A micropolar bond leaves with three modes in the plane and
-/// six in space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240
-/// unknowns) and 3.5 times (7 938 unknowns) the time of a truss per byte of the factor were
-/// measured, which itself has two or four times the numbers.
-double passes_per_break(const Network& network) {
-  if (!network.carries_moments()) return 1.0;
-  return network.dim() == 2 ? 1.5 : 3.5;
-}
-
-ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor) {
-  const double bond_bytes = 100.0 * network.num_elements();
-  ExpectedCost cost;
-  // The set-up is behind us: its peak is known.
-  cost.memory = std::max(peak_memory_bytes(), 1.3 * factor.bytes + 3.0 * bond_bytes);
-  cost.factorization = factor.flops / factor_flops_per_second;
-  cost.broken_bond = passes_per_break(network) * 1.1 * factor.bytes / read_bytes_per_second +
-                     search_seconds_per_bond * network.num_elements();
-  return cost;
-}
 
 std::string time_text(double seconds) {
   return seconds < 10.0 ? fmt::format("{:.2g} s", seconds) : format_duration(seconds);
@@ -103,7 +71,7 @@ void print_elements(const Model& model) {
   fmt::print("#   bonds              {} and {} ties of bars\n", network.first_tie,
              network.first_segment - network.first_tie);
   if (network.calibration) {
-    fmt::print("#   calibration        {}\n", calibration_line(*network.calibration));
+    fmt::print("#   calibration        of {} bonds, by the run\n", network.calibration->free_bonds);
   }
   for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
     fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
@@ -146,30 +114,29 @@ void print_sizes(const Model& model) {
   for (const std::string& note : model.notes) fmt::print("#   note               {}\n", note);
 }
 
+void print_set_up(const ExpectedSetUp& set_up) {
+  fmt::print("#   set-up             {}", time_text(set_up.seconds));
+  if (set_up.calibration > 0.0) {
+    fmt::print(", of it calibration {}", time_text(set_up.calibration));
+  }
+  fmt::print("\n");
+}
+
 void print_cost(const CaseFile& input, const Network& network, const FactorStatistics& factor,
-                double set_up) {
+                const ExpectedSetUp& set_up) {
   const ExpectedCost cost = expected_cost(network, factor);
   fmt::print("# expected cost of a run\n");
   fmt::print("#   factor             {:.3g} M numbers, {:.3g} MB\n", factor.entries / 1e6,
              factor.bytes / 1e6);
   fmt::print("#   memory             {:.3g} GB\n", cost.memory / 1e9);
-  fmt::print("#   set-up             {}", time_text(set_up));
-  if (network.calibration) {
-    fmt::print(", of it calibration {}", time_text(network.calibration->seconds));
-  }
-  fmt::print(" (as it took now)\n");
+  print_set_up(set_up);
   fmt::print("#   factorisation      {}\n", time_text(cost.factorization));
   if (input.analysis.type != "elastic") {
     fmt::print("#   each broken bond   {:.2g} ms; 1000 of them {}\n", 1e3 * cost.broken_bond,
                time_text(1e3 * cost.broken_bond));
   }
-  fmt::print("#   run                {}\n", run_text(input, set_up, cost));
+  fmt::print("#   run                {}\n", run_text(input, set_up.seconds, cost));
 }
-
-/// Rough rates of one core, for estimates only: an elastic strip of 12 000 particles, and
-/// meshes/splm_tension.toml, where most particles crack.
-constexpr double elastic_particle_steps_per_second = 60e6;
-constexpr double breakable_particle_steps_per_second = 15e6;
 
 /// What loading times are measured by.
 /// \param period  computes it
@@ -194,6 +161,11 @@ void print_extents(const LatticeRows& lattice) {
     text += fmt::format("{}{} {:.6g} to {:.6g}", axis > 0 ? ", " : "", "xyz"[axis], lower, upper);
   }
   fmt::print("#   particles lie in   {}\n", text);
+}
+
+void print_run_of_steps(double seconds, bool breakable) {
+  fmt::print("#   run                about {} on one core{}\n", time_text(seconds),
+             breakable ? ", more where much cracks" : "");
 }
 
 int check_explicit(const std::string& case_path, const CaseFile& input) {
@@ -228,19 +200,12 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
   fmt::print("#   time step          {:.6g}\n", built.time_step);
   fmt::print("#   steps              {}, about {} rows of history\n", built.steps,
              std::min<Index>(built.steps, built.options.rows));
-  const double rate = model.material.breakable ? breakable_particle_steps_per_second
-                                               : elastic_particle_steps_per_second;
-  const double run = static_cast<double>(model.lattice.particles()) * built.steps / rate;
   fmt::print("# expected cost of a run\n");
   fmt::print("#   memory             {:.3g} GB\n", peak_memory_bytes() / 1e9);
   fmt::print("#   set-up             {} (as it took now)\n", time_text(set_up));
-  fmt::print("#   run                about {} on one core\n", time_text(set_up + run));
+  print_run_of_steps(set_up + built.steps * seconds_per_step(built), model.material.breakable);
   return exit_done;
 }
-
-}  // namespace
-
-namespace {
 
 /// Rough rate of one core, for estimates only: verification/benchmarks/explicit_step has 211 to 293
 /// million.
@@ -248,28 +213,32 @@ constexpr double bond_steps_per_second = 250e6;
 
 int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   const Timer timer;
-  const Model model = build_model_visibly(input, false);
+  // Whether a given time step is stable depends on the calibrated bonds; otherwise those of a draft
+  // tell it closely enough.
+  const bool calibrated = input.analysis.time_step && input.body.surface == Surface::calibrated;
+  const Model model = calibrated ? build_model_visibly(input, false) : draft_model(input);
   const BondRunCase built = build_bond_run(input, model);
-  const double set_up = timer.seconds();
+  const double paid =
+      calibrated && model.network.calibration ? model.network.calibration->seconds : 0.0;
+  const ExpectedSetUp set_up(model, timer.seconds() - paid);
   fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
   print_sizes(model);
+  std::fflush(stdout);
   print_period([&] { return fundamental_period(model.network, model.unknowns, built.inertia); });
   fmt::print("#   critical time step {:.6g}\n", built.inertia.critical_time_step());
   fmt::print("#   time step          {:.6g}\n", built.options.time_step);
   fmt::print("#   steps              {}, about {} rows of history\n", built.steps,
              std::min<Index>(built.steps, built.options.rows));
-  const double run =
-      static_cast<double>(model.network.num_elements()) * built.steps / bond_steps_per_second;
   fmt::print("# expected cost of a run\n");
-  fmt::print("#   set-up             {} (as it took now)\n", time_text(set_up));
-  fmt::print("#   run                about {} on one core\n", time_text(set_up + run));
+  print_set_up(set_up);
+  print_run_of_steps(set_up.seconds + built.steps * seconds_per_step(model, built), false);
   return exit_done;
 }
 
 int check_relaxation(const std::string& case_path, const CaseFile& input) {
   const Timer timer;
-  const Model model = build_model_visibly(input, false);
-  const double set_up = timer.seconds();
+  const Model model = draft_model(input);
+  const ExpectedSetUp set_up(model, timer.seconds());
   const double iterations = expected_iterations(model, relaxation_options(input, 1));
   fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
   print_sizes(model);
@@ -277,7 +246,7 @@ int check_relaxation(const std::string& case_path, const CaseFile& input) {
              input.analysis.load_factors.size(), iterations);
   const double step = model.network.num_elements() * iterations / bond_steps_per_second;
   fmt::print("# expected cost of a run\n");
-  fmt::print("#   set-up             {} (as it took now)\n", time_text(set_up));
+  print_set_up(set_up);
   fmt::print("#   first load step    about {} on one core\n", time_text(step));
   return exit_done;
 }
@@ -294,7 +263,7 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   if (input.analysis.type == "relaxation") return check_relaxation(case_path, input);
   const Timer timer;
   const Model model = draft_model(input);
-  const double set_up = timer.seconds();
+  const ExpectedSetUp set_up(model, timer.seconds());
   fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
   print_sizes(model);
   std::fflush(stdout);  // the order of the unknowns of a large body takes a while

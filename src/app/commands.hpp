@@ -34,8 +34,9 @@ struct CompareOptions {
 /// \throws FileError
 int compare(const CompareOptions& options);
 
-/// perilink check: validates a case, builds its model with calibrated bonds, and prints what a run
-/// is and will cost; writes no file and solves nothing.
+/// perilink check: validates a case, builds its model without calibrating the bonds (but where a
+/// time step has to be judged by them), and prints what a run is and will cost; writes no file and
+/// solves nothing.
 int check_case(const std::string& case_path, bool trust_geometry);
 
 }  // namespace perilink

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/bond_run.hpp"
+#include "app/calibration_text.hpp"
 #include "app/commands.hpp"
 #include "app/configure.hpp"
 #include "app/console.hpp"
@@ -101,6 +102,14 @@ void refuse_own_case(const fs::path& directory, const std::string& case_path) {
                   case_path));
 }
 
+/// What is known before the analysis begins.
+void log_model(spdlog::logger& log, const Model& model) {
+  if (model.network.calibration) {
+    log.info("calibration: {}", calibration_line(*model.network.calibration));
+  }
+  for (const std::string& note : model.notes) log.info("note: {}", note);
+}
+
 /// What is known only when the run is over.
 void add_note(const std::optional<std::string>& note, std::vector<std::string>& notes,
               spdlog::logger& log) {
@@ -167,7 +176,7 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   log->info("{} : {} particles, {}, {} steps of {:.4g} (critical {:.4g}), {} threads", input.path,
             model.network.particles.size(), elements_text(model), built.steps,
             built.options.time_step, built.inertia.critical_time_step(), threads);
-  for (const std::string& note : model.notes) log->info("note: {}", note);
+  log_model(*log, model);
 
   PhaseSeconds seconds;
   seconds.set_up = timer.seconds();
@@ -205,7 +214,7 @@ int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::p
   log->info("{} : {} particles, {}, {} load steps, {} threads", input.path,
             model.network.particles.size(), elements_text(model),
             input.analysis.load_factors.size(), threads);
-  for (const std::string& note : model.notes) log->info("note: {}", note);
+  log_model(*log, model);
 
   PhaseSeconds seconds;
   seconds.set_up = timer.seconds();
@@ -240,7 +249,7 @@ int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::
   const auto log = open_log(directory);
   log->info("{} : {} particles, {}, {} unknowns, {} threads", input.path,
             model.network.particles.size(), elements_text(model), model.unknowns.count, threads);
-  for (const std::string& note : model.notes) log->info("note: {}", note);
+  log_model(*log, model);
 
   PhaseSeconds seconds;
   seconds.set_up = timer.seconds();

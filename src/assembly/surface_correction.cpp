@@ -9,6 +9,7 @@
 #include "assembly/lattice_families.hpp"
 #include "base/timer.hpp"
 #include "discretization/calibration.hpp"
+#include "discretization/calibration_cost.hpp"
 
 namespace perilink {
 namespace {
@@ -207,13 +208,17 @@ void Correction::calibrate() {
   }
   // What single bonds lose or gain from here on is no measure of their strength.
   network_.bending_ratio = own_bending_ratios(network_);
-  if (!input_.draft) balance(calibration);
+  if (input_.draft) {
+    network_.calibration = expected_calibration(calibration, micropolar());
+  } else {
+    balance(calibration);
+    network_.calibration->seconds = timer.seconds();
+  }
   if (!family) {
     set_strength_of_cloud(input_, network_);
   } else if (input_.critical_stretch == Constants::lattice) {
     set_critical_stretches(input_, *family, body_.lattice.cell_volume, network_);
   }
-  if (network_.calibration) network_.calibration->seconds = timer.seconds();
 }
 
 /// Bonds that may carry nothing are taken out.

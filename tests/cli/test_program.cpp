@@ -228,13 +228,17 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   EXPECT_EQ(run({"check", "again.toml"}).exit_status, 0);
 }
 
-TEST_F(Program, CheckTellsWhatTheCalibrationReachedAndTook) {
+TEST_F(Program, CheckLeavesTheCalibrationToTheRun) {
   write_case("block.toml", hexagonal_case(9, 5));
-  const ProcessEnd end = run({"check", "block.toml"});
-  EXPECT_EQ(end.exit_status, 0) << end.err;
-  EXPECT_THAT(end.out,
-              testing::ContainsRegex("calibration        [0-9]+ bonds, forces out of balance"));
-  EXPECT_THAT(end.out, testing::ContainsRegex("set-up .*, of it calibration [0-9.e-]+ s"));
+  const ProcessEnd check = run({"check", "block.toml"});
+  EXPECT_EQ(check.exit_status, 0) << check.err;
+  EXPECT_THAT(check.out,
+              testing::ContainsRegex("calibration        of [1-9][0-9]* bonds, by the run"));
+  EXPECT_THAT(check.out, testing::ContainsRegex("set-up .*, of it calibration [0-9.e-]+ s"));
+  EXPECT_THAT(check.out, testing::Not(HasSubstr("out of balance")));
+  ASSERT_EQ(run({"run", "block.toml", "--out", "r"}).exit_status, 0);
+  EXPECT_THAT(read_text(work() / "r/log.txt"),
+              testing::ContainsRegex("calibration: [0-9]+ bonds, forces out of balance"));
 }
 
 TEST_F(Program, CheckOfAMeshSpeaksOfItsEdges) {

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "app/bond_run.hpp"
+#include "app/configure.hpp"
+#include "app/explicit_case.hpp"
+#include "solver/factor.hpp"
+
+/// \file
+/// What a run will take on one core, for people who plan it: within a factor of about 1.5 on a quiet
+/// machine like the one that the rates come from (verification/benchmarks).
+
+namespace perilink {
+
+/// From a draft (draft_model()) and the time that it took [s].
+struct ExpectedSetUp {
+  ExpectedSetUp(const Model& draft, double drafted)
+      : calibration(draft.network.calibration ? draft.network.calibration->seconds : 0.0),
+        seconds(drafted + calibration) {}
+  double calibration;  ///< [s]
+  double seconds;      ///< with the calibration
+};
+
+/// Of a quasistatic run after its set-up.
+struct ExpectedCost {
+  double memory = 0.0;         ///< [bytes]
+  double factorization = 0.0;  ///< [s]
+  double broken_bond = 0.0;    ///< with its row of the history [s]
+};
+ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor);
+
+/// Time of a step of an explicit run, from some steps of it [s]. They begin at rest: what cracks and
+/// flow will cost is not in it.
+double seconds_per_step(const Model& model, const BondRunCase& built);
+double seconds_per_step(const ExplicitCase& built);
+
+}  // namespace perilink
