@@ -18,7 +18,8 @@ struct Row {
   std::array<double, 4> cost;
 };
 
-// Means of strips: verification/studies/toughness.
+// Means of strips: verification/studies/toughness. Bonds of cubic lattices with three spacings: the
+// mean of a front without end, 1.080, and of one between free faces, 1.036.
 constexpr Row rectangular[] = {
     {8, {1.643, 1.887, 2.031, 2.099}},  {12, {1.172, 1.325, 1.663, 1.731}},
     {20, {1.089, 1.142, 1.235, 1.299}}, {24, {1.094, 1.128, 1.190, 1.218}},
@@ -31,7 +32,7 @@ constexpr Row hexagonal[] = {{12, {1.300, 1.379, 1.526, 1.619}}, {18, {1.131, 1.
 constexpr Row cubic[] = {{18, {1.008, 1.140, 1.354, 1.451}},
                          {32, {1.000, 1.047, 1.313, 1.377}},
                          {56, {0.944, 0.987, 1.106, 1.178}},
-                         {122, {0.999, 0.996, 1.031, 1.080}}};
+                         {122, {0.999, 0.996, 1.031, 1.058}}};
 constexpr Row face_centred[] = {{18, {1.086, 1.216, 1.396, 1.668}},
                                 {42, {1.069, 1.084, 1.131, 1.166}},
                                 {54, {1.043, 1.060, 1.096, 1.109}},

@@ -28,8 +28,9 @@ std::string moved(const std::string& name, const CrackedBody& body, double y, bo
 
 std::string crack(const CrackedBody& body, double tip, double y, double depth) {
   if (!body.space) return fmt::format("[[cracks]]\npoints = [[-9, {}], [{}, {}]]\n", y, tip, y);
-  return fmt::format("[[cracks]]\ncorners = [[-9, {0}, -9], [{1}, {0}, -9], [{1}, {0}, {2}]]\n", y,
-                     tip, depth + 9.0);
+  return fmt::format(
+      "[[cracks]]\ncorners = [[-9, {0}, -9], [{1}, {0}, -9], [{1}, {0}, {2}], [-9, {0}, {2}]]\n", y,
+      tip, depth + 9.0);
 }
 
 std::string heading(const CrackedBody& body) {
@@ -101,8 +102,9 @@ PathEnergy measure_case(const CrackedCase& text, double first, double second, do
 PathEnergy measure_clamped_strip(const CrackedBody& body) {
   const double h = body.spacing, horizon = body.horizon_ratio * h;
   const double half = body.half_height * horizon, clamp = 1.001 * horizon;
-  const double height = height_of(body, 2.0 * (half + clamp)), skipped = std::ceil(2.0 * horizon);
-  const double beside = std::ceil(1.5 * half), grown = body.grown * h;
+  const double height = height_of(body, 2.0 * (half + clamp)),
+               skipped = h * std::ceil(2.0 * horizon / h);
+  const double beside = h * std::ceil(1.5 * half / h), grown = body.grown * h;
   const double length = 2.0 * beside + skipped + grown, depth = body.space ? 2.0 * horizon : 0.0;
   const auto text = [&](double tip) {
     return heading(body) + region("strip", body, {0.0, length}, {0.0, height}, depth) +
@@ -121,9 +123,9 @@ PathEnergy measure_clamped_strip(const CrackedBody& body) {
 PathEnergy measure_double_cantilever(const CrackedBody& body) {
   const double h = body.spacing, horizon = body.horizon_ratio * h;
   const double height = height_of(body, 2.0 * body.half_height * horizon);
-  const double skipped = std::ceil(2.0 * horizon), grown = body.grown * h;
-  const double crack_length = std::ceil(1.2 * height);
-  const double length = crack_length + skipped + grown + std::ceil(height);
+  const double skipped = h * std::ceil(2.0 * horizon / h), grown = body.grown * h;
+  const double crack_length = h * std::ceil(1.2 * height / h);
+  const double length = crack_length + skipped + grown + h * std::ceil(height / h);
   // As grooves do, arms that cannot break keep the crack between them from turning aside.
   const double band = horizon, middle = crack_height(body, height);
   const auto text = [&](double tip) {

@@ -160,6 +160,11 @@ bool measure_cases() {
     body.half_height = 6.0;
     measure_cases_of(table, name, body, false);
   }
+  cubes.heading = "problem = \"three_dimensional\"\n";
+  cubes.space = true;
+  cubes.half_height = 2.0;
+  cubes.grown = 6;
+  good = measure_cases_of(table, "cubic", cubes, true) && good;
   for (const double ratio : {5.0, 6.0}) {
     square.horizon_ratio = ratio;
     good = measure_cases_of(table, "rectangular", square, true) && good;
