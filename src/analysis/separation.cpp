@@ -69,6 +69,7 @@ SingleEventEngine::Refined SingleEventEngine::refine_finely(std::span<const doub
     const double energy =
         std::inner_product(correction.begin(), correction.end(), residual.begin(), 0.0);
     const bool gains = pass == 0 || energy < 0.1 * result.error;
+    if (pass == 1) result.factor_error = std::sqrt(std::max(energy, 0.0) / result.error);
     result.error = energy >= 0.0 ? energy : std::numeric_limits<double>::infinity();
     if (!gains || !std::isfinite(result.error)) break;
     for (std::size_t k = 0; k < correction.size(); ++k) motion[slot_of_[k]] += correction[k];
@@ -190,6 +191,7 @@ Equilibrium SingleEventEngine::polish() {
   }
   scatter_solution();
   force_work_ = work_of_forces();
+  factor_error_ = refined.factor_error;
   Equilibrium result;
   result.residual = std::max(refined.residual / load_norm_, round_off);
   result.stored_energy = static_cast<double>(fine_.energy);

@@ -274,12 +274,15 @@ Equilibrium SingleEventEngine::check_equilibrium() {
   if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
   if (size <= tolerance) return {size, internal_.energy};
   Equilibrium equilibrium = polish();
-  if (!(equilibrium.residual <= tolerance)) {
+  // Refined displacements do not help the next event, which the factor alone makes.
+  const double usable = std::max(options_.residual_tolerance, factor_floor_);
+  if (!(equilibrium.residual <= tolerance) || !(factor_error_ <= usable)) {
     factorize();
     equilibrium = polish();
     // A body on the verge of separation moves so far that even a fresh factor leaves more than the
     // tolerance; factorising again for less than twice that would be work for nothing.
     residual_floor_ = 2.0 * equilibrium.residual;
+    factor_floor_ = 2.0 * factor_error_;
     if (!(equilibrium.residual <= hopeless_residual)) {
       throw SolverError(fmt::format(
           "a fresh factor leaves {:.1e} of the load out of balance: the body is on the verge of "

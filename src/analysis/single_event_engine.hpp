@@ -69,6 +69,7 @@ class SingleEventEngine final : public EventEngine {
     double residual = 0.0;  ///< norm of the forces out of balance
     double energy = 0.0;    ///< u'K u of the refined motion
     double error = 0.0;     ///< of this: what the last correction and round-off leave in doubt
+    double factor_error = 0.0;  ///< of a solution by the factor, relative, in the norm of energy
   };
   Refined refine_finely(std::span<const double> load, std::vector<long double>& motion);
   std::pair<std::vector<long double>, double> motion_of(const SparseVector& x);
@@ -125,6 +126,8 @@ class SingleEventEngine final : public EventEngine {
   double followed_from_ = 0.0;        ///< ... since it was this
   double load_norm_ = 0.0;
   double residual_floor_ = 0.0;  ///< what a fresh factor can reach
+  double factor_error_ = 0.0;    ///< Refined::factor_error where the body was last polished ...
+  double factor_floor_ = 0.0;    ///< ... and with the last fresh factor
 };
 
 }  // namespace perilink
