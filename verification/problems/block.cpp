@@ -73,8 +73,10 @@ Model make_block(int columns, const std::string& surface) {
   return build_model(parse_case(block_case(columns, surface), "block"));
 }
 
-BlockRun run_block(const Model& model, FactorRoute route, Index broken_bonds, int threads) {
+BlockRun run_block(const Model& model, FactorRoute route, Index broken_bonds, int threads,
+                   int check_interval) {
   DamageOptions options;
+  options.check_interval = check_interval;
   options.engine.route = route;
   options.engine.threads = threads;
   options.stop.broken_bonds = broken_bonds;

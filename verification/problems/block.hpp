@@ -59,6 +59,8 @@ struct BlockRun {
 };
 
 /// Runs a model to so many broken bonds (or to collapse).
-BlockRun run_block(const Model& model, FactorRoute route, Index broken_bonds, int threads = 1);
+/// \param check_interval  DamageOptions::check_interval
+BlockRun run_block(const Model& model, FactorRoute route, Index broken_bonds, int threads = 1,
+                   int check_interval = DamageOptions{}.check_interval);
 
 }  // namespace perilink::verification
