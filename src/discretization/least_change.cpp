@@ -118,11 +118,12 @@ void DualNewton<Normal>::climb(Vector y, double target) {
   Vector direction;
   choose_weights(y);
   normal_.measure(weights_, y, residual_);
+  const auto reached = [&] { return std::max(target, round_off * norm(y)); };
   double last_size = 0.0, last_length = 1.0;
   std::vector<double> pattern, given_up;  // weights between their bounds, at the last step
   for (int step = 0; step < most_newton_steps; ++step) {
     const double size = norm(residual_);
-    if (size <= target || result_.iterations >= options_.iterations) break;
+    if (size <= reached() || result_.iterations >= options_.iterations) break;
     const bool settled =
         last_length == 1.0 && pattern == normal_.mobility && given_up == normal_.compliance;
     if (settled && size > contradiction * last_size) break;
@@ -138,7 +139,7 @@ void DualNewton<Normal>::climb(Vector y, double target) {
     normal_.measure(weights_, y, residual_);
     if (length < shortest_step) break;
   }
-  result_.converged = norm(residual_) <= target;
+  result_.converged = norm(residual_) <= reached();
 }
 
 template <class Normal>

@@ -1,8 +1,15 @@
 #include "solver/ordering.hpp"
 
+#include <fcntl.h>
 #include <metis.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <new>
+#include <numeric>
 
 #include "base/csr.hpp"
 #include "base/error.hpp"
@@ -60,25 +67,82 @@ Csr particle_graph(const SparseMatrix& lower, const std::vector<Index>& first) {
   return graph;
 }
 
+/// Nested dissection. \return status of METIS
+int dissect(Csr& graph, std::vector<idx_t>& order) {
+  idx_t count = graph.rows();
+  std::vector<idx_t> position(order.size());
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_NUMBERING] = 0;
+  options[METIS_OPTION_SEED] = 1;  // the same case is ordered alike in every run
+  return METIS_NodeND(&count, graph.offsets.data(), graph.values.data(), nullptr, options,
+                      order.data(), position.data());
+}
+
+/// Reads as many bytes as there are. \return whether there were so many
+bool read_all(int file, void* bytes, std::size_t size) {
+  auto* next = static_cast<char*>(bytes);
+  while (size > 0) {
+    const ssize_t got = read(file, next, size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    next += got;
+    size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+/// In the child: what dissect() finds goes into the pipe.
+[[noreturn]] void dissect_into(int pipe, Csr& graph, std::vector<idx_t>& order) {
+  const int status = dissect(graph, order);
+  std::vector<idx_t> answer = {status};
+  answer.insert(answer.end(), order.begin(), order.end());
+  const char* next = reinterpret_cast<const char*>(answer.data());
+  for (std::size_t left = answer.size() * sizeof(idx_t); left > 0;) {
+    const ssize_t put = write(pipe, next, left);
+    if (put <= 0) break;
+    next += put;
+    left -= static_cast<std::size_t>(put);
+  }
+  _exit(0);
+}
+
+/// METIS takes SIGTERM for itself while it works and jumps out of whatever it was doing, an
+/// allocation perhaps, in the thread that the signal happens to reach: the program would fail, hang
+/// or crash instead of stopping. So METIS works in a child, that no such signal reaches.
+/// \return status of METIS
+int dissect_apart(Csr& graph, std::vector<idx_t>& order) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return dissect(graph, order);
+  sigset_t stops, mask;
+  sigemptyset(&stops);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&stops, signal);
+  pthread_sigmask(SIG_BLOCK, &stops, &mask);
+  const pid_t child = fork();
+  if (child == 0) dissect_into(ends[1], graph, order);
+  pthread_sigmask(SIG_SETMASK, &mask, nullptr);
+  close(ends[1]);
+  int status = METIS_ERROR;
+  const bool whole = child > 0 && read_all(ends[0], &status, sizeof status) &&
+                     read_all(ends[0], order.data(), order.size() * sizeof(idx_t));
+  close(ends[0]);
+  if (child < 0) return dissect(graph, order);
+  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  return whole ? status : METIS_ERROR;
+}
+
 }  // namespace
 
 std::vector<Index> order_by_particles(const SparseMatrix& lower, std::span<const Index> groups) {
   const std::vector<Index> first = first_unknowns(groups);
   Csr graph = particle_graph(lower, first);
-  idx_t count = graph.rows();
-  std::vector<idx_t> order(count), position(count);
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_SEED] = 1;  // the same case is ordered alike in every run
-  if (count > 1 && !graph.values.empty()) {
-    const int status = METIS_NodeND(&count, graph.offsets.data(), graph.values.data(), nullptr,
-                                    options, order.data(), position.data());
-    if (status != METIS_OK) {
-      throw SolverError("METIS could not order the particles (out of memory?)");
-    }
-  } else {
-    for (idx_t node = 0; node < count; ++node) order[node] = node;
+  std::vector<idx_t> order(static_cast<std::size_t>(graph.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  if (!graph.values.empty()) {
+    const int status = dissect_apart(graph, order);
+    if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
+    if (status != METIS_OK) throw SolverError("METIS could not order the particles");
   }
   std::vector<Index> permutation;
   permutation.reserve(lower.cols());

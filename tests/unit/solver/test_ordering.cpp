@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/time.h>
+
 #include <algorithm>
+#include <csignal>
 
 #include "support/spring_lattice.hpp"
 
@@ -31,6 +34,33 @@ TEST(Ordering, HoldsForOneParticleAndForNoBonds) {
   EXPECT_EQ(order_by_particles(one.lower, one.groups), (std::vector<Index>{0, 1}));
   const auto loose = test::make_spring_lattice(3, 1, 0.5);
   EXPECT_EQ(order_by_particles(loose.lower, loose.groups).size(), 6u);
+}
+
+volatile std::sig_atomic_t terminations = 0;
+
+extern "C" void on_termination(int) { terminations = terminations + 1; }
+extern "C" void on_alarm(int) { std::raise(SIGTERM); }
+
+/// METIS has a handler of its own for SIGTERM, which makes it give up, or hang or crash.
+TEST(Ordering, HoldsWhereTheProgramIsToldToStop) {
+  const auto lattice = test::make_spring_lattice(100, 100, 3.0);
+  const auto undisturbed = order_by_particles(lattice.lower, lattice.groups);
+  terminations = 0;
+  const auto last_termination = std::signal(SIGTERM, SIG_DFL);
+  const auto last_alarm = std::signal(SIGALRM, on_alarm);
+  // Nearly all the time goes into METIS: one of these falls into it on any machine.
+  for (const int microseconds : {3'000, 10'000, 30'000, 100'000}) {
+    std::signal(SIGTERM, on_termination);
+    const itimerval once = {{0, 0}, {0, microseconds}};
+    setitimer(ITIMER_REAL, &once, nullptr);
+    EXPECT_EQ(order_by_particles(lattice.lower, lattice.groups), undisturbed);
+    for (itimerval left = once; left.it_value.tv_sec != 0 || left.it_value.tv_usec != 0;) {
+      getitimer(ITIMER_REAL, &left);
+    }
+  }
+  std::signal(SIGALRM, last_alarm);
+  std::signal(SIGTERM, last_termination);
+  EXPECT_EQ(terminations, 4);
 }
 
 }  // namespace
