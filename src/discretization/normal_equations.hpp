@@ -89,9 +89,9 @@ class NormalEquations {
   static constexpr int stale_iterations = 40;
   /// Iterations of a solution after which blocks get help.
   static constexpr int patience = 150;
-  /// The coarse system of boxes takes the time of some fifty to a hundred iterations, its fields
-  /// that of two hundred and more: they are made anew where a solution needs more than this.
-  static constexpr int stale_coarse = 50, stale_fields = 100;
+  /// The coarse system of boxes takes the time of fifty to a hundred iterations, its fields that of
+  /// two hundred; they are made anew where a solution needs more than this, since more will follow.
+  static constexpr int stale_coarse = 50, stale_fields = 60;
 
   template <class Values>
   auto& last_row(Values& values, Index point) const {
