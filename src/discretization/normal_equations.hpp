@@ -94,8 +94,9 @@ class NormalEquations {
   static constexpr int stale_iterations = 40;
   /// Iterations of a solution after which blocks get help.
   static constexpr int patience = 150;
-  /// New fields of boxes are found where a solution needs more iterations than this.
-  static constexpr int stale_fields = 50;
+  /// The coarse system of boxes takes the time of fifty to a hundred iterations, its fields that of
+  /// two hundred; they are made anew where a solution needs more than this, since more will follow.
+  static constexpr int stale_coarse = 50, stale_fields = 60;
 
   template <class Values>
   auto& last_row(Values& values, Index point) const {
@@ -108,6 +109,7 @@ class NormalEquations {
     return !by_factor_ && !with_boxes_ && options_.preconditioner != Preconditioner::blocks;
   }
   void build_blocks();
+  void renew_coarse();
   void build_factor();
   Vector diagonal() const;
 
@@ -122,6 +124,7 @@ class NormalEquations {
   bool with_boxes_;
   bool own_factor_ = false;  // made for these equations, not for those of the last search
   int last_iterations_ = 0;
+  std::vector<double> coarse_of_;  // mobility of the coarse system; empty: of another search
   Vector compliance_of_factor_;
 };
 
@@ -199,7 +202,14 @@ void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
     inverse_blocks_[p] =
         Eigen::Map<const Block>(blocks.data() + p * Rows * Rows).llt().solve(Block::Identity());
   }
-  if (with_boxes_) kept_.boxes->refactorize(equations_, mobility, added);
+  // The coarse system serves other weights too; the blocks are cheap.
+  if (with_boxes_ && last_iterations_ > stale_coarse) renew_coarse();
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::renew_coarse() {
+  kept_.boxes->refactorize(equations_, mobility, diagonal());
+  coarse_of_ = mobility;
 }
 
 /// What the diagonal of the system holds beside A D A', shape (points, Rows).
@@ -256,17 +266,25 @@ void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
 template <int Rows, int Odd, bool Grouped>
 int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double reduction,
                                                Vector& direction) {
+  int count = 0;
+  if (with_boxes_ && coarse_of_ != mobility) {
+    count = last_iterations_ = iterate(residual, reduction, stale_coarse, direction);
+    if (count < stale_coarse) return count;
+    renew_coarse();
+  }
   int most = options_.iterations;
   if (with_boxes_) most = stale_fields;
   if (alone()) most = patience;
-  int count = iterate(residual, reduction, most, direction);
-  if (count < most || most == options_.iterations) return last_iterations_ = count;
+  last_iterations_ = iterate(residual, reduction, most, direction);
+  count += last_iterations_;
+  if (last_iterations_ < most || most == options_.iterations) return count;
   if (options_.preconditioner == Preconditioner::blocks_then_factor) {
     by_factor_ = true;
     build_factor();
   } else {
     with_boxes_ = true;
     kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal());
+    coarse_of_ = mobility;
   }
   last_iterations_ = iterate(residual, reduction, options_.iterations, direction);
   return count + last_iterations_;
