@@ -8,6 +8,7 @@
 
 #include "analysis/single_event_engine.hpp"
 #include "base/error.hpp"
+#include "solver/not_positive_definite.hpp"
 
 namespace perilink {
 namespace {
@@ -151,7 +152,7 @@ bool SingleEventEngine::hangs_on_weak_supports(double compliance_growth) const {
 }
 
 /// Equilibrium without the element, or with less of it, from a new factor. \return false when there
-/// is none: then all is as it was
+/// is none, since the matrix is not positive definite: then all is as it was
 bool SingleEventEngine::rebuild_without(Index element, double kept) {
   const double before = secants_[element];
   secants_[element] = kept;
@@ -159,7 +160,7 @@ bool SingleEventEngine::rebuild_without(Index element, double kept) {
     factorize();
     polish();
     return true;
-  } catch (const SolverError&) {
+  } catch (const NotPositiveDefinite&) {
     secants_[element] = before;
     factorize();
     return false;

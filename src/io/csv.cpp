@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "base/error.hpp"
@@ -60,7 +61,7 @@ double parse_number(std::string_view field, const std::string& place) {
 }
 
 std::vector<double> parse_row(const std::vector<std::string_view>& fields, const CsvTable& table,
-                              const std::string& place) {
+                              EmptyCells empty, const std::string& place) {
   if (fields.size() != table.columns.size()) {
     throw FileError(fmt::format("{}: {} fields, but the header has {}", place, fields.size(),
                                 table.columns.size()));
@@ -68,7 +69,10 @@ std::vector<double> parse_row(const std::vector<std::string_view>& fields, const
   std::vector<double> row;
   row.reserve(fields.size());
   for (std::size_t c = 0; c < fields.size(); ++c) {
-    row.push_back(parse_number(fields[c], fmt::format("{}: column {}", place, table.columns[c])));
+    const bool unknown = empty == EmptyCells::unknown && trim(fields[c]).empty();
+    row.push_back(
+        unknown ? std::numeric_limits<double>::quiet_NaN()
+                : parse_number(fields[c], fmt::format("{}: column {}", place, table.columns[c])));
   }
   return row;
 }
@@ -158,7 +162,7 @@ int CsvTable::column(const std::string& name) const {
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
 }
 
-CsvTable read_csv(const std::string& path) {
+CsvTable read_csv(const std::string& path, EmptyCells empty) {
   const std::string text = read_regular_file(path);
   std::string_view rest = text;
   CsvTable table;
@@ -176,7 +180,7 @@ CsvTable read_csv(const std::string& path) {
     if (table.columns.empty()) {
       parse_header(split(line), table, place);
     } else {
-      table.rows.push_back(parse_row(split(line), table, place));
+      table.rows.push_back(parse_row(split(line), table, empty, place));
     }
   }
   if (table.columns.empty()) throw FileError(path + ": empty, a header row is expected");

@@ -60,9 +60,12 @@ struct CsvTable {
   int column(const std::string& name) const;
 };
 
+/// What an empty cell of a table is: a fault, or a number that nobody has (NaN).
+enum class EmptyCells { refused, unknown };
+
 /// Reads a table of finite numbers with a header row. A last row without its line end is what a
 /// killed writer left, and is dropped.
 /// \throws FileError with file, line and column
-CsvTable read_csv(const std::string& path);
+CsvTable read_csv(const std::string& path, EmptyCells empty = EmptyCells::refused);
 
 }  // namespace perilink

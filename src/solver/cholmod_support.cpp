@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "solver/dense_kernels.hpp"
+#include "solver/not_positive_definite.hpp"
 #include "solver/ordering.hpp"
 
 namespace perilink {
@@ -99,9 +100,9 @@ void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
   check(session.get(), "factorising the stiffness matrix");
   if (factor->minor < factor->n) {
     const Index unknown = static_cast<const Index*>(factor->Perm)[factor->minor];
-    throw SolverError("the stiffness matrix is not positive definite (unknown " +
-                      std::to_string(unknown) + " of " + std::to_string(factor->n) +
-                      "): part of the body can move freely");
+    throw NotPositiveDefinite("the stiffness matrix is not positive definite (unknown " +
+                              std::to_string(unknown) + " of " + std::to_string(factor->n) +
+                              "): part of the body can move freely");
   }
 }
 

@@ -271,23 +271,31 @@ TEST(Configure, BodiesThatCannotBreakAreRefusedInADamageAnalysis) {
 }
 
 TEST(Configure, WhatCalibrationDoesNotChangeIsRefusedBeforeIt) {
-  CaseFile input = prism_case();
-  input.body.pattern = Pattern::face_centred;
-  input.body.horizon_ratio = 1.0;  // twelve neighbours: no calibration can make them isotropic
-  expect_refused(input, "body.horizon_ratio", "use two to four spacings");
-  CaseFile free = input;
+  int searches = 0;
+  const auto refuses = [&](const CaseFile& input, const char* key, const char* text) {
+    expect_refused(input, key, text);
+    EXPECT_THROW(build_model(input, [&](int, double) { ++searches; }), InputError);
+    EXPECT_EQ(searches, 0) << key;
+  };
+  CaseFile few = prism_case();
+  few.body.pattern = Pattern::face_centred;
+  few.body.horizon_ratio = 1.0;  // twelve neighbours: no calibration can make them isotropic
+  refuses(few, "body.horizon_ratio", "use two to four spacings");
+  CaseFile free = prism_case();
   free.supports.clear();
-  expect_refused(free, "analysis", "6 of the 6 rigid-body modes of the body are free");
-  CaseFile unbreakable = input;
+  refuses(free, "analysis", "6 of the 6 rigid-body modes of the body are free");
+  CaseFile unbreakable = prism_case();
   unbreakable.materials[0].fracture_energy = std::numeric_limits<double>::infinity();
-  expect_refused(unbreakable, "materials[1].fracture_energy", "nothing can break");
-  CaseFile measured = input;
+  refuses(unbreakable, "materials[1].fracture_energy", "nothing can break");
+  CaseFile measured = prism_case();
   GaugeSection far;
   far.name = "far";
   far.at = Vector3{9.0, 9.0, 9.0};
   far.axis = 0;
   measured.gauges.push_back(far);
-  expect_refused(measured, "gauges[1].at", "nearest particle");
+  refuses(measured, "gauges[1].at", "nearest particle");
+  build_model(prism_case(), [&](int, double) { ++searches; });
+  EXPECT_GT(searches, 0);
 }
 
 TEST(Configure, DamageOptionsFollowTheCase) {

@@ -103,6 +103,15 @@ TEST_F(Csv, FindsColumns) {
   EXPECT_EQ(table.rows[1][1], -1.0);
 }
 
+TEST_F(Csv, EmptyCellsAreUnknownWhereATableMayHaveThem) {
+  put("a,b\n1,\n,2\n");
+  EXPECT_THROW(read_csv(path_), FileError);
+  const CsvTable table = read_csv(path_, EmptyCells::unknown);
+  EXPECT_EQ(table.rows[0][0], 1.0);
+  EXPECT_TRUE(std::isnan(table.rows[0][1]));
+  EXPECT_TRUE(std::isnan(table.rows[1][0]));
+}
+
 TEST_F(Csv, DropsTheRowThatAKilledWriterLeftUnfinished) {
   put("a,b\n1,2\n");
   EXPECT_FALSE(read_csv(path_).cut_off);

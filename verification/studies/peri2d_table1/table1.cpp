@@ -27,7 +27,7 @@ std::array<double, 4> deviations(const TableRow& row) {
 }
 
 std::vector<TableRow> reproduce_table(const std::string& reference) {
-  const CsvTable table = read_csv(reference);
+  const CsvTable table = read_csv(reference, EmptyCells::unknown);  // as printed
   const auto value = [&](const std::vector<double>& row, const char* name) {
     return row.at(static_cast<std::size_t>(table.column(name)));
   };
