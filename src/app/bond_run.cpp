@@ -53,8 +53,8 @@ void choose_steps(const CaseFile& input, BondRunCase& built) {
   built.options.rows = analysis.rows;
 }
 
-/// Parts of the body, of a hundredth of its particles or more, in which no displacement is
-/// prescribed.
+/// Parts of the body, of a hundredth of its particles or more, that have no elastic supports and in
+/// which no displacement is prescribed.
 Index loose_pieces(const Model& model, const BondRunState& state) {
   const Bonds& bonds = model.network.bonds;
   const Index count = model.network.particles.size();
@@ -73,7 +73,9 @@ Index loose_pieces(const Model& model, const BondRunState& state) {
   for (std::size_t slot = 0; slot < model.unknowns.number.size(); ++slot) {
     const Index own = root(static_cast<Index>(slot / model.unknowns.width));
     if (slot % model.unknowns.width == 0) ++size[own];
-    if (model.unknowns.number[slot] == no_index) is_held[own] = 1;
+    const bool on_spring =
+        !model.network.support_stiffness.empty() && model.network.support_stiffness[slot] > 0.0;
+    if (on_spring || model.unknowns.number[slot] == no_index) is_held[own] = 1;
   }
   Index loose = 0;
   for (Index i = 0; i < count; ++i) {

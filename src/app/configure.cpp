@@ -304,7 +304,9 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   model.network = build_case_network(input, body, network);
   refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
-  if (const auto text = short_horizon_note(input, model)) model.notes.push_back(*text);
+  for (const auto& text : {short_horizon_note(input, model), unmeasured_cost_note(input, model)}) {
+    if (text) model.notes.push_back(*text);
+  }
   if (const auto text = calibration_shortfall(model.network)) model.notes.push_back(*text);
   body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
 }

@@ -40,10 +40,10 @@ struct Model {
   Simplices cells;            ///< of a mesh
   std::vector<Group> groups;  ///< of a mesh
   double horizon = 0.0;       ///< [length]
-  /// Of each material, where critical_stretch = "dissipated": see crack_cost() [-].
+  /// crack_cost() of each material, where critical_stretch = "dissipated" [-].
   std::vector<double> crack_cost;
-  /// Of linear elements the particles with the edges of the cells as bonds that stand for them in
-  /// all questions of what holds what; their stiffness means nothing.
+  /// Where elements are linear: their particles, and as bonds the edges of the cells, which stand
+  /// for them in all questions of what holds what; their stiffness means nothing.
   Network network;
   std::optional<LinearElements> elements;         ///< with method = "linear_elements"
   std::optional<ParticleFitReport> particle_fit;  ///< with model = "particles"
@@ -53,7 +53,7 @@ struct Model {
   std::vector<LoadedPlace> loaded_places;  ///< by forces, where nothing is driven
   std::vector<DrivenPlace> driven_places;
   std::vector<Gauge> gauges;
-  /// Of each particle: a displacement of it is prescribed by a support or driven (planes of
+  /// Whether, per particle, a displacement of it is prescribed by a support or driven (planes of
   /// symmetry grip nothing: a crack may run into them).
   std::vector<std::uint8_t> gripped;
   std::vector<HookeConstants> hooke;  ///< elastic constants per material

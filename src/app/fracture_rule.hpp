@@ -21,4 +21,8 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
 /// least_ratio_of_cracks spacings.
 std::optional<std::string> short_horizon_note(const CaseFile& input, const Model& model);
 
+/// Says that nobody measured what a crack costs in such a body, where its bonds can break: lattices
+/// whose steps differ by more than a tenth, and irregular clouds in space.
+std::optional<std::string> unmeasured_cost_note(const CaseFile& input, const Model& model);
+
 }  // namespace perilink

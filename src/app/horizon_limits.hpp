@@ -20,7 +20,7 @@ struct HorizonReach {
 
 /// The same of the particles of a body on this machine.
 HorizonReach reach_of(const Particles& particles, double horizon, double spacing);
-/// Of a lattice that fills a box.
+/// The same of a lattice that fills a box.
 HorizonReach reach_of(const Box& box, int dim, double horizon, double spacing);
 
 /// Refuses a horizon below the spacing, one far longer than the body, which bonds every particle to

@@ -6,9 +6,6 @@
 namespace perilink {
 namespace {
 
-/// A place whose resultant is less than this fraction of its forces' sizes is in balance.
-constexpr double balanced = 1e-9;
-
 double norm(const Vector3& vector) { return std::hypot(vector[0], vector[1], vector[2]); }
 
 void add(const Vector3& more, Vector3& sum) {
@@ -49,9 +46,8 @@ double total_load(std::span<const LoadedPlace> places) {
   double forces = 0.0, moments = 0.0;
   for (const LoadedPlace& place : places) {
     const double own = norm(place.force);
-    const bool pushes = own > balanced * place.sizes;
-    forces += pushes ? own : place.sizes;
-    if (pushes) add(place.force, force);
+    forces += std::max(own, place.sizes - own);
+    add(place.force, force);
     moments += norm(place.moment);
     add(place.moment, moment);
   }

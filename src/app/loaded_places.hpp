@@ -16,7 +16,7 @@ namespace perilink {
 struct LoadedPlace {
   std::string name;
   Vector3 force{}, moment{};  ///< resultants at load factor 1 [force], [force length]
-  double sizes = 0.0;         ///< sum of the sizes of its forces [force]
+  double sizes = 0.0;         ///< sum of the sizes of its forces, at least |force| [force]
 };
 
 /// A region that displacements drive.
@@ -37,10 +37,10 @@ Place& place_named(std::vector<Place>& places, const std::string& name) {
   return places.back();
 }
 
-/// What passes through the body: half the sum of the sizes of all forces that balance on it, those
-/// of the places and the one that is left to supports. Forces F give F against supports or one
-/// another, 2 F side by side. A place in balance by itself, such as a pressure all around,
-/// counts with the sizes of its forces. Without forces the same of moments.
+/// What passes through the body: half the sum of the sizes of all forces that balance on it, where
+/// places and supports bear one each. Forces F give F against supports or one another, 2 F side by
+/// side. A place alone gives its resultant, but no less than half the sum of the sizes of its
+/// forces, which is what a pressure all around gives. Without forces the same of moments.
 double total_load(std::span<const LoadedPlace> places);
 
 /// Largest difference between the driven displacements of two places, or of one and what holds the

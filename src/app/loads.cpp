@@ -47,9 +47,10 @@ void add_uniform_load(const LoadSection& section, const Particles& particles,
   place.sizes += std::hypot(sum[0], sum[1], sum[2]);
 }
 
-/// Adds the forces of an entry to all loads and to its place.
-void add_entry(const Particles& particles, const Loads& entry, Loads& loads, LoadedPlace& place) {
+/// Adds the forces of an entry to all loads and to its place. \return the sum of their sizes
+double add_entry(const Particles& particles, const Loads& entry, Loads& loads, LoadedPlace& place) {
   const std::size_t width = entry.forces.size() / static_cast<std::size_t>(particles.size());
+  double sizes = 0.0;
   for (Index i = 0; i < particles.size(); ++i) {
     Vector3 force{};
     for (int a = 0; a < particles.dim; ++a) {
@@ -57,8 +58,9 @@ void add_entry(const Particles& particles, const Loads& entry, Loads& loads, Loa
       loads.forces[i * width + a] += force[a];
       place.force[a] += force[a];
     }
-    place.sizes += std::hypot(force[0], force[1], force[2]);
+    sizes += std::hypot(force[0], force[1], force[2]);
   }
+  return sizes;
 }
 
 void add_body_force(const CaseFile& input, const Model& model, std::size_t k,
@@ -77,7 +79,9 @@ void add_body_force(const CaseFile& input, const Model& model, std::size_t k,
   add_cell_body_load(particles, model.cells, thickness, is_member, load, loads);
 }
 
-void add_traction(const CaseFile& input, const Model& model, std::size_t k, Loads& loads) {
+/// \return the sum of the sizes of the forces on all facets: a particle at an edge of the body
+/// bears those of two faces
+double add_traction(const CaseFile& input, const Model& model, std::size_t k, Loads& loads) {
   const TractionSection& section = input.tractions[k];
   const Particles& particles = model.network.particles;
   const std::vector<Index> facets =
@@ -85,13 +89,12 @@ void add_traction(const CaseFile& input, const Model& model, std::size_t k, Load
   if (section.traction) {
     const PositionField field(input, item_key("tractions", k, "traction"),
                               components_of(*section.traction, particles.dim));
-    add_surface_load(
+    return add_surface_load(
         particles, model.facets, facets,
         [&](std::span<const double> x, const Vector3&) { return field.at(x); }, loads);
-    return;
   }
   const PositionField field(input, item_key("tractions", k, "pressure"), {&*section.pressure, 1});
-  add_surface_load(
+  return add_surface_load(
       particles, model.facets, facets,
       [&](std::span<const double> x, const Vector3& normal) {
         const double pressure = field.at(x)[0];
@@ -162,12 +165,13 @@ AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width)
     }
     Loads entry{std::vector<double>(all.loads.forces.size(), 0.0)};
     add_body_force(input, model, k, region, entry);
-    add_entry(particles, entry, all.loads, place);
+    place.sizes += add_entry(particles, entry, all.loads, place);
   }
   for (std::size_t k = 0; k < input.tractions.size(); ++k) {
     Loads entry{std::vector<double>(all.loads.forces.size(), 0.0)};
-    add_traction(input, model, k, entry);
-    add_entry(particles, entry, all.loads, place_named(all.places, input.tractions[k].region));
+    LoadedPlace& place = place_named(all.places, input.tractions[k].region);
+    place.sizes += add_traction(input, model, k, entry);
+    add_entry(particles, entry, all.loads, place);
   }
   for (std::size_t k = 0; k < input.point_loads.size(); ++k) {
     add_point_load(input, model, k, all);

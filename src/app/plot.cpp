@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "app/commands.hpp"
@@ -58,6 +60,18 @@ void plot_series(const fs::path& directory, const fs::path& out, const PlotLabel
   }
 }
 
+/// Only the run knows when its body gave way.
+std::optional<CurvePoint> first_peak_of(const std::optional<nlohmann::ordered_json>& summary) {
+  if (!summary) return std::nullopt;
+  const auto load = summary->find("first_peak_load");
+  const auto displacement = summary->find("first_peak_displacement");
+  const auto known = [&](const auto& number) {
+    return number != summary->end() && number->is_number();
+  };
+  if (!known(load) || !known(displacement)) return std::nullopt;
+  return CurvePoint{displacement->get<double>(), load->get<double>()};
+}
+
 }  // namespace
 
 int plot_results(const PlotOptions& options) {
@@ -74,7 +88,8 @@ int plot_results(const PlotOptions& options) {
   }
   std::error_code failure;
   fs::create_directories(out, failure);  // saving reports what is wrong with it
-  save(draw_load_displacement(records, labels), out / "load_displacement.svg");
+  save(draw_load_displacement(records, labels, first_peak_of(summary)),
+       out / "load_displacement.svg");
   if (fs::exists(directory / "fields.pvd")) plot_series(directory, out, labels, options.scale);
   return exit_done;
 }

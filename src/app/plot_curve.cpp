@@ -64,14 +64,13 @@ PeakLabel label_of(const CurveFrame& frame, const char* name, const CurvePoint& 
 }
 
 /// The peak, and where the load climbed again after the body had given way the first one too.
-std::vector<PeakLabel> labels_of(const CurveFrame& frame, std::span<const StepRecord> records,
-                                 int rows, const PlotLabels& labels) {
-  PeakWatch peaks(rows);
-  for (const StepRecord& record : records) {
-    peaks.add({record.displacement, record.load}, record.broken_bonds == 0);
+std::vector<PeakLabel> labels_of(const CurveFrame& frame, const StepRecord& peak,
+                                 const std::optional<CurvePoint>& first_peak,
+                                 const PlotLabels& labels) {
+  std::vector<PeakLabel> all = {label_of(frame, "peak", {peak.displacement, peak.load}, labels)};
+  if (first_peak && std::abs(first_peak->load) < std::abs(peak.load)) {
+    all.push_back(label_of(frame, "first peak", *first_peak, labels));
   }
-  std::vector<PeakLabel> all = {label_of(frame, "peak", peaks.highest(), labels)};
-  if (peaks.climbed_again()) all.push_back(label_of(frame, "first peak", peaks.first(), labels));
   return all;
 }
 
@@ -131,7 +130,8 @@ std::size_t peak_row(std::span<const StepRecord> records) {
   return static_cast<std::size_t>(peak - records.begin());
 }
 
-Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels) {
+Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
+                           const std::optional<CurvePoint>& first_peak) {
   std::vector<CurvePoint> events;
   events.reserve(records.size());
   for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
@@ -144,7 +144,7 @@ Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels
 
   const std::vector<CurvePoint> path = event_path(records);
   const std::vector<PeakLabel> peaks =
-      labels_of(frame, records, path.empty() ? vibrating_rows : 1, labels);
+      labels_of(frame, records[peak_row(records)], first_peak, labels);
   if (path.size() > events_for_envelope) {
     svg.path(curve_path(frame, events), many_events_style);
     svg.path(curve_path(frame, smooth_envelope(path, envelope_window(path.size()))),

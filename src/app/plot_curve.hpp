@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "analysis/load_curve.hpp"
 #include "analysis/observer.hpp"
 #include "app/curve_frame.hpp"
 #include "app/plot_labels.hpp"
@@ -17,6 +19,8 @@ inline constexpr std::size_t events_for_envelope = 200;
 std::size_t peak_row(std::span<const StepRecord> records);
 
 /// Load over displacement with the peak marked; a path of more than 200 events with its envelope.
-Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels);
+/// \param first_peak  that of the run's summary; marked where the peak is another
+Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
+                           const std::optional<CurvePoint>& first_peak = {});
 
 }  // namespace perilink

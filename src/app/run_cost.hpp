@@ -20,7 +20,7 @@ struct ExpectedSetUp {
   double seconds;      ///< with the calibration
 };
 
-/// Of a quasistatic run after its set-up.
+/// What a quasistatic run costs after its set-up.
 struct ExpectedCost {
   double memory = 0.0;         ///< [bytes]
   double factorization = 0.0;  ///< [s]

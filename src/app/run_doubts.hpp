@@ -19,7 +19,7 @@ struct RunFacts {
   Index loose_pieces = 0;  ///< of the body, that nothing holds at the end
 };
 
-/// Of the box around a body [length]. \param position  of a particle along an axis
+/// The longest side of the box around a body [length]. \param position  of a particle along an axis
 template <class Position>
 double longest_side(int dim, Index particles, Position position) {
   double longest = 0.0;

@@ -122,9 +122,10 @@ double cell_volume(const Particles& particles, std::span<const Index> cell) {
 
 }  // namespace
 
-void add_surface_load(const Particles& particles, const Facets& facets,
-                      std::span<const Index> members, const SurfaceLoad& load, Loads& loads) {
+double add_surface_load(const Particles& particles, const Facets& facets,
+                        std::span<const Index> members, const SurfaceLoad& load, Loads& loads) {
   const int dim = particles.dim;
+  double sizes = 0.0;
   const std::size_t width = width_of(particles, loads);
   for (const Index facet : members) {
     Vector3 normal{};
@@ -144,6 +145,7 @@ void add_surface_load(const Particles& particles, const Facets& facets,
     for (const RulePoint& point : facet_rule(dim, corners.size())) {
       const Vector3 x = place_of(particles, corners, point);
       const Vector3 t = load({x.data(), static_cast<std::size_t>(dim)}, normal);
+      sizes += area * point.weight * std::hypot(t[0], t[1], t[2]);
       for (std::size_t c = 0; c < corners.size(); ++c) {
         for (int a = 0; a < dim; ++a) {
           loads.forces[corners[c] * width + a] +=
@@ -152,6 +154,7 @@ void add_surface_load(const Particles& particles, const Facets& facets,
       }
     }
   }
+  return sizes;
 }
 
 void add_lumped_body_load(const Particles& particles, std::span<const Index> members,

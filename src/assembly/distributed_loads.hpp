@@ -26,7 +26,8 @@ using BodyLoad = std::function<Vector3(std::span<const double> position)>;
 /// by Gauss rules that are exact for t up to the third order on triangles and the fourth on the
 /// others. Facets of face-centred lattices, rectangles of which only two corners are particles,
 /// take t at those two.
-void add_surface_load(const Particles& particles, const Facets& facets,
+/// \return the integral of |t| [force]
+double add_surface_load(const Particles& particles, const Facets& facets,
                       std::span<const Index> members, const SurfaceLoad& load, Loads& loads);
 
 /// Adds b(x_i) V_i for the particles of a region: the rule of lattices.

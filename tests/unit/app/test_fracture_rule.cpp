@@ -63,11 +63,10 @@ TEST(FractureRule, HoldsBetweenMaterials) {
   }
 }
 
-bool has_note(const CaseFile& input) {
+bool has_note(const CaseFile& input, const std::string& part = "spacings: below 3") {
   const std::vector<std::string> notes = build_model(input).notes;
-  return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
-    return note.find("spacings: below 3") != std::string::npos;
-  });
+  return std::any_of(notes.begin(), notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 TEST(FractureRule, NotesShortHorizonsWhereBondsBreak) {
@@ -81,6 +80,36 @@ TEST(FractureRule, NotesShortHorizonsWhereBondsBreak) {
   input.body.horizon_ratio = 2.5;
   input.analysis.type = "elastic";
   EXPECT_FALSE(has_note(input));
+}
+
+TEST(FractureRule, NotesLatticesWhoseStepsDiffer) {
+  const auto strip = [](double width) {
+    CaseFile input = strip_case();
+    input.regions[0].box.upper[0] = width;
+    return input;
+  };
+  EXPECT_TRUE(has_note(strip(14.0), "whose steps differ by 40 %"));
+  EXPECT_TRUE(has_note(strip(33.6), "whose steps differ by 12 %"));
+  EXPECT_FALSE(has_note(strip(32.0), "whose steps differ")) << "by 7 %";
+  EXPECT_FALSE(has_note(strip_case(), "not measured"));
+  EXPECT_FALSE(has_note(with_rule(strip(14.0), "lattice"), "not measured")) << "no cost is taken";
+  CaseFile elastic = strip(14.0);
+  elastic.analysis.type = "elastic";
+  EXPECT_FALSE(has_note(elastic, "not measured"));
+}
+
+TEST(FractureRule, NotesIrregularCloudsInSpace) {
+  Model model;
+  model.crack_cost = {1.0};
+  model.lattice.pattern = Pattern::irregular;
+  model.network.particles.dim = 3;
+  model.network.critical_stretch = {INFINITY, 0.1};
+  EXPECT_TRUE(unmeasured_cost_note(strip_case(), model));
+  model.network.particles.dim = 2;
+  EXPECT_FALSE(unmeasured_cost_note(strip_case(), model)) << "measured";
+  model.network.particles.dim = 3;
+  model.network.critical_stretch = {INFINITY, INFINITY};
+  EXPECT_FALSE(unmeasured_cost_note(strip_case(), model)) << "nothing can break";
 }
 
 }  // namespace

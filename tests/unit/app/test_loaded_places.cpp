@@ -35,6 +35,16 @@ TEST(TotalLoad, OfAPlaceInBalanceCountsTheSizesOfItsForces) {
   EXPECT_DOUBLE_EQ(load_of({{"rim", {1e-12, 0.0, 0.0}, {}, 28.0}}), apart);
 }
 
+/// The less a place is out of balance the nearer its load comes to that of one in balance.
+TEST(TotalLoad, DoesNotJumpWhereAPlaceComesOutOfBalance) {
+  for (const double out : {0.0, 1e-12, 1e-8, 1e-4, 0.1, 14.0}) {
+    EXPECT_DOUBLE_EQ(load_of({{"rim", {0.0, out, 0.0}, {}, 28.0}}), 14.0) << out;
+    EXPECT_NEAR(load_of({{"rim", {out, 0.0, 0.0}, {}, 28.0}, pushed("top", {0.0, 5.0, 0.0})}), 19.0,
+                out);
+  }
+  EXPECT_DOUBLE_EQ(load_of({{"rim", {0.0, 20.0, 0.0}, {}, 28.0}}), 20.0);
+}
+
 TEST(TotalLoad, IsAMomentWhereNothingPushes) {
   EXPECT_DOUBLE_EQ(load_of({{"a", {}, {0.0, 0.0, 6.0}, 0.0}, {"b", {}, {0.0, 0.0, -6.0}, 0.0}}),
                    6.0);

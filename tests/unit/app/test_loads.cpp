@@ -1,5 +1,6 @@
 #include "app/loads.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -84,8 +85,33 @@ TEST(Loads, PressurePushesInwardsAndBalancesAllAround) {
   const Model around = build_model(input);
   EXPECT_NEAR(total_force(around, 0), 0.0, 1e-12);
   EXPECT_NEAR(total_force(around, 1), 0.0, 1e-12);
-  const double rim = 2.0 * (40.0 + 80.0) - 40.0 + 4.0 * 5.0 * std::sqrt(2.0);
-  EXPECT_NEAR(around.reference.value, 0.5 * 2.0 * 2.0 * rim, 1e-10);
+  const double faces = 2.0 * 2.0 * 2.0 * (40.0 + 80.0);  // the sum of the sizes of their forces
+  EXPECT_NEAR(around.reference.value, 0.5 * faces, 1e-10);
+}
+
+TEST(Loads, FacesPressedOneByOneAreAsMuchAsAllInOneEntry) {
+  CaseFile input = strip_with_top();
+  const auto press = [&](const std::string& region, const Expression& pressure) {
+    TractionSection section;
+    section.region = region;
+    section.pressure = pressure;
+    input.tractions.push_back(section);
+  };
+  press("surface", 2.0);
+  const double together = build_model(input).reference.value;
+  input.tractions.clear();
+  press("surface", Expression("2 + 1e-7*x"));
+  EXPECT_NEAR(build_model(input).reference.value, together, 1e-5 * together) << "nearly balanced";
+  input.tractions.clear();
+  const double sides[4][4] = {{0, 40, 80, 80}, {0, 40, 0, 0}, {0, 0, 0, 80}, {40, 40, 0, 80}};
+  for (const auto& [x, right, y, above] : sides) {
+    Region side;
+    side.name = fmt::format("side {}", input.regions.size());
+    side.box = {{x, y, 0.0}, {right, above, 0.0}};
+    input.regions.push_back(side);
+    press(side.name, 2.0);
+  }
+  EXPECT_NEAR(build_model(input).reference.value, together, 1e-10);
 }
 
 TEST(Loads, TractionsOnAFaceInSpaceAddUp) {

@@ -60,6 +60,21 @@ TEST_F(Plot, DrawsCurveAndFields) {
   EXPECT_NE(text("load_displacement.svg").find("displacement (in)"), std::string::npos);
 }
 
+/// The rows alone do not say whether the load vibrates, nor what cracked before the first of them.
+TEST_F(Plot, TakesTheFirstPeakFromTheSummary) {
+  const auto drawn = [&](const std::string& summary) {
+    std::ofstream(directory_ / "summary.json") << summary;
+    EXPECT_EQ(plot_results({directory_.string(), "", 0.0}), 0);
+    return text("load_displacement.svg");
+  };
+  EXPECT_NE(drawn(R"({"first_peak_load": 3, "first_peak_displacement": 0.3})")
+                .find(">first peak 3 at 0.3<"),
+            std::string::npos);
+  EXPECT_EQ(drawn(R"({"first_peak_load": 5, "first_peak_displacement": 0.1})").find("first peak"),
+            std::string::npos);
+  EXPECT_EQ(drawn(R"({"first_peak_load": null})").find("first peak"), std::string::npos);
+}
+
 TEST_F(Plot, WritesWhereItIsToldTo) {
   const fs::path out = directory_ / "pictures" / "here";
   EXPECT_EQ(plot_results({directory_.string(), out.string(), 0.0}), 0);

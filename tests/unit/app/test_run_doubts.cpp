@@ -34,7 +34,7 @@ TEST(RunDoubts, NameALoadThatTheSupportsDoNotFeel) {
   EXPECT_THAT(doubts_about(sound(), {94.0}), ElementsAre(HasSubstr("differ by 6 %")));
 }
 
-/// Of 100 of energy 30 are motion.
+/// 30 of its energy of 100 are motion.
 ExplicitResult moving() {
   ExplicitResult result = sound();
   result.last.energy = {30.0, 20.0, 5.0, 15.0, 20.0, 100.0, 10.0};
