@@ -14,7 +14,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int most_coarse = 600;  ///< unknowns of a dense matrix that costs less than the iteration
-/// Of pivots that have nothing but round-off, relative to the diagonal.
+/// Pivots below this part of the diagonal are nothing but round-off.
 constexpr double floor_of_pivots = 1e-13;
 
 template <int Dim, class Visit>

@@ -11,8 +11,13 @@ const std::vector<Index>& BreakOrder::so_far() {
     block.clear();
   }
   std::sort(latest.begin(), latest.end());
-  latest.erase(std::unique(latest.begin(), latest.end()), latest.end());
-  for (const auto& [step, number] : latest) order_.push_back(number);
+  for (const auto& [step, number] : latest) {
+    const auto place = static_cast<std::size_t>(number);
+    if (place >= counted_.size()) counted_.resize(place + 1);
+    if (counted_[place]) continue;
+    counted_[place] = true;
+    order_.push_back(number);
+  }
   return order_;
 }
 

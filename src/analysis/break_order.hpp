@@ -14,8 +14,8 @@ class BreakOrder {
  public:
   explicit BreakOrder(Index blocks) : of_blocks_(static_cast<std::size_t>(blocks)) {}
 
-  /// What broke in a block in a step that is not earlier than the last one; more than once counts
-  /// once. Calls for different blocks may run at once.
+  /// What broke in a block in a step that is not earlier than the last one; what breaks again, such
+  /// as the other half of a bond, even in a later step, counts once. Calls for different blocks may run at once.
   void add(Index block, Index step, std::span<const Index> broken) {
     for (const Index each : broken) of_blocks_[block].emplace_back(step, each);
   }
@@ -27,6 +27,7 @@ class BreakOrder {
  private:
   std::vector<std::vector<std::pair<Index, Index>>> of_blocks_;  ///< (step, number), since so_far()
   std::vector<Index> order_;
+  std::vector<bool> counted_;  ///< whether a number is in order_
 };
 
 }  // namespace perilink

@@ -20,12 +20,12 @@ using Eigen::VectorXd;
 
 constexpr int most_iterations = 2000;
 constexpr double round_off = 1e-16;  ///< of forces, which very slender bodies multiply
-/// Of the energy that the residual could still set free, over that of the vibration: a tenth of the
-/// error of the square of the frequency, or more.
+/// Energy that the residual could still set free, over that of the vibration: a tenth of the error
+/// of the square of the frequency, or more.
 constexpr double tolerance = 1e-8;
-/// Below this part of the fastest stiffness over mass there is nothing but round-off: a body 1500
-/// times as long as high bends at 1.5e-14.
-constexpr double least_stiffness = 1e-14;
+/// Below this part of the fastest stiffness over mass round-off of the forces takes the third digit
+/// of the period.
+constexpr double least_stiffness = 1e-13;
 
 /// The slowest vibration: a motion of unit kinetic form, orthogonal to what nothing resists.
 class Vibration {
@@ -153,7 +153,8 @@ double Vibration::settle() {
     VectorXd step = inverse_.times(residual);
     make_orthogonal(step, free_);
     const double noise = round_off * fastest_ / square;
-    if (residual.dot(step) <= std::max(tolerance, noise * noise) * square) {
+    const double left = residual.dot(step);  // below zero it is round-off and says nothing
+    if (left >= 0.0 && left <= std::max(tolerance, noise * noise) * square) {
       force_of(now.u);  // the energy is a sum of squares, which round-off hardly touches
       return 2.0 * inner_.energy / product(now.u, now.u);
     }

@@ -14,10 +14,12 @@ namespace perilink {
 /// three-term conjugate gradients of Knyazev (2001), T = 2 pi / omega. What loading times of
 /// explicit runs are measured by. Takes internal forces and no matrix of the body, of whatever
 /// size; the preconditioner knows the rigid motions of some hundred boxes of particles. Exact to
-/// about 1e-7 (docs/theory/explicit_bonds.md, section 4).
+/// about 1e-7; where round-off of the forces of very slender bodies could take the third digit, it
+/// is refused (docs/theory/explicit_bonds.md, section 4).
 /// \param free  rigid motions that nothing resists (free_motions), shape (particles, width): the
 ///              vibrations that are looked for have no part in them
-/// \throws SolverError when parts can move freely, or the iteration does not settle
+/// \throws SolverError when parts can move freely, the body is too slender, or the iteration does
+///     not settle
 double fundamental_period(const Network& network, const Unknowns& unknowns, const Inertia& inertia,
                           std::span<const std::vector<double>> free = {});
 

@@ -14,6 +14,7 @@
 #include "app/run_cost.hpp"
 #include "app/run_model.hpp"
 #include "app/summary.hpp"
+#include "app/threads.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
@@ -254,6 +255,7 @@ int check_relaxation(const std::string& case_path, const CaseFile& input) {
 }  // namespace
 
 int check_case(const std::string& case_path, bool trust_geometry) {
+  set_threads(0);
   CaseFile input = read_case_file(case_path);
   input.trust_geometry = trust_geometry;
   if (input.analysis.type == "explicit") {

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
-#include <thread>
 
 #include "app/commands.hpp"
 #include "app/console.hpp"
@@ -16,6 +14,7 @@
 #include "app/study_pictures.hpp"
 #include "app/study_run.hpp"
 #include "app/study_table.hpp"
+#include "app/threads.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/plain_text.hpp"
@@ -128,10 +127,7 @@ int exit_status_of(const Results& results, bool complete) {
 }  // namespace
 
 int converge(const RunOptions& options) {
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  omp_set_num_threads(threads);
+  const int threads = set_threads(options.threads);
   Results results;
   results.study = read_study_file(options.case_path);
   results.study.trust_geometry = options.trust_geometry;

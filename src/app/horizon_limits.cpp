@@ -13,8 +13,8 @@
 namespace perilink {
 namespace {
 
-/// Of the body's diagonal, beyond which a horizon means nothing; of bodies of a few particles in
-/// spacings, where a usual horizon may reach farther.
+/// A horizon means nothing beyond this many diagonals of the body, and this many spacings: in
+/// bodies of a few particles a usual horizon reaches farther than the body.
 constexpr double most_diagonals = 2.0;
 constexpr double least_ratio_refused = 20.0;
 
@@ -31,13 +31,17 @@ double diagonal_of(const HorizonReach& reach) {
   return std::hypot(reach.extents[0], reach.extents[1], reach.extents[2]);
 }
 
-/// Neighbours of a particle: those of the infinite lattice, along each axis no more than the body
-/// has on average.
+/// Neighbours of a particle: those of the infinite lattice, along each axis no more than what the
+/// horizon reaches and what the body has.
 double neighbours_of(const HorizonReach& reach) {
   const double ratio = reach.horizon / reach.spacing;
   const double ball = reach.dim == 2 ? std::numbers::pi * ratio * ratio
                                      : 4.0 / 3.0 * std::numbers::pi * std::pow(ratio, 3);
-  return std::min(ball, reach.particles);
+  double box = 1.0;
+  for (int a = 0; a < reach.dim; ++a) {
+    box *= std::min(2.0 * ratio + 1.0, reach.extents[a] / reach.spacing + 1.0);
+  }
+  return std::min({ball, box, reach.particles});
 }
 
 void refuse_too_many_bonds(const CaseFile& input, const HorizonReach& reach) {

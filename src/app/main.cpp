@@ -153,8 +153,8 @@ int main(int argc, char** argv) {
   const CLI::App* compare_command = add_compare_command(app, compared);
 
   std::string checked_case;
-  CLI::App* check_command = app.add_subcommand(
-      "check", "Validate a case, calibrate its bonds; print its sizes, expected memory and time");
+  CLI::App* check_command =
+      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
   check_command->add_option("case", checked_case, "Case file (.toml)")->required();
   add_trust_option(*check_command, run.trust_geometry);
 

@@ -110,10 +110,4 @@ ResultDirectory::ResultDirectory(const fs::path& directory, bool force) {
 
 ResultDirectory::~ResultDirectory() { ::close(lock_); }
 
-bool is_being_written(const fs::path& directory) {
-  const int descriptor = lock_directory(directory);
-  if (descriptor >= 0) ::close(descriptor);
-  return descriptor < 0;
-}
-
 }  // namespace perilink

@@ -31,7 +31,4 @@ class ResultDirectory {
   int lock_ = -1;  ///< descriptor of the directory
 };
 
-/// Whether a run writes to a directory now.
-bool is_being_written(const std::filesystem::path& directory);
-
 }  // namespace perilink

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
-#include <omp.h>
 #include <spdlog/details/null_mutex.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <thread>
+#include <optional>
 
 #include "app/bond_run.hpp"
 #include "app/calibration_text.hpp"
@@ -26,6 +25,7 @@
 #include "app/signals.hpp"
 #include "app/summary.hpp"
 #include "app/summary_file.hpp"
+#include "app/threads.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"
@@ -64,6 +64,15 @@ std::shared_ptr<spdlog::logger> open_log(const fs::path& directory) {
 void write_first_files(const fs::path& directory, const CaseFile& input) {
   write_running_summary(directory, input);
   write_whole_file((directory / "case.toml").string(), write_case(input));
+}
+
+/// Writes the summary of a run that failed before it began. What goes wrong with that is not told:
+/// the first failure is.
+void tell_of_failure(const fs::path& directory, const CaseFile& input, const DiskFull& error) {
+  try {
+    write_failed_summary(directory, input, error.what());
+  } catch (const std::exception&) {
+  }
 }
 
 /// Does a part of a run. A full disk or no memory ends it as failed with what was found so far; the
@@ -124,11 +133,11 @@ int exit_status_of(Ending ending) {
 }
 
 int run_explicit(const RunOptions& options, const CaseFile& input, const fs::path& directory,
-                 int threads) {
+                 int threads, std::optional<ResultDirectory>& hold) {
   Timer timer;
   ExplicitCase built = build_explicit_case(input);
   built.options.threads = threads;
-  const ResultDirectory hold(directory, options.force);
+  hold.emplace(directory, options.force);
   catch_stop_signals();
   write_first_files(directory, input);
   const auto log = open_log(directory);
@@ -164,12 +173,12 @@ int run_explicit(const RunOptions& options, const CaseFile& input, const fs::pat
 
 /// Bonds that move instead of going from equilibrium to equilibrium.
 int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs::path& directory,
-                     int threads) {
+                     int threads, std::optional<ResultDirectory>& hold) {
   Timer timer;
   Model model = build_model_visibly(input, options.quiet);
   BondRunCase built = build_bond_run(input, model);
   built.options.threads = threads;
-  const ResultDirectory hold(directory, options.force);
+  hold.emplace(directory, options.force);
   catch_stop_signals();
   write_first_files(directory, seen_from(input, directory));
   const auto log = open_log(directory);
@@ -204,10 +213,10 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
 
 /// Bonds that are brought to rest.
 int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::path& directory,
-                   int threads) {
+                   int threads, std::optional<ResultDirectory>& hold) {
   Timer timer;
   Model model = build_model_visibly(input, options.quiet);
-  const ResultDirectory hold(directory, options.force);
+  hold.emplace(directory, options.force);
   catch_stop_signals();
   write_first_files(directory, seen_from(input, directory));
   const auto log = open_log(directory);
@@ -240,10 +249,10 @@ int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::p
 
 /// Bonds that break one after the other, or a single elastic solution.
 int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::path& directory,
-                    int threads) {
+                    int threads, std::optional<ResultDirectory>& hold) {
   Timer timer;
   Model model = build_model_visibly(input, options.quiet);
-  const ResultDirectory hold(directory, options.force);
+  hold.emplace(directory, options.force);
   catch_stop_signals();
   write_first_files(directory, seen_from(input, directory));
   const auto log = open_log(directory);
@@ -281,10 +290,7 @@ int run_quasistatic(const RunOptions& options, const CaseFile& input, const fs::
 }  // namespace
 
 int run_case(const RunOptions& options) {
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  omp_set_num_threads(threads);
+  const int threads = set_threads(options.threads);
   CaseFile input = read_case_file(options.case_path);
   input.trust_geometry = options.trust_geometry;
   const fs::path directory = options.directory ? fs::path(*options.directory)
@@ -297,10 +303,11 @@ int run_case(const RunOptions& options) {
                    : type == "explicit" && lattice ? run_explicit
                    : type == "explicit"            ? run_moving_bonds
                                                    : run_quasistatic;
+  std::optional<ResultDirectory> hold;
   try {
-    return run(options, input, directory, threads);
+    return run(options, input, directory, threads, hold);
   } catch (const DiskFull& error) {  // among the first files: nothing is computed
-    write_failed_summary(directory, input, error.what());
+    if (hold) tell_of_failure(directory, input, error);
     throw;
   }
 }

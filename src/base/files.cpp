@@ -23,8 +23,16 @@ constexpr std::size_t random_digits = 8;
 constexpr int as_new_file = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
 constexpr mode_t by_umask = 0666;
 
-[[noreturn]] void fail(const std::string& path, const char* what, int fault) {
-  const std::string text = fmt::format("{}: cannot be {}: {}", path, what, std::strerror(fault));
+std::string fault_text(const std::string& path, const char* what, int fault) {
+  return fmt::format("{}: cannot be {}: {}", path, what, std::strerror(fault));
+}
+
+[[noreturn]] void fail_to_read(const std::string& path, const char* what, int fault) {
+  throw FileError(fault_text(path, what, fault));
+}
+
+[[noreturn]] void fail_to_write(const std::string& path, int fault) {
+  const std::string text = fault_text(path, "written", fault);
   if (fault == ENOSPC || fault == EDQUOT || fault == EFBIG || fault == EIO) throw DiskFull(text);
   throw FileError(text);
 }
@@ -97,7 +105,7 @@ void write_whole_file(const std::string& path, std::string_view bytes) {
     temporary = temporary_name(path);
     number = ::open(temporary.c_str(), as_new_file, by_umask);
   }
-  if (number < 0) fail(path, "written", errno);
+  if (number < 0) fail_to_write(path, errno);
   Descriptor file(number);
   int fault = 0;
   write_bytes(number, bytes, fault);
@@ -107,7 +115,7 @@ void write_whole_file(const std::string& path, std::string_view bytes) {
   if (fault == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) fault = errno;
   if (fault == 0) return;
   ::unlink(temporary.c_str());
-  fail(path, "written", fault);
+  fail_to_write(path, fault);
 }
 
 bool is_temporary_of(std::string_view name, std::string_view temporary) {
@@ -123,8 +131,8 @@ std::string read_regular_file(const std::string& path, std::size_t most, double 
   // Looked at before, for to open a device may do things; and after, for it may be another by then.
   if (::stat(path.c_str(), &status) == 0) check_regular(path, status);
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  if (file.number() < 0) fail(path, "opened", errno);
-  if (::fstat(file.number(), &status) != 0) fail(path, "read", errno);
+  if (file.number() < 0) fail_to_read(path, "opened", errno);
+  if (::fstat(file.number(), &status) != 0) fail_to_read(path, "read", errno);
   const std::size_t size = std::min(check_regular(path, status), most);
   const double needed = memory * static_cast<double>(size), at_hand = available_memory();
   if (needed > at_hand) {
@@ -139,7 +147,7 @@ std::string read_regular_file(const std::string& path, std::size_t most, double 
     bytes.resize(std::min(most, std::max(size + 1, count + (std::size_t{1} << 16))));
     const ssize_t got = ::read(file.number(), bytes.data() + count, bytes.size() - count);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(path, "read", errno);
+    if (got < 0) fail_to_read(path, "read", errno);
     count += static_cast<std::size_t>(got);
     if (got == 0 || count == most) break;
   }
@@ -148,9 +156,9 @@ std::string read_regular_file(const std::string& path, std::size_t most, double 
 }
 
 LineFile::LineFile(std::string path) : path_(std::move(path)) {
-  if (::unlink(path_.c_str()) != 0 && errno != ENOENT) fail(path_, "written", errno);
+  if (::unlink(path_.c_str()) != 0 && errno != ENOENT) fail_to_write(path_, errno);
   descriptor_ = ::open(path_.c_str(), as_new_file | O_APPEND, by_umask);
-  if (descriptor_ < 0) fail(path_, "written", errno);
+  if (descriptor_ < 0) fail_to_write(path_, errno);
 }
 
 LineFile::~LineFile() { ::close(descriptor_); }
@@ -168,11 +176,11 @@ void LineFile::append(std::string& lines) {
   size_ += written;
   lines.erase(0, written);
   if (fault != 0 && size_ == 0) ::unlink(path_.c_str());  // a file without a line says nothing
-  if (fault != 0) fail(path_, "written", fault);
+  if (fault != 0) fail_to_write(path_, fault);
 }
 
 void LineFile::sync() {
-  if (const int fault = sync_file(descriptor_); fault != 0) fail(path_, "written", fault);
+  if (const int fault = sync_file(descriptor_); fault != 0) fail_to_write(path_, fault);
 }
 
 }  // namespace perilink

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// Of the machine [bytes].
+/// Memory that the machine has free [bytes].
 double free_memory() {
   std::ifstream file("/proc/meminfo");
   double kilobytes = 0.0;
@@ -48,12 +48,12 @@ Taken taken() {
 
 }  // namespace
 
-double available_memory() {
+double available_address_space() {
   const Taken now = taken();
-  const double left =
-      std::min({free_memory(), limit_of(RLIMIT_AS) - now.all, limit_of(RLIMIT_DATA) - now.data});
-  return std::max(left, 0.0);
+  return std::max(0.0, std::min(limit_of(RLIMIT_AS) - now.all, limit_of(RLIMIT_DATA) - now.data));
 }
+
+double available_memory() { return std::min(free_memory(), available_address_space()); }
 
 std::string bytes_text(double bytes) {
   if (bytes < 1e9) return fmt::format("{:.0f} MB", std::ceil(bytes / 1e6));

@@ -9,6 +9,9 @@ namespace perilink {
 /// (ulimit -v, ulimit -d) is on the process; infinity where the system does not tell [bytes].
 double available_memory();
 
+/// What the limits on this process (ulimit -v, ulimit -d) leave it, infinity without one [bytes].
+double available_address_space();
+
 /// "1.5 GB", "12 MB".
 std::string bytes_text(double bytes);
 

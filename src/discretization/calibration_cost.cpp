@@ -12,7 +12,7 @@ struct Rates {
 
 constexpr Rates in_plane{5e-6, 30e-6}, in_plane_with_moments{15e-6, 90e-6};
 constexpr Rates in_space{60e-6, 300e-6}, in_space_with_moments{200e-6, 900e-6};
-/// Of boxes in space, whose bonds that lie alike are made alike.
+/// For boxes in space, whose bonds that lie alike are made alike.
 constexpr double box = 1e-6;
 
 }  // namespace

@@ -69,7 +69,7 @@ Eigen::MatrixXd eigenvectors_below(Eigen::MatrixXd matrix, double limit) {
   const int size = static_cast<int>(matrix.rows());
   if (size == 0) return matrix;
   if (!matrix.allFinite()) throw SolverError("a dense matrix holds numbers that are not finite");
-  // Of positive semidefinite matrices nothing is below but round-off.
+  // A positive semidefinite matrix has nothing below this but round-off.
   const double lowest = -1.0 - std::abs(limit), tolerance = 0.0;
   int found = 0, info = 0;
   const int unused = 0;

@@ -62,8 +62,7 @@ TEST_P(LittleMemory, EndsARunInWords) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Megabytes, LittleMemory,
-                         testing::Values(100, 150, 230, 280, 340),
+INSTANTIATE_TEST_SUITE_P(Megabytes, LittleMemory, testing::Values(100, 150, 230, 280, 340),
                          [](const auto& limit) { return std::to_string(limit.param); });
 
 TEST_F(Memory, BelowWhatTheLibrariesNeedIsRefusedAtOnce) {
@@ -71,6 +70,21 @@ TEST_F(Memory, BelowWhatTheLibrariesNeedIsRefusedAtOnce) {
   EXPECT_EQ(end.exit_status, 3);
   EXPECT_THAT(end.err, HasSubstr("perilink: out of memory: the libraries of the program need"));
   EXPECT_FALSE(fs::exists(work() / "results"));
+}
+
+/// OpenMP would end the program with a status of its own.
+TEST_F(Memory, WithoutRoomForTheThreadsFewerAreTaken) {
+  for (const auto& [command, file] :
+       {std::pair{"run", "small.toml"}, std::pair{"converge", "study.toml"}}) {
+    const ProcessEnd end = run({command, file, "--threads", "1024", "--out", command}, 400);
+    EXPECT_THAT(end.err, HasSubstr(" of 1024 threads are used: the limits on the process"));
+    EXPECT_THAT(end.err, Not(HasSubstr("libgomp")));
+    EXPECT_EQ(end.exit_status, 0) << end.err;
+  }
+  const ProcessEnd free = run_program(work(), {"run", "small.toml", "--threads", "1"});
+  EXPECT_EQ(free.exit_status, 0);
+  EXPECT_THAT(free.err, Not(HasSubstr("threads are used")));
+  EXPECT_EQ(read_text(work() / "run/history.csv"), read_text(work() / "results/small/history.csv"));
 }
 
 TEST_F(Memory, MeshesLargerThanItAreRefusedBeforeTheyAreRead) {

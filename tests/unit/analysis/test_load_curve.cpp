@@ -143,7 +143,7 @@ TEST(Envelope, PassesOverSingleTeeth) {
     const double load = k % 10 == 5 ? 6.0 : 3.0;
     path.push_back({load * (1.0 + k), load});
   }
-  // Of ten events two have one end on the tooth: load^2 = (8 * 3 * 3 + 2 * 3 * 6) / 10.
+  // Two of ten events have one end on the tooth: load^2 = (8 * 3 * 3 + 2 * 3 * 6) / 10.
   EXPECT_NEAR(smoothed_peak(path).value(), std::sqrt(10.8), 1e-12);
   EXPECT_FALSE(smoothed_peak(std::span(path).first(20))) << "one window is no curve";
 }

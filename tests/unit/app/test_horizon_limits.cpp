@@ -44,8 +44,20 @@ TEST(HorizonLimits, HoldTheBondsAgainstMemoryAndNumbers) {
   EXPECT_THAT(answer(block(6, 1e99)), HasSubstr("at most 2.1e+09 bonds can be numbered"));
 }
 
+TEST(HorizonLimits, CountNoNeighboursBesideSlenderBodies) {
+  // 2 rows, 121 columns within reach of each; a full circle would have 11310.
+  HorizonReach reach = reach_of(Box{{0, 0, 0}, {200000, 10, 0}}, 2, 600, 10);
+  reach.memory = 1e9;
+  EXPECT_EQ(answer(reach), "accepted");
+  reach.memory = 1e8;
+  EXPECT_THAT(answer(reach), HasSubstr("would have 242 neighbours, together 2.4e+06 bonds"));
+  reach = reach_of(Box{{0, 0, 0}, {200000, 10, 10}}, 3, 600, 10);
+  reach.memory = 1e8;
+  EXPECT_THAT(answer(reach), HasSubstr("would have 484 neighbours"));
+}
+
 TEST(HorizonLimits, RefuseHorizonsFarBeyondTheBody) {
-  // Of 5 by 9 particles on 40 by 80: a diagonal of 89.
+  // The body has 5 by 9 particles on 40 by 80: a diagonal of 89.
   for (const double ratio : {21.0, 200.0, 2e9, 1e12, 1e48}) {
     CaseFile input = strip_case();
     input.body.horizon.reset();

@@ -138,6 +138,17 @@ TEST_F(Files, ThatCannotBeReadAreRefusedAtOnce) {
   EXPECT_THROW(read_regular_file("/dev/zero"), FileError);
 }
 
+TEST_F(Files, AFaultInReadingIsNoFullDisk) {
+  try {
+    read_regular_file("/proc/self/mem");  // nothing is mapped at its beginning
+    FAIL() << "accepted";
+  } catch (const DiskFull& error) {
+    FAIL() << error.what();
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(), "/proc/self/mem: cannot be read: Input/output error");
+  }
+}
+
 TEST_F(Files, LargerThanMemoryAreRefusedBeforeTheyAreRead) {
   test::write_text(place("huge"), "");
   fs::resize_file(place("huge"), std::uintmax_t{1} << 42);  // takes no room on the disk

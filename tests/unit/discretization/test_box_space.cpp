@@ -110,7 +110,7 @@ TEST(BoxSpace, LeavesNoSoftResidual) {
   EXPECT_LT(twice.norm(), 1e-7 * once.norm());  // round-off over the shift
 }
 
-/// Of conjugate gradients to 1e-8 with all variables, from a right side at random.
+/// What conjugate gradients take to 1e-8 with all variables, from a right side at random.
 int iterations(double length, bool with_boxes) {
   const Notched body(length);
   const PointEquations& equations = body.equations;

@@ -55,7 +55,7 @@ TEST_P(MeshOverlapIn, CellsWrittenTwiceWithOtherCorners) {
 }
 
 TEST_P(MeshOverlapIn, PartInsideOfOneCell) {
-  // Of the large part no cell at the surface is met.
+  // No cell at the surface of the large part is met.
   const Mesh box = box_mesh(GetParam(), 5);
   EXPECT_THAT(answer(with(box, box_mesh(GetParam(), 1), {0.47, 0.47, 0.47}, 0.02)),
               HasSubstr("overlap"));
