@@ -229,6 +229,24 @@ TEST_F(BondRunTest, DoubtsABodyThatFliesApart) {
   EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::HasSubstr("held by nothing"));
 }
 
+/// Springs hold a body as supports do, however far they give.
+TEST_F(BondRunTest, ABodyOnSpringsIsHeld) {
+  std::string text = replaced(pulled_block, "[[supports]]", "[[springs]]");
+  text = replaced(replaced(text, "fix = [\"x\", \"y\"]", "total = [1, 1]"), "[[displacements]]",
+                  "[[loads]]");
+  text = replaced(replaced(text, "y = 0.05", "force = [0, 1e-4]"), "damping_rate = 0.5\n", "");
+  text = replaced(replaced(text, "duration = 8", "duration = 2.5"), "[4]", "[1]");
+  input_ = parse_case(text, "");
+  model_ = build_model(input_);
+  built_ = build_bond_run(input_, model_);
+  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
+  const ExplicitResult result = run(files);
+  EXPECT_EQ(result.last.broken_bonds, 0);
+  const std::vector<std::string> doubts = files.doubts(result);
+  EXPECT_THAT(doubts, testing::Contains(testing::HasSubstr("is kinetic energy at the end")));
+  EXPECT_THAT(doubts, testing::Not(testing::Contains(testing::HasSubstr("held by nothing"))));
+}
+
 TEST_F(BondRunTest, SummaryTellsHowItEnded) {
   BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
   const ExplicitResult result = run(files);
