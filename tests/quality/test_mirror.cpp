@@ -19,6 +19,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/main.cpp", "only calls the commands; tests/cli runs the program"},
       {"app/memory_at_start.cpp", "runs before main: tests/cli/test_memory.cpp"},
       {"app/run_command.cpp", "a command: tests/cli runs the program"},
+      {"app/threads.cpp", "limits on a process: tests/cli/test_memory.cpp"},
       {"discretization/lattice_conforming.cpp", "a part of make_body: test_lattice.cpp"},
       {"discretization/lattice_facets.cpp", "a part of make_body: test_facets.cpp"},
       {"discretization/lattice_fit.cpp", "a part of make_body: test_lattice.cpp"},
