@@ -69,8 +69,8 @@ Problem problem_of(const CaseFile& input);
 /// nothing holds, free rigid-body modes, contradictory supports
 Model build_model(const CaseFile& input, const CalibrationObserver& on_search = {});
 
-/// The same with bonds as they are before calibration, in a small part of its time: sizes, supports,
-/// loads, gauges and notes are those of the model, refusals too.
+/// The same with bonds as they are before calibration, in a small part of its time: sizes, notes,
+/// supports, loads and gauges are those of the model, refusals too.
 Model draft_model(const CaseFile& input);
 
 /// Options of the damage analysis that a case asks for.

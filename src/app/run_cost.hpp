@@ -6,8 +6,8 @@
 #include "solver/factor.hpp"
 
 /// \file
-/// What a run will take on one core, for people who plan it: within a factor of about 1.5 on a quiet
-/// machine like the one that the rates come from (verification/benchmarks).
+/// What a run will take on one core, for people who plan it: rates of a quiet machine like that of
+/// verification/benchmarks.
 
 namespace perilink {
 
@@ -28,8 +28,8 @@ struct ExpectedCost {
 };
 ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor);
 
-/// Time of a step of an explicit run, from some steps of it [s]. They begin at rest: what cracks and
-/// flow will cost is not in it.
+/// Time of a step of an explicit run, from some steps of it [s]. They begin at rest: what cracks
+/// and flow will cost is not in it.
 double seconds_per_step(const Model& model, const BondRunCase& built);
 double seconds_per_step(const ExplicitCase& built);
 

@@ -17,7 +17,7 @@ namespace {
 /// Added to the diagonal, relative to its mean at each point: round-off must not make rows negative
 /// that depend on others. What the factor misses by it the conjugate gradients make up for; more is
 /// needed only where many rows depend on others.
-constexpr std::array<double, 4> floors = {1e-15, 1e-14, 1e-12, 1e-10};
+constexpr std::array<double, 3> floors = {1e-14, 1e-12, 1e-10};
 
 }  // namespace
 
