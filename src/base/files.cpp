@@ -155,13 +155,16 @@ std::string read_regular_file(const std::string& path, std::size_t most, double 
   return bytes;
 }
 
-LineFile::LineFile(std::string path) : path_(std::move(path)) {
+LineFile::LineFile(std::string path) : path_(std::move(path)), temporary_(temporary_name(path_)) {
   if (::unlink(path_.c_str()) != 0 && errno != ENOENT) fail_to_write(path_, errno);
-  descriptor_ = ::open(path_.c_str(), as_new_file | O_APPEND, by_umask);
+  descriptor_ = ::open(temporary_.c_str(), as_new_file | O_APPEND, by_umask);
   if (descriptor_ < 0) fail_to_write(path_, errno);
 }
 
-LineFile::~LineFile() { ::close(descriptor_); }
+LineFile::~LineFile() {
+  ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
 
 void LineFile::append(std::string& lines) {
   int fault = 0;
@@ -175,7 +178,10 @@ void LineFile::append(std::string& lines) {
   }
   size_ += written;
   lines.erase(0, written);
-  if (fault != 0 && size_ == 0) ::unlink(path_.c_str());  // a file without a line says nothing
+  if (size_ > 0 && !temporary_.empty()) {
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail_to_write(path_, errno);
+    temporary_.clear();
+  }
   if (fault != 0) fail_to_write(path_, fault);
 }
 

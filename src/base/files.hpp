@@ -37,7 +37,8 @@ std::string read_regular_file(const std::string& path,
                               std::size_t most = std::numeric_limits<std::size_t>::max(),
                               double memory = 1.0);
 
-/// A file that grows by whole lines. What stood at its path goes, a link too.
+/// A file that grows by whole lines. What stood at its path goes, a link too; it appears there with
+/// its first lines.
 class LineFile {
  public:
   /// \throws FileError
@@ -56,6 +57,7 @@ class LineFile {
 
  private:
   std::string path_;
+  std::string temporary_;  ///< its name before the first lines are in it
   int descriptor_ = -1;
   std::size_t size_ = 0;
 };

@@ -1,11 +1,13 @@
 #include "io/gmsh_mesher.hpp"
 
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -154,15 +156,27 @@ struct Outcome {
   std::string message;  // what it wrote
 };
 
+/// Makes the child end with its parent, whose lock of the results it holds, too, and at the first
+/// Ctrl-C.
+void follow_parent(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);  // it has ended before that
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+}
+
 /// Runs gmsh in a process of its own: it keeps what one script defined, and where it crashes on a
 /// geometry the program can still say so.
 Outcome mesh_in_child(const std::string& path, int dim, std::optional<double> size,
                       const std::string& target) {
   int ends[2];
   if (pipe(ends) != 0) throw FileError(fmt::format("{}: {}", path, std::strerror(errno)));
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) throw FileError(fmt::format("{}: {}", path, std::strerror(errno)));
   if (child == 0) {
+    follow_parent(parent);
     close(ends[0]);
     std::string message;
     try {

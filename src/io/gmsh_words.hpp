@@ -69,4 +69,20 @@ inline constexpr std::array refused_words = {
     Refused{"Slide", "runs macros of a document"},
 };
 
+/// Words at which gmsh passes over text, or goes on where a line begins.
+inline constexpr std::array<std::string_view, 8> jumping_words = {
+    "If", "For", "Macro", "Function", "Call", "Include", "Merge", "MergeWithBoundingBox"};
+
+/// Words that a text or a comment may not hold beside these and the refused ones, where gmsh could
+/// take it for commands. What is passed over ends at the first five.
+inline constexpr std::array<std::string_view, 12> hidden_commands = {
+    "EndIf", "EndFor", "Else",   "ElseIf",  "Return", "Include", "Merge", "MergeWithBoundingBox",
+    "Open",  "Printf", "Plugin", "General."};
+
+/// Take texts, and their value is one.
+inline constexpr const char* text_words =
+    "Str StrCat Sprintf StrChoice StrSub StrPrefix StrRelative StrReplace UpperCase LowerCase "
+    "CurrentDir CurrentDirectory CurrentFileName DirName AbsolutePath N2S NameToString Today "
+    "DefineString";
+
 }  // namespace perilink

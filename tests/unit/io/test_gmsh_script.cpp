@@ -109,6 +109,70 @@ TEST(GmshScript, RefusesWhatGmshMayCutOtherwise) {
               HasSubstr("SystemCall in a text or comment"));
 }
 
+/// Each of these ran a command or an unread file with gmsh 4.8, or comes close to one that did.
+TEST(GmshScript, RefusesTextsThatMayBecomeCommands) {
+  for (const char* script : {
+           "If (0)\nx = \"EndIf\nInclude 'b.geo';\nIf (0)\";\nEndIf",
+           "If (0)\nx = 'Else Foo ';\nEndIf",
+           "If (0)\nx = 'x_ElseIf (1) Foo ';\nEndIf",
+           "For i In {1:0}\nx = 'EndFor Foo';\nEndFor",
+           "Macro Foo\nx = 'Return Foo';\nReturn",
+           "Function Foo\n// Return Foo\nReturn",
+           "If (0)\n/* EndIf */\nEndIf",
+           "If (1) x = ' Merge y; '; EndIf",
+           "If (1) x = ' MergeWithBoundingBox y; '; EndIf",
+           "If (1) x = ' Open y; '; EndIf",
+           "If (1) x = ' Print y; '; EndIf",
+           "If (1) x = ' General.SessionFileName = y; '; EndIf",
+           "If (1) x = ' Error (y) > y; '; EndIf",
+           "For i In {0:1} x = \"\nFoo 'x';\n\";\nEndFor",
+           "For i In {0:1} /*\nFoo 'x';\n*/\nEndFor",
+           "Include 'a.geo'; x = \"\nFoo 'x';\n\";",
+       }) {
+    EXPECT_THAT(answer(script), AllOf(HasSubstr("text or comment"), HasSubstr("gmsh may run")))
+        << script;
+  }
+  for (const char* script : {
+           "/* Many\n lines */\nSetFactory(\"OpenCASCADE\"); // Warning: elsewhere\n"
+           "For i In {0:1}\n/* more\n lines */\nx = i;\nEndFor // of i",
+           "x = 1; /* EndIf\n Merge */",
+       }) {
+    EXPECT_EQ(answer(script), "accepted") << script;
+  }
+}
+
+/// gmsh would look for some of these elsewhere: "\\a" and "x:a" are absolute to it.
+TEST(GmshScript, RefusesNamesThatGmshMayResolveOtherwise) {
+  for (const char* name :
+       {"\\evil.geo", "a\\b.geo", "x:evil.geo", "x:/evil.geo", "~/b.geo", "$b.geo", " b.geo",
+        "b.geo ", "/b.geo", "b\tc.geo", "b;c.geo", "b.geo.gz", ""}) {
+    for (const char* word : {"Include", "Merge"}) {
+      EXPECT_THAT(answer(std::string(word) + " \"" + name + "\";"),
+                  AllOf(HasSubstr("body.geo:1"), HasSubstr("elsewhere")))
+          << name;
+    }
+    EXPECT_THAT(answer_of_file(name), HasSubstr("elsewhere")) << name;
+  }
+}
+
+/// The time for these grew with the square of their length: they would not end here.
+TEST(GmshScript, LooksAtEachWordOnce) {
+  std::string prints = "a = 1;\n";
+  std::string chain = "a = 1; b = a";
+  std::string closed = "a = 1;\n";
+  for (int k = 0; k < 200000; ++k) {
+    prints += "Printf(1)\n";
+    chain += "[a]";
+    closed += "Mesh ).a ";
+  }
+  EXPECT_EQ(answer(prints), "accepted");
+  EXPECT_EQ(answer(chain), "accepted");
+  EXPECT_THAT(answer(closed), HasSubstr("sets an option"));
+  std::string nested = "a = 1; b = ";
+  for (int k = 0; k < 1000; ++k) nested += "a[";
+  EXPECT_THAT(answer(nested), HasSubstr("nests more than 100 brackets"));
+}
+
 TEST(GmshScript, AcceptsWhatDrawsAndMeshes) {
   for (const char* script : {
            "",
@@ -196,6 +260,25 @@ TEST_F(GmshScriptFiles, TakesForDataWhatGmshDoes) {
   write("a.geo", "Merge \"b.msh\";");
   write("b.msh", bad);
   EXPECT_THAT(answer("a.geo"), HasSubstr("b.msh:1: has SystemCall"));
+}
+
+/// Include runs any file as a script, Merge only some.
+TEST_F(GmshScriptFiles, LooksIntoIncludedDataToo) {
+  write("a.geo", "Merge \"b.step\"; Include \"b.step\";");
+  write("b.step", "SystemCall \"touch x\";\n");
+  EXPECT_NE(answer("a.geo"), "accepted");
+  write("a.geo", "Include \"b.msh\";");
+  write("b.msh", "$MeshFormat\n");
+  EXPECT_NE(answer("a.geo"), "accepted");
+}
+
+TEST_F(GmshScriptFiles, FollowsLinksOfFoldersBeforeTheFolderAbove) {
+  write("a.geo", "Include \"b.geo\"; Include \"link/../b.geo\";");
+  write("b.geo", "x = 1;\n");
+  write("far/b.geo", "SystemCall \"touch x\";\n");
+  std::filesystem::create_directories(directory_ / "far/deep");
+  std::filesystem::create_directory_symlink("far/deep", directory_ / "link");
+  EXPECT_THAT(answer("a.geo"), HasSubstr("b.geo:1: has SystemCall"));
 }
 
 TEST_F(GmshScriptFiles, LooksAtTheOptionsThatGmshReadsBesideAGeometry) {
