@@ -182,6 +182,7 @@ void LineFile::append(std::string& lines) {
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail_to_write(path_, errno);
     temporary_.clear();
   }
+  if (fault != 0 && size_ == 0) ::unlink(temporary_.c_str());  // a file without a line says nothing
   if (fault != 0) fail_to_write(path_, fault);
 }
 
