@@ -28,8 +28,8 @@ struct ExpectedCost {
 };
 ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor);
 
-/// Time of a step of an explicit run, from some steps of it [s]. They begin at rest: what cracks
-/// and flow will cost is not in it.
+/// Time of a step of an explicit run, from some steps of it that begin at rest [s]. What cracks
+/// cost is a mean, what flow costs is not in it.
 double seconds_per_step(const Model& model, const BondRunCase& built);
 double seconds_per_step(const ExplicitCase& built);
 
