@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <map>
+#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -36,20 +36,29 @@ class BoxSpace {
  private:
   Index num_boxes() const { return static_cast<Index>(boxes_.size()); }
   using Key = std::array<Index, 4>;  // boxes on which a variable acts, ascending
-  using Blocks = std::map<std::pair<Index, Index>, Eigen::MatrixXd>;  // of the coarse system
-  std::vector<std::pair<Key, Index>> variables_by_boxes(const PointEquations& equations,
-                                                        const std::vector<double>& active) const;
+  using GroupProducts = std::array<std::array<Eigen::MatrixXd, 4>, 4>;
+  void sort_variables(const PointEquations& equations);
   void add_diagonal(Index box, const std::vector<double>& diagonal, Eigen::MatrixXd& own) const;
-  void factorize(const Blocks& blocks);
+  GroupProducts products(std::size_t group, const PointEquations& equations,
+                         const std::vector<double>& active) const;
+  void factorize(const std::vector<Eigen::MatrixXd>& blocks);
   void make_boxes(const PointEquations& equations);
   void find_fields(const PointEquations& equations, const std::vector<double>& active,
                    const std::vector<double>& diagonal);
+  Eigen::MatrixXd soft_fields(Index box, const std::vector<Index>& inside,
+                              const PointEquations& equations, const std::vector<double>& active,
+                              const std::vector<double>& blocks) const;
 
   int rows_;
-  std::vector<std::vector<Index>> boxes_;  // points of each
-  std::vector<Index> box_of_, place_;      // of each point, and where it is in its box
-  std::vector<Eigen::MatrixXd> fields_;    // of each box, shape (fields, points * rows)
-  std::vector<Index> first_field_;         // of each box, and the number of all
+  int threads_;                                 // as many as BLAS has room for
+  std::vector<std::vector<Index>> boxes_;       // points of each
+  std::vector<Index> box_of_, place_;           // of each point, and where it is in its box
+  std::vector<Index> first_, second_;           // of the variables
+  std::vector<std::pair<Key, Index>> order_;    // variables, by boxes
+  std::vector<std::size_t> groups_;             // where those of the same boxes begin in order_
+  std::vector<std::pair<Index, Index>> pairs_;  // of boxes that variables join, ascending
+  std::vector<Eigen::MatrixXd> fields_;         // of each box, shape (fields, points * rows)
+  std::vector<Index> first_field_;              // of each box, and the number of all
   std::unique_ptr<Factor> factor_;
 };
 

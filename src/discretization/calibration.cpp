@@ -35,6 +35,10 @@ constexpr int most_iterations = 8000;
 /// balance are up to 1e3.
 constexpr double price = 1e5, no_price = std::numeric_limits<double>::infinity();
 
+/// Of irregular clouds in space, whose equations often contradict each other. Multipliers are
+/// about 1 to 1e3 where they do not.
+constexpr double proximity = 1e-8;
+
 /// With fewer variables per equation (horizons of two spacings) a third of all fields on boxes are
 /// soft, and a factor of all equations is made as fast.
 constexpr Index least_freedom = 3;
@@ -86,6 +90,7 @@ class Calibration {
   bool energies_;  // of dilatation take part
   bool soft_moments_ = false;
   CalibrationEquations equations_;
+  CalibrationEquations::State settled_;  // where the exact forces began
   CalibrationReport report_;
   KeptPreconditioner kept_;  // of the force equations
 };
@@ -124,6 +129,7 @@ void Calibration::search(Method method, double charge, double tolerance) {
   options.iterations = most_iterations;
   options.method = method;
   options.price = charge;
+  if (in_space_ && irregular_) options.proximity = proximity;
   const PointEquations equations = equations_.balance();
   const bool tight =
       equations.num_variables() / least_freedom < static_cast<Index>(equations.right.size());
@@ -170,6 +176,7 @@ bool Calibration::balance(double tolerance) {
 bool Calibration::solve(double tolerance) {
   equations_.start_over();
   if (energies_) settle();
+  settled_ = equations_.save();
   return balance(tolerance);
 }
 
@@ -184,7 +191,8 @@ bool Calibration::attempt() {
   const bool spread = in_space_ || !irregular_;  // is what cannot be met
   if (spread && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
     const CalibrationEquations::State with_floors = equations_.save();
-    solve(coarse);
+    equations_.restore(settled_);
+    balance(coarse);
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();
       solve(tolerance_);

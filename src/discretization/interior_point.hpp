@@ -19,15 +19,20 @@ namespace perilink {
 /// bounds at once, and diverges where nothing is between the bounds; this one needs ten to thirty
 /// steps whatever the bounds do. What is left of an equation with a price p is the difference of
 /// two positive variables with s (p - y) = S (p + y) = mu, which add s / (p - y) + S / (p + y) to
-/// the diagonal. Without a price the residual of contradictions settles at the least possible.
+/// the diagonal.
+///
+/// Without a price equations may be left by proximity * y: contradictions then end about where the
+/// squares of what is left are least, where they would shorten every step.
 template <class Normal>
 class InteriorPoint {
  public:
   using Vector = std::vector<double>;  // shape (points, rows)
 
-  InteriorPoint(const PointEquations& equations, Normal& normal)
+  /// \param proximity  of the multipliers; 0: that of the system
+  InteriorPoint(const PointEquations& equations, Normal& normal, double proximity)
       : equations_(equations),
         normal_(normal),
+        proximity_(proximity),
         lower_(equations.lower),
         upper_(equations.upper),
         y_(equations.right.size(), 0.0),
@@ -53,7 +58,7 @@ class InteriorPoint {
   /// Part of the way to the nearest bound that a step may take.
   static constexpr double boldness = 0.99;
   /// Reduction of the residual by a step while bounds are found out, and the least of the others.
-  static constexpr double coarse = 1e-2, finest = 1e-8;
+  static constexpr double coarse = 0.1, finest = 1e-8;
   /// Steps in a row that leave more than this of the residual at settled multipliers leave
   /// contradictions or round-off.
   static constexpr double contradiction = 0.9;
@@ -61,6 +66,7 @@ class InteriorPoint {
 
   void start();
   double gap() const;
+  void measure(const std::vector<double>& weights, Vector& residual) const;
   template <class Visit>
   void for_each_rest(Visit visit);
   Vector linearize(double mu);
@@ -70,6 +76,7 @@ class InteriorPoint {
 
   const PointEquations& equations_;
   Normal& normal_;
+  double proximity_;
   std::span<const double> lower_, upper_;
   Vector y_;
   std::vector<double> weights_;
@@ -113,6 +120,13 @@ double InteriorPoint<Normal>::gap() const {
   return 0.5 * sum / static_cast<double>(weights_.size());
 }
 
+/// What the weights leave of the right sides of the steps.
+template <class Normal>
+void InteriorPoint<Normal>::measure(const std::vector<double>& weights, Vector& residual) const {
+  normal_.measure(weights, y_, residual);
+  for (std::size_t k = 0; k < y_.size(); ++k) residual[k] -= proximity_ * y_[k];
+}
+
 /// The linear system of a Newton step towards z (w - lower) = mu. \return its right side
 template <class Normal>
 auto InteriorPoint<Normal>::linearize(double mu) -> Vector {
@@ -126,7 +140,7 @@ auto InteriorPoint<Normal>::linearize(double mu) -> Vector {
     change[v] = weights_[v] + normal_.mobility[v] * pull_[v];
   }
   Vector residual;
-  normal_.measure(change, y_, residual);
+  measure(change, residual);
   for_each_rest([&](std::size_t k, double over, double below, double under, double above) {
     normal_.compliance[k] = over / below + under / above;
     residual[k] -= mu / below - mu / above;
@@ -187,23 +201,26 @@ double InteriorPoint<Normal>::take_step(double mu, double reduction, int& iterat
 template <class Normal>
 bool InteriorPoint<Normal>::solve(double target, int most, int& iterations) {
   start();
+  normal_.proximity = proximity_;
   double centring = 0.2, last_size = std::numeric_limits<double>::infinity();
   int stalls = 0;
   bool full = true;  // the last step
   Vector residual;
   for (int step = 0; step < most_steps && iterations < most; ++step) {
-    normal_.measure(weights_, y_, residual);
+    measure(weights_, residual);
     for_each_rest([&](std::size_t k, double over, double, double under, double) {
       residual[k] -= over - under;
     });
     const double size = norm(residual), present = gap();
     const bool settled = present <= last_gap;
-    if (settled && size <= target) return true;
+    // What the equations are left by needs no more digits.
+    const double rest = proximity_ * norm(y_), enough = std::max(target, 0.1 * rest);
+    if (settled && size <= enough) return rest <= target;
     stalls = settled && full && size > contradiction * last_size ? stalls + 1 : 0;
     if (stalls == most_stalls) break;
     last_size = size;
     // Once the bounds are settled the steps only take the residual down.
-    const double reduction = settled ? std::clamp(0.1 * target / size, finest, coarse) : coarse;
+    const double reduction = settled ? std::clamp(0.1 * enough / size, finest, coarse) : coarse;
     const double mu = std::max(centring * present, 0.1 * last_gap);
     full = take_step(mu, reduction, iterations) > 0.8;
     centring = full ? 0.1 : 0.4;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,9 @@ constexpr double contradiction = 0.9;
 constexpr int most_newton_steps = 40;
 /// Newton's method is lost where the dual function stops growing this early along a step.
 constexpr double shortest_step = 1e-5;
+
+/// A step that leaves so many times the residual at which the interior-point method ended is lost.
+constexpr double lost = 100.0;
 
 /// Root mean square of the residual at which the interior-point method has found out which weights
 /// are at their bounds.
@@ -48,7 +52,9 @@ class DualNewton {
   }
   double choose_weights(const Vector& y);
   double dual(const Vector& y);
-  void climb(Vector y, double target);
+  void climb(Vector y, double target, double most = std::numeric_limits<double>::infinity());
+  double left();
+  void finish(const Vector& y, double target);
   double search_line(const Vector& residual, const Vector& direction, Vector& y);
   void report();
 
@@ -113,17 +119,20 @@ double DualNewton<Normal>::search_line(const Vector& residual, const Vector& dir
 }
 
 /// Newton's method on the dual function, from the multipliers y.
+/// \param most  norm of the residual, over that at the start, at which it is lost
 template <class Normal>
-void DualNewton<Normal>::climb(Vector y, double target) {
+void DualNewton<Normal>::climb(Vector y, double target, double most) {
   Vector direction;
   choose_weights(y);
   normal_.measure(weights_, y, residual_);
   const auto reached = [&] { return std::max(target, round_off * norm(y)); };
-  double last_size = 0.0, last_length = 1.0;
+  double start = 0.0, last_size = 0.0, last_length = 1.0;
   std::vector<double> pattern, given_up;  // weights between their bounds, at the last step
   for (int step = 0; step < most_newton_steps; ++step) {
     const double size = norm(residual_);
     if (size <= reached() || result_.iterations >= options_.iterations) break;
+    if (step == 0) start = size;
+    if (size > most * start) break;
     const bool settled =
         last_length == 1.0 && pattern == normal_.mobility && given_up == normal_.compliance;
     if (settled && size > contradiction * last_size) break;
@@ -142,19 +151,41 @@ void DualNewton<Normal>::climb(Vector y, double target) {
   result_.converged = norm(residual_) <= reached();
 }
 
+/// Norm of what the weights leave of the exact equations.
+template <class Normal>
+double DualNewton<Normal>::left() {
+  normal_.measure(weights_, Vector(residual_.size(), 0.0), residual_);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < residual_.size(); ++k) {
+    if (equations_.ridge_of(k % rows()) == 0.0) sum += residual_[k] * residual_[k];
+  }
+  return std::sqrt(sum);
+}
+
+/// From the end of the interior-point method; its weights stay where this leads away from them, as
+/// it does where equations contradict each other.
+template <class Normal>
+void DualNewton<Normal>::finish(const Vector& y, double target) {
+  const std::vector<double> interior = weights_;
+  const double reached = left();
+  climb(y, target, lost);
+  if (!result_.converged && left() > reached) weights_ = interior;
+}
+
 template <class Normal>
 LeastChange DualNewton<Normal>::solve() {
   const double target = options_.tolerance * root_of_points();
   if (options_.method == Method::newton) {
     climb(Vector(residual_.size(), 0.0), target);
   } else {
-    InteriorPoint<Normal> interior(equations_, normal_);
     // Newton's method finishes where it can: prices leave it lost between their kinks.
     const bool finished = std::isfinite(options_.price) || options_.tolerance >= rough;
+    InteriorPoint<Normal> interior(equations_, normal_, options_.proximity);
     result_.converged = interior.solve(finished ? target : rough * root_of_points(),
                                        options_.iterations, result_.iterations);
+    normal_.proximity = 0.0;
     weights_ = interior.weights();
-    if (!finished) climb(interior.multipliers(), target);
+    if (!finished) finish(interior.multipliers(), target);
   }
   report();
   return result_;

@@ -73,6 +73,8 @@ struct LeastChangeOptions {
       1e-12;               ///< of the norm of the scaled residual, per root of the number of points
   int iterations = 20000;  ///< of conjugate gradients after which no step begins
   double price = std::numeric_limits<double>::infinity();  ///< of what is left of exact equations
+  double proximity = 0.0;  ///< of the interior-point method: part of the multipliers by which
+                           ///< equations may be left at first (interior_point.hpp)
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
 };

@@ -77,26 +77,27 @@ class NormalEquations {
   /// What an exact equation gives way per unit of its multiplier, shape (points, Rows); empty where
   /// none has a price.
   Vector compliance;
+  /// Weight of the method of multipliers, relative to equations of order one: contradictions decay
+  /// by this factor over the smallest squared singular value in each step. 0: the least.
+  double proximity = 0.0;
 
  private:
   using Block = Eigen::Matrix<double, Rows, Rows>;
   static constexpr int own = Grouped ? Rows - 1 : Rows;  // rows that hold at each point
 
-  /// Weight of the method of multipliers, relative to equations of order one: contradictions decay
-  /// by this factor over the smallest squared singular value in each Newton step. Long waves along
-  /// a boundary have singular values that fall with the square of their length: a factor of the
-  /// equations allows a smaller weight.
-  static constexpr double proximity = 1e-10;
+  /// Least weights of the method of multipliers. Long waves along a boundary have singular values
+  /// that fall with the square of their length: a factor of the equations allows a smaller one.
+  static constexpr double least_proximity = 1e-10;
   static constexpr double factor_proximity = 1e-18;
   /// As many iterations take about the time of a factor.
   static constexpr int worth_of_factor = 15;
   /// A factor is made anew when the last solution needed more iterations than this.
   static constexpr int stale_iterations = 40;
   /// Iterations of a solution after which blocks get help.
-  static constexpr int patience = 150;
-  /// The coarse system of boxes takes the time of fifty to a hundred iterations, its fields that of
-  /// two hundred; they are made anew where a solution needs more than this, since more will follow.
-  static constexpr int stale_coarse = 50, stale_fields = 60;
+  static constexpr int patience = 60;
+  /// The coarse system of boxes takes the time of forty iterations, its fields that of a hundred;
+  /// they are made anew where a solution needs more than this, since more will follow.
+  static constexpr int stale_coarse = 40, stale_fields = 40;
 
   template <class Values>
   auto& last_row(Values& values, Index point) const {
@@ -217,7 +218,8 @@ template <int Rows, int Odd, bool Grouped>
 auto NormalEquations<Rows, Odd, Grouped>::diagonal() const -> Vector {
   Vector result(size_);
   for (std::size_t k = 0; k < size_; ++k) {
-    result[k] = equations_.ridge_of(k % Rows) + (by_factor_ ? factor_proximity : proximity) +
+    result[k] = equations_.ridge_of(k % Rows) +
+                std::max(proximity, by_factor_ ? factor_proximity : least_proximity) +
                 (compliance.empty() ? 0.0 : compliance[k]);
   }
   return result;

@@ -32,7 +32,7 @@ void multiply(const TiedEquations::Matrix& matrix, const Column& x, Column& prod
 
 /// Weight of the method of multipliers, as without a factor. With less, Newton's method gets lost
 /// where many weights pass their bounds: symmetry leaves rows that depend on each other.
-constexpr double proximity = 1e-10;
+constexpr double least_proximity = 1e-10;
 /// Added to the diagonal of the factor beside that, relative to its mean: round-off must not make
 /// rows negative that depend on others.
 constexpr double factor_floor = 1e-13;
@@ -100,7 +100,7 @@ TiedNormalEquations::TiedNormalEquations(const TiedEquations& tied)
       shift_(tied.matrix.rows()) {
   const std::size_t rows = static_cast<std::size_t>(tied.equations.rows);
   for (std::size_t k = 0; k < static_cast<std::size_t>(shift_.size()); ++k) {
-    shift_[static_cast<Eigen::Index>(k)] = tied.equations.ridge_of(k % rows) + proximity;
+    shift_[static_cast<Eigen::Index>(k)] = tied.equations.ridge_of(k % rows) + least_proximity;
     point_.push_back(static_cast<Index>(k / rows));
   }
 }

@@ -54,7 +54,8 @@ class TiedNormalEquations {
   static constexpr double given_up(std::size_t, double) { return 0.0; }
 
   std::vector<double> mobility;
-  Vector compliance;  // stays empty
+  Vector compliance;       // stays empty
+  double proximity = 0.0;  // stays zero: tied equations are those of lattices
 
  private:
   const TiedEquations& tied_;

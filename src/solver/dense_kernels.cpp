@@ -3,9 +3,12 @@
 #include <dlfcn.h>
 #include <sys/mman.h>
 
-#include <limits>
+#include <algorithm>
 #include <new>
+#include <random>
 #include <vector>
+
+#include <Eigen/Dense>
 
 #include "base/error.hpp"
 
@@ -13,15 +16,28 @@ extern "C" {
 void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k,
             const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
             const double* beta, double* c, const int* ldc);
-void dsyevr_(const char* job, const char* range, const char* part, const int* n, double* a,
-             const int* lda, const double* lowest, const double* highest, const int* first,
-             const int* last, const double* tolerance, int* found, double* values, double* vectors,
-             const int* ldz, int* support, double* work, const int* work_size, int* integers,
-             const int* integers_size, int* info);
+void dtrsm_(const char* side, const char* part, const char* trans, const char* diag, const int* m,
+            const int* n, const double* alpha, const double* a, const int* lda, double* b,
+            const int* ldb);
+void dpotrf_(const char* part, const int* n, double* a, const int* lda, int* info);
+void dgeqrf_(const int* m, const int* n, double* a, const int* lda, double* tau, double* work,
+             const int* work_size, int* info);
+void dorgqr_(const int* m, const int* n, const int* k, double* a, const int* lda, const double* tau,
+             double* work, const int* work_size, int* info);
 }
 
 namespace perilink {
 namespace {
+
+using Eigen::MatrixXd;
+
+/// Added to the diagonal relative to its mean, so that matrices that resist some vectors not at all
+/// have a factor.
+constexpr double shift = 1e-6;
+/// Vectors twice as stiff as the limit of 0.01 are left with 1e-8 of what the softest ones have.
+constexpr int inverse_iterations = 2;
+/// Where more than this part of the vectors is below the limit there may be others.
+constexpr double full = 0.9;
 
 /// OpenBLAS splits sums by its number of threads, which would make results depend on it: one
 /// thread. Other BLAS libraries lack the function; the reference BLAS has one thread anyway.
@@ -32,29 +48,81 @@ void use_one_blas_thread() {
   }
 }
 
-/// OpenBLAS takes its buffer when it is first used, and where there is no room it asks for ever:
-/// taken here once, it is kept.
-void take_blas_buffer() {
-  static bool taken = false;
-  if (taken) return;
+/// OpenBLAS takes a buffer for each thread that is in it when it is first used, and where there is
+/// no room it asks for ever: taken here once, they are kept. \return for how many threads
+int take_blas_buffers(int threads) {
+  static int taken = 0;
   using Take = void* (*)(int);
   using Give = void (*)(void*);
   auto* take = reinterpret_cast<Take>(dlsym(RTLD_DEFAULT, "blas_memory_alloc"));
   auto* give = reinterpret_cast<Give>(dlsym(RTLD_DEFAULT, "blas_memory_free"));
-  if (take == nullptr || give == nullptr) return;
+  if (taken >= threads || take == nullptr || give == nullptr) return threads;
   constexpr std::size_t size = std::size_t{128} << 20;
-  void* room = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (room == MAP_FAILED) throw std::bad_alloc();
-  munmap(room, size);
-  give(take(0));
-  taken = true;
+  std::vector<void*> buffers;
+  for (int k = 0; k < threads; ++k) {
+    // Those that were taken before come first.
+    if (k >= taken) {
+      void* room = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+      if (room == MAP_FAILED) break;
+      munmap(room, size);
+    }
+    buffers.push_back(take(0));
+  }
+  for (void* buffer : buffers) give(buffer);
+  taken = std::max(taken, static_cast<int>(buffers.size()));
+  if (taken == 0) throw std::bad_alloc();
+  return taken;
+}
+
+/// Numbers from -1 to 1, the same ones on every machine.
+MatrixXd numbers_at_random(int rows, int columns) {
+  std::mt19937 random(1);
+  return MatrixXd::NullaryExpr(rows, columns,
+                               [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; });
+}
+
+void check(int info) {
+  if (info != 0) throw SolverError("eigenvectors of a dense matrix were not found");
+}
+
+/// Replaces the columns by orthonormal ones of the same span.
+void orthonormalize(MatrixXd& columns) {
+  const int m = static_cast<int>(columns.rows()), n = static_cast<int>(columns.cols());
+  const int work_size = 64 * n;
+  std::vector<double> tau(static_cast<std::size_t>(n)), work(static_cast<std::size_t>(work_size));
+  int info = 0;
+  dgeqrf_(&m, &n, columns.data(), &m, tau.data(), work.data(), &work_size, &info);
+  check(info);
+  dorgqr_(&m, &n, &n, columns.data(), &m, tau.data(), work.data(), &work_size, &info);
+  check(info);
+}
+
+/// a b, or a' b.
+MatrixXd product(const MatrixXd& a, bool transposed, const MatrixXd& b) {
+  const int m = static_cast<int>(transposed ? a.cols() : a.rows());
+  const int n = static_cast<int>(b.cols()), k = static_cast<int>(b.rows());
+  const int rows = static_cast<int>(a.rows());
+  const double one = 1.0, zero = 0.0;
+  MatrixXd result(m, n);
+  dgemm_(transposed ? "T" : "N", "N", &m, &n, &k, &one, a.data(), &rows, b.data(), &k, &zero,
+         result.data(), &m);
+  return result;
+}
+
+/// columns = (L L')^-1 columns.
+void solve(const MatrixXd& lower, MatrixXd& columns) {
+  const int n = static_cast<int>(lower.rows()), count = static_cast<int>(columns.cols());
+  const double one = 1.0;
+  for (const char* trans : {"N", "T"}) {
+    dtrsm_("L", "L", trans, "N", &n, &count, &one, lower.data(), &n, columns.data(), &n);
+  }
 }
 
 }  // namespace
 
-void prepare_blas() {
+int prepare_blas(int threads) {
   use_one_blas_thread();
-  take_blas_buffer();
+  return take_blas_buffers(threads);
 }
 
 void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& sum) {
@@ -65,32 +133,27 @@ void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::Matr
   dgemm_("N", "T", &m, &n, &k, &one, a.data(), &m, b.data(), &n, &one, sum.data(), &m);
 }
 
-Eigen::MatrixXd eigenvectors_below(Eigen::MatrixXd matrix, double limit) {
+Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, int expected) {
   const int size = static_cast<int>(matrix.rows());
   if (size == 0) return matrix;
   if (!matrix.allFinite()) throw SolverError("a dense matrix holds numbers that are not finite");
-  // A positive semidefinite matrix has nothing below this but round-off.
-  const double lowest = -1.0 - std::abs(limit), tolerance = 0.0;
-  int found = 0, info = 0;
-  const int unused = 0;
-  Eigen::VectorXd values(size);
-  Eigen::MatrixXd vectors(size, size);
-  std::vector<int> support(2 * static_cast<std::size_t>(size)), integers(1);
-  std::vector<double> work(1);
-  int work_size = -1, integers_size = -1;
-  const auto run = [&] {
-    dsyevr_("V", "V", "L", &size, matrix.data(), &size, &lowest, &limit, &unused, &unused,
-            &tolerance, &found, values.data(), vectors.data(), &size, support.data(), work.data(),
-            &work_size, integers.data(), &integers_size, &info);
-  };
-  run();  // asks for the sizes of the work space
-  work_size = static_cast<int>(work[0]);
-  integers_size = integers[0];
-  work.resize(static_cast<std::size_t>(work_size));
-  integers.resize(static_cast<std::size_t>(integers_size));
-  run();
-  if (info != 0) throw SolverError("eigenvectors of a dense matrix were not found");
-  return vectors.leftCols(found);
+  MatrixXd lower = matrix;
+  lower.diagonal().array() += shift * matrix.trace() / size;
+  int info = 0;
+  dpotrf_("L", &size, lower.data(), &size, &info);
+  check(info);
+  for (int count = std::min(size, expected);; count = std::min(size, 2 * count)) {
+    MatrixXd columns = numbers_at_random(size, count);
+    for (int step = 0; step < inverse_iterations; ++step) {
+      solve(lower, columns);
+      orthonormalize(columns);
+    }
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(
+        product(columns, true, product(matrix, false, columns)));
+    const auto found = (ritz.eigenvalues().array() <= limit).count();
+    if (count<size&& static_cast<double>(found)> full * count) continue;
+    return product(columns, false, ritz.eigenvectors().leftCols(found));
+  }
 }
 
 }  // namespace perilink

@@ -144,15 +144,16 @@ int iterations(double length, bool with_boxes) {
   return count;
 }
 
-/// A body four times as long takes as many; blocks of single points take many more.
+/// A body four times as long takes as many; blocks of single points take many more. Fields above
+/// 0.003 of their blocks are left to conjugate gradients, whose bound is ln(2e8) / (2 sqrt(0.003)).
 TEST(BoxSpace, KeepsIterationsFromGrowing) {
   const int small = iterations(10, true);
-  EXPECT_LT(small, 60);
+  EXPECT_LT(small, 100);
   EXPECT_LT(iterations(40, true), 1.3 * small);
   EXPECT_GT(iterations(10, false), 4 * small);
 }
 
-/// From the start to exact balance: 1430 iterations, where blocks of points alone take 10900.
+/// From the start to exact balance, where blocks of points alone take 10900 iterations.
 TEST(BoxSpace, BalancesANotchedPrismInFewIterations) {
   Problem problem = make_problem(notched_box(15, 6), 3.0, 0.0, false);
   const CalibrationInput given{problem.body.particles,
