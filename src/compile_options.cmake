@@ -24,10 +24,10 @@ if(PERILINK_COVERAGE)
   target_link_options(perilink_options INTERFACE --coverage)
 endif()
 
-# perilink_module(NAME DEPENDENCIES...): one static library per module, made of all sources of its
+# perilink_module(NAME DEPENDENCIES...): one static library per module, made of all sources below its
 # folder, with the modules that it may include (tests/quality checks the includes themselves).
 function(perilink_module name)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   add_library(perilink_${name} STATIC ${sources})
   add_library(perilink::${name} ALIAS perilink_${name})
   target_include_directories(perilink_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})

@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/commands.hpp"
-#include "app/console.hpp"
-#include "app/plot.hpp"
+#include "app/commands/commands.hpp"
+#include "app/commands/plot_command.hpp"
+#include "app/process/console.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "app/commands.hpp"
+#include "app/commands/commands.hpp"
 
 // AddressSanitizer starts later still, and takes more address space than any limit.
 #ifndef __SANITIZE_ADDRESS__

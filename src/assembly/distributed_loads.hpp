@@ -4,11 +4,11 @@
 #include <functional>
 #include <span>
 
-#include "assembly/unknowns.hpp"
 #include "base/types.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 #include "discretization/simplices.hpp"
+#include "network/unknowns.hpp"
 
 /// \file
 /// Loads that are spread over the surface or the volume, as forces on particles: the integral of

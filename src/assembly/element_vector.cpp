@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "assembly/frame.hpp"
+#include "network/frame.hpp"
 
 namespace perilink {
 namespace {

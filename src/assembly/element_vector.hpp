@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "assembly/network.hpp"
-#include "assembly/unknowns.hpp"
 #include "base/sparse_vector.hpp"
+#include "network/network.hpp"
+#include "network/unknowns.hpp"
 
 namespace perilink {
 
@@ -25,7 +25,7 @@ struct ElementVectors {
 };
 
 /// One vector per mode that has stiffness: one of a truss; three of a micropolar bond in two
-/// dimensions and six in three (assembly/frame.hpp), the axial one first.
+/// dimensions and six in three (network/frame.hpp), the axial one first.
 /// \param fraction  of the intact stiffness that is meant
 ElementVectors element_vectors(const Network& network, const Unknowns& unknowns, Index element,
                                double fraction);

@@ -2,8 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "assembly/frame.hpp"
 #include "assembly/internal_force.hpp"
+#include "network/frame.hpp"
 
 namespace perilink {
 namespace {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "assembly/network.hpp"
 #include "base/csr.hpp"
+#include "network/network.hpp"
 
 /// \file
 /// Quantities per particle for output.

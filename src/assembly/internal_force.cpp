@@ -1,6 +1,6 @@
 #include "assembly/internal_force.hpp"
 
-#include "assembly/frame.hpp"
+#include "network/frame.hpp"
 
 namespace perilink {
 namespace {

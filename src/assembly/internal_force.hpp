@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "assembly/network.hpp"
+#include "network/network.hpp"
 
 namespace perilink {
 

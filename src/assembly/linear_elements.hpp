@@ -5,21 +5,15 @@
 #include <vector>
 
 #include "assembly/internal_force.hpp"
-#include "assembly/unknowns.hpp"
 #include "discretization/simplices.hpp"
 #include "material/elasticity.hpp"
+#include "network/unknowns.hpp"
 
 /// \file
 /// Linear finite elements on the particles: constant-strain triangles and tetrahedra. The yardstick
 /// of the error studies; nothing breaks here.
 
 namespace perilink {
-
-/// An isotropic elastic solid, any Poisson's ratio between -1 and 1/2.
-struct IsotropicMaterial {
-  double youngs_modulus = 0.0;  ///< E [force/length^2]
-  double poissons_ratio = 0.0;  ///< [-]
-};
 
 /// A mesh ready for assembly.
 struct LinearElements {

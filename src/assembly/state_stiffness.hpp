@@ -3,9 +3,9 @@
 #include <Eigen/SparseCore>
 #include <span>
 
-#include "assembly/network.hpp"
-#include "assembly/unknowns.hpp"
 #include "base/types.hpp"
+#include "network/network.hpp"
+#include "network/unknowns.hpp"
 
 namespace perilink {
 

@@ -5,10 +5,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "assembly/frame.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/state_stiffness.hpp"
 #include "base/csr.hpp"
+#include "network/frame.hpp"
 
 namespace perilink {
 namespace {

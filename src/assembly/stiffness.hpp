@@ -5,14 +5,14 @@
 
 #include <Eigen/SparseCore>
 
-#include "assembly/network.hpp"
-#include "assembly/unknowns.hpp"
 #include "base/types.hpp"
+#include "network/network.hpp"
+#include "network/unknowns.hpp"
 
 namespace perilink {
 
 /// Lower triangle of K = sum over elements of k n n' (trusses) or of k_m b_m b_m' over the modes of
-/// a frame (assembly/frame.hpp) between its free ends (unknown by unknown), with the particles'
+/// a frame (network/frame.hpp) between its free ends (unknown by unknown), with the particles'
 /// states where they have some (assembly/state_stiffness.hpp).
 /// \param secants  present stiffness of each element as a fraction of the intact one; broken
 ///                 elements keep their place in the pattern (as zeros), so that the pattern does

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "assembly/network.hpp"
 #include "base/csr.hpp"
 #include "material/elasticity.hpp"
+#include "network/network.hpp"
 
 /// \file
 /// Stresses of an elastic body at its particles.

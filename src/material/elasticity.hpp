@@ -12,6 +12,12 @@ int dimension_of(Problem problem);
 /// plane strain and in three dimensions (Gerstle, Sau & Silling 2005, section 2).
 double bond_poissons_ratio(Problem problem);
 
+/// An isotropic elastic solid, any Poisson's ratio between -1 and 1/2.
+struct IsotropicMaterial {
+  double youngs_modulus = 0.0;  ///< E [force/length^2]
+  double poissons_ratio = 0.0;  ///< [-]
+};
+
 /// stress = lambda trace(strain) + 2 mu strain, in the plane or in space [force/length^2].
 struct HookeConstants {
   double lambda = 0.0;  ///< in plane stress that of the plane, E nu / (1 - nu^2)

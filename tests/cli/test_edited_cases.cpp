@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/gmsh_mesher.hpp"
+#include "io/mesh/gmsh_mesher.hpp"
 #include "support/process.hpp"
 #include "support/program_cases.hpp"
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "io/case_file.hpp"
+#include "io/case/case_file.hpp"
 
 namespace perilink {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "io/case_file.hpp"
+#include "io/case/case_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "discretization/mesh_body.hpp"
-#include "io/gmsh_file.hpp"
+#include "discretization/meshes/mesh_body.hpp"
+#include "io/mesh/gmsh_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

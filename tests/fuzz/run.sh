@@ -15,16 +15,16 @@ mkdir -p "$build/found_$target"
 src=$root/src
 case $target in
   case)
-    sources=$(ls "$src"/io/case_*.cpp "$src"/io/toml_*.cpp "$src"/io/formula.cpp \
-                 "$src"/io/input_text.cpp)
+    sources=$(ls "$src"/io/case/case_*.cpp "$src"/io/case/sections/*.cpp "$src"/io/text/toml_*.cpp \
+                 "$src"/io/text/formula.cpp "$src"/io/text/input_text.cpp)
     libraries="-lfmt -lmuparser"
     seeds="$root/tests/fuzz/corpus $root/tests/cli/malformed $root/meshes"
     replayed="$root/tests/fuzz/corpus/* $root/tests/cli/malformed/*.toml $root/meshes/*.toml"
     options="-max_len=8192 -dict=$root/tests/fuzz/case.dict" ;;
   mesh)
-    sources="$(ls "$src"/io/toml_*.cpp "$src"/discretization/mesh_*.cpp) $src/io/gmsh_file.cpp
-             $src/io/gmsh_sections.cpp $src/io/gmsh_cursor.cpp"
-    for name in facet_geometry facets region neighbor_search; do
+    sources="$(ls "$src"/io/text/toml_*.cpp "$src"/discretization/meshes/mesh_*.cpp)
+             $src/io/mesh/gmsh_file.cpp $src/io/mesh/gmsh_sections.cpp $src/io/mesh/gmsh_cursor.cpp"
+    for name in mesh_faces facet_geometry facets region neighbor_search; do
       sources="$sources $src/discretization/$name.cpp"
     done
     seeds=$root/tests/fuzz/corpus_mesh

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "analysis/explicit_bonds.hpp"
+#include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {

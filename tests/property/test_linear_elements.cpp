@@ -7,10 +7,10 @@
 #include <numeric>
 #include <ostream>
 
-#include "analysis/convergence.hpp"
-#include "analysis/elastic_analysis.hpp"
-#include "discretization/mesh_body.hpp"
-#include "discretization/triangulate.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
+#include "app/study/convergence.hpp"
+#include "discretization/lattices/triangulate.hpp"
+#include "discretization/meshes/mesh_body.hpp"
 #include "support/simplex_meshes.hpp"
 
 namespace perilink {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "analysis/damage_analysis.hpp"
-#include "analysis/elastic_analysis.hpp"
-#include "app/configure.hpp"
-#include "io/case_file.hpp"
+#include "analysis/quasistatic/damage_analysis.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
+#include "app/model/from_case/configure.hpp"
+#include "io/case/case_file.hpp"
 
 /// \file
 /// What holds for every way to load a body: forces, driven displacements, both together, yielding

@@ -4,12 +4,12 @@
 
 #include <Eigen/Dense>
 
-#include "analysis/frame_limit_search.hpp"
+#include "analysis/quasistatic/events/frame_limit_search.hpp"
 #include "assembly/element_vector.hpp"
 #include "assembly/fields.hpp"
 #include "assembly/internal_force.hpp"
-#include "assembly/rigid_modes.hpp"
 #include "assembly/stiffness.hpp"
+#include "network/rigid_modes.hpp"
 #include "support/clouds.hpp"
 #include "support/micropolar_networks.hpp"
 #include "support/textbook_beams.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/configure.hpp"
-#include "io/case_file.hpp"
+#include "app/model/from_case/configure.hpp"
+#include "io/case/case_file.hpp"
 
 namespace perilink {
 namespace {

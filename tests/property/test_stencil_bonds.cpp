@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "analysis/bond_stencil.hpp"
+#include "analysis/dynamics/bonds/bond_stencil.hpp"
 #include "support/stencil_bodies.hpp"
 
 namespace perilink {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "analysis/elastic_analysis.hpp"
-#include "app/configure.hpp"
-#include "io/case_file.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
+#include "app/model/from_case/configure.hpp"
+#include "io/case/case_file.hpp"
 
 /// \file
 /// Planes of symmetry of calibrated bodies: the bonds there pull as those of a body that ends

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/case_schema.hpp"
+#include "io/case/case_schema.hpp"
 #include "quality/source_tree.hpp"
 
 namespace perilink::quality {

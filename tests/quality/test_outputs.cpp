@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.hpp"
-#include "app/plot.hpp"
-#include "io/csv.hpp"
-#include "io/vtu.hpp"
+#include "app/commands/commands.hpp"
+#include "app/commands/plot_command.hpp"
+#include "io/fields/vtu.hpp"
+#include "io/text/csv.hpp"
 #include "quality/source_tree.hpp"
 #include "support/temporary_directory.hpp"
 

@@ -1,8 +1,9 @@
-// Files and functions stay small enough to be read in one go.
+// Files, functions and folders stay small enough to be read in one go.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <ostream>
 #include <string>
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t longest_file = 400;
 constexpr int longest_function = 60;
+constexpr int largest_folder = 26;
 
 std::string join(const std::vector<std::string>& lines) {
   std::string text;
@@ -46,6 +48,12 @@ TEST(Sizes, FunctionsOfTheProgramAreUnder60Lines) {
     }
   }
   EXPECT_GT(seen, 100) << "the scanner has lost the functions";
+}
+
+TEST(Sizes, FoldersOfTheProgramHoldAtMost26Files) {
+  std::map<std::string, int> counts;
+  for (const auto& file : cpp_files("src")) ++counts[shown(file.parent_path())];
+  for (const auto& [folder, count] : counts) EXPECT_LE(count, largest_folder) << folder;
 }
 
 TEST(Sizes, EveryHeaderIsGuardedByPragmaOnce) {

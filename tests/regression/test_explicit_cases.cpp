@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/explicit_case.hpp"
+#include "app/model/from_case/lattice_case.hpp"
 
 namespace perilink {
 namespace {

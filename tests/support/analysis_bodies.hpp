@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "analysis/damage_analysis.hpp"
+#include "analysis/quasistatic/damage_analysis.hpp"
 #include "support/micropolar_networks.hpp"
 #include "support/textbook_beams.hpp"
 

@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "discretization/calibration.hpp"
-#include "discretization/isotropic_weights.hpp"
-#include "discretization/lattice.hpp"
+#include "calibration/calibration.hpp"
+#include "calibration/isotropic_weights.hpp"
+#include "discretization/lattices/lattice.hpp"
 
 namespace perilink::test {
 

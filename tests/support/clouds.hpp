@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "assembly/network_builder.hpp"
-#include "discretization/mesh_body.hpp"
+#include "discretization/meshes/mesh_body.hpp"
+#include "network/network_builder.hpp"
 #include "support/simplex_meshes.hpp"
 
 /// \file

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "io/vtu.hpp"
+#include "io/fields/vtu.hpp"
 
 namespace perilink::test {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <numbers>
 
-#include "analysis/inertia.hpp"
+#include "analysis/dynamics/inertia.hpp"
 #include "assembly/internal_force.hpp"
 #include "support/analysis_bodies.hpp"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "analysis/explicit_model.hpp"
+#include "analysis/dynamics/lattice/body/lattice_body.hpp"
 
 /// \file
 /// Small lattice bodies for tests of explicit runs.

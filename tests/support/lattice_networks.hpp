@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/lattice_statics.hpp"
+#include "analysis/dynamics/lattice/body/lattice_statics.hpp"
 #include "discretization/bonds.hpp"
 #include "support/lattice_models.hpp"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/explicit_energy.hpp"
-#include "analysis/explicit_kernels.hpp"
-#include "analysis/lattice_changes.hpp"
+#include "analysis/dynamics/lattice/lattice_changes.hpp"
+#include "analysis/dynamics/lattice/rows/row_energy.hpp"
+#include "analysis/dynamics/lattice/rows/row_kernels.hpp"
 
 /// \file
 /// Forces and energies of a lattice body as functions of its displacements.

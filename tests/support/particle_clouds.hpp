@@ -3,8 +3,8 @@
 #include <random>
 #include <vector>
 
-#include "assembly/particle_network.hpp"
-#include "discretization/mesh_body.hpp"
+#include "discretization/meshes/mesh_body.hpp"
+#include "network/particle_network.hpp"
 #include "support/simplex_meshes.hpp"
 
 /// \file

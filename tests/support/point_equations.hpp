@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "discretization/variable_parts.hpp"
+#include "calibration/least_change/variable_parts.hpp"
 
 namespace perilink::test {
 

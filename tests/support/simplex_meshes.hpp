@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "discretization/mesh.hpp"
+#include "discretization/meshes/mesh.hpp"
 
 /// \file
 /// Meshes of boxes, without groups.

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/network_builder.hpp"
+#include "network/network_builder.hpp"
 
 namespace perilink::test {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/explicit_bonds.hpp"
+#include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "support/small_networks.hpp"
 
 /// \file

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "app/configure.hpp"
+#include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
-#include "io/case_file.hpp"
+#include "io/case/case_file.hpp"
 
 namespace perilink::test {
 

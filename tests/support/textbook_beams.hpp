@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "assembly/network.hpp"
+#include "network/network.hpp"
 
 /// \file
 /// Elements as textbooks write them, in local axes and turned: shares no code with the program.

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "io/vtu.hpp"
+#include "io/fields/vtu.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cracks.hpp"
-#include "io/case_file.hpp"
+#include "io/case/case_file.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -11,7 +11,7 @@
 #include "assembly/fields.hpp"
 #include "bar.hpp"
 #include "discretization/bonds.hpp"
-#include "io/csv.hpp"
+#include "io/text/csv.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "assembly/crack_cost.hpp"
 #include "bodies.hpp"
+#include "network/crack_cost.hpp"
 #include "strip.hpp"
 
 namespace perilink::verification {

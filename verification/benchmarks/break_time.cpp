@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/event_engine.hpp"
-#include "app/summary.hpp"
+#include "analysis/quasistatic/events/event_engine.hpp"
+#include "app/run/summary.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/timer.hpp"
 #include "benchmarks/cholmod_reference.hpp"

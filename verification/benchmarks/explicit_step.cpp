@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "analysis/explicit_analysis.hpp"
-#include "analysis/explicit_bond_analysis.hpp"
-#include "assembly/network_builder.hpp"
-#include "assembly/unknowns.hpp"
+#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/lattice/lattice_analysis.hpp"
 #include "base/timer.hpp"
-#include "discretization/lattice.hpp"
+#include "discretization/lattices/lattice.hpp"
+#include "network/network_builder.hpp"
+#include "network/unknowns.hpp"
 
 using namespace perilink;
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/timer.hpp"
-#include "io/case_file.hpp"
+#include "io/case/case_file.hpp"
 
 namespace perilink::verification {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/damage_analysis.hpp"
-#include "app/configure.hpp"
+#include "analysis/quasistatic/damage_analysis.hpp"
+#include "app/model/from_case/configure.hpp"
 #include "discretization/region.hpp"
 
 /// \file

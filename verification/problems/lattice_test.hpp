@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/explicit_analysis.hpp"
-#include "io/case_file.hpp"
+#include "analysis/dynamics/lattice/lattice_analysis.hpp"
+#include "io/case/case_file.hpp"
 
 namespace perilink::verification {
 

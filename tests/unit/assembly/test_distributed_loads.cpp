@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "discretization/lattice.hpp"
+#include "discretization/lattices/lattice.hpp"
 
 namespace perilink {
 namespace {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "assembly/stiffness.hpp"
-#include "discretization/mesh_body.hpp"
+#include "discretization/meshes/mesh_body.hpp"
 #include "support/simplex_meshes.hpp"
 
 namespace perilink {

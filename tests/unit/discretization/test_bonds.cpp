@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "discretization/bonds.hpp"
-#include "discretization/lattice.hpp"
+#include "discretization/lattices/lattice.hpp"
 
 namespace perilink {
 namespace {

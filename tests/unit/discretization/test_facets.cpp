@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "discretization/lattice.hpp"
+#include "discretization/lattices/lattice.hpp"
 
 namespace perilink {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "discretization/lattice.hpp"
+#include "discretization/lattices/lattice.hpp"
 #include "discretization/rebar.hpp"
 
 namespace perilink {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "discretization/mesh_body.hpp"
+#include "discretization/meshes/mesh_body.hpp"
 #include "support/simplex_meshes.hpp"
 
 namespace perilink {

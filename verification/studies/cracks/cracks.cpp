@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/field_file.hpp"
-#include "app/plot_curve.hpp"
+#include "app/plot/plot_curve.hpp"
+#include "app/results/field_file.hpp"
 #include "base/timer.hpp"
-#include "io/case_file.hpp"
+#include "io/case/case_file.hpp"
 
 namespace perilink::verification {
 namespace {

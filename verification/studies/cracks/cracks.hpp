@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/damage_analysis.hpp"
-#include "app/plot_body.hpp"
+#include "analysis/quasistatic/damage_analysis.hpp"
+#include "app/plot/plot_body.hpp"
 #include "crack_path.hpp"
 #include "specimens.hpp"
 

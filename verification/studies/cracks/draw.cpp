@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/plot_axes.hpp"
+#include "app/plot/plot_axes.hpp"
 
 namespace perilink::verification {
 namespace {

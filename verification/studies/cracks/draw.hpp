@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "app/svg.hpp"
+#include "app/plot/svg.hpp"
 #include "cracks.hpp"
 
 namespace perilink::verification {

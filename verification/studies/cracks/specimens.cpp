@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "io/case_words.hpp"
+#include "io/case/case_words.hpp"
 #include "problems/block.hpp"
 
 namespace perilink::verification {

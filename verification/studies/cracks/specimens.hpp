@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discretization/lattice.hpp"
+#include "discretization/lattices/lattice.hpp"
 
 /// \file
 /// The three specimens of the study, each as a case file and with what is known of it beforehand.

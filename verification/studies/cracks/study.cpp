@@ -12,7 +12,7 @@
 #include <exception>
 #include <string>
 
-#include "app/plot_fields.hpp"
+#include "app/plot/plot_fields.hpp"
 #include "cracks.hpp"
 #include "draw.hpp"
 #include "problems/result.hpp"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "analysis/single_event_engine.hpp"
+#include "analysis/quasistatic/events/single_event_engine.hpp"
 #include "assembly/element_vector.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "assembly/rigid_modes.hpp"
 #include "drift.hpp"
+#include "network/rigid_modes.hpp"
 #include "problems/block.hpp"
 #include "problems/result.hpp"
 #include "problems/surface_option.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/configure.hpp"
+#include "app/model/from_case/configure.hpp"
 
 namespace perilink::verification {
 

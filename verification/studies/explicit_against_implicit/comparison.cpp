@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/fundamental_period.hpp"
-#include "app/configure.hpp"
+#include "analysis/dynamics/fundamental_period.hpp"
+#include "app/model/from_case/configure.hpp"
 #include "base/timer.hpp"
 
 namespace perilink::verification {

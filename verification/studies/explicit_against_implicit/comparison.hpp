@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/damage_analysis.hpp"
-#include "analysis/explicit_bond_analysis.hpp"
+#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/quasistatic/damage_analysis.hpp"
 
 namespace perilink::verification {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/elastic_analysis.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
 #include "base/timer.hpp"
 
 namespace perilink::verification {

@@ -7,8 +7,8 @@
 #include <map>
 #include <numbers>
 
-#include "analysis/elastic_analysis.hpp"
-#include "io/case_file.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
+#include "io/case/case_file.hpp"
 #include "material/micromodulus.hpp"
 
 namespace perilink::verification {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/configure.hpp"
+#include "app/model/from_case/configure.hpp"
 
 namespace perilink::verification {
 

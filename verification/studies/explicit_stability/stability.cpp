@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "analysis/explicit_bond_analysis.hpp"
-#include "app/bond_run.hpp"
-#include "app/explicit_case.hpp"
+#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "app/model/from_case/lattice_case.hpp"
+#include "app/run/bond_run.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/explicit_analysis.hpp"
+#include "analysis/dynamics/lattice/lattice_analysis.hpp"
 
 namespace perilink::verification {
 

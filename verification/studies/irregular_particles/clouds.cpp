@@ -6,11 +6,11 @@
 #include <random>
 #include <stdexcept>
 
-#include "analysis/elastic_analysis.hpp"
-#include "analysis/explicit_bond_analysis.hpp"
-#include "analysis/fundamental_period.hpp"
-#include "analysis/inertia.hpp"
-#include "discretization/triangulate.hpp"
+#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/fundamental_period.hpp"
+#include "analysis/dynamics/inertia.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
+#include "discretization/lattices/triangulate.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "analysis/explicit_analysis.hpp"
-#include "assembly/particle_network.hpp"
-#include "assembly/unknowns.hpp"
+#include "analysis/dynamics/lattice/lattice_analysis.hpp"
+#include "network/particle_network.hpp"
+#include "network/unknowns.hpp"
 
 namespace perilink::verification {
 

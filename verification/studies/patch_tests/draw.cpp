@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "app/plot_axes.hpp"
+#include "app/plot/plot_axes.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "app/svg.hpp"
+#include "app/plot/svg.hpp"
 #include "patch.hpp"
 
 namespace perilink::verification {

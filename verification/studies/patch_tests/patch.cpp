@@ -8,11 +8,11 @@
 #include <numeric>
 #include <span>
 
-#include "analysis/elastic_analysis.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
 #include "assembly/distributed_loads.hpp"
 #include "assembly/internal_force.hpp"
-#include "assembly/rigid_modes.hpp"
-#include "io/case_file.hpp"
+#include "io/case/case_file.hpp"
+#include "network/rigid_modes.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "analysis/elastic_analysis.hpp"
-#include "assembly/network_builder.hpp"
-#include "assembly/rigid_modes.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
+#include "network/network_builder.hpp"
+#include "network/rigid_modes.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "discretization/lattice.hpp"
+#include "discretization/lattices/lattice.hpp"
 
 /// \file
 /// The axial bar of Gerstle, Sau & Silling (2005), section 4, solved with the program's lattice,

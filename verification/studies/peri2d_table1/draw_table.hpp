@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "app/svg.hpp"
+#include "app/plot/svg.hpp"
 #include "table1.hpp"
 
 namespace perilink::verification {

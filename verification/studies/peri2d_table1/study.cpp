@@ -11,7 +11,7 @@
 #include <string>
 
 #include "draw_table.hpp"
-#include "io/csv.hpp"
+#include "io/text/csv.hpp"
 #include "table1.hpp"
 
 namespace perilink::verification {

@@ -1,6 +1,6 @@
 #include "table1.hpp"
 
-#include "io/csv.hpp"
+#include "io/text/csv.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/configure.hpp"
-#include "app/study_run.hpp"
+#include "app/model/from_case/configure.hpp"
+#include "app/study/study_run.hpp"
 
 namespace perilink::verification {
 

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "app/study_pictures.hpp"
-#include "app/study_run.hpp"
-#include "app/study_table.hpp"
+#include "app/study/study_pictures.hpp"
+#include "app/study/study_run.hpp"
+#include "app/study/study_table.hpp"
 #include "calculix.hpp"
-#include "io/case_overrides.hpp"
-#include "io/case_sections.hpp"
+#include "io/case/case_overrides.hpp"
+#include "io/case/sections/case_sections.hpp"
 #include "problems/result.hpp"
 
 namespace {

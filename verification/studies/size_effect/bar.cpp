@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include "analysis/elastic_analysis.hpp"
-#include "app/configure.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
+#include "app/model/from_case/configure.hpp"
 
 namespace perilink::verification {
 namespace {

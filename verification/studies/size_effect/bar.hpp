@@ -1,6 +1,6 @@
 #pragma once
 
-#include "discretization/lattice.hpp"
+#include "discretization/lattices/lattice.hpp"
 
 namespace perilink::verification {
 

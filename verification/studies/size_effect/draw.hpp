@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "app/svg.hpp"
+#include "app/plot/svg.hpp"
 #include "size_effect.hpp"
 
 namespace perilink::verification {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "assembly/network_builder.hpp"
 #include "half_space.hpp"
+#include "network/network_builder.hpp"
 
 /// \file
 /// What the program's own bonds give to particles near a plane surface. Horizon and Young's modulus

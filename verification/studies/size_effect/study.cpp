@@ -13,7 +13,7 @@
 #include <string>
 
 #include "draw.hpp"
-#include "io/csv.hpp"
+#include "io/text/csv.hpp"
 #include "size_effect.hpp"
 
 namespace perilink::verification {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "analysis/event_engine.hpp"
+#include "analysis/quasistatic/events/event_engine.hpp"
 
 /// \file
 /// Cases with long cracks, through the whole program.

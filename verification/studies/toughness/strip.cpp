@@ -6,9 +6,9 @@
 #include <map>
 #include <vector>
 
-#include "assembly/lattice_families.hpp"
 #include "bodies.hpp"
 #include "material/critical_stretch.hpp"
+#include "network/lattice_families.hpp"
 
 namespace perilink::verification {
 namespace {

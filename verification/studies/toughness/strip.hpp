@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "discretization/lattice.hpp"
+#include "discretization/lattices/lattice.hpp"
 #include "material/elasticity.hpp"
 
 /// \file

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "analysis/dynamics/bonds/state_particles.hpp"
+#include "analysis/dynamics/explicit_run.hpp"
+#include "analysis/dynamics/inertia.hpp"
+#include "analysis/quasistatic/damage_analysis.hpp"
+#include "network/unknowns.hpp"
+
+namespace perilink {
+
+/// What observers of an explicit run of bonds may look at, valid during the call only.
+struct BondRunState {
+  const Network& network;
+  const BondMotion& motion;
+  const ExplicitBonds& bonds;
+  /// Bonds that broke, where particles crack and not bonds those that did: first ones first, those
+  /// of one step in the order of their numbers.
+  const std::vector<Index>& broken;
+};
+
+/// Watches a run.
+class BondRunObserver {
+ public:
+  virtual ~BondRunObserver() = default;
+  virtual void on_row(const ExplicitRecord& record, const BondRunState& state) = 0;
+  /// Once, after the last row.
+  virtual void on_end(const ExplicitRecord& /*last*/, const BondRunState& /*state*/) {}
+  /// Every few hundred iterations of a dynamic relaxation.
+  virtual void on_iteration(Index /*load_step*/, Index /*iteration*/, double /*residual*/) {}
+  /// Asked before every row and every few hundred steps; after a yes comes one more row.
+  virtual bool stop_requested() { return false; }
+};
+
+/// Component whose prescribed motion or load is the largest, in which the reaction of supports is
+/// counted.
+int main_component(const Unknowns& unknowns, const Loads& loads);
+
+/// What a network with states is made of.
+struct StateBody {
+  Problem problem = Problem::plane_stress;
+  double thickness = 1.0;  ///< of a body in the plane [length]
+  std::vector<StateMaterial> materials;
+};
+
+/// What moves the bonds of a run and how.
+struct BondRunRules {
+  double damping_rate = 0.0;  ///< [1/time]
+  Strain strain = Strain::small;
+  /// Prescribed displacements are those at the end of the duration, reached at constant velocity;
+  /// else they follow the load factor.
+  bool constant_velocity = false;
+  StateBody states{};  ///< looked at where the network has states
+};
+
+/// Runs a network of bonds, truss or frame, from rest by Euler–Cromer: forces at step n change
+/// velocities, those the displacements. Loads and prescribed displacements are those of the
+/// implicit analyses times the load factor over time, ramped_load_factor(); so are the bonds and
+/// where they break. With the ramp many times the fundamental period (fundamental_period.hpp) long
+/// the run is quasistatic but for the moments in which bonds break.
+///
+/// Damping is in proportion to the mass: force = rate times mass times velocity, at the middle of
+/// the step, so that it costs nothing of the critical time step.
+///
+/// The energies of a row balance to round-off, since every force works over the mean of the old and
+/// the new velocity, the stored energy is u_(n-1)' K u_n / 2, and a bond that breaks at step n
+/// loses its own part of that. Of Green strains they balance but for a part of the kinetic energy
+/// as small as the stretches, docs/theory/explicit_bonds.md, section 3.
+/// \param options  `reference` is not looked at
+/// \throws std::invalid_argument where the time step exceeds the critical one (unless
+/// refuse_unstable is off) or the duration is not positive
+/// \returns ending = failed where energy grows from nothing; peak_displacement is zero where loads
+/// drive the body
+ExplicitResult run_explicit_bonds(const Network& network, const Unknowns& unknowns,
+                                  const Loads& loads, const ReferenceLoad& reference,
+                                  const Inertia& inertia, const BondRunRules& rules,
+                                  const ExplicitOptions& options, BondRunObserver& observer);
+
+}  // namespace perilink

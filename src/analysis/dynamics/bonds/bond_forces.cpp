@@ -1,0 +1,232 @@
+#include "analysis/dynamics/bonds/bond_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "analysis/dynamics/bonds/element_halves.hpp"
+#include "analysis/dynamics/bonds/stencil_bonds.hpp"
+#include "material/bond_law.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What can happen to the elements of a network.
+enum class Limits {
+  none,
+  breaking,  ///< bonds break in tension
+  yielding,  ///< bars yield as well, either way
+};
+
+/// \tparam Half  TrussHalf, GreenHalf or FrameHalf
+template <class Half>
+class Halves final : public ExplicitBonds {
+ public:
+  Halves(const Network& network, const std::vector<Index>& elements);
+
+  BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
+                    std::span<double> force) override;
+  double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override;
+  std::vector<double> secants() const override;
+
+ private:
+  static constexpr int width = Half::width;
+
+  void add(const Network& network, Index element, bool first);
+  template <Limits Kind>
+  BondLosses forces_of(Index begin, Index end, double time_step, const BondMotion& motion,
+                       std::span<double> force);
+  void give_way(std::size_t half, const double* own, const double* own_speed,
+                const BondMotion& motion, double time_step, BondLosses& losses);
+  void before(const double* now, const double* speed, double time_step, double* past) const;
+
+  const Network& network_;
+  Limits limits_ = Limits::none;
+  std::vector<std::size_t> offsets_;
+  std::vector<Half> halves_;
+  std::vector<Index> element_;
+  std::vector<double> limit_;   ///< of Half::demand(), which an intact bond exceeds where it fails
+  std::vector<double> secant_;  ///< present, over the intact stiffness
+  std::vector<int> tooth_;      ///< of bar segments
+};
+
+template <class Half>
+Halves<Half>::Halves(const Network& network, const std::vector<Index>& elements)
+    : network_(network) {
+  const Index count = network.particles.size();
+  std::vector<std::vector<std::pair<Index, bool>>> of_particle(count);
+  for (const Index e : elements) {
+    of_particle[network.bonds.first[e]].emplace_back(e, true);
+    of_particle[network.bonds.second[e]].emplace_back(e, false);
+  }
+  offsets_.push_back(0);
+  for (const auto& own : of_particle) {
+    for (const auto& [element, first] : own) add(network, element, first);
+    offsets_.push_back(halves_.size());
+  }
+  for (std::size_t half = 0; half < limit_.size(); ++half) {
+    if (std::isinf(limit_[half])) continue;
+    limits_ =
+        std::max(limits_, network.is_segment(element_[half]) ? Limits::yielding : Limits::breaking);
+  }
+}
+
+template <class Half>
+void Halves<Half>::add(const Network& network, Index element, bool first) {
+  halves_.emplace_back(network, element, first);
+  element_.push_back(element);
+  secant_.push_back(1.0);
+  tooth_.push_back(0);
+  const double length = network.bonds.lengths[element];
+  double limit = network.critical_stretch[element];
+  if (network.is_segment(element)) {
+    const double yield = network.yield_strain[element - network.first_segment];
+    limit = std::isinf(yield) ? infinity : PlateauLaw{yield}.tooth(0).limit;
+  }
+  limit_.push_back(Half::limit_of_demand(limit, length));
+}
+
+template <class Half>
+void Halves<Half>::before(const double* now, const double* speed, double time_step,
+                          double* past) const {
+  for (int c = 0; c < width; ++c) past[c] = now[c] - time_step * speed[c];
+}
+
+/// A bond breaks for good, a bar falls to the tooth on which it holds.
+template <class Half>
+void Halves<Half>::give_way(std::size_t half, const double* own, const double* own_speed,
+                            const BondMotion& motion, double time_step, BondLosses& losses) {
+  Half& bond = halves_[half];
+  const std::size_t other = static_cast<std::size_t>(bond.other) * width;
+  const double* far = motion.displacement.data() + other;
+  const Index element = element_[half];
+  double next = 0.0;
+  if (network_.is_segment(element)) {
+    const PlateauLaw law{network_.yield_strain[element - network_.first_segment]};
+    const double length = network_.bonds.lengths[element];
+    Tooth tooth{};
+    do {
+      tooth = law.tooth(++tooth_[half]);
+      limit_[half] = Half::limit_of_demand(tooth.limit, length);
+    } while (bond.size(own, far) > limit_[half]);
+    next = tooth.secant;
+  } else {
+    limit_[half] = infinity;
+    losses.broken.push_back(element);
+  }
+  double past_own[width], past_far[width];
+  before(own, own_speed, time_step, past_own);
+  before(far, motion.velocity.data() + other, time_step, past_far);
+  const double held = bond.energy(past_own, past_far, own, far);
+  bond.scale(next / secant_[half]);
+  losses.fractured += 0.5 * (held - bond.energy(past_own, past_far, own, far));
+  secant_[half] = next;
+}
+
+template <class Half>
+template <Limits Kind>
+BondLosses Halves<Half>::forces_of(Index begin, Index end, double time_step,
+                                   const BondMotion& motion, std::span<double> force) {
+  BondLosses losses;
+  const double* u = motion.displacement.data();
+  for (Index i = begin; i < end; ++i) {
+    const std::size_t slot = static_cast<std::size_t>(i) * width;
+    const double* own = u + slot;
+    double sum[width] = {};
+    for (std::size_t half = offsets_[i]; half < offsets_[i + 1]; ++half) {
+      const Half& bond = halves_[half];
+      const double* far = u + static_cast<std::size_t>(bond.other) * width;
+      double demand = bond.add_force(own, far, sum);
+      if constexpr (Kind == Limits::none) continue;
+      if constexpr (Kind == Limits::yielding) {
+        if (network_.is_segment(element_[half])) demand = bond.size(own, far);
+      }
+      if (demand <= limit_[half]) continue;
+      bond.add_force(own, far, sum, -1.0);
+      give_way(half, own, motion.velocity.data() + slot, motion, time_step, losses);
+      bond.add_force(own, far, sum);
+    }
+    for (int c = 0; c < width; ++c) force[slot + c] = sum[c];
+  }
+  return losses;
+}
+
+template <class Half>
+BondLosses Halves<Half>::forces(Index begin, Index end, double time_step, const BondMotion& motion,
+                                std::span<double> force) {
+  switch (limits_) {
+    case Limits::none: return forces_of<Limits::none>(begin, end, time_step, motion, force);
+    case Limits::breaking: return forces_of<Limits::breaking>(begin, end, time_step, motion, force);
+    case Limits::yielding: break;
+  }
+  return forces_of<Limits::yielding>(begin, end, time_step, motion, force);
+}
+
+template <class Half>
+double Halves<Half>::stored(Index begin, Index end, double time_step,
+                            const BondMotion& motion) const {
+  double energy = 0.0;
+  for (Index i = begin; i < end; ++i) {
+    const std::size_t slot = static_cast<std::size_t>(i) * width;
+    double past_own[width], past_far[width];
+    const double* own = motion.displacement.data() + slot;
+    before(own, motion.velocity.data() + slot, time_step, past_own);
+    for (std::size_t half = offsets_[i]; half < offsets_[i + 1]; ++half) {
+      const std::size_t other = static_cast<std::size_t>(halves_[half].other) * width;
+      const double* far = motion.displacement.data() + other;
+      before(far, motion.velocity.data() + other, time_step, past_far);
+      energy += 0.5 * halves_[half].energy(past_own, past_far, own, far);
+    }
+  }
+  return energy;
+}
+
+template <class Half>
+std::vector<double> Halves<Half>::secants() const {
+  std::vector<double> result(static_cast<std::size_t>(network_.num_elements()));
+  for (std::size_t half = 0; half < halves_.size(); ++half) result[element_[half]] = secant_[half];
+  return result;
+}
+
+template <template <int> class Half>
+std::unique_ptr<ExplicitBonds> make_halves(const Network& network,
+                                           const std::vector<Index>& elements) {
+  if (network.dim() == 2) return std::make_unique<Halves<Half<2>>>(network, elements);
+  return std::make_unique<Halves<Half<3>>>(network, elements);
+}
+
+}  // namespace
+
+std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network, Strain strain) {
+  if (network.has_states()) {
+    throw std::invalid_argument("state-based particles are not a network of bonds alone");
+  }
+  std::vector<Index> all(static_cast<std::size_t>(network.num_elements()));
+  std::iota(all.begin(), all.end(), 0);
+  if (network.carries_moments()) {
+    if (strain == Strain::green) {
+      throw std::invalid_argument("bonds that carry moments know small strains only");
+    }
+    return make_halves<FrameHalf>(network, all);
+  }
+  if (strain == Strain::green) return make_halves<GreenHalf>(network, all);
+  return make_halves<TrussHalf>(network, all);
+}
+
+std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain) {
+  if (network.has_states() || network.carries_moments() || strain == Strain::green) {
+    return make_explicit_halves(network, strain);
+  }
+  BondStencil stencil = find_stencil(network);
+  std::unique_ptr<ExplicitBonds> rest;
+  if (!stencil.rest.empty()) rest = make_halves<TrussHalf>(network, stencil.rest);
+  if (stencil.kinds.empty()) return rest;
+  return make_stencil_bonds(network, std::move(stencil), std::move(rest));
+}
+
+}  // namespace perilink

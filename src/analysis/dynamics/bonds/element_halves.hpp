@@ -1,0 +1,239 @@
+#pragma once
+
+#include <cmath>
+
+#include "network/network.hpp"
+
+/// \file
+/// Half of an element, as the particle at one of its ends sees it: `own` and `far` are the motions
+/// of that particle and of the one at the other end. Everything is measured from the first end to
+/// the second, so that both halves of an element see the same numbers.
+
+namespace perilink {
+
+/// An element that stretches only.
+template <int Dim>
+struct TrussHalf {
+  static constexpr int width = Dim;
+
+  double n[Dim];  ///< unit vector from the own end to the other
+  double k;       ///< present stiffness [force/length]
+  Index other;    ///< particle at the far end
+
+  TrussHalf(const Network& network, Index element, bool first)
+      : k(network.stiffness[element]),
+        other(first ? network.bonds.second[element] : network.bonds.first[element]) {
+    for (int a = 0; a < Dim; ++a) {
+      n[a] = first ? network.bonds.direction(element)[a] : -network.bonds.direction(element)[a];
+    }
+  }
+
+  static double limit_of_demand(double stretch, double length) { return stretch * length; }
+
+  double extension(const double* own, const double* far) const {
+    double sum = 0.0;
+    for (int a = 0; a < Dim; ++a) sum += n[a] * (far[a] - own[a]);
+    return sum;
+  }
+
+  /// Adds `sign` times the part of K u at the own end. \return the extension [length]
+  double add_force(const double* own, const double* far, double* sum, double sign = 1.0) const {
+    const double e = extension(own, far);
+    for (int a = 0; a < Dim; ++a) sum[a] -= sign * k * e * n[a];
+    return e;
+  }
+
+  /// What a bar yields by, in tension and compression alike.
+  double size(const double* own, const double* far) const { return std::abs(extension(own, far)); }
+
+  /// q' K q_now / 2 of the whole element between two motions [force length].
+  double energy(const double* own_before, const double* far_before, const double* own,
+                const double* far) const {
+    return 0.5 * k * extension(own_before, far_before) * extension(own, far);
+  }
+
+  void scale(double factor) { k *= factor; }
+};
+
+/// An element that stretches by any amount and turns by any angle: with its present vector x, from
+/// the own end to the other, and X before loading the energy k |X|^2 g^2 / 2 of the Green–Lagrange
+/// stretch g = (x.x - X.X) / (2 X.X) = s + s^2 / 2 (Miranda, Williams & Orr 2016, Eqs. 6 and 7),
+/// whose derivative is the force k g x.
+template <int Dim>
+struct GreenHalf {
+  static constexpr int width = Dim;
+
+  double before[Dim];  ///< X [length]
+  double flexibility;  ///< 1 / X.X [1/length^2]
+  double k;            ///< present stiffness where g is small [force/length]
+  Index other;         ///< particle at the far end
+
+  GreenHalf(const Network& network, Index element, bool first)
+      : k(network.stiffness[element]),
+        other(first ? network.bonds.second[element] : network.bonds.first[element]) {
+    const double length = network.bonds.lengths[element];
+    flexibility = 1.0 / (length * length);
+    for (int a = 0; a < Dim; ++a) {
+      before[a] = (first ? length : -length) * network.bonds.direction(element)[a];
+    }
+  }
+
+  static double limit_of_demand(double stretch, double /*length*/) { return stretch; }
+
+  /// From the relative displacement d = x - X: differences of lengths would cancel.
+  double stretch(const double* own, const double* far) const {
+    double sum = 0.0;
+    for (int a = 0; a < Dim; ++a) {
+      const double d = far[a] - own[a];
+      sum += (before[a] + 0.5 * d) * d;
+    }
+    return flexibility * sum;
+  }
+
+  /// Adds `sign` times the internal force at the own end. \return the stretch g [-]
+  double add_force(const double* own, const double* far, double* sum, double sign = 1.0) const {
+    const double g = stretch(own, far);
+    for (int a = 0; a < Dim; ++a) sum[a] -= sign * k * g * (before[a] + far[a] - own[a]);
+    return g;
+  }
+
+  double size(const double* own, const double* far) const { return std::abs(stretch(own, far)); }
+
+  /// k |X|^2 g_before g_now / 2 [force length]: between two motions what Euler–Cromer keeps but for
+  /// a part of the kinetic energy as small as the stretches.
+  double energy(const double* own_before, const double* far_before, const double* own,
+                const double* far) const {
+    return 0.5 * k / flexibility * stretch(own_before, far_before) * stretch(own, far);
+  }
+
+  void scale(double factor) { k *= factor; }
+};
+
+/// A micropolar bond: a frame element with the modes of network/frame.hpp, and the equivalent
+/// stretch of analysis/quasistatic/events/frame_limit_search.hpp.
+template <int Dim>
+struct FrameHalf {
+  static constexpr int width = Dim == 2 ? 3 : 6;
+
+  double n[Dim];                   ///< unit vector from the first end to the second
+  double first_arm, second_arm;    ///< from the ends to the inflection [length]
+  double k, kb, rotational;        ///< axial, transverse; of relative rotations [force length]
+  double twisting;                 ///< of relative rotations about n; in space
+  double shear_share, bend_share;  ///< of squares in the equivalent stretch
+  double twist_share;
+  Index other;
+  bool first;  ///< the own end is the first one
+
+  FrameHalf(const Network& network, Index element, bool at_first)
+      : k(network.stiffness[element]),
+        kb(network.bending[element]),
+        other(at_first ? network.bonds.second[element] : network.bonds.first[element]),
+        first(at_first) {
+    const double length = network.bonds.lengths[element];
+    for (int a = 0; a < Dim; ++a) n[a] = network.bonds.direction(element)[a];
+    first_arm = network.inflection_of(element) * length;
+    second_arm = (1.0 - network.inflection_of(element)) * length;
+    rotational = kb * length * length / 12.0;
+    twisting = network.torsion * rotational;
+    shear_share = network.ratio_of_bending(element);
+    bend_share = shear_share * length * length / 12.0;
+    twist_share = network.torsion * bend_share;
+  }
+
+  static double limit_of_demand(double stretch, double length) {
+    return stretch * length * stretch * length;
+  }
+
+  /// How an element is deformed.
+  struct Deformation {
+    double extension = 0.0;
+    double shear[Dim] = {};  ///< vector across n; in the plane the first entry is along t
+    double bend[Dim == 2 ? 1 : 3] = {};  ///< relative rotation but its part about n
+    double twist = 0.0;                  ///< relative rotation about n
+  };
+
+  Deformation deformation(const double* own, const double* far) const {
+    const double* i = first ? own : far;
+    const double* j = first ? far : own;
+    Deformation d;
+    if constexpr (Dim == 2) {
+      const double dx = j[0] - i[0], dy = j[1] - i[1];
+      d.extension = n[0] * dx + n[1] * dy;
+      d.shear[0] = n[0] * dy - n[1] * dx - (first_arm * i[2] + second_arm * j[2]);
+      d.bend[0] = j[2] - i[2];
+    } else {
+      double turn[3], arm[3];
+      for (int a = 0; a < 3; ++a) {
+        d.extension += n[a] * (j[a] - i[a]);
+        turn[a] = j[3 + a] - i[3 + a];
+        d.twist += n[a] * turn[a];
+        arm[a] = first_arm * i[3 + a] + second_arm * j[3 + a];
+      }
+      for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        d.shear[a] = j[a] - i[a] - n[a] * d.extension + n[b] * arm[c] - n[c] * arm[b];
+        d.bend[a] = turn[a] - n[a] * d.twist;
+      }
+    }
+    return d;
+  }
+
+  /// Square of the equivalent stretch times the length; of bars that of the extension.
+  static double square(const Deformation& d, double shear_share, double bend_share,
+                       double twist_share) {
+    double shear = 0.0, bend = 0.0;
+    for (const double value : d.shear) shear += value * value;
+    for (const double value : d.bend) bend += value * value;
+    return d.extension * d.extension + shear_share * shear + bend_share * bend +
+           twist_share * d.twist * d.twist;
+  }
+
+  /// \return the square above, zero where the bond is not in tension
+  double add_force(const double* own, const double* far, double* sum, double sign = 1.0) const {
+    /// A bond of which symmetry keeps the length must not break by round-off.
+    constexpr double least_tension = 1e-12;
+    const Deformation d = deformation(own, far);
+    const double side = first ? -sign : sign;
+    const double arm = first ? first_arm : second_arm;
+    if constexpr (Dim == 2) {
+      const double axial = side * k * d.extension, across = side * kb * d.shear[0];
+      sum[0] += axial * n[0] - across * n[1];
+      sum[1] += axial * n[1] + across * n[0];
+      sum[2] += side * rotational * d.bend[0] - sign * kb * arm * d.shear[0];
+    } else {
+      for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        sum[a] += side * (k * d.extension * n[a] + kb * d.shear[a]);
+        sum[3 + a] += side * (rotational * d.bend[a] + twisting * d.twist * n[a]) +
+                      sign * kb * arm * (d.shear[b] * n[c] - d.shear[c] * n[b]);
+      }
+    }
+    const double whole = square(d, shear_share, bend_share, twist_share);
+    const bool stretched = d.extension > 0.0 && d.extension * d.extension > least_tension * whole;
+    return stretched ? whole : 0.0;
+  }
+
+  double size(const double* own, const double* far) const {
+    const double e = deformation(own, far).extension;
+    return e * e;
+  }
+
+  double energy(const double* own_before, const double* far_before, const double* own,
+                const double* far) const {
+    const Deformation a = deformation(own_before, far_before), b = deformation(own, far);
+    double shear = 0.0, bend = 0.0;
+    for (int c = 0; c < Dim; ++c) shear += a.shear[c] * b.shear[c];
+    for (std::size_t c = 0; c < std::size(a.bend); ++c) bend += a.bend[c] * b.bend[c];
+    return 0.5 * (k * a.extension * b.extension + kb * shear + rotational * bend +
+                  twisting * a.twist * b.twist);
+  }
+
+  void scale(double factor) {
+    k *= factor;
+    kb *= factor;
+    rotational *= factor;
+    twisting *= factor;
+  }
+};
+
+}  // namespace perilink

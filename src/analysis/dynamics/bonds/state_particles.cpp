@@ -1,0 +1,332 @@
+#include "analysis/dynamics/bonds/state_particles.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "analysis/dynamics/bonds/particle_fit.hpp"
+#include "material/principal_values.hpp"
+
+namespace perilink {
+namespace {
+
+/// A bond as one of its ends sees it.
+template <int Dim>
+struct StateHalf {
+  std::array<double, Dim> direction;  ///< outwards
+  double stiffness = 0.0;             ///< of the whole bond [force/length]
+  Index other = 0;
+  Index element = 0;
+  bool mine = false;    ///< counts in the sum of this end
+  bool others = false;  ///< in that of the other one
+};
+
+/// What damage leaves of a bond: of its own force, and as weights of its extension in the sums of
+/// this end and of the other one (half_bond_weight).
+struct HalfFactors {
+  double bond = 1.0, mine = 1.0, other = 1.0;
+
+  HalfFactors() = default;
+  /// \param w_i  damage of this end
+  HalfFactors(double w_i, double w_j)
+      : bond(two_spring_factor(w_i, w_j)),
+        mine(half_bond_weight(w_i, w_j)),
+        other(half_bond_weight(w_j, w_i)) {}
+  bool operator==(const HalfFactors&) const = default;
+};
+
+/// The same by the sign of the bond's extension.
+struct SignedFactors {
+  HalfFactors tension, compression;
+  const HalfFactors& of(double extension) const { return extension >= 0.0 ? tension : compression; }
+};
+
+/// Width of a square or cube as large as the particle [length].
+double band_of(const Particles& particles, Index i, double thickness) {
+  const double volume = particles.volumes[i];
+  return particles.dim == 2 ? std::sqrt(volume / thickness) : std::cbrt(volume);
+}
+
+template <int Dim>
+class StateParticles final : public ExplicitBonds {
+ public:
+  StateParticles(const Network& network, Problem problem, std::span<const StateMaterial> materials,
+                 double thickness);
+
+  bool has_states() const override { return true; }
+  BondLosses prepare(Index begin, Index end, double time_step, const BondMotion& motion) override;
+  void finish_step() override { damage_.swap(next_); }
+  BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
+                    std::span<double> force) override;
+  double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override;
+  std::vector<double> secants() const override;
+  std::vector<double> damage() const override { return damage_; }
+
+ private:
+  std::span<const StateHalf<Dim>> halves_of(Index i) const {
+    return {halves_.data() + offsets_[i], halves_.data() + offsets_[i + 1]};
+  }
+  static double difference(const StateHalf<Dim>& half, Index i, const std::vector<double>& field) {
+    double along = 0.0;
+    for (int c = 0; c < Dim; ++c) {
+      along += half.direction[c] *
+               (field[half.other * std::size_t{Dim} + c] - field[i * std::size_t{Dim} + c]);
+    }
+    return along;
+  }
+  const HalfFactors& factors(std::size_t half, double extension) const {
+    static constexpr HalfFactors intact{};
+    return factors_.empty() ? intact : factors_[half].of(extension);
+  }
+  double compressive(Index i) const {
+    return compressive_damage(damage_[i], material(i).compressive_threshold);
+  }
+  const StateMaterial& material(Index i) const {
+    return materials_[network_.particles.material[i]];
+  }
+  const HookeConstants& hooke_of(Index i) const { return hooke_[network_.particles.material[i]]; }
+  bool weaken(Index i);
+  double half_energy(Index i, double time_step, const BondMotion& motion) const;
+  void grow(Index i);
+  bool is_calm(Index i) const;
+  SymmetricTensor strain(Index i) const;
+
+  const Network& network_;
+  std::vector<StateMaterial> materials_;
+  std::vector<HookeConstants> hooke_;  ///< of each material
+  bool breakable_ = false;
+  std::vector<std::size_t> offsets_{0};
+  std::vector<StateHalf<Dim>> halves_;
+  std::vector<double> sum_;           ///< of weakened extensions of each particle's neighbours
+  std::vector<double> extension_;     ///< of each half, of the breakable
+  std::vector<SignedFactors> factors_;  ///< the same
+  std::vector<double> damage_, next_;
+  std::vector<double> band_;  ///< width of the crack band [length]
+  std::vector<std::uint8_t> cracked_;
+  std::vector<double> calm_;  ///< extension below which no crack can begin [length]
+  ParticleStrains<Dim> strains_;
+};
+
+template <int Dim>
+StateParticles<Dim>::StateParticles(const Network& network, Problem problem,
+                                    std::span<const StateMaterial> materials, double thickness)
+    : network_(network),
+      materials_(materials.begin(), materials.end()),
+      sum_(static_cast<std::size_t>(network.particles.size()), 0.0),
+      damage_(sum_.size(), 0.0),
+      next_(sum_.size(), 0.0) {
+  for (const StateMaterial& each : materials) {
+    hooke_.push_back(hooke_constants(problem, each.youngs_modulus, each.poissons_ratio));
+  }
+  breakable_ = std::any_of(materials.begin(), materials.end(),
+                           [](const StateMaterial& each) { return each.breakable; });
+  const Bonds& bonds = network.bonds;
+  const Csr around = bonds_of_particles(bonds, network.particles.size());
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    for (const Index e : around.row(i)) {
+      const bool outward = bonds.first[e] == i;
+      StateHalf<Dim> half;
+      for (int c = 0; c < Dim; ++c) {
+        half.direction[c] = outward ? bonds.direction(e)[c] : -bonds.direction(e)[c];
+      }
+      half.stiffness = network.stiffness[e];
+      half.other = outward ? bonds.second[e] : bonds.first[e];
+      half.element = e;
+      half.mine = network.counts_for(e, outward ? first_end : second_end);
+      half.others = network.counts_for(e, outward ? second_end : first_end);
+      halves_.push_back(half);
+    }
+    offsets_.push_back(halves_.size());
+  }
+  if (!breakable_) return;
+  extension_.assign(halves_.size(), 0.0);
+  factors_.assign(halves_.size(), {});
+  cracked_.assign(sum_.size(), 0);
+  check_bands(network.particles, materials, thickness);
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    band_.push_back(band_of(network.particles, i, thickness));
+    strains_.add(halves_of(i), std::span<const double>(bonds.lengths));
+    const HookeConstants& hooke = hooke_of(i);
+    // Neighbours' damage at most doubles a share.
+    calm_.push_back(material(i).softening.strength /
+                    (2.0 * (std::abs(hooke.lambda) + 2.0 * hooke.mu) * strains_.largest_strain(i)));
+  }
+}
+
+/// Takes over the damage that its ends have now. \return whether a factor changed
+template <int Dim>
+bool StateParticles<Dim>::weaken(Index i) {
+  bool any = false;
+  for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
+    const Index j = halves_[h].other;
+    if (damage_[i] == 0.0 && damage_[j] == 0.0) continue;
+    const SignedFactors fresh{{damage_[i], damage_[j]}, {compressive(i), compressive(j)}};
+    any =
+        any || fresh.tension != factors_[h].tension || fresh.compression != factors_[h].compression;
+    factors_[h] = fresh;
+  }
+  return any;
+}
+
+/// u_(n-1)' K u_n / 2 of a particle's half of its bonds and its state.
+template <int Dim>
+double StateParticles<Dim>::half_energy(Index i, double time_step, const BondMotion& motion) const {
+  double energy = 0.0, now = 0.0, before = 0.0;
+  for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
+    const StateHalf<Dim>& half = halves_[h];
+    const double e = difference(half, i, motion.displacement);
+    const double past = e - time_step * difference(half, i, motion.velocity);
+    const HalfFactors& factor = factors(h, e);
+    energy += 0.25 * half.stiffness * factor.bond * e * past;
+    if (!half.mine) continue;
+    now += factor.mine * e;
+    before += factor.mine * past;
+  }
+  return energy + 0.5 * network_.state_stiffness[i] * now * before;
+}
+
+template <int Dim>
+SymmetricTensor StateParticles<Dim>::strain(Index i) const {
+  return strains_.fit(i, halves_of(i), [&](std::size_t k) {
+    const std::size_t h = offsets_[i] + k;
+    const double e = extension_[h];
+    const Index j = halves_[h].other;
+    const double share = e >= 0.0 ? half_bond_share(damage_[i], damage_[j])
+                                  : half_bond_share(compressive(i), compressive(j));
+    return share * e;
+  });
+}
+
+/// Whether the extensions are too small for any crack to begin.
+template <int Dim>
+bool StateParticles<Dim>::is_calm(Index i) const {
+  if (cracked_[i] != 0) return false;
+  double largest = 0.0;
+  for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
+    if (halves_[h].mine) largest = std::max(largest, std::abs(extension_[h]));
+  }
+  return largest < calm_[i];
+}
+
+template <int Dim>
+void StateParticles<Dim>::grow(Index i) {
+  next_[i] = damage_[i];
+  const StateMaterial& own = material(i);
+  if (!own.breakable || damage_[i] >= 1.0 || is_calm(i)) return;
+  const SymmetricTensor fitted = strain(i);
+  const PrincipalValues values = principal_values(fitted, Dim);
+  const HookeConstants& hooke = hooke_of(i);
+  const double spherical = hooke.lambda * (fitted[0] + fitted[1] + fitted[2]);
+  const double first = spherical + 2.0 * hooke.mu * values.first;
+  if (cracked_[i] == 0) {
+    const double last = spherical + 2.0 * hooke.mu * values.last;
+    const double strength = own.softening.strength;
+    if (!(first > strength) || last < -own.tension_compression_ratio * strength) return;
+    cracked_[i] = 1;
+  }
+  const double damage =
+      band_damage(own.softening, own.youngs_modulus, first / own.youngs_modulus, band_[i]);
+  next_[i] = std::max(damage_[i], damage);
+}
+
+template <int Dim>
+BondLosses StateParticles<Dim>::prepare(Index begin, Index end, double time_step,
+                                        const BondMotion& motion) {
+  BondLosses losses;
+  for (Index i = begin; i < end; ++i) {
+    if (breakable_) {
+      const bool stirred =
+          std::any_of(halves_.begin() + offsets_[i], halves_.begin() + offsets_[i + 1],
+                      [&](const StateHalf<Dim>& half) { return damage_[half.other] > 0.0; });
+      if (stirred || damage_[i] > 0.0) {
+        const double before = half_energy(i, time_step, motion);
+        if (weaken(i)) losses.fractured += before - half_energy(i, time_step, motion);
+      }
+    }
+    double sum = 0.0;
+    for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
+      const double e = difference(halves_[h], i, motion.displacement);
+      if (breakable_) extension_[h] = e;
+      if (halves_[h].mine) sum += factors(h, e).mine * e;
+    }
+    sum_[i] = sum;
+    if (!breakable_) continue;
+    grow(i);
+    if (damage_[i] == 0.0 && next_[i] > 0.0) losses.broken.push_back(i);
+  }
+  return losses;
+}
+
+template <int Dim>
+BondLosses StateParticles<Dim>::forces(Index begin, Index end, double /*time_step*/,
+                                       const BondMotion& motion, std::span<double> force) {
+  for (Index i = begin; i < end; ++i) {
+    double inner[Dim] = {};
+    const double own = network_.state_stiffness[i] * sum_[i];
+    for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
+      const StateHalf<Dim>& half = halves_[h];
+      const double e = difference(half, i, motion.displacement);
+      const HalfFactors& factor = factors(h, e);
+      double pull = factor.bond * half.stiffness * e;
+      if (half.mine) pull += factor.mine * own;
+      if (half.others) {
+        pull += factor.other * network_.state_stiffness[half.other] * sum_[half.other];
+      }
+      for (int c = 0; c < Dim; ++c) inner[c] -= pull * half.direction[c];
+    }
+    for (int c = 0; c < Dim; ++c) force[i * std::size_t{Dim} + c] = inner[c];
+  }
+  return {};
+}
+
+template <int Dim>
+double StateParticles<Dim>::stored(Index begin, Index end, double time_step,
+                                   const BondMotion& motion) const {
+  double energy = 0.0;
+  for (Index i = begin; i < end; ++i) energy += half_energy(i, time_step, motion);
+  return energy;
+}
+
+template <int Dim>
+std::vector<double> StateParticles<Dim>::secants() const {
+  std::vector<double> secants(static_cast<std::size_t>(network_.num_elements()), 1.0);
+  for (std::size_t h = 0; h < factors_.size(); ++h)
+    secants[halves_[h].element] = factors_[h].tension.bond;
+  return secants;
+}
+
+}  // namespace
+
+void check_bands(const Particles& particles, std::span<const StateMaterial> materials,
+                 double thickness) {
+  for (Index i = 0; i < particles.size(); ++i) {
+    const StateMaterial& own = materials[particles.material[i]];
+    if (!own.breakable) continue;
+    const double band = band_of(particles, i, thickness);
+    const double limit = max_band_width(own.softening, own.youngs_modulus);
+    if (band < limit) continue;
+    throw std::invalid_argument(
+        fmt::format("the particle at ({}) stands for a band {:.4g} wide, too wide for the "
+                    "softening: a crack would release more energy than its opening dissipates; "
+                    "place particles less than {:.4g} apart",
+                    fmt::join(particles.position(i), ", "), band, limit));
+  }
+}
+
+std::unique_ptr<ExplicitBonds> make_explicit_particles(const Network& network, Problem problem,
+                                                       std::span<const StateMaterial> materials,
+                                                       double thickness) {
+  if (network.dim() == 2) {
+    return std::make_unique<StateParticles<2>>(network, problem, materials, thickness);
+  }
+  return std::make_unique<StateParticles<3>>(network, problem, materials, thickness);
+}
+
+}  // namespace perilink

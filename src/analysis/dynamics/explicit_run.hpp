@@ -1,0 +1,74 @@
+#pragma once
+
+#include <string>
+
+#include "analysis/quasistatic/observer.hpp"
+
+namespace perilink {
+
+/// \file
+/// How explicit runs are asked for and what they tell, whatever they move.
+
+/// Load factor over time: (1 - cos(pi t / ramp)) / 2 up to `ramp`, then one.
+double ramped_load_factor(double time, double ramp);
+
+/// How an explicit run goes through time.
+struct ExplicitOptions {
+  double duration = 0.0;   ///< [time]
+  double ramp = 0.0;       ///< time in which the load factor rises from zero to one [time]
+  double time_step = 0.0;  ///< zero: `safety` times the critical one [time]
+  double safety = 0.9;
+  int rows = 500;  ///< of the history
+  /// Displacement of the driven particles at load factor 1 [length]; where nothing is driven
+  /// (`driven` is false) the load there [force].
+  double reference = 1.0;
+  bool driven = true;
+  int threads = 1;
+  bool refuse_unstable = true;  ///< false: a step beyond the critical one runs until it is noticed
+};
+
+/// Where the energy is [force length].
+struct EnergyBalance {
+  double kinetic = 0.0;
+  double stored = 0.0;
+  double internal_damping = 0.0;
+  double external_damping = 0.0;
+  double fractured = 0.0;
+  double external_work = 0.0;
+  double plastic = 0.0;
+
+  /// Energy that appeared (+) or vanished.
+  double surplus() const {
+    return kinetic + stored + internal_damping + external_damping + fractured + plastic -
+           external_work;
+  }
+};
+
+/// One row of an explicit history.
+struct ExplicitRecord {
+  Index step = 0;
+  double time = 0.0;  ///< [time]
+  double load_factor = 0.0;
+  double load = 0.0;              ///< of the driven particles, inertia included [force]
+  double support_reaction = 0.0;  ///< along the load [force]
+  double displacement = 0.0;      ///< of the driven particles [length]
+  Index cracked_particles = 0;    ///< of a lattice
+  Index yielded_particles = 0;    ///< of a lattice
+  Index broken_bonds = 0;         ///< of a network of bonds
+  EnergyBalance energy;
+};
+
+/// How an explicit run ended.
+struct ExplicitResult {
+  Ending ending = Ending::completed;
+  std::string reason;
+  Index steps = 0;
+  double time_step = 0.0;           ///< [time]
+  double critical_time_step = 0.0;  ///< [time]
+  double peak_load = 0.0;           ///< largest support reaction in magnitude [force]
+  double peak_displacement = 0.0;   ///< of the driven particles at that moment [length]
+  double largest_surplus = 0.0;     ///< over the external work at the end [-]
+  ExplicitRecord last;
+};
+
+}  // namespace perilink

@@ -1,0 +1,182 @@
+#include "analysis/dynamics/fundamental_period.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "analysis/dynamics/box_preconditioner.hpp"
+#include "assembly/internal_force.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int most_iterations = 2000;
+constexpr double round_off = 1e-16;  ///< of forces, which very slender bodies multiply
+/// Energy that the residual could still set free, over that of the vibration: a tenth of the error
+/// of the square of the frequency, or more.
+constexpr double tolerance = 1e-8;
+/// Below this part of the fastest stiffness over mass round-off of the forces takes the third digit
+/// of the period.
+constexpr double least_stiffness = 1e-13;
+
+/// The slowest vibration: a motion of unit kinetic form, orthogonal to what nothing resists.
+class Vibration {
+ public:
+  Vibration(const Network& network, const Unknowns& unknowns, const Inertia& inertia,
+            std::span<const std::vector<double>> free)
+      : network_(network),
+        unknowns_(unknowns),
+        secants_(static_cast<std::size_t>(network.num_elements()), 1.0),
+        mass_(Eigen::Map<const VectorXd>(inertia.mass.data(),
+                                         static_cast<Eigen::Index>(inertia.mass.size()))),
+        inverse_(network, unknowns),
+        fastest_(inverse_.fastest(inertia.mass)) {
+    for (const std::vector<double>& motion : free) {
+      VectorXd own = masked(Eigen::Map<const VectorXd>(motion.data(), mass_.size()));
+      make_orthogonal(own, free_);
+      free_.push_back(own / std::sqrt(product(own, own)));
+    }
+  }
+
+  /// \return the square of its circular frequency [1/time^2]
+  double settle();
+
+ private:
+  struct Direction {
+    VectorXd u, force;  ///< K u
+  };
+
+  double product(const VectorXd& a, const VectorXd& b) const {
+    return (a.array() * mass_.array() * b.array()).sum();
+  }
+  VectorXd masked(VectorXd u) const {
+    for (Eigen::Index slot = 0; slot < u.size(); ++slot) {
+      if (unknowns_.number[slot] == no_index) u[slot] = 0.0;
+    }
+    return u;
+  }
+  void make_orthogonal(VectorXd& u, const std::vector<VectorXd>& others) const {
+    for (const VectorXd& other : others) u -= product(other, u) * other;
+  }
+  VectorXd force_of(const VectorXd& u) {
+    internal_force(network_, secants_, {u.data(), static_cast<std::size_t>(u.size())}, inner_);
+    return masked(Eigen::Map<const VectorXd>(inner_.forces.data(), u.size()));
+  }
+  VectorXd random_start() const;
+  bool append(Direction direction);
+  void improve(Direction& last);
+
+  const Network& network_;
+  const Unknowns& unknowns_;
+  std::vector<double> secants_;
+  VectorXd mass_;
+  BoxPreconditioner inverse_;
+  double fastest_;  ///< about the square of the fastest frequency [1/time^2]
+  std::vector<VectorXd> free_;
+  InternalForce inner_;
+  std::vector<Direction> basis_;  ///< orthonormal; the present motion is the first one
+};
+
+/// The same every time, with a part of every vibration, mostly of the slow ones.
+VectorXd Vibration::random_start() const {
+  std::mt19937 random(1);
+  VectorXd push(mass_.size());
+  for (double& value : push) value = static_cast<double>(random()) / std::mt19937::max() - 0.4;
+  VectorXd u = inverse_.times(masked(push.cwiseProduct(mass_)));
+  make_orthogonal(u, free_);
+  return u;
+}
+
+/// Makes a direction orthonormal to the basis. \return false where nothing of it is left
+bool Vibration::append(Direction direction) {
+  const double whole = std::sqrt(product(direction.u, direction.u));
+  if (!(whole > 0.0)) return false;
+  constexpr double least_part = 1e-10;    // less is round-off
+  for (int pass = 0; pass < 2; ++pass) {  // once leaves too much round-off
+    make_orthogonal(direction.u, free_);  // which has no force
+    for (const Direction& other : basis_) {
+      const double part = product(other.u, direction.u);
+      direction.u -= part * other.u;
+      direction.force -= part * other.force;
+    }
+  }
+  const double norm = std::sqrt(product(direction.u, direction.u));
+  if (!(norm > least_part * whole)) return false;
+  direction.u /= norm;
+  direction.force /= norm;
+  basis_.push_back(std::move(direction));
+  return true;
+}
+
+/// The slowest motion of the basis takes the first place of the next one.
+/// \param last  what the others add to it
+void Vibration::improve(Direction& last) {
+  const auto count = static_cast<Eigen::Index>(basis_.size());
+  Eigen::MatrixXd matrix(count, count);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    for (Eigen::Index c = 0; c < count; ++c) matrix(r, c) = basis_[r].u.dot(basis_[c].force);
+  }
+  const VectorXd part =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvectors().col(0);
+  Direction next{VectorXd::Zero(mass_.size()), VectorXd::Zero(mass_.size())};
+  for (Eigen::Index k = 1; k < count; ++k) {
+    next.u += part[k] * basis_[k].u;
+    next.force += part[k] * basis_[k].force;
+  }
+  last = next;
+  next.u += part[0] * basis_[0].u;
+  next.force += part[0] * basis_[0].force;
+  basis_.clear();
+  append(std::move(next));
+}
+
+double Vibration::settle() {
+  VectorXd start = random_start();
+  VectorXd force = force_of(start);
+  append({std::move(start), std::move(force)});
+  Direction last;
+  for (int k = 0; k < most_iterations && !basis_.empty(); ++k) {
+    const Direction& now = basis_.front();
+    const double square = now.u.dot(now.force);
+    if (!(square > least_stiffness * fastest_)) {
+      throw SolverError("parts of the body can move freely, or it is too slender to tell");
+    }
+    const VectorXd residual = now.force - square * mass_.cwiseProduct(now.u);
+    VectorXd step = inverse_.times(residual);
+    make_orthogonal(step, free_);
+    const double noise = round_off * fastest_ / square;
+    const double left = residual.dot(step);  // below zero it is round-off and says nothing
+    if (left >= 0.0 && left <= std::max(tolerance, noise * noise) * square) {
+      force_of(now.u);  // the energy is a sum of squares, which round-off hardly touches
+      return 2.0 * inner_.energy / product(now.u, now.u);
+    }
+    VectorXd resistance = force_of(step);
+    append({std::move(step), std::move(resistance)});
+    if (last.u.size() > 0) append(last);
+    improve(last);
+  }
+  throw SolverError(
+      fmt::format("the fundamental period is not settled after {} iterations; give it in the case",
+                  most_iterations));
+}
+
+}  // namespace
+
+double fundamental_period(const Network& network, const Unknowns& unknowns, const Inertia& inertia,
+                          std::span<const std::vector<double>> free) {
+  if (unknowns.count <= static_cast<Index>(free.size())) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double square = Vibration(network, unknowns, inertia, free).settle();
+  return 2.0 * std::numbers::pi / std::sqrt(square);
+}
+
+}  // namespace perilink

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <vector>
+
+#include "base/types.hpp"
+#include "discretization/lattices/lattice_rows.hpp"
+#include "material/crack_opening.hpp"
+#include "material/elasticity.hpp"
+#include "material/j2_plasticity.hpp"
+#include "material/state_moduli.hpp"
+
+namespace perilink {
+
+/// How the force of a bond follows from the force states of its two particles, and with it every
+/// rule in which the papers differ.
+enum class LatticeRules {
+  consistent,  ///< derivative of an energy; tributary volumes; cohesive band of the true opening
+  mean_2017,   ///< mean of the two (Nikravesh 2017)
+  least_2018,  ///< the smaller one where they agree in sign, else the mean (Nikravesh & Gerstle
+               ///< 2018, Eq. 5): no derivative of any energy, even where nothing is damaged
+};
+
+/// Material of a lattice body.
+struct LatticeMaterial {
+  double youngs_modulus = 0.0;  ///< [force/length^2]
+  double poissons_ratio = 0.0;
+  double density = 0.0;  ///< [mass/length^3]
+  bool breakable = false;
+  CrackOpeningLaw softening;
+  /// Damage begins where the first principal stress reaches the strength and no other one is below
+  /// minus this ratio times the strength.
+  double tension_compression_ratio = 6.0;
+  /// Tensile damage at which damage in compression begins.
+  double compressive_threshold = 1.0 / 3.0;
+  bool yields = false;
+  /// Yield stress over plastic strain. Consistent rules: failure_strain follows from
+  /// crushing_energy; the papers' rules have their own softening.
+  YieldCurve yielding;
+  double crushing_energy = 0.0;     ///< dissipated by softening per area; infinite: none
+                                    ///< [force/length]
+  double boundary_factor = 1.0;     ///< beta_1: on the stress of particles that lack bonds [-]
+  double internal_damping = 0.0;    ///< ratio at the frequency of a particle's own vibration
+  double external_damping = 0.0;    ///< ratio at the fundamental frequency of the body
+  double fundamental_period = 0.0;  ///< of the body [time]; needed for external damping
+};
+
+/// A component of a particle's motion that is prescribed: amplitude times the load factor.
+struct PrescribedMotion {
+  Index slot = 0;
+  int component = 0;
+  double amplitude = 0.0;  ///< at load factor 1 [length]; zero: a support
+};
+
+/// A force on a component of a particle: value times the load factor.
+struct AppliedForce {
+  Index slot = 0;
+  int component = 0;
+  double value = 0.0;  ///< at load factor 1 [force]
+};
+
+/// Everything of an explicit lattice run that does not change with time.
+struct ExplicitModel {
+  Problem problem = Problem::plane_stress;
+  LatticeRules rules = LatticeRules::consistent;
+  LatticeRows lattice;
+  LatticeMaterial material;
+  double thickness = 1.0;  ///< of a body in the plane [length]
+  StateModuli moduli;
+  std::vector<double> mass;          ///< of each slot; one where it is empty [mass]
+  std::vector<double> inverse_mass;  ///< zero where a slot is empty
+  std::vector<double> volume;        ///< over which a particle's stress is taken [length^3]
+  std::vector<std::vector<PrescribedMotion>> prescribed;  ///< of each row, by slot
+  std::vector<std::vector<AppliedForce>> applied;         ///< the same; empty: no forces
+  int load_component = 1;  ///< along which the reaction of supports is summed: that of the largest
+                           ///< amplitude
+  double bond_damping = 0.0;  ///< force of a bond per velocity of its ends [force time/length]
+  double mass_damping = 0.0;  ///< force per momentum [1/time]
+
+  /// Coefficient of the own stretch of own bond k [force].
+  double own_modulus(int k) const {
+    return moduli.own + (lattice.bonds[k].length > 1.2 * lattice.spacing ? moduli.far : 0.0);
+  }
+  /// Whether anything can happen to a particle but motion.
+  bool alters() const { return material.breakable || material.yields; }
+  /// Whether damage weighs a bond's stretch in the sums of its ends otherwise than its own force.
+  bool weighs_halves() const { return material.breakable && rules == LatticeRules::consistent; }
+};
+
+/// Rate at which forces in proportion to the mass damp a vibration of a period with a ratio: twice
+/// the ratio times the frequency (Nikravesh 2017, Eq. 3.57) [1/time].
+double mass_damping_rate(double ratio, double period);
+
+/// Masses, moduli and damping of a body without supports.
+/// \throws std::invalid_argument where the material cannot be (see hexagonal_moduli), a lattice of
+/// another dimension than the problem's, damage or flow by the rules of 2018 in three dimensions,
+/// or a spacing at which the stress of a band falls faster than it unloads
+ExplicitModel make_explicit_model(Problem problem, LatticeRules rules, LatticeRows lattice,
+                                  const LatticeMaterial& material, double thickness);
+
+/// Prescribes a component of the motion of particles.
+void prescribe(ExplicitModel& model, const std::vector<PrescribedMotion>& motions);
+
+/// Width of the crack band of a particle [length]: its volume over the area of a crack along rows
+/// (in space: along densest planes) of the lattice, which a crack at an angle crosses in steps.
+/// \param normal  of the crack, unit vector
+double band_width(const ExplicitModel& model, const Vector3& normal);
+
+/// Square of the highest frequency that the body can have, from above, exact far from surfaces
+/// where the sum of the stretches softens (poissons_ratio up to 1/3 in plane stress, 1/4 else):
+/// every bond's energy is at most k (p_i + p_j) times the kinetic form of its two particles, with
+/// p_i the largest eigenvalue of particle i's own stiffness over its mass [1/time^2].
+double frequency_bound_squared(const ExplicitModel& model);
+
+/// Time step below which Euler–Cromer with lagging damping forces is stable for certain: the
+/// positive root of dt^2 K + 2 dt C = 4 with both operators bounded as above [time].
+double critical_time_step(const ExplicitModel& model);
+
+}  // namespace perilink

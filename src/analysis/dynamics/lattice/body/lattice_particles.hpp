@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "analysis/dynamics/lattice/body/lattice_state.hpp"
+#include "material/principal_values.hpp"
+
+namespace perilink {
+
+/// What particles of a lattice see of their bonds, one particle at a time: for the few that change.
+class LatticeParticles {
+ public:
+  static constexpr int most_bonds = 18;
+  using Halves = std::array<double, most_bonds>;
+
+  explicit LatticeParticles(const ExplicitModel& model);
+
+  /// The bonds of a particle, own ones first, then the incoming ones; absent ones are in the mask.
+  struct Family {
+    Index slot = 0;
+    int bonds = 0;                            ///< 6 or 18
+    std::array<Index, most_bonds> at{};       ///< in arrays of shape (own bonds, slots)
+    std::array<Index, most_bonds> partner{};  ///< slot of the other particle
+    Index now = 0;                            ///< slot in StepNumbers
+    std::array<Index, most_bonds> now_at{}, now_partner{};  ///< the same there
+    std::uint32_t mask = 0;                                 ///< bit j: bond j exists
+
+    bool has(int j) const { return (mask >> j & 1U) != 0U; }
+    int own_number(int j) const { return j < bonds / 2 ? j : j - bonds / 2; }
+    /// Plus one for own bonds, minus one for incoming: the sign of LatticeFlow::half.
+    double side(int j) const { return j < bonds / 2 ? 1.0 : -1.0; }
+  };
+  Family family(const ExplicitState& state, Index row, Index slot) const;
+  bool is_whole(const Family& family) const { return family.mask == whole_; }
+  /// Whether a particle or one of its neighbours lacks bonds.
+  bool is_near_face(Index slot) const { return near_face_[slot] != 0; }
+
+  /// Elastic stretches of the particle's own halves of its bonds, without shares of damage.
+  Halves elastic(const ExplicitState& state, const Family& family) const;
+  /// The same as `damage` sees them: of bonds between particles with different damage, each half
+  /// has its share (whole bonds by the rules of 2017).
+  Halves shared(const ExplicitState& state, const Family& family) const;
+  /// Factor of the damage of a bond, by the sign of its stretch.
+  static double factor(const ExplicitState& state, const Family& family, int bond);
+  /// Square root of what the particle's damage leaves of its half of a bond; one by the rules of
+  /// the papers.
+  static double root(const ExplicitState& state, const Family& family, int bond);
+  /// Force states of the particle: own modulus times the stretch times the factor of damage, plus
+  /// the part of the sum times `root` [force].
+  Halves forces(const ExplicitState& state, const Family& family) const;
+  /// (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain [force/length^2].
+  /// \param force  F_j, as `forces` gives them
+  SymmetricTensor stress(const ExplicitState& state, const Family& family,
+                         const Halves& force) const;
+  SymmetricTensor stress(const ExplicitState& state, const Family& family) const {
+    return stress(state, family, forces(state, family));
+  }
+  /// Mean of the stresses of a particle and its neighbours, weighted with their volumes, without
+  /// plastic strains out of the plane.
+  /// \param volume  becomes the sum of the volumes
+  /// \param count   becomes the number of particles
+  SymmetricTensor mean_stress(const ExplicitState& state, const Family& family, Index row,
+                              double& volume, int& count) const;
+
+  /// Strain that fits the stretches of the existing bonds best; in the plane xx, yy and xy only.
+  SymmetricTensor fit(const Halves& stretch, const Family& family) const;
+  /// Coefficients of `fit` of a particle with all bonds in the plane, shape (6, 3).
+  const std::vector<double>& whole_inverse() const { return whole_inverse_; }
+  /// Stretches of the bonds under a strain.
+  Halves project(const SymmetricTensor& strain, const Family& family) const;
+
+ private:
+  /// All but the slots in StepNumbers.
+  Family family(Index row, Index slot) const;
+  /// Least-squares inverse of "stretch of bond j from strain", shape (bonds, 3 or 6).
+  using Inverse = std::vector<double>;
+  Inverse invert(std::uint32_t mask) const;
+  void find_faces();
+  SymmetricTensor bond_stress(const Family& family, const Halves& force) const;
+  const Inverse& inverse_of(const Family& family) const { return inverses_[kind_[family.slot]]; }
+
+  const ExplicitModel& model_;
+  std::uint32_t whole_ = 0;
+  Inverse whole_inverse_;
+  std::vector<Inverse> inverses_;
+  std::vector<std::uint8_t> near_face_;
+  std::vector<std::uint32_t> kind_;  ///< number of the particle's inverse, of each slot
+};
+
+}  // namespace perilink

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "analysis/dynamics/lattice/body/lattice_body.hpp"
+#include "analysis/dynamics/lattice/body/row_places.hpp"
+#include "material/j2_plasticity.hpp"
+
+namespace perilink {
+
+/// Larger than any stress, strain or path: the threshold of particles to which nothing can happen.
+/// A number like others, unlike infinity, of which fast loops know nothing.
+inline constexpr double never = 1e200;
+
+/// Sums over a row of particles. Rows are summed in their own order and then one after the other,
+/// so that no sum depends on the number of threads. Work and loss are sums since the beginning.
+struct RowSums {
+  double stored = 0.0;  ///< between the last step and this (half_step_energy) [force length]; of
+                        ///< steps that are looked at
+  double external_work = 0.0;  ///< of the prescribed motions
+  double internal_damping = 0.0;
+  double external_damping = 0.0;
+  double fractured = 0.0;  ///< stored energy lost while damage grew at rest
+  double plastic = 0.0;    ///< stored energy lost while particles flowed at rest
+};
+
+/// Force on the prescribed particles of a row in one step.
+struct RowReactions {
+  double driven = 0.0;    ///< sum of reaction times amplitude [force length]
+  double supports = 0.0;  ///< of supports along the load [force]
+};
+
+/// What a row needs beyond the elastic work: bits of ExplicitState::duty, which change with its
+/// bonds only, and of ExplicitState::news, which change while its own particles are looked at.
+struct RowDuty {
+  static constexpr std::uint8_t altered = 1;   ///< own bonds or sums have factors or plastic parts
+  static constexpr std::uint8_t weakened = 2;  ///< own bonds have factors
+};
+struct RowNews {
+  static constexpr std::uint8_t damage_grew = 1, flowed = 2;  ///< of its particles, in this step
+  static constexpr std::uint8_t cracked = 4;                  ///< particles have damage
+};
+
+/// Plastic stretches of particles and of bonds; empty where the material cannot yield. The stretch
+/// of a bond less `mean` is its elastic stretch; each particle's half differs from that by `half`,
+/// added by the owner, subtracted by the partner.
+struct LatticeFlow {
+  std::vector<double> stretch;  ///< of each particle's own halves, shape (2 own bonds, slots)
+  std::vector<double> mean;     ///< of the two halves of own bonds, shape (own bonds, slots)
+  std::vector<double> half;     ///< (partner's - owner's) / 2, same shape
+  std::vector<double> sum;      ///< what `half` adds to the sum of stretches of a particle
+  std::vector<double> change;   ///< of each row: largest change of a plastic stretch in a step
+  std::vector<double> locked;   ///< of each row: energy of `half` in its own bonds [force length]
+  std::vector<double> yield;    ///< present yield stress of particles [force/length^2]
+  std::vector<double> visit;    ///< von Mises stress at which a particle has to be looked at
+  std::vector<double> normal;   ///< Young's modulus times plastic strain out of the plane
+  std::vector<double>
+      strain;  ///< plastic, as a SymmetricTensor, shape (6, slots); consistent rules
+  std::vector<double> equivalent;     ///< plastic strain of particles; consistent rules
+  std::vector<std::uint8_t> crushed;  ///< particles that carry no compression either
+};
+
+/// What a step finds from the displacements anew, and nothing that outlasts it. Shapes have the
+/// slots of `places`.
+struct StepNumbers {
+  RowPlaces places;
+  std::vector<double> stretch;    ///< elastic, of own bonds, shape (own bonds, slots); only where
+                                  ///< something can break or flow
+  std::vector<double> effective;  ///< stretch times factor of the bond's damage, same shape
+  std::vector<double> owners;     ///< stretch times weight in the owner's sum, same shape; of
+                                  ///< weakened rows where weights are not the factor
+  std::vector<double> partners;   ///< the same of the partner
+  std::vector<double> force;      ///< present directions of own bonds until bond_forces, then the
+                                  ///< forces on the owner [force], (own bonds, dim, slots)
+  std::vector<double> sum;        ///< of weighted stretches over all bonds, times length
+
+  /// Zeros beyond the end of a row, where bonds that do not exist lead and a longer row at the same
+  /// place has left its numbers.
+  void clear_stale(Index row, Index size);
+};
+StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places);
+
+/// Everything of an explicit lattice run that changes with time: displacements at step n,
+/// velocities half a step earlier.
+struct ExplicitState {
+  explicit ExplicitState(const ExplicitModel& model);
+
+  std::vector<double> displacement;    ///< [length], shape (dim, slots)
+  std::vector<double> velocity;        ///< [length/time], shape (dim, slots)
+  std::vector<double> rate;            ///< velocity of the ends along the bond, (own bonds, slots)
+  std::vector<double> drag;            ///< damping force of own bonds of weakened rows [force]
+  StepNumbers now;                     ///< complete where observers look
+  std::vector<double> in_tension;      ///< factor of own bonds that stretch, (own bonds, slots)
+  std::vector<double> in_compression;  ///< factor of own bonds that shorten
+  std::vector<double> root_tension;    ///< square root of what damage leaves of a particle's halves
+                                       ///< that stretch; one by the rules of the papers
+  std::vector<double> root_compression;  ///< the same of those that shorten
+  std::vector<double> share_tension;  ///< stretch of the owner's half of an own bond that stretches
+                                      ///< over that of the bond; the partner's is two minus this
+  std::vector<double> share_compression;  ///< the same of own bonds that shorten
+  std::vector<double> damage;             ///< tensile, of particles
+  std::vector<double> next_damage;        ///< at the end of the step
+  Index step = 0;                 ///< the present one
+  std::vector<Index> cracked_in;  ///< step in which damage of a particle began
+  std::vector<double> crack_band;         ///< width [length]; zero where no crack began
+  std::vector<double> crack_at;  ///< first principal stress at which a particle is looked at
+  std::vector<double> grow_at;   ///< strain that drives damage by the rules of the papers, the same
+  std::vector<double> wait;      ///< path of the row before which no crack can begin at a particle
+  LatticeFlow flow;
+  std::vector<RowSums> sums;  ///< of each row
+  std::vector<RowReactions> reactions;
+  std::vector<double> fastest;     ///< of each row: largest change of an elastic stretch in a step
+  std::vector<double> slack;       ///< of each row: change of stretches that alters nothing yet
+  std::vector<double> path;        ///< of each row: sum of all changes of stretches near it
+  std::vector<std::uint8_t> duty;  ///< of each row, see RowDuty
+  std::vector<std::uint8_t> news;  ///< of each row, see RowNews
+  std::vector<std::uint8_t> near_news;  ///< what grew or flowed in the row or next to it
+};
+
+}  // namespace perilink

@@ -1,0 +1,56 @@
+#include "analysis/dynamics/lattice/body/lattice_statics.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "analysis/dynamics/fundamental_period.hpp"
+#include "network/rigid_modes.hpp"
+#include "network/unknowns.hpp"
+
+namespace perilink {
+namespace {
+
+/// Components that are prescribed, shape (particles, dim).
+std::vector<std::uint8_t> held_components(const ExplicitModel& model,
+                                          const std::vector<Index>& slots) {
+  const LatticeRows& lattice = model.lattice;
+  std::vector<Index> number(static_cast<std::size_t>(lattice.slots), no_index);
+  for (std::size_t i = 0; i < slots.size(); ++i) number[slots[i]] = static_cast<Index>(i);
+  std::vector<std::uint8_t> held(slots.size() * lattice.dim, 0);
+  for (const auto& row : model.prescribed) {
+    for (const PrescribedMotion& motion : row) {
+      if (number[motion.slot] == no_index) continue;
+      held[static_cast<std::size_t>(number[motion.slot]) * lattice.dim + motion.component] = 1;
+    }
+  }
+  return held;
+}
+
+}  // namespace
+
+LatticeNetwork lattice_network(const ExplicitModel& model) {
+  std::vector<double> own;
+  for (int k = 0; k < model.lattice.own_bonds(); ++k) own.push_back(model.own_modulus(k));
+  return lattice_network(model.lattice, own, model.moduli.sum, model.volume);
+}
+
+double fundamental_period(const ExplicitModel& model) {
+  const LatticeNetwork body = lattice_network(model);
+  const Network& network = body.network;
+  const std::vector<std::uint8_t> held = held_components(model, body.slots);
+  std::vector<std::vector<double>> free;
+  for (const Fragment& fragment : find_fragments(network, held)) {
+    for (auto& motion : free_motions(network, fragment, held)) free.push_back(std::move(motion));
+  }
+  const Unknowns unknowns =
+      number_unknowns(network.dim(), held, std::vector<double>(held.size(), 0.0));
+  Inertia inertia;
+  for (const Index slot : body.slots) {
+    inertia.mass.insert(inertia.mass.end(), static_cast<std::size_t>(network.dim()),
+                        model.mass[slot]);
+  }
+  return fundamental_period(network, unknowns, inertia, free);
+}
+
+}  // namespace perilink

@@ -1,0 +1,210 @@
+#include "analysis/dynamics/lattice/lattice_analysis.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "analysis/dynamics/lattice/body/lattice_loads.hpp"
+#include "analysis/dynamics/lattice/lattice_changes.hpp"
+#include "analysis/dynamics/lattice/rows/row_energy.hpp"
+#include "analysis/dynamics/lattice/rows/row_kernels.hpp"
+#include "analysis/dynamics/lattice/rows/row_sweep.hpp"
+#include "analysis/dynamics/time_loop.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr Index particles_per_thread = 4000;
+
+Index yielded_particles(const ExplicitState& state) {
+  const LatticeFlow& flow = state.flow;
+  if (flow.stretch.empty()) return 0;
+  const std::size_t slots = state.damage.size();
+  Index count = 0;
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    bool yielded = false;
+    for (std::size_t at = slot; at < flow.stretch.size() && !yielded; at += slots) {
+      yielded = flow.stretch[at] != 0.0;
+    }
+    count += yielded ? 1 : 0;
+  }
+  return count;
+}
+
+class ExplicitRun {
+ public:
+  ExplicitRun(const ExplicitModel& model, ExplicitState& state, const ExplicitOptions& options,
+              ExplicitObserver& observer)
+      : model_(model),
+        state_(state),
+        options_(options),
+        observer_(observer),
+        rows_(static_cast<Index>(model.lattice.rows.size())),
+        loop_(options, critical_time_step(model)) {
+    if (model.alters()) changes_.emplace(model);
+  }
+
+  ExplicitResult run() {
+    // Three barriers per step: a thread pays only with enough particles of its own.
+    const Index useful = std::max<Index>(1, model_.lattice.particles() / particles_per_thread);
+    const Index threads = std::min<Index>(options_.threads, useful);
+    prepare_passing(threads);
+    return loop_.run(threads, [this](Index step) { one_step(step); });
+  }
+
+ private:
+  /// Damage and flow, between stretches and forces; nothing in bodies that never change.
+  auto changes(double dt) {
+    const Index reach = model_.lattice.reach;
+    const auto stage = [this](Index behind, Index ahead, const auto& work) {
+      return RowStage{changes_ ? behind : 0, changes_ ? ahead : 0, [this, work](Index r) {
+                        if (changes_) work(r);
+                      }};
+    };
+    return std::tuple{
+        stage(reach, reach, [this](Index r) { changes_->look(state_, r); }),
+        stage(reach, reach, [this, dt](Index r) { changes_->commit(state_, r, dt); }),
+        stage(0, reach, [this](Index r) { changes_->update_plastic_bonds(state_, r); }),
+        stage(reach, 0, [this, dt](Index r) { changes_->update_plastic_sums(state_, r, dt); }),
+        stage(0, reach, [this](Index r) { changes_->update_factors(state_, r); }),
+        stage(reach, 0, [this, dt](Index r) { changes_->update_sums(state_, r, dt); })};
+  }
+
+  /// Own bonds end in the row itself or in rows after it, so sums take in the bonds of rows before.
+  auto stretches(double dt) {
+    return std::tuple{
+        RowStage{0, 0, [this, dt](Index r) { measure_bonds(model_, state_, r, dt); }},
+        RowStage{model_.lattice.reach, 0, [this](Index r) { sum_stretches(model_, state_, r); }}};
+  }
+
+  /// Forces take in the sums of rows after, motion the forces of rows before.
+  auto motion(double dt, double factor, double increment) {
+    const Index reach = model_.lattice.reach;
+    return std::tuple{RowStage{0, reach, [this](Index r) { bond_forces(model_, state_, r); }},
+                      RowStage{reach, 0, [this, dt, factor, increment](Index r) {
+                                 advance(model_, state_, r, dt, factor, increment);
+                               }}};
+  }
+
+  auto all_stages(double dt, double factor, double increment) {
+    return std::tuple_cat(stretches(dt), changes(dt), motion(dt, factor, increment));
+  }
+
+  /// Steps that nobody looks at keep their numbers in the cache.
+  void prepare_passing(Index threads) {
+    const SweepReach reach = reach_of(all_stages(0.0, 0.0, 0.0));
+    PassingRows passing;
+    passing.blocks = threads;
+    passing.alive = reach.ahead + reach.widest + 1;
+    // From above: what stages leave to the edge, what these read, and the mean over neighbours.
+    passing.edge = reach.shortest() + 2 * reach.widest;
+    RowPlaces places = passing_places(model_.lattice, passing);
+    if (places.slots >= model_.lattice.slots) return;
+    passing_ = make_step_numbers(model_, std::move(places));
+    passing_blocks_ = threads;
+  }
+
+  bool is_passing(Index step) const {
+    return step >= 0 && passing_blocks_ == omp_get_num_threads() && !loop_.is_looked_at(step);
+  }
+
+  /// Run by every thread.
+  void one_step(Index step) {
+    const double dt = loop_.time_step();
+    const double factor = loop_.load_factor(step);
+    const double increment = loop_.load_factor(step + 1) - factor;
+    if (is_passing(step) != is_passing(step - 1)) {
+#pragma omp single
+      std::swap(state_.now, passing_);
+    }
+    if (loop_.is_looked_at(step)) {
+      sweep_rows(rows_, stretches(dt));
+      look(step);
+      sweep_rows(rows_, std::tuple_cat(changes(dt), motion(dt, factor, increment)));
+    } else {
+      sweep_rows(rows_, all_stages(dt, factor, increment));
+    }
+#pragma omp single
+    note_reactions(step);
+  }
+
+  void note_reactions(Index step) {
+    double driven = 0.0, supports = 0.0;
+    for (const RowReactions& row : state_.reactions) {
+      driven += row.driven;
+      supports += row.supports;
+    }
+    const double factor = loop_.load_factor(step);
+    record_.load = options_.driven ? driven / options_.reference : factor * options_.reference;
+    record_.support_reaction = supports;
+    loop_.note_reaction(supports, options_.driven ? factor * options_.reference : 0.0);
+    state_.step = step + 1;
+  }
+
+  void look(Index step) {
+    const double dt = loop_.time_step();
+#pragma omp for schedule(static)
+    for (Index r = 0; r < rows_; ++r) {
+      state_.sums[r].stored = half_step_energy(model_, state_, r, dt);
+    }
+#pragma omp single
+    note_row(step);
+  }
+
+  void note_row(Index step) {
+    record_.energy = energy_balance(model_, state_);
+    loop_.look(step, record_, observer_, state_, [this](ExplicitRecord& record) {
+      record.displacement = options_.driven ? record.load_factor * options_.reference
+                                            : loaded_work(model_, state_) / options_.reference;
+      record.cracked_particles = static_cast<Index>(std::count_if(
+          state_.damage.begin(), state_.damage.end(), [](double damage) { return damage > 0.0; }));
+      record.yielded_particles = yielded_particles(state_);
+    });
+  }
+
+  const ExplicitModel& model_;
+  ExplicitState& state_;
+  const ExplicitOptions& options_;
+  ExplicitObserver& observer_;
+  Index rows_;
+  std::optional<LatticeChanges> changes_;
+  ExplicitLoop loop_;
+  ExplicitRecord record_;
+  StepNumbers passing_;       ///< what the state does not hold now
+  Index passing_blocks_ = 0;  ///< zero: nothing would be saved
+};
+
+}  // namespace
+
+EnergyBalance energy_balance(const ExplicitModel& model, const ExplicitState& state) {
+  EnergyBalance energy;
+  for (const RowSums& row : state.sums) {
+    energy.stored += row.stored;
+    energy.internal_damping += row.internal_damping;
+    energy.external_damping += row.external_damping;
+    energy.fractured += row.fractured;
+    energy.plastic += row.plastic;
+    energy.external_work += row.external_work;
+  }
+  for (const Index slot : model.lattice.particle_slot) {
+    for (int c = 0; c < model.lattice.dim; ++c) {
+      const double v = state.velocity[model.lattice.at(c, slot)];
+      energy.kinetic += 0.5 * model.mass[slot] * v * v;
+    }
+  }
+  return energy;
+}
+
+ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
+                                     const ExplicitOptions& options, ExplicitObserver& observer) {
+  return ExplicitRun(model, state, options, observer).run();
+}
+
+}  // namespace perilink

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "analysis/dynamics/explicit_run.hpp"
+#include "analysis/dynamics/lattice/body/lattice_state.hpp"
+
+namespace perilink {
+
+/// Watches a run; the state is valid during the call only.
+class ExplicitObserver {
+ public:
+  virtual ~ExplicitObserver() = default;
+  virtual void on_row(const ExplicitRecord& record, const ExplicitState& state) = 0;
+  /// Once, after the last row.
+  virtual void on_end(const ExplicitRecord& /*last*/, const ExplicitState& /*state*/) {}
+  /// Asked before every row and every few hundred steps; after a yes comes one more row.
+  virtual bool stop_requested() { return false; }
+};
+
+/// Runs a body from the given state by Euler–Cromer: forces at step n change velocities, those the
+/// displacements. Sums are the same for any number of threads.
+/// \throws std::invalid_argument where the time step exceeds the critical one (unless
+/// refuse_unstable is off) or duration is not positive
+/// \returns ending = failed where energy grows from nothing: kinetic and stored energy exceed twice
+/// all work done so far, or the kinetic one a hundred times
+ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
+                                     const ExplicitOptions& options, ExplicitObserver& observer);
+
+/// The energies of a state, after the stored energies of a step and before its forces.
+EnergyBalance energy_balance(const ExplicitModel& model, const ExplicitState& state);
+
+}  // namespace perilink

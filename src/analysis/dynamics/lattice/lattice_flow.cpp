@@ -1,0 +1,137 @@
+#include "analysis/dynamics/lattice/lattice_flow.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "analysis/dynamics/lattice/rows/row_flow_printed.hpp"
+
+namespace perilink {
+namespace {
+
+/// Strain of an isotropic solid under a stress.
+SymmetricTensor elastic_strain(double e, double nu, const SymmetricTensor& stress) {
+  const double trace = stress[0] + stress[1] + stress[2];
+  SymmetricTensor strain{};
+  for (int c = 0; c < 6; ++c) {
+    strain[c] = ((1.0 + nu) * stress[c] - (c < 3 ? nu * trace : 0.0)) / e;
+  }
+  return strain;
+}
+
+/// In-plane strain without stress of a particle with this plastic strain: that out of the plane
+/// cannot happen in plane strain and presses the sides apart.
+SymmetricTensor free_strain(Problem problem, double nu, SymmetricTensor plastic) {
+  if (problem != Problem::plane_strain) return plastic;
+  plastic[0] += nu * plastic[2];
+  plastic[1] += nu * plastic[2];
+  return plastic;
+}
+
+}  // namespace
+
+LatticeYielding::Change LatticeYielding::flow(ExplicitState& state, Index row, Index slot) const {
+  assert(model_.rules != LatticeRules::least_2018);  // see flow_row_as_printed
+  const Family family = particles_.family(state, row, slot);
+  return model_.rules == LatticeRules::consistent ? flow_consistently(state, family)
+                                                  : flow_as_printed(state, family);
+}
+
+LatticeYielding::Change LatticeYielding::flow_consistently(ExplicitState& state,
+                                                           const Family& family) const {
+  const LatticeMaterial& material = model_.material;
+  const double e = material.youngs_modulus, nu = material.poissons_ratio;
+  const Index slot = family.slot;
+  const SymmetricTensor stress = particles_.stress(state, family);
+  if (mises_stress(stress) <= state.flow.yield[slot]) return {};
+  PlasticState plastic;
+  plastic.equivalent_strain = state.flow.equivalent[slot];
+  SymmetricTensor strain = elastic_strain(e, nu, stress);
+  for (int c = 0; c < 6; ++c) {
+    plastic.strain[c] = state.flow.strain[model_.lattice.at(c, slot)];
+    strain[c] += plastic.strain[c];
+  }
+  return_stress(model_.problem, e, nu, material.yielding, strain, plastic);
+  for (int c = 0; c < 6; ++c) state.flow.strain[model_.lattice.at(c, slot)] = plastic.strain[c];
+  state.flow.equivalent[slot] = plastic.equivalent_strain;
+  state.flow.yield[slot] = yield_stress(material.yielding, plastic.equivalent_strain);
+  state.flow.visit[slot] = state.flow.yield[slot];
+  if (model_.problem == Problem::plane_strain) state.flow.normal[slot] = e * plastic.strain[2];
+  Change result{true, false, 0.0};
+  const Halves stretch =
+      particles_.project(free_strain(model_.problem, nu, plastic.strain), family);
+  for (int j = 0; j < family.bonds; ++j) {
+    if (!family.has(j)) continue;
+    double& present = state.flow.stretch[model_.lattice.at(j, slot)];
+    result.largest = std::max(result.largest, std::abs(stretch[j] - present));
+    present = stretch[j];
+  }
+  return result;
+}
+
+double LatticeYielding::plastic_strain(const ExplicitState& state, Index row, Index slot) const {
+  return model_.rules == LatticeRules::consistent
+             ? state.flow.equivalent[slot]
+             : printed_plastic_strain(model_, particles_, state, row, slot);
+}
+
+/// 2017, Eqs. 4.15 and 4.17, with the strain that is there, not with its plastic part.
+double LatticeYielding::printed_yield(const ExplicitState& state, const Family& family,
+                                      bool& beyond) const {
+  const YieldCurve& curve = model_.material.yielding;
+  const double slope = (curve.ultimate - curve.yield) / curve.ultimate_strain;
+  Halves halves{};
+  for (int j = 0; j < family.bonds; ++j) {
+    if (!family.has(j)) continue;
+    halves[j] = state.now.stretch[family.now_at[j]] + state.flow.mean[family.at[j]];
+  }
+  const PrincipalValues values =
+      principal_values(particles_.fit(halves, family), model_.lattice.dim);
+  const double e1 = values.first, e2 = values.middle, nu = model_.material.poissons_ratio;
+  double e3 = values.last;
+  if (model_.problem == Problem::plane_stress) e3 = -nu / (1.0 - nu) * (e1 + e2);
+  if (model_.problem == Problem::plane_strain) e3 = 0.0;
+  const double strain =
+      std::sqrt(0.5 * ((e1 - e2) * (e1 - e2) + (e2 - e3) * (e2 - e3) + (e3 - e1) * (e3 - e1)));
+  beyond = strain > curve.ultimate_strain;
+  return curve.yield + slope * strain;
+}
+
+LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state,
+                                                         const Family& family) const {
+  const Index slot = family.slot;
+  bool beyond = false;
+  const double yield = printed_yield(state, family, beyond);
+  Change result;
+  result.crushed = beyond && state.flow.crushed[slot] == 0;
+  if (result.crushed) state.flow.crushed[slot] = 1;
+  state.flow.yield[slot] = yield;
+  // The yield stress follows the strain and has to be asked for every time.
+  state.flow.visit[slot] = model_.material.yielding.yield;
+  const Halves force = particles_.forces(state, family);
+  const double mises = mises_stress(particles_.stress(state, family, force));
+  if (mises <= yield) return result;
+  double sum = 0.0, square = 0.0;
+  int count = 0;
+  for (int j = 0; j < family.bonds; ++j) {
+    sum += force[j];
+    count += family.has(j) ? 1 : 0;
+  }
+  Halves change{};
+  for (int j = 0; j < family.bonds; ++j) {
+    if (family.has(j)) change[j] = force[j] - sum / count;
+    square += change[j] * change[j];
+  }
+  if (square == 0.0) return result;  // equal forces: the printed rule does not flow
+  const LatticeMaterial& material = model_.material;
+  const double excess = mises / yield * (mises / yield) - 1.0;
+  const double amount = material.yielding.yield / material.youngs_modulus * excess;
+  for (double& entry : change) entry *= amount / std::sqrt(square);
+  result.flowed = true;
+  for (int j = 0; j < family.bonds; ++j) {
+    if (family.has(j)) state.flow.stretch[model_.lattice.at(j, slot)] += change[j];
+  }
+  return result;
+}
+
+}  // namespace perilink

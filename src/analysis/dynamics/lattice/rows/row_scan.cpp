@@ -1,0 +1,250 @@
+#include "analysis/dynamics/lattice/rows/row_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/dynamics/lattice/rows/bond_pointers.hpp"
+
+namespace perilink {
+namespace {
+
+/// What the particles of a row have left before a crack begins and before they flow, in stress
+/// times volume: negative where they are due.
+struct Left {
+  std::vector<double> damage, flow;
+};
+
+/// Path that the row's stretches have gone, for particles that wait; where factors are near nobody
+/// can, since they change with the sign of a stretch.
+double path_of(const ExplicitModel& model, const ExplicitState& state, Index r) {
+  return has_weakened_rows(model, state, r) ? never : state.path[r];
+}
+
+/// What loops over a row have to read of its bonds: nothing beyond stretches, plastic parts too, or
+/// factors of damage as well.
+enum class RowBonds { whole, flowed, weakened };
+
+/// What each particle of a row has left, in stress times volume: negative where it is due.
+template <RowBonds Bonds, bool Yields>
+double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index r, Left& left) {
+  const LatticeRow& row = model.lattice.rows[r];
+  const BondPointers<6> bond(model, state, r);
+  const double* sum = state.now.sum.data() + state.now.places.first[r];
+  const double* volume = model.volume.data() + row.first;
+  const double* crack_at = state.crack_at.data() + row.first;
+  const double* visit = Yields ? state.flow.visit.data() + row.first : nullptr;
+  const PlaneProducts nn(model.lattice);
+  const double own = model.moduli.own, modulus = model.moduli.sum;
+  const double half_length = 0.5 * model.lattice.spacing;
+  const double* root_tension = state.root_tension.data() + row.first;
+  const double* root_compression = state.root_compression.data() + row.first;
+  const double nu = model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
+  const double* normal = Yields ? state.flow.normal.data() + row.first : nullptr;
+  const double* wait = state.wait.data() + row.first;
+  const double path = path_of(model, state, r), stiffness = stress_stiffness(model);
+  double least = never;
+  double *damage = left.damage.data(), *flow = left.flow.data();
+#pragma omp simd reduction(min : least)
+  for (Index i = 0; i < row.size; ++i) {
+    const double shared = modulus * sum[i];
+    double sxx = 0.0, syy = 0.0, sxy = 0.0;
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) {
+      const int k = j % 3;
+      const double present = bond.present[j][i];
+      double force = own * bond.effective[j][i], factor = present, root = 1.0;
+      if constexpr (Bonds == RowBonds::weakened) {
+        const double stretch = bond.stretch[j][i];
+        factor = by_sign(stretch, bond.tension[j][i], bond.compression[j][i]);
+        root = by_sign(stretch, root_tension[i], root_compression[i]);
+      }
+      if constexpr (Bonds != RowBonds::whole && Yields) {
+        force += (j < 3 ? own : -own) * factor * bond.half[j][i];
+      }
+      force += present * root * shared;
+      sxx += force * nn.xx[k];
+      syy += force * nn.yy[k];
+      sxy += force * nn.xy[k];
+    }
+    const double mean = 0.5 * (sxx + syy), difference = 0.5 * (sxx - syy);
+    const double radius = std::sqrt(difference * difference + sxy * sxy);
+    const double rest = std::max(crack_at[i] * volume[i] - half_length * (mean + radius),
+                                 (wait[i] - path) * stiffness);
+    if constexpr (Yields) {
+      // Mean stress in the plane over that out of it.
+      const double over = half_length * (1.0 - 2.0 * nu) * mean + normal[i] * volume[i];
+      const double shear = half_length * radius;
+      const double other = visit[i] * volume[i] - std::sqrt(over * over + 3.0 * shear * shear);
+      flow[i] = other;
+      least = std::min(least, other);
+    }
+    damage[i] = rest;
+    least = std::min(least, rest);
+  }
+  return least;
+}
+
+/// In space: n n' has the eigenvalues 1 and 0, so neither a principal stress nor von Mises' exceeds
+/// the sum of the forces.
+double scan_space(const ExplicitModel& model, const ExplicitState& state, Index r, Left& left) {
+  const LatticeRow& row = model.lattice.rows[r];
+  const BondPointers<18> bond(model, state, r);
+  const double* sum = state.now.sum.data() + state.now.places.first[r];
+  const double* volume = model.volume.data() + row.first;
+  const double* crack_at = state.crack_at.data() + row.first;
+  const double* visit = model.material.yields ? state.flow.visit.data() + row.first : nullptr;
+  const double* wait = state.wait.data() + row.first;
+  const double path = path_of(model, state, r), stiffness = stress_stiffness(model);
+  double least = never;
+  for (Index i = 0; i < row.size; ++i) {
+    const double shared = model.moduli.sum * sum[i];
+    double pull = 0.0, size = 0.0;
+    for (int j = 0; j < 18; ++j) {
+      const int k = j % 9;
+      const double half_length = 0.5 * model.lattice.bonds[k].length;
+      const double plastic = visit != nullptr ? std::abs(bond.half[j][i]) : 0.0;
+      const double own = model.own_modulus(k) * bond.effective[j][i];
+      const double part = bond.present[j][i] * shared;
+      // Damage may weaken the shared part as well.
+      const double excess = model.own_modulus(k) * plastic;
+      pull += half_length * std::max(0.0, std::max(own, own + part) + excess);
+      size += half_length * (std::max(std::abs(own), std::abs(own + part)) + excess);
+    }
+    left.damage[i] = std::max(crack_at[i] * volume[i] - pull, (wait[i] - path) * stiffness);
+    if (visit != nullptr) left.flow[i] = visit[i] * volume[i] - size;
+    least = std::min({least, left.damage[i], left.flow[i]});
+  }
+  return least;
+}
+
+/// Makes particles due whose strain has passed the largest so far; in the plane.
+template <LatticeRules Rules, bool Yields>
+void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
+                 const ExplicitState& state, Index r, double* left) {
+  const LatticeRow& row = model.lattice.rows[r];
+  const BondPointers<6> bond(model, state, r);
+  const std::vector<double>& inverse = particles.whole_inverse();
+  const double* grow_at = state.grow_at.data() + row.first;
+#pragma omp simd
+  for (Index i = 0; i < row.size; ++i) {
+    double xx = 0.0, yy = 0.0, xy = 0.0;
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j) {
+      const double whole = bond.stretch[j][i] * bond.present[j][i];
+      double half = whole;
+      if constexpr (Rules != LatticeRules::mean_2017) {
+        const double owners =
+            by_sign(whole, bond.share_tension[j][i], bond.share_compression[j][i]);
+        half *= j < 3 ? owners : 2.0 - owners;
+        if constexpr (Yields) half += j < 3 ? bond.half[j][i] : -bond.half[j][i];
+      }
+      xx += inverse[3 * j] * half;
+      yy += inverse[3 * j + 1] * half;
+      xy += inverse[3 * j + 2] * half;
+    }
+    const double mean = 0.5 * (xx + yy), difference = 0.5 * (xx - yy);
+    const double radius = std::sqrt(difference * difference + xy * xy);
+    const double e1 = mean + radius, e2 = mean - radius;
+    double strain = e1;
+    if constexpr (Rules == LatticeRules::least_2018) {
+      strain = std::sqrt(e1 * e1 - e1 * e2 + e2 * e2);
+    }
+    left[i] = strain > grow_at[i] ? -1.0 : left[i];
+  }
+}
+
+void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
+                 const ExplicitState& state, Index r, double* left) {
+  const bool yields = model.material.yields;
+  switch (model.rules) {
+    case LatticeRules::consistent: return;  // LatticeDamage::watch has moved their crack_at
+    case LatticeRules::mean_2017:
+      return scan_cracks<LatticeRules::mean_2017, false>(model, particles, state, r, left);
+    case LatticeRules::least_2018:
+      return yields
+                 ? scan_cracks<LatticeRules::least_2018, true>(model, particles, state, r, left)
+                 : scan_cracks<LatticeRules::least_2018, false>(model, particles, state, r, left);
+  }
+}
+
+double scan_stress(const ExplicitModel& model, const ExplicitState& state, Index r,
+                   std::uint8_t duty, Left& left) {
+  if (model.lattice.dim == 3) return scan_space(model, state, r, left);
+  const bool weakened = (duty & RowDuty::weakened) != 0;
+  if (!model.material.yields) {
+    return weakened ? scan_plane<RowBonds::weakened, false>(model, state, r, left)
+                    : scan_plane<RowBonds::whole, false>(model, state, r, left);
+  }
+  if (weakened) return scan_plane<RowBonds::weakened, true>(model, state, r, left);
+  return (duty & RowDuty::altered) != 0 ? scan_plane<RowBonds::flowed, true>(model, state, r, left)
+                                        : scan_plane<RowBonds::whole, true>(model, state, r, left);
+}
+
+}  // namespace
+
+std::uint8_t duty_of_bonds(const LatticeRows& lattice, const ExplicitState& state, Index row) {
+  std::uint8_t duty = state.duty[row];
+  for (int k = 0; k < lattice.own_bonds(); ++k) {
+    const Index in = lattice.row_in[row * lattice.own_bonds() + k];
+    if (in != no_index) duty |= state.duty[in];
+  }
+  return duty;
+}
+
+bool has_weakened_rows(const ExplicitModel& model, const ExplicitState& state, Index row) {
+  const Index reach = model.lattice.reach, rows = static_cast<Index>(state.duty.size());
+  const auto first = state.duty.begin() + std::max<Index>(0, row - 2 * reach);
+  const auto last = state.duty.begin() + std::min<Index>(rows - 1, row + reach) + 1;
+  return std::any_of(first, last, [](auto duty) { return (duty & RowDuty::weakened) != 0; });
+}
+
+bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row) {
+  // Rows are numbered so that the bonds of a particle's neighbours belong to rows near its own.
+  const Index reach = model.lattice.reach, rows = static_cast<Index>(state.fastest.size());
+  const Index first = std::max<Index>(0, row - 2 * reach);
+  const Index last = std::min<Index>(rows - 1, row + reach);
+  const double fastest =
+      *std::max_element(state.fastest.begin() + first, state.fastest.begin() + last + 1);
+  // Rates are those along the present directions, a hair more than the changes of stretches.
+  constexpr double margin = 1.01;
+  state.slack[row] -= margin * fastest;
+  state.path[row] += margin * fastest;
+  return !(state.slack[row] > 0.0);
+}
+
+double stress_stiffness(const ExplicitModel& model) {
+  double own = 0.0, weights = 0.0;
+  const int bonds = model.lattice.own_bonds();
+  for (int k = 0; k < bonds; ++k) {
+    const double length = model.lattice.bonds[k].length;
+    own += length * model.own_modulus(k);
+    weights += length;
+  }
+  return own + 2.0 * weights * std::abs(model.moduli.sum) * weights / model.lattice.spacing;
+}
+
+void scan_row(const ExplicitModel& model, const LatticeParticles& particles, ExplicitState& state,
+              Index r, DueParticles& due) {
+  const LatticeRow& row = model.lattice.rows[r];
+  thread_local Left left;
+  left.damage.resize(row.size);
+  left.flow.assign(row.size, never);
+  const std::uint8_t duty = duty_of_bonds(model.lattice, state, r);
+  const double least = scan_stress(model, state, r, duty, left);
+  const bool cracked = (state.news[r] & RowNews::cracked) != 0;
+  if (cracked && model.lattice.dim == 2) {
+    scan_cracks(model, particles, state, r, left.damage.data());
+  }
+  due.damage.clear();
+  due.flow.clear();
+  for (Index i = 0; i < row.size; ++i) {
+    const bool grows = cracked && model.lattice.dim == 3 && state.grow_at[row.first + i] < never;
+    if (left.damage[i] < 0.0 || grows) due.damage.push_back(row.first + i);
+    if (left.flow[i] < 0.0) due.flow.push_back(row.first + i);
+  }
+  // Factors change with the sign of a stretch, at no distance that could be counted.
+  const bool weakened = (duty & RowDuty::weakened) != 0;
+  state.slack[r] = weakened ? 0.0 : least / stress_stiffness(model);
+}
+
+}  // namespace perilink

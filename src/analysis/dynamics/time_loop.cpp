@@ -1,0 +1,87 @@
+#include "analysis/dynamics/time_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+
+namespace perilink {
+namespace {
+
+constexpr double smallest = 1e-290;  // keeps bodies at rest from dividing by zero
+
+}  // namespace
+
+double ramped_load_factor(double time, double ramp) {
+  return time < ramp ? 0.5 * (1.0 - std::cos(std::numbers::pi * time / ramp)) : 1.0;
+}
+
+ExplicitLoop::ExplicitLoop(const ExplicitOptions& options, double critical_time_step)
+    : ramp_(options.ramp) {
+  if (options.duration <= 0.0) throw std::invalid_argument("the duration must be positive");
+  const double step =
+      options.time_step > 0.0 ? options.time_step : options.safety * critical_time_step;
+  if (step > critical_time_step && options.refuse_unstable) {
+    throw std::invalid_argument(
+        fmt::format("the time step {:.4g} is larger than the critical one, {:.4g}; take less", step,
+                    critical_time_step));
+  }
+  steps_ = static_cast<Index>(std::ceil(options.duration / step));
+  between_rows_ = std::max<Index>(1, steps_ / std::max(1, options.rows));
+  result_.time_step = step;
+  result_.critical_time_step = critical_time_step;
+  result_.ending = Ending::completed;
+  result_.reason = "the whole duration";
+}
+
+double ExplicitLoop::load_factor(Index step) const {
+  return ramped_load_factor(step * time_step(), ramp_);
+}
+
+void ExplicitLoop::end(Ending ending, const std::string& reason) {
+  result_.ending = ending;
+  result_.reason = reason;
+  done_ = true;
+}
+
+std::string ExplicitLoop::why() const {
+  const double critical = result_.critical_time_step;
+  if (time_step() > critical) {
+    return fmt::format("is too large; the critical one of the intact body is {:.4g}", critical);
+  }
+  return fmt::format(
+      "is below the critical one of the intact body, {:.4g}: what breaks or flows "
+      "takes energy from its own rules, which smaller steps may not cure",
+      critical);
+}
+
+/// Only work from outside can raise kinetic and stored energy.
+void ExplicitLoop::check_growth(Index step, const EnergyBalance& energy) {
+  const double held = energy.kinetic + energy.stored;
+  if (step == 0) initial_ = held;
+  supplied_ = std::max(supplied_, initial_ + std::abs(energy.external_work));
+  // Stored energy between two steps can be negative: a linear motion that grows keeps the sum. The
+  // kinetic part alone of one that does not is at most 1 / (1 - (omega dt / 2)^2) of it, fifty at
+  // 0.99 of the critical step. Both are false for NaN.
+  constexpr double most_kinetic = 100.0;
+  const double most = 2.0 * supplied_ + smallest;
+  if (std::abs(held) <= most && energy.kinetic <= most_kinetic * supplied_ + smallest) {
+    return;
+  }
+  result_.steps = step;
+  overflowed_ = !std::isfinite(energy.kinetic + energy.stored + energy.external_work);
+  end(Ending::failed,
+      fmt::format("the motion grew out of nothing at step {} (energy {:.3g}, supplied {:.3g}): the "
+                  "time step {:.4g} {}",
+                  step, std::max(std::abs(held), energy.kinetic), supplied_, time_step(), why()));
+}
+
+void ExplicitLoop::note_row(const ExplicitRecord& record) {
+  result_.steps = record.step;
+  result_.last = record;
+  largest_surplus_ = std::max(largest_surplus_, std::abs(record.energy.surplus()));
+  result_.largest_surplus = largest_surplus_ / std::max(supplied_, smallest);
+}
+
+}  // namespace perilink

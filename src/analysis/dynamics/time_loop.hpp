@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cmath>
+#include <exception>
+#include <string>
+
+#include "analysis/dynamics/explicit_run.hpp"
+#include "base/memory.hpp"
+
+namespace perilink {
+
+/// The frame of every explicit run: how long its steps are, when rows come and how it ends. What a
+/// step does is the caller's.
+class ExplicitLoop {
+ public:
+  /// \throws std::invalid_argument where the time step exceeds the critical one (unless
+  /// refuse_unstable is off) or the duration is not positive
+  ExplicitLoop(const ExplicitOptions& options, double critical_time_step);
+
+  double time_step() const { return result_.time_step; }
+  double load_factor(Index step) const;
+  /// Whether look() has to be called at a step.
+  bool is_looked_at(Index step) const { return is_row(step) || step % steps_between_checks == 0; }
+
+  /// Calls one_step(step) for every step, each by all threads.
+  /// What an observer throws ends the run as failed.
+  template <class OneStep>
+  ExplicitResult run(int threads, OneStep one_step) {
+#pragma omp parallel num_threads(threads)
+    for (Index step = 0; step <= steps_ && !done_; ++step) one_step(step);
+    if (!failure_.empty()) end(Ending::failed, failure_);
+    return result_;
+  }
+
+  /// To be called by one thread, between barriers: ends runs whose energy grows, asks the observer
+  /// whether to stop, and tells it of rows. Where energies are no numbers any more there is no row.
+  /// \param record    has the energies of this step, and the reactions of the last
+  /// \param complete  fills in what else a row of this body has
+  template <class Observer, class State, class Complete>
+  void look(Index step, ExplicitRecord& record, Observer& observer, const State& state,
+            Complete complete) {
+    check_growth(step, record.energy);
+    guarded([&] {
+      if (!done_ && observer.stop_requested()) end(Ending::interrupted, "interrupted");
+    });
+    if (!is_row(step) && !done_) return;
+    if (overflowed_) return;
+    record.step = step;
+    record.time = step * time_step();
+    record.load_factor = load_factor(step);
+    complete(record);
+    note_row(record);
+    const bool last = done_ || step == steps_;
+    guarded([&] {
+      observer.on_row(record, state);
+      if (last) observer.on_end(record, state);
+    });
+  }
+
+  /// \param displacement  of the driven particles at this step [length]
+  void note_reaction(double supports, double displacement) {
+    if (!(std::abs(supports) > std::abs(result_.peak_load))) return;  // nor for what is no number
+    result_.peak_load = supports;
+    result_.peak_displacement = displacement;
+  }
+
+ private:
+  static constexpr Index steps_between_checks = 200;
+
+  bool is_row(Index step) const { return step % between_rows_ == 0 || step == steps_; }
+  void end(Ending ending, const std::string& reason);
+  /// Why the motion may have grown.
+  std::string why() const;
+  void check_growth(Index step, const EnergyBalance& energy);
+  void note_row(const ExplicitRecord& record);
+
+  /// Exceptions must not leave a parallel region.
+  template <class Action>
+  void guarded(const Action& action) {
+    try {
+      action();
+    } catch (const std::exception& error) {
+      failure_ = failure_text(error);
+      done_ = true;
+    }
+  }
+
+  double ramp_;
+  Index steps_ = 0, between_rows_ = 1;
+  double initial_ = 0.0, supplied_ = 0.0, largest_surplus_ = 0.0;  ///< energies
+  bool done_ = false, overflowed_ = false;
+  std::string failure_;  ///< of an observer
+  ExplicitResult result_;
+};
+
+}  // namespace perilink

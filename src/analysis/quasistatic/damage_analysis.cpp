@@ -1,0 +1,313 @@
+#include "analysis/quasistatic/damage_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/quasistatic/path_energy.hpp"
+#include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/timer.hpp"
+
+namespace perilink {
+namespace {
+
+/// A bar whose secant fell below this has stretched to a hundred times its yield strain: it no
+/// longer limits anything, the bars and the body form a plastic mechanism.
+constexpr double exhausted_secant = 1e-2;
+
+/// A row whose energies are this far from balance, over the work, is none: the solver has lost the
+/// body, and what it would write were noise.
+constexpr double lost_balance = 1e-2;
+
+/// Lets observers look at the equilibrium of the engine.
+class EngineState final : public StateSource {
+ public:
+  EngineState(const Network& network, EventEngine& engine) : network_(network), engine_(engine) {}
+  StepState state() override { return {network_, engine_.secants(), engine_.displacement()}; }
+  std::span<const double> secants() override { return engine_.secants(); }
+
+ private:
+  const Network& network_;
+  EventEngine& engine_;
+};
+
+/// The run as it goes on: engine, path energies, the row being written and the result.
+class Run {
+ public:
+  Run(const Network& network, const Unknowns& unknowns, const Loads& loads,
+      const ReferenceLoad& reference, const DamageOptions& options, StepObserver& observer)
+      : network_(network),
+        reference_(reference),
+        options_(options),
+        observer_(observer),
+        engine_(make_event_engine(network, unknowns, loads, options.engine)),
+        state_(network, *engine_) {
+    const LoadWork work = engine_->load_work();
+    const double whole = work.forces + work.supports;
+    compliance_ = work.forces - work.supports;
+    if (!(whole > 0.0)) throw SolverError("the loads do no work on the body");
+    if (!std::isfinite(whole)) throw SolverError("the elastic solution is not finite");
+    result_.initial_stiffness = reference_.driven
+                                    ? work.supports / (reference_.value * reference_.value)
+                                    : reference_.value * reference_.value / whole;
+  }
+
+  /// A solver that cannot go on, no memory or a full disk of an observer end the run like any other
+  /// ending: with all that was found so far.
+  DamageResult go() {
+    try {
+      return options_.load_factors.empty() ? by_events() : by_steps();
+    } catch (const std::exception& error) {
+      end(Ending::failed, failure_text(error));
+    }
+    result_.last = row_;
+    result_.broken_bonds = broken_bonds_;
+    result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
+    result_.factor = engine_->factor_statistics();
+    return result_;
+  }
+
+ private:
+  DamageResult by_events();
+  DamageResult by_steps();
+  void record(double load_factor, const LoadWork& work, Index element);
+  void note_peaks();
+  void check();
+  bool residual_may_be_large() const;
+  int check_interval() const;
+  bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }
+  void record_separated(double load_factor, const LoadWork& work);
+  bool pass(const Event& event);
+  bool stop_rule_met();
+  void end(Ending ending, std::string reason) {
+    result_.ending = ending;
+    result_.reason = std::move(reason);
+  }
+  DamageResult finish();
+
+  const Network& network_;
+  const ReferenceLoad& reference_;
+  const DamageOptions& options_;
+  StepObserver& observer_;
+  std::unique_ptr<EventEngine> engine_;
+  EngineState state_;
+  PathEnergy energy_;
+  Timer timer_;
+  double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...
+  double checked_compliance_ = 0.0;  ///< ... when the residual was last measured
+  double stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
+  int events_ = 0;
+  int rows_below_ = 0;  ///< successive rows below the load fraction of the stop rule
+  Index broken_bonds_ = 0;
+  Index yield_events_ = 0;
+  StepRecord row_;
+  std::vector<StepRecord> rows_;  ///< of control by events
+  DamageResult result_;
+};
+
+/// Measures the residual and, element by element, the stored energy of the present equilibrium.
+void Run::check() {
+  const Equilibrium equilibrium = engine_->check_equilibrium();
+  row_.residual = equilibrium.residual;
+  stored_by_elements_ = equilibrium.stored_energy;
+  result_.largest_residual = std::max(result_.largest_residual, equilibrium.residual);
+  checked_compliance_ = compliance_;
+}
+
+/// What round-off leaves grows in proportion to the displacements, which forces make without bound
+/// as a body comes apart (driven displacements do not: their compliance is negative). Looking again
+/// pays when it has grown by a tenth.
+bool Run::residual_may_be_large() const {
+  return checked_compliance_ > 0.0 && compliance_ > 1.1 * checked_compliance_;
+}
+
+/// Events between looks at the residual.
+int Run::check_interval() const {
+  return meets_tolerance() ? options_.check_interval : std::max(1, options_.check_interval / 10);
+}
+
+void Run::record(double load_factor, const LoadWork& work, Index element) {
+  const StepRecord last = row_;
+  energy_.advance(load_factor, work);
+  ++row_.step;
+  row_.broken_bonds = broken_bonds_;
+  row_.yield_events = yield_events_;
+  row_.load_factor = load_factor;
+  row_.strain_energy = energy_.stored();
+  row_.load = reference_.driven ? load_factor * work.supports / reference_.value + 0.0  // no -0
+                                : load_factor * reference_.value;
+  row_.displacement = reference_.driven  ? load_factor * reference_.value
+                      : row_.load != 0.0 ? 2.0 * row_.strain_energy / row_.load
+                                         : 0.0;
+  row_.dissipated_energy = energy_.dissipated();
+  row_.external_work = energy_.external_work();
+  row_.released_energy = energy_.released();
+  row_.factorizations = engine_->factorizations();
+  row_.element = element;
+  row_.seconds = timer_.seconds();
+  timer_.restart();
+
+  const double stored = std::isnan(stored_by_elements_)
+                            ? row_.strain_energy
+                            : load_factor * load_factor * stored_by_elements_;
+  stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
+  if (row_.external_work != 0.0) {
+    const double error = std::abs(row_.external_work - stored - row_.dissipated_energy) /
+                         std::abs(row_.external_work);
+    result_.energy_error = std::max(result_.energy_error, error);
+    if (!(error <= lost_balance)) {
+      row_ = last;
+      throw SolverError(
+          fmt::format("work and energies of row {} are out of balance by {:.2g} of the work: the "
+                      "solver has lost the equilibrium of a body that is about to separate",
+                      last.step + 1, error));
+    }
+  }
+  note_peaks();
+  const bool below =
+      options_.stop.load_fraction &&
+      std::abs(row_.load) < *options_.stop.load_fraction * std::abs(result_.peak_load);
+  rows_below_ = below ? rows_below_ + 1 : 0;
+  observer_.on_step(row_, state_);
+}
+
+void Run::note_peaks() {
+  PeakWatch& peaks = result_.peaks;
+  const bool held = !peaks.gave_way();
+  peaks.add({row_.displacement, row_.load});
+  if (held) result_.broken_as_gave_way = broken_bonds_;
+  result_.peak_load = peaks.highest().load;
+  result_.peak_displacement = peaks.highest().displacement;
+  if (options_.load_factors.empty()) rows_.push_back(row_);
+}
+
+/// Lets the element fail. \return false when that separates the body
+bool Run::pass(const Event& event) {
+  const EventOutcome outcome = engine_->apply(event);
+  const bool is_bar = network_.is_segment(event.element);
+  if (outcome.mechanism) {
+    if (!is_bar) result_.broken_bonds = 1;  // beyond those of the last row
+    end(Ending::collapsed, fmt::format("the body separated when element {} failed (pivot {:.1e})",
+                                       event.element, outcome.pivot));
+    return false;
+  }
+  ++(is_bar ? yield_events_ : broken_bonds_);
+  energy_.add_event(outcome);
+  stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // of the body before the event
+  compliance_ += outcome.compliance_growth;
+  if (++events_ % check_interval() == 0 || outcome.pivot < 1e-3 || residual_may_be_large()) check();
+  if (is_bar && engine_->secants()[event.element] < exhausted_secant) {
+    end(Ending::collapsed,
+        fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
+                    1.0 / exhausted_secant));
+    return false;
+  }
+  return true;
+}
+
+bool Run::stop_rule_met() {
+  const StopRules& stop = options_.stop;
+  if (observer_.stop_requested()) {
+    end(Ending::interrupted, "a signal asked the run to stop");
+  } else if (stop.broken_bonds && broken_bonds_ >= *stop.broken_bonds) {
+    end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));
+  } else if (stop.load_fraction &&
+             rows_below_ >= (options_.load_factors.empty() ? stop.load_fraction_rows : 1)) {
+    end(Ending::completed, fmt::format("the load fell below {} of its peak", *stop.load_fraction));
+  } else if (stop.displacement && std::abs(row_.displacement) >= *stop.displacement) {
+    end(Ending::completed, fmt::format("the displacement reached {}", *stop.displacement));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// The driven body lies in two: the last row shows that it no longer resists.
+void Run::record_separated(double load_factor, const LoadWork& work) {
+  end(Ending::collapsed, "the body no longer resists the displacements");
+  record(load_factor, work, no_index);
+}
+
+/// From event to event: the load factor follows the body, up or down.
+DamageResult Run::by_events() {
+  check();
+  while (true) {
+    const LoadWork work = engine_->load_work();
+    if (work.separated) {
+      record_separated(row_.load_factor, work);
+      break;
+    }
+    const Event event = engine_->next_event();
+    if (event.element == no_index) {
+      end(Ending::nothing_breaks, "no bond can break under this load");
+      break;
+    }
+    record(event.load_factor, work, event.element);
+    if (stop_rule_met() || !pass(event)) break;
+  }
+  return finish();
+}
+
+/// At prescribed load factors: the worst element fails, and the next, until none exceeds its limit.
+/// Of the stop rules only the number of broken bonds and the signal are looked at within a step;
+/// the others ask for equilibrium at its end. A run that ends within a step reports the last
+/// equilibrium at the load that it can bear.
+DamageResult Run::by_steps() {
+  check();
+  for (const double load_factor : options_.load_factors) {
+    Event event = engine_->next_event();
+    Index last = no_index;
+    while (event.element != no_index && event.load_factor <= load_factor) {
+      energy_.advance(load_factor, engine_->load_work());
+      const bool enough =
+          options_.stop.broken_bonds && broken_bonds_ >= *options_.stop.broken_bonds;
+      if (observer_.stop_requested() || enough) {
+        if (enough) {
+          end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));
+        } else {
+          end(Ending::interrupted, "a signal asked the run to stop");
+        }
+        record(event.load_factor, engine_->load_work(), event.element);
+        return finish();
+      }
+      if (!pass(event)) {
+        record(event.load_factor, engine_->load_work(), event.element);
+        return finish();
+      }
+      last = event.element;
+      const LoadWork work = engine_->load_work();
+      if (work.separated) {
+        record_separated(load_factor, work);
+        return finish();
+      }
+      event = engine_->next_event();
+    }
+    record(load_factor, engine_->load_work(), last);
+    if (stop_rule_met()) return finish();
+  }
+  end(Ending::completed, "all load steps are done");
+  return finish();
+}
+
+DamageResult Run::finish() {
+  observer_.on_end(row_, state_);
+  result_.last = row_;
+  result_.broken_bonds += broken_bonds_;
+  result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
+  result_.factor = engine_->factor_statistics();
+  return result_;
+}
+
+}  // namespace
+
+DamageResult run_damage_analysis(const Network& network, const Unknowns& unknowns,
+                                 const Loads& loads, const ReferenceLoad& reference,
+                                 const DamageOptions& options, StepObserver& observer) {
+  Run run(network, unknowns, loads, reference, options, observer);
+  return run.go();
+}
+
+}  // namespace perilink

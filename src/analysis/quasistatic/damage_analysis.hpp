@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/quasistatic/events/event_engine.hpp"
+#include "analysis/quasistatic/load_curve.hpp"
+#include "analysis/quasistatic/observer.hpp"
+#include "network/network.hpp"
+#include "network/unknowns.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// When a run ends before collapse.
+struct StopRules {
+  std::optional<Index> broken_bonds;
+  std::optional<double> load_fraction;  ///< |load| below this fraction of its peak
+  int load_fraction_rows = 10;  ///< successive rows that have to lie below: between two events of a
+                                ///< growing crack the load may dip deep and come back
+  std::optional<double> displacement;   ///< |displacement| at or above this [length]
+};
+
+struct DamageOptions {
+  EngineOptions engine;
+  std::vector<double> load_factors;  ///< control by steps when not empty, else by events
+  StopRules stop;
+  int check_interval = 50;           ///< events between looks at the residual
+};
+
+/// Force on the body at a loaded or driven place.
+struct PlaceForce {
+  std::string name;
+  std::vector<double> force;  ///< size dim [force]
+};
+
+struct DamageResult {
+  Ending ending = Ending::completed;
+  std::string reason;               ///< in words
+  StepRecord last;
+  Index broken_bonds = 0;           ///< with the one that separated the body, if it did
+  double peak_load = 0.0;
+  double peak_displacement = 0.0;   ///< displacement at the peak load
+  PeakWatch peaks;                  ///< the same, and what the load did after its first peak
+  Index broken_as_gave_way = 0;     ///< bonds broken when the body first gave way
+  std::vector<PlaceForce> places;   ///< at the peak, of several; filled in by who knows them
+  std::optional<double> smoothed_peak_load;  ///< of paths of events that are long enough
+  double initial_stiffness = 0.0;   ///< load / displacement of the intact body
+  double largest_residual = 0.0;
+  /// Largest |work - stored - dissipated| / work of all rows, the stored energy summed over the
+  /// elements wherever the residual was measured.
+  double energy_error = 0.0;
+  FactorStatistics factor;
+};
+
+/// Reference load or displacement that turns load factors into the two axes of the load curve, each
+/// work-conjugate to the other.
+struct ReferenceLoad {
+  bool driven = false;  ///< displacements drive the body (forces may help them)
+  double value = 0.0;   ///< load of all loaded places, or relative displacement of driven ones
+};
+
+/// THE MAIN JOB: proportional loading of a network of brittle bonds to collapse, event by event.
+DamageResult run_damage_analysis(const Network& network, const Unknowns& unknowns,
+                                 const Loads& loads, const ReferenceLoad& reference,
+                                 const DamageOptions& options, StepObserver& observer);
+
+}  // namespace perilink

@@ -1,0 +1,74 @@
+#include "analysis/quasistatic/elastic_analysis.hpp"
+
+#include <cmath>
+
+#include "assembly/internal_force.hpp"
+#include "assembly/stiffness.hpp"
+#include "base/timer.hpp"
+
+namespace perilink {
+namespace {
+
+/// \param assemble     gives K
+/// \param right_side   gives f
+/// \param internal_of  gives K u and the energy for displacements of all particles
+template <class Assemble, class RightSide, class Internal>
+ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, int threads,
+                            Assemble assemble, RightSide right_side, Internal internal_of) {
+  ElasticResult result;
+  Timer timer;
+  const SparseMatrix stiffness = assemble();
+  const std::vector<double> load = right_side();
+  result.seconds.assembly = timer.seconds();
+
+  timer.restart();
+  const std::unique_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
+  factor->factorize(stiffness, particle_of_unknown(unknowns));
+  result.seconds.factorization = timer.seconds();
+
+  timer.restart();
+  std::vector<double> solution(load.size());
+  factor->solve(load, solution);
+  double load_norm = 0.0;
+  for (const double value : load) load_norm += value * value;
+  for (int pass = 0; pass < 2; ++pass) {
+    result.displacement = expand(unknowns, solution);
+    const InternalForce internal = internal_of(result.displacement);
+    std::vector<double> residual;
+    double square = 0.0;
+    for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+      if (unknowns.number[slot] == no_index) continue;
+      residual.push_back(loads.forces[slot] - internal.forces[slot]);
+      square += residual.back() * residual.back();
+    }
+    result.strain_energy = internal.energy;
+    result.residual = load_norm > 0.0 ? std::sqrt(square / load_norm) : std::sqrt(square);
+    if (pass == 1) break;
+    factor->solve(residual, residual);
+    for (std::size_t k = 0; k < solution.size(); ++k) solution[k] += residual[k];
+  }
+  result.factor = factor->statistics();
+  result.seconds.solve = timer.seconds();
+  return result;
+}
+
+}  // namespace
+
+ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unknowns,
+                                   const Loads& loads, int threads) {
+  const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
+  return solve_elastic(
+      unknowns, loads, threads, [&] { return assemble_stiffness(network, secants, unknowns); },
+      [&] { return assemble_right_hand_side(network, secants, unknowns, loads); },
+      [&](std::span<const double> u) { return internal_force(network, secants, u); });
+}
+
+ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknowns& unknowns,
+                                   const Loads& loads, int threads) {
+  return solve_elastic(
+      unknowns, loads, threads, [&] { return assemble_stiffness(elements, unknowns); },
+      [&] { return assemble_right_hand_side(elements, unknowns, loads); },
+      [&](std::span<const double> u) { return internal_force(elements, u); });
+}
+
+}  // namespace perilink

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/types.hpp"
+#include "network/network.hpp"
+
+namespace perilink {
+
+/// Finds the bond that is nearest to its critical stretch.
+class BreakSearch {
+ public:
+  virtual ~BreakSearch() = default;
+
+  struct Hit {
+    Index element = no_index;
+    double ratio = 0.0;  ///< stretch over critical stretch at load factor 1
+  };
+
+  /// Largest positive ratio; of those within `tolerance` of it the lowest element.
+  /// \param displacement  shape (particles, width)
+  /// \throws SolverError where the ratio of a bond is not a finite number
+  virtual Hit find(std::span<const double> displacement, double tolerance, int threads) = 0;
+
+  /// Takes a broken bond out of the search.
+  virtual void remove(Index element) = 0;
+};
+
+/// The ratio of an element's measure to its limit. One that is not a number compares as nothing and
+/// would look like an element that never fails.
+/// \throws SolverError where it is not finite
+inline double finite_ratio(Index element, double ratio) {
+  if (std::isfinite(ratio)) return ratio;
+  throw SolverError("the stretch of element " + std::to_string(element) +
+                    " over its limit is not a finite number: displacements or limits are not "
+                    "finite, and no figure that follows would mean anything");
+}
+
+/// The search for the bonds of a network: trusses or frames.
+std::unique_ptr<BreakSearch> make_break_search(const Network& network);
+
+}  // namespace perilink

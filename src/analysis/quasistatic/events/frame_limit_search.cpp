@@ -1,0 +1,111 @@
+#include "analysis/quasistatic/events/frame_limit_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/quasistatic/events/block_search.hpp"
+#include "analysis/quasistatic/events/limit_search.hpp"
+
+namespace perilink {
+namespace {
+
+/// Fewer blocks than this are searched faster by one thread.
+constexpr Index smallest_parallel_search = 100;
+
+/// A bond counts as stretched when the square of its axial stretch is at least this share of that
+/// of its equivalent stretch. Where symmetry keeps its length, round-off must not decide.
+constexpr double least_tension = 1e-12;
+
+}  // namespace
+
+std::unique_ptr<BreakSearch> make_break_search(const Network& network) {
+  if (network.carries_moments()) return std::make_unique<FrameLimitSearch>(network);
+  return std::make_unique<LimitSearch>(network);
+}
+
+FrameLimitSearch::FrameLimitSearch(const Network& network)
+    : dim_(network.dim()), torsion_(network.torsion) {
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const double limit = network.critical_stretch[e];
+    if (std::isinf(limit)) continue;
+    const double length = network.bonds.lengths[e];
+    const double share = network.ratio_of_bending(e);
+    Bond bond{
+        network.bonds.first[e] * network.width(), network.bonds.second[e] * network.width(), {},
+        network.inflection_of(e) * length,        (1.0 - network.inflection_of(e)) * length, share,
+        share * length * length / 12.0,           1.0 / (length * limit * length * limit)};
+    for (int a = 0; a < dim_; ++a) bond.n[a] = network.bonds.direction(e)[a];
+    elements_.push_back(e);
+    bonds_.push_back(bond);
+  }
+  block_largest_.resize(num_search_blocks(elements_.size()));
+}
+
+template <int Dim>
+double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const {
+  const double* i = u + bond.first;
+  const double* j = u + bond.second;
+  const double* n = bond.n;
+  double extension = 0.0, square = 0.0;
+  if constexpr (Dim == 2) {
+    const double dx = j[0] - i[0], dy = j[1] - i[1];
+    extension = n[0] * dx + n[1] * dy;
+    const double shear = n[0] * dy - n[1] * dx - (bond.first_arm * i[2] + bond.second_arm * j[2]);
+    const double bend = j[2] - i[2];
+    square = bond.bending_share * shear * shear + bond.rotation_share * bend * bend;
+  } else {
+    double twist = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      extension += n[a] * (j[a] - i[a]);
+      twist += n[a] * (j[3 + a] - i[3 + a]);
+    }
+    double shear_square = 0.0, bend_square = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      // Across the bond: u_j - u_i less its axial part, plus n x (the arms' rotations).
+      const double shear = j[a] - i[a] - n[a] * extension +
+                           n[b] * (bond.first_arm * i[3 + c] + bond.second_arm * j[3 + c]) -
+                           n[c] * (bond.first_arm * i[3 + b] + bond.second_arm * j[3 + b]);
+      const double bend = j[3 + a] - i[3 + a] - n[a] * twist;
+      shear_square += shear * shear;
+      bend_square += bend * bend;
+    }
+    square = bond.bending_share * shear_square +
+             bond.rotation_share * (bend_square + torsion_ * twist * twist);
+  }
+  square += extension * extension;
+  const bool stretched = extension > 0.0 && extension * extension > least_tension * square;
+  return square * (stretched ? bond.inverse : 0.0);  // not a number where the square is none
+}
+
+template <int Dim>
+FrameLimitSearch::Hit FrameLimitSearch::find_in(const double* u, double tolerance, int threads) {
+  const auto value_at = [&](Index k) { return squared_ratio<Dim>(bonds_[k], u); };
+  const auto largest_in = [&](Index begin, Index end) {
+    double largest = 0.0, zero_times_all = 0.0;
+    for (Index k = begin; k < end; ++k) {
+      const double value = value_at(k);
+      largest = std::max(largest, value);
+      zero_times_all += 0.0 * value;
+    }
+    return largest_or_nan(largest, zero_times_all);
+  };
+  Hit hit = find_first_largest(elements_, block_largest_, (1.0 - tolerance) * (1.0 - tolerance),
+                               threads, smallest_parallel_search, largest_in, value_at);
+  hit.ratio = std::sqrt(hit.ratio);
+  return hit;
+}
+
+FrameLimitSearch::Hit FrameLimitSearch::find(std::span<const double> displacement, double tolerance,
+                                             int threads) {
+  return dim_ == 3 ? find_in<3>(displacement.data(), tolerance, threads)
+                   : find_in<2>(displacement.data(), tolerance, threads);
+}
+
+void FrameLimitSearch::remove(Index element) {
+  const auto found = std::lower_bound(elements_.begin(), elements_.end(), element);
+  if (found == elements_.end() || *found != element) return;
+  bonds_[found - elements_.begin()].inverse = 0.0;
+}
+
+}  // namespace perilink

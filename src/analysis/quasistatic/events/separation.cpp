@@ -1,0 +1,221 @@
+// Whether a break separates the body, and equilibrium of bodies that move so far that double
+// precision leaves few digits of their strains (docs/theory/events_and_energy.md, section 5).
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "analysis/quasistatic/events/single_event_engine.hpp"
+#include "base/error.hpp"
+#include "solver/not_positive_definite.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double round_off = std::numeric_limits<double>::epsilon();
+
+/// An energy that is not this many times what errors leave cannot be told from none.
+constexpr double clearly_there = 100.0;
+
+/// Refinement has done its work when a correction has this share of the energy: displacements are
+/// right to its root.
+constexpr double fine_enough = 1e-20;
+
+/// From a factor that has any digits left, each pass gains some; the last ones only measure.
+constexpr int most_passes = 8;
+
+/// So many events the work of a driven body follows the growth of its compliance before it is
+/// summed over the elements again.
+constexpr int most_events_to_follow = 16;
+
+/// Where nothing but elastic supports holds a part, and the body is less stiff than this share of
+/// what it was before the break, the part counts as loose.
+constexpr double least_support = 1e-3;
+
+/// Errors of a motion, as energy over that of the motion, beyond which nothing can be said from it.
+constexpr double most_error = 1e-6;
+
+constexpr const char* out_of_digits =
+    "even with a fresh factor and extended precision no equilibrium is found: the stiffness matrix "
+    "is singular to working precision";
+
+}  // namespace
+
+/// Adds to `motion` what is missing to K motion = load, K times the motion summed element by
+/// element in extended precision, and leaves its forces and energy in `fine_`.
+/// \param load  per unknown
+SingleEventEngine::Refined SingleEventEngine::refine_finely(std::span<const double> load,
+                                                            std::vector<long double>& motion) {
+  std::vector<double> residual(solution_.size());
+  Refined result;
+  auto measure = [&] {
+    internal_force(network_, secants_, motion, fine_);
+    long double square = 0.0, ground = 0.0;
+    for (std::size_t k = 0; k < residual.size(); ++k) {
+      const long double u = motion[slot_of_[k]];
+      const double stiffness = ground_stiffness_.empty() ? 0.0 : ground_stiffness_[k];
+      const long double missing = load[k] - fine_.forces[slot_of_[k]] - stiffness * u;
+      residual[k] = static_cast<double>(missing);
+      square += missing * missing;
+      ground += stiffness * u * u;
+    }
+    result.residual = static_cast<double>(std::sqrt(square));
+    result.energy = static_cast<double>(2.0L * fine_.energy + ground);
+  };
+  std::vector<double> correction(solution_.size());
+  measure();
+  for (int pass = 0; pass < most_passes; ++pass) {
+    factor_->solve(residual, correction);
+    const double energy =
+        std::inner_product(correction.begin(), correction.end(), residual.begin(), 0.0);
+    const bool gains = pass == 0 || energy < 0.1 * result.error;
+    if (pass == 1) result.factor_error = std::sqrt(std::max(energy, 0.0) / result.error);
+    result.error = energy >= 0.0 ? energy : std::numeric_limits<double>::infinity();
+    if (!gains || !std::isfinite(result.error)) break;
+    for (std::size_t k = 0; k < correction.size(); ++k) motion[slot_of_[k]] += correction[k];
+    measure();
+    if (result.error <= fine_enough * result.energy) break;
+  }
+  long double largest = 0.0;
+  for (const long double u : motion) largest = std::max(largest, std::abs(u));
+  // Directions of bonds are rounded: a rigid motion stretches them by as much.
+  const double noise = round_off * static_cast<double>(largest);
+  result.error += stiffness_sum_ * noise * noise;
+  return result;
+}
+
+/// The v with K v = x, and what is in doubt of its energy v'K v = x'v <= 1.
+std::pair<std::vector<long double>, double> SingleEventEngine::motion_of(const SparseVector& x) {
+  std::vector<double> load(solution_.size(), 0.0);
+  for (int k = 0; k < x.size; ++k) load[x.rows[k]] = x.values[k];
+  std::vector<long double> motion(displacement_.size(), 0.0L);
+  double error = refine_finely(load, motion).error;
+  if (!(error < most_error)) {
+    factorize();
+    error = refine_finely(load, motion).error;
+    if (!(error < most_error)) throw SolverError(out_of_digits);
+  }
+  return {std::move(motion), error};
+}
+
+/// What resists when the ends of an element move apart without it: the pivot
+///
+///   min over v of  E(v) / (E(v) + (x'v)^2),
+///
+/// E twice the energy of all other elements, which the v with K v = x attains. An inexact v gives
+/// too much by no more than the energy of its error.
+/// \param kept  secant that stays
+/// \return 0 where it cannot be told from zero
+double SingleEventEngine::pivot_by_energy(const SparseVector& x, Index element, double kept) {
+  const auto [motion, error] = motion_of(x);
+  const double before = secants_[element];
+  secants_[element] = kept;
+  internal_force(network_, secants_, motion, fine_);
+  secants_[element] = before;
+  double energy = static_cast<double>(2.0L * fine_.energy);
+  for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
+    energy += static_cast<double>(ground_stiffness_[k] * motion[slot_of_[k]] * motion[slot_of_[k]]);
+  }
+  supports_alone_ = static_cast<double>(fine_.support_energy) > 0.25 * energy;
+  if (!(energy > clearly_there * error)) return 0.0;
+  long double extension = 0.0;
+  for (int k = 0; k < x.size; ++k) extension += x.values[k] * motion[slot_of_[x.rows[k]]];
+  return energy / (energy + static_cast<double>(extension * extension));
+}
+
+/// Pivot of a removal, prepared in the factor; where it is small, from energies, with a factor that
+/// can be trusted or, after `must_rebuild_`, is to be made anew. 0: nothing holds the ends.
+double SingleEventEngine::pivot_of(const Change& change, Index element, double kept) {
+  must_rebuild_ = supports_alone_ = false;
+  if (change.x.size == 0) return 1.0;
+  double prepared = factor_->prepare_downdate(change.x);
+  if (prepared > doubtful_pivot && !look_closer_) return prepared;
+  double pivot = pivot_by_energy(change.x, element, kept);
+  look_closer_ = std::abs(prepared - pivot) > noisy_pivot;
+  if (pivot > doubtful_pivot) return pivot;
+  if (pivot == 0.0 || std::abs(prepared - pivot) < same_pivot * pivot) return pivot;
+  factorize();
+  pivot = pivot_by_energy(change.x, element, kept);
+  if (pivot == 0.0) return pivot;
+  prepared = factor_->prepare_downdate(change.x);
+  must_rebuild_ = !(std::abs(prepared - pivot) < usable_pivot * pivot);
+  return pivot;
+}
+
+/// Whether what still holds a loose part are elastic supports that are next to nothing beside what
+/// held it before.
+bool SingleEventEngine::hangs_on_weak_supports(double compliance_growth) const {
+  if (!supports_alone_ || !driven_elements_.empty()) return false;
+  const double before = partial_ ? force_work_ : work_of_forces();
+  return before < least_support * (before + compliance_growth);
+}
+
+/// Equilibrium without the element, or with less of it, from a new factor. \return false when there
+/// is none, since the matrix is not positive definite: then all is as it was
+bool SingleEventEngine::rebuild_without(Index element, double kept) {
+  const double before = secants_[element];
+  secants_[element] = kept;
+  try {
+    factorize();
+    polish();
+    return true;
+  } catch (const NotPositiveDefinite&) {
+    secants_[element] = before;
+    factorize();
+    return false;
+  }
+}
+
+/// Refines the displacements in extended precision; they are kept rounded. Where that is needed the
+/// factor's pivots may be noise too.
+Equilibrium SingleEventEngine::polish() {
+  look_closer_ = true;
+  if (stale_) refresh();
+  std::vector<double> load(solution_.size());
+  for (std::size_t k = 0; k < load.size(); ++k) {
+    load[k] = loads_.forces[slot_of_[k]];
+    if (!ground_load_.empty()) load[k] += ground_load_[k];
+  }
+  std::vector<long double> motion(displacement_.begin(), displacement_.end());
+  Refined refined = refine_finely(load, motion);
+  const auto uncertain = [&] {
+    return !(refined.error < most_error * std::max(refined.energy, last_work_));
+  };
+  if (uncertain()) {
+    factorize();
+    refined = refine_finely(load, motion);
+    if (uncertain()) throw SolverError(out_of_digits);
+  }
+  for (std::size_t k = 0; k < solution_.size(); ++k) {
+    solution_[k] = static_cast<double>(motion[slot_of_[k]]);
+  }
+  scatter_solution();
+  force_work_ = work_of_forces();
+  factor_error_ = refined.factor_error;
+  Equilibrium result;
+  result.residual = std::max(refined.residual / load_norm_, round_off);
+  result.stored_energy = static_cast<double>(fine_.energy);
+  resists_ = 2.0 * result.stored_energy > clearly_there * refined.error;
+  supports_alone_ = fine_.support_energy > 0.5L * fine_.energy;
+  return result;
+}
+
+/// The work of a driven body whose reactions all but cancel: from the energy of its elements, which
+/// is a sum of squares, and between two looks from the growth of the compliance.
+LoadWork SingleEventEngine::work_by_energy() {
+  const double forces = work_of_forces();
+  if (events_to_follow_ <= 0 || 2.0 * forces - followed_compliance_ < 0.5 * followed_from_) {
+    const double before = last_work_;
+    const double work = 2.0 * polish().stored_energy;
+    const bool loose = supports_alone_ && before > 0.0 && work < least_support * before;
+    if (!resists_) return {0.0, 0.0, true};
+    followed_from_ = work;
+    followed_compliance_ = 2.0 * work_of_forces() - work;
+    events_to_follow_ = most_events_to_follow;
+    return {work_of_forces(), work - work_of_forces(), loose};
+  }
+  return {forces, forces - followed_compliance_};
+}
+
+}  // namespace perilink

@@ -1,0 +1,96 @@
+#include "analysis/quasistatic/load_curve.hpp"
+
+#include <algorithm>
+
+namespace perilink {
+namespace {
+
+/// Relative; histories hold all digits, but solutions only those that their residual leaves.
+constexpr double round_off = 1e-9;
+
+Index events_before(const StepRecord& record) { return record.broken_bonds + record.yield_events; }
+
+/// Whether load and displacement take up all energy, as under forces or driven displacements alone.
+bool axes_hold_all_energy(const StepRecord& record) {
+  const double stored = 2.0 * record.strain_energy;
+  return std::abs(record.load * record.displacement - stored) <= round_off * std::abs(stored);
+}
+
+double compliance(const CurvePoint& point) { return point.displacement / point.load; }
+
+}  // namespace
+
+std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
+  std::vector<CurvePoint> path;
+  double highest = 0.0;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    const StepRecord& record = records[k];
+    highest = std::max(highest, std::abs(record.load));
+    const bool resists = std::abs(record.load) > round_off * highest;
+    if (k > 0 && events_before(record) != events_before(records[k - 1]) + 1) return {};
+    if (!resists && k + 1 == records.size()) break;
+    if (!(record.load * record.displacement > 0.0) || !axes_hold_all_energy(record)) return {};
+    path.push_back({record.displacement, record.load});
+  }
+  return path;
+}
+
+std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::size_t window) {
+  std::vector<CurvePoint> curve;
+  if (path.size() < 2) return curve;
+  const std::size_t events = path.size() - 1;
+  const std::size_t windows = std::max<std::size_t>(1, events / window);
+  for (std::size_t w = 0; w < windows; ++w) {
+    const std::size_t begin = w * events / windows, end = (w + 1) * events / windows;
+    double growth = 0.0, squares = 0.0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const double softer = std::max(0.0, compliance(path[k + 1]) - compliance(path[k]));
+      growth += softer;
+      squares += path[k].load * path[k + 1].load * softer;
+    }
+    const double before = compliance(path[begin]), after = compliance(path[end]);
+    if (!(growth > round_off * after)) continue;
+    const double load = std::copysign(std::sqrt(squares / growth), path[begin].load);
+    curve.push_back({load * std::sqrt(before * after), load});
+  }
+  return curve;
+}
+
+std::size_t envelope_window(std::size_t events) { return std::max<std::size_t>(10, events / 120); }
+
+std::optional<double> smoothed_peak(std::span<const CurvePoint> path) {
+  PeakWatch rows;
+  std::size_t held = 0;  // rows before the body gave way
+  for (const CurvePoint& row : path) {
+    rows.add(row);
+    if (!rows.gave_way()) ++held;
+  }
+  if (rows.climbed_again()) path = path.first(held);
+  const std::size_t window = envelope_window(path.size());
+  if (path.size() <= 2 * window) return std::nullopt;
+  PeakWatch peaks;
+  for (const CurvePoint& point : smooth_envelope(path, window)) peaks.add(point);
+  return peaks.highest().load;
+}
+
+void PeakWatch::add(const CurvePoint& row, bool intact) {
+  const double at = std::abs(row.displacement), before = std::abs(last_.displacement);
+  if (at > reached_) {
+    double lowest = std::abs(row.load);
+    if (rows_ == 1) {  // where the path snapped back it comes back with less than it left with
+      const double share = (reached_ - before) / (at - before);
+      lowest = std::min(lowest, std::abs(last_.load + share * (row.load - last_.load)));
+    }
+    const bool below = !intact && lowest < collapsed_part * std::abs(highest_.load);
+    below_ = below ? below_ + 1 : 0;
+    if (!gave_way_ && below_ >= rows_) {
+      gave_way_ = true;
+      first_ = highest_;
+    }
+    reached_ = at;
+  }
+  last_ = row;
+  if (std::abs(row.load) > std::abs(highest_.load)) highest_ = row;
+}
+
+}  // namespace perilink

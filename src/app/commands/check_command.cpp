@@ -1,0 +1,281 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/dynamics/fundamental_period.hpp"
+#include "analysis/dynamics/lattice/body/lattice_statics.hpp"
+#include "app/commands/commands.hpp"
+#include "app/model/from_case/configure.hpp"
+#include "app/model/from_case/lattice_case.hpp"
+#include "app/process/progress.hpp"
+#include "app/process/threads.hpp"
+#include "app/run/bond_run.hpp"
+#include "app/run/relaxation_run.hpp"
+#include "app/run/run_cost.hpp"
+#include "app/run/run_model.hpp"
+#include "app/run/summary.hpp"
+#include "assembly/stiffness.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+#include "discretization/lattices/triangulate.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+namespace {
+
+std::string time_text(double seconds) {
+  return seconds < 10.0 ? fmt::format("{:.2g} s", seconds) : format_duration(seconds);
+}
+
+/// The whole run as far as the case tells its length.
+std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& cost) {
+  const double begin = set_up + cost.factorization;
+  if (input.analysis.type == "elastic") return "about " + time_text(begin);
+  if (!input.stop.broken_bonds) {
+    return fmt::format("about {} until the first bond breaks; the case does not tell how many will",
+                       time_text(begin));
+  }
+  const int count = *input.stop.broken_bonds;
+  return fmt::format("about {} to {} broken bonds", time_text(begin + count * cost.broken_bond),
+                     count);
+}
+
+void print_breakable(const Network& network, const std::vector<double>& crack_cost) {
+  if (network.has_states()) return;  // particles crack, not bonds
+  Index breakable = 0;
+  double smallest = INFINITY, largest = 0.0;
+  for (const double limit : network.critical_stretch) {
+    if (!std::isfinite(limit)) continue;
+    ++breakable;
+    smallest = std::min(smallest, limit);
+    largest = std::max(largest, limit);
+  }
+  if (breakable == 0) {
+    fmt::print("#   breakable bonds    none\n");
+  } else {
+    fmt::print("#   breakable bonds    {}, critical stretch {:.5g} to {:.5g}\n", breakable,
+               smallest, largest);
+  }
+  for (std::size_t m = 0; m < crack_cost.size() && breakable > 0; ++m) {
+    fmt::print("#   cost of a crack    {:.4g} of what its bonds release, material {}\n",
+               crack_cost[m], m + 1);
+  }
+}
+
+void print_elements(const Model& model) {
+  if (model.elements) {
+    fmt::print("#   linear elements    {}\n", model.elements->cells.size());
+    return;
+  }
+  const Network& network = model.network;
+  fmt::print("#   bonds              {} and {} ties of bars\n", network.first_tie,
+             network.first_segment - network.first_tie);
+  if (network.calibration) {
+    fmt::print("#   calibration        of {} bonds, by the run\n", network.calibration->free_bonds);
+  }
+  for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
+    fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
+  }
+  print_breakable(network, model.crack_cost);
+}
+
+void print_spacing(const Model& model) {
+  const bool mesh = model.lattice.pattern == Pattern::irregular;
+  fmt::print("#   {:<18} {:.6g}", mesh ? "mean edge" : "spacing", model.lattice.spacing);
+  if (mesh) {
+    const std::vector<double> edges = edges_of(model.cells, model.network.particles).lengths;
+    const auto [shortest, longest] = std::minmax_element(edges.begin(), edges.end());
+    fmt::print(", edges {:.4g} to {:.4g}", *shortest, *longest);
+  }
+  if (model.horizon > 0.0) {
+    fmt::print(", horizon {:.6g} = {:.4g} {}", model.horizon, model.horizon / model.lattice.spacing,
+               mesh ? "mean edges" : "spacings");
+  }
+  fmt::print("\n");
+}
+
+void print_sizes(const Model& model) {
+  const Network& network = model.network;
+  Index ghosts = 0, bar_nodes = 0;
+  for (const ParticleKind kind : network.particles.kind) {
+    ghosts += kind == ParticleKind::ghost;
+    bar_nodes += kind == ParticleKind::rebar;
+  }
+  fmt::print("# sizes\n");
+  fmt::print("#   particles          {} ({} ghosts, {} bar nodes)\n", network.particles.size(),
+             ghosts, bar_nodes);
+  print_spacing(model);
+  print_elements(model);
+  fmt::print("#   unknowns           {}\n", model.unknowns.count);
+  for (const Group& group : model.groups) {
+    fmt::print("#   group              {}: {} particles, {} facets of the surface\n", group.name,
+               group.particles.size(), group.facets.size());
+  }
+  for (const std::string& note : model.notes) fmt::print("#   note               {}\n", note);
+}
+
+void print_set_up(const ExpectedSetUp& set_up) {
+  fmt::print("#   set-up             {}", time_text(set_up.seconds));
+  if (set_up.calibration > 0.0) {
+    fmt::print(", of it calibration {}", time_text(set_up.calibration));
+  }
+  fmt::print("\n");
+}
+
+void print_cost(const CaseFile& input, const Network& network, const FactorStatistics& factor,
+                const ExpectedSetUp& set_up) {
+  const ExpectedCost cost = expected_cost(network, factor);
+  fmt::print("# expected cost of a run\n");
+  fmt::print("#   factor             {:.3g} M numbers, {:.3g} MB\n", factor.entries / 1e6,
+             factor.bytes / 1e6);
+  fmt::print("#   memory             {:.3g} GB\n", cost.memory / 1e9);
+  print_set_up(set_up);
+  fmt::print("#   factorisation      {}\n", time_text(cost.factorization));
+  if (input.analysis.type != "elastic") {
+    fmt::print("#   each broken bond   {:.2g} ms; 1000 of them {}\n", 1e3 * cost.broken_bond,
+               time_text(1e3 * cost.broken_bond));
+  }
+  fmt::print("#   run                {}\n", run_text(input, set_up.seconds, cost));
+}
+
+/// What loading times are measured by.
+/// \param period  computes it
+template <class Period>
+void print_period(Period period) {
+  try {
+    fmt::print("#   fundamental period {:.6g}\n", period());
+  } catch (const SolverError& error) {
+    fmt::print("#   fundamental period not found: {}\n", error.what());
+  }
+}
+
+/// From the first to the last particle; the cells of the outermost reach beyond.
+void print_extents(const LatticeRows& lattice) {
+  std::string text;
+  for (int axis = 0; axis < lattice.dim; ++axis) {
+    double lower = INFINITY, upper = -INFINITY;
+    for (const Index slot : lattice.particle_slot) {
+      lower = std::min(lower, lattice.positions[lattice.at(axis, slot)]);
+      upper = std::max(upper, lattice.positions[lattice.at(axis, slot)]);
+    }
+    text += fmt::format("{}{} {:.6g} to {:.6g}", axis > 0 ? ", " : "", "xyz"[axis], lower, upper);
+  }
+  fmt::print("#   particles lie in   {}\n", text);
+}
+
+void print_run_of_steps(double seconds, bool breakable) {
+  fmt::print("#   run                about {} on one core{}\n", time_text(seconds),
+             breakable ? ", more where much cracks" : "");
+}
+
+int check_explicit(const std::string& case_path, const CaseFile& input) {
+  const Timer timer;
+  const ExplicitCase built = build_explicit_case(input);
+  const ExplicitModel& model = built.model;
+  const ExplicitState state(model);  // what a run holds in memory
+  const double set_up = timer.seconds();
+  std::size_t prescribed = 0;
+  for (const auto& row : model.prescribed) prescribed += row.size();
+  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  fmt::print("# sizes\n");
+  fmt::print("#   particles          {} in {} rows\n", model.lattice.particles(),
+             model.lattice.rows.size());
+  fmt::print("#   spacing            {:.6g}\n", model.lattice.spacing);
+  print_extents(model.lattice);
+  fmt::print("#   bonds              {}\n", built.bonds);
+  fmt::print("#   prescribed         {} displacements\n", prescribed);
+  if (model.material.breakable) {
+    const CrackOpeningLaw& law = model.material.softening;
+    fmt::print("#   softening          fracture energy {:.6g}, critical opening {:.6g}\n",
+               fracture_energy(law), law.critical_opening);
+  }
+  std::size_t loaded = 0;
+  for (const auto& row : model.applied) loaded += row.size();
+  if (loaded > 0) fmt::print("#   forces             {} on components of particles\n", loaded);
+  for (const std::string& note : built.notes) fmt::print("#   note               {}\n", note);
+  print_period([&] {
+    return built.fundamental_period > 0.0 ? built.fundamental_period : fundamental_period(model);
+  });
+  fmt::print("#   critical time step {:.6g}\n", built.critical_time_step);
+  fmt::print("#   time step          {:.6g}\n", built.time_step);
+  fmt::print("#   steps              {}, about {} rows of history\n", built.steps,
+             std::min<Index>(built.steps, built.options.rows));
+  fmt::print("# expected cost of a run\n");
+  fmt::print("#   memory             {:.3g} GB\n", peak_memory_bytes() / 1e9);
+  fmt::print("#   set-up             {} (as it took now)\n", time_text(set_up));
+  print_run_of_steps(set_up + built.steps * seconds_per_step(built), model.material.breakable);
+  return exit_done;
+}
+
+/// Rough rate of one core, for estimates only: verification/benchmarks/explicit_step has 211 to 293
+/// million.
+constexpr double bond_steps_per_second = 250e6;
+
+int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
+  const Timer timer;
+  // Whether a given time step is stable depends on the calibrated bonds; otherwise those of a draft
+  // tell it closely enough.
+  const bool calibrated = input.analysis.time_step && input.body.surface == Surface::calibrated;
+  const Model model = calibrated ? build_model_visibly(input, false) : draft_model(input);
+  const BondRunCase built = build_bond_run(input, model);
+  const double paid =
+      calibrated && model.network.calibration ? model.network.calibration->seconds : 0.0;
+  const ExpectedSetUp set_up(model, timer.seconds() - paid);
+  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_sizes(model);
+  std::fflush(stdout);
+  print_period([&] { return fundamental_period(model.network, model.unknowns, built.inertia); });
+  fmt::print("#   critical time step {:.6g}\n", built.inertia.critical_time_step());
+  fmt::print("#   time step          {:.6g}\n", built.options.time_step);
+  fmt::print("#   steps              {}, about {} rows of history\n", built.steps,
+             std::min<Index>(built.steps, built.options.rows));
+  fmt::print("# expected cost of a run\n");
+  print_set_up(set_up);
+  print_run_of_steps(set_up.seconds + built.steps * seconds_per_step(model, built), false);
+  return exit_done;
+}
+
+int check_relaxation(const std::string& case_path, const CaseFile& input) {
+  const Timer timer;
+  const Model model = draft_model(input);
+  const ExpectedSetUp set_up(model, timer.seconds());
+  const double iterations = expected_iterations(model, relaxation_options(input, 1));
+  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_sizes(model);
+  fmt::print("#   load steps         {}, the first of about {:.2g} iterations\n",
+             input.analysis.load_factors.size(), iterations);
+  const double step = model.network.num_elements() * iterations / bond_steps_per_second;
+  fmt::print("# expected cost of a run\n");
+  print_set_up(set_up);
+  fmt::print("#   first load step    about {} on one core\n", time_text(step));
+  return exit_done;
+}
+
+}  // namespace
+
+int check_case(const std::string& case_path, bool trust_geometry) {
+  set_threads(0);
+  CaseFile input = read_case_file(case_path);
+  input.trust_geometry = trust_geometry;
+  if (input.analysis.type == "explicit") {
+    return input.body.model == "lattice" ? check_explicit(case_path, input)
+                                         : check_moving_bonds(case_path, input);
+  }
+  if (input.analysis.type == "relaxation") return check_relaxation(case_path, input);
+  const Timer timer;
+  const Model model = draft_model(input);
+  const ExpectedSetUp set_up(model, timer.seconds());
+  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_sizes(model);
+  std::fflush(stdout);  // the order of the unknowns of a large body takes a while
+
+  const Network& network = model.network;
+  const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
+  const FactorStatistics factor = estimate_factor(
+      assemble_stiffness(network, intact, model.unknowns), particle_of_unknown(model.unknowns));
+  print_cost(input, network, factor, set_up);
+  return exit_done;
+}
+
+}  // namespace perilink

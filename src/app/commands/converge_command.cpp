@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/commands/commands.hpp"
+#include "app/plot/plot_convergence.hpp"
+#include "app/process/console.hpp"
+#include "app/process/progress.hpp"
+#include "app/process/signals.hpp"
+#include "app/process/threads.hpp"
+#include "app/results/result_directory.hpp"
+#include "app/study/study_pictures.hpp"
+#include "app/study/study_run.hpp"
+#include "app/study/study_table.hpp"
+#include "base/error.hpp"
+#include "base/files.hpp"
+#include "base/plain_text.hpp"
+#include "io/case/sections/case_sections.hpp"
+
+namespace perilink {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_text(const fs::path& path, const std::string& text) {
+  write_whole_file(path.string(), text);
+}
+
+/// The study is written to DIR/study.toml; it must not take the place of the user's own file.
+void refuse_own_study(const fs::path& directory, const std::string& study_path) {
+  std::error_code error;
+  if (!fs::equivalent(directory / "study.toml", study_path, error) || error) return;
+  throw FileError(
+      fmt::format("{}: the results would overwrite this study\n"
+                  "  choose another directory with --out DIR",
+                  study_path));
+}
+
+/// A study, its combinations and what has been run of them.
+struct Results {
+  StudyFile study;
+  int dim = 2;
+  std::vector<StudySeries> series;
+  std::vector<StudyMember> members;
+};
+
+/// After every member, so that a study that is killed leaves what it had.
+void write_tables(const fs::path& directory, Results& results) {
+  compare_members(results.study, results.members);
+  write_text(directory / "table.csv", study_table(results.study, results.series, results.members));
+  write_text(directory / "timing.csv",
+             study_timing(results.study, results.series, results.members));
+}
+
+/// "error_unknowns.svg"; of several errors each has its name in that of the file.
+std::string picture_name(const Results& results, std::size_t error, const char* cost) {
+  if (results.study.errors.size() == 1) return fmt::format("error_{}.svg", cost);
+  std::string name = results.study.errors[error].name;
+  std::replace_if(
+      name.begin(), name.end(),
+      [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_' && c != '.'; },
+      '_');
+  return fmt::format("error_{}_{}.svg", name, cost);
+}
+
+void write_pictures(const fs::path& directory, const Results& results) {
+  for (std::size_t e = 0; e < results.study.errors.size(); ++e) {
+    for (const auto& [cost, name] :
+         {std::pair(Cost::unknowns, "unknowns"), std::pair(Cost::seconds, "seconds")}) {
+      draw_convergence(
+          study_picture(results.study, results.series, results.members, e, cost, results.dim))
+          .save((directory / picture_name(results, e, name)).string());
+    }
+  }
+}
+
+void tell(const StudyMember& member, const StudySeries& series, std::size_t done, std::size_t all) {
+  const std::string line =
+      fmt::format("[{}/{}] {}, {} {}: {}\n", done, all, series.name, member.refinement.key,
+                  refinement_text(member.refinement),
+                  member.failed() ? "failed" : format_duration(member.seconds.total()));
+  std::fputs(printable(line).c_str(), stderr);
+}
+
+/// While people at a terminal see how the calibration of its bonds comes along.
+StudyMember run_visibly(const Results& results, std::size_t series, const TomlValue& value,
+                        int threads, bool quiet) {
+  CalibrationProgress progress(quiet);
+  return run_member(results.study, results.series[series], value, threads,
+                    [&](int search, double left) { progress.update(search, left); });
+}
+
+/// \return whether all members were run
+bool run_members(const fs::path& directory, Results& results, int threads, bool quiet) {
+  const std::vector<TomlValue>& values = results.study.vary.values;
+  const std::size_t all = results.series.size() * values.size();
+  std::size_t done = 0;
+  for (std::size_t s = 0; s < results.series.size(); ++s) {
+    for (const TomlValue& value : values) {
+      StudyMember member = run_visibly(results, s, value, threads, quiet);
+      if (stop_signal_received()) return false;
+      member.series = s;
+      if (!quiet) tell(member, results.series[s], ++done, all);
+      results.members.push_back(std::move(member));
+      write_tables(directory, results);
+    }
+  }
+  return true;
+}
+
+int exit_status_of(const Results& results, bool complete) {
+  if (!complete) {
+    complain("interrupted; the results so far are kept");
+    return exit_interrupted;
+  }
+  const auto good = std::find_if(results.members.begin(), results.members.end(),
+                                 [](const StudyMember& member) { return !member.failed(); });
+  if (good != results.members.end()) return exit_done;
+  complain("every member of the study failed, the first one so:\n" +
+           results.members.front().failure);
+  return results.members.front().bad_input ? exit_bad_input : exit_solver;
+}
+
+}  // namespace
+
+int converge(const RunOptions& options) {
+  const int threads = set_threads(options.threads);
+  Results results;
+  results.study = read_study_file(options.case_path);
+  results.study.trust_geometry = options.trust_geometry;
+  const CaseFile input = read_case_file(results.study.case_path);
+  check_study(results.study, input);
+  results.dim = dimension_of(input.body);
+  if (results.study.title.empty()) results.study.title = input.title;
+  results.series = study_series(results.study);
+  check_members(results.study, results.series);
+
+  const fs::path directory = options.directory ? fs::path(*options.directory)
+                                               : default_result_directory(options.case_path);
+  refuse_own_study(directory, options.case_path);
+  const ResultDirectory hold(directory, options.force);
+  catch_stop_signals();
+  write_text(directory / "study.toml", write_study(results.study, directory.string()));
+  const bool complete = run_members(directory, results, threads, options.quiet);
+  write_pictures(directory, results);
+  if (!options.quiet) {
+    say(fmt::format("{}\n{}\nresults in {}\n", results.study.title,
+                    study_report(results.study, results.series, results.members),
+                    directory.string()));
+  }
+  return exit_status_of(results, complete);
+}
+
+}  // namespace perilink

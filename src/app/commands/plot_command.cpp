@@ -1,0 +1,97 @@
+#include "app/commands/plot_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "app/commands/commands.hpp"
+#include "app/plot/plot_curve.hpp"
+#include "app/plot/plot_fields.hpp"
+#include "app/process/console.hpp"
+#include "app/results/history_file.hpp"
+#include "app/results/summary_file.hpp"
+#include "base/error.hpp"
+#include "io/fields/vtu.hpp"
+#include "io/text/csv.hpp"
+
+namespace perilink {
+namespace {
+
+namespace fs = std::filesystem;
+
+void save(const Svg& svg, const fs::path& path) {
+  svg.save(path.string());
+  say(path.string() + "\n");
+}
+
+/// A number of a field file that names a picture.
+Index count_of(const VtuGrid& grid, const char* name, const std::string& path) {
+  const double value = grid.field(name, 0.0);
+  if (value >= 0.0 && value <= std::numeric_limits<Index>::max()) return static_cast<Index>(value);
+  throw FileError(fmt::format("{}: {} is {}, which is no count", path, name, value));
+}
+
+void plot_series(const fs::path& directory, const fs::path& out, const PlotLabels& labels,
+                 double scale) {
+  std::set<long> drawn;
+  for (const PvdEntry& entry : read_pvd((directory / "fields.pvd").string())) {
+    const std::string path = (directory / entry.file).string();
+    const VtuGrid grid = read_vtu(path);
+    const Index step = count_of(grid, "step", path);
+    FieldsCaption caption{count_of(grid, "broken_bonds", path), grid.field("load_factor", 0.0),
+                          grid.field("load", 0.0)};
+    if (const double time = grid.field("time", -1.0); time >= 0.0) {
+      caption.time = time;
+      const std::string name = fmt::format("fields_{}.svg", step);
+      save(draw_fields(read_body(grid, path), caption, labels, scale), out / name);
+      continue;
+    }
+    // Load steps without a break share the count.
+    const bool again = !drawn.insert(caption.broken_bonds).second;
+    const std::string name = again
+                                 ? fmt::format("fields_{}_step_{}.svg", caption.broken_bonds, step)
+                                 : fmt::format("fields_{}.svg", caption.broken_bonds);
+    save(draw_fields(read_body(grid, path), caption, labels, scale), out / name);
+  }
+}
+
+/// Only the run knows when its body gave way.
+std::optional<CurvePoint> first_peak_of(const std::optional<nlohmann::ordered_json>& summary) {
+  if (!summary) return std::nullopt;
+  const auto load = summary->find("first_peak_load");
+  const auto displacement = summary->find("first_peak_displacement");
+  const auto known = [&](const auto& number) {
+    return number != summary->end() && number->is_number();
+  };
+  if (!known(load) || !known(displacement)) return std::nullopt;
+  return CurvePoint{displacement->get<double>(), load->get<double>()};
+}
+
+}  // namespace
+
+int plot_results(const PlotOptions& options) {
+  const fs::path directory = options.directory;
+  const fs::path out = options.out.empty() ? directory : fs::path(options.out);
+  const std::string history = (directory / "history.csv").string();
+  const CsvTable table = read_csv(history);
+  const std::vector<StepRecord> records = history_records(table, history);
+  const PlotLabels labels = read_labels(directory);
+  if (table.cut_off) complain(std::string("note: ") + cut_off_note);
+  const auto summary = read_summary_file(directory);
+  if (!summary || summary_text(*summary, "status", directory) == "running") {
+    complain("note: the run goes on or was killed; the pictures show what it has written so far");
+  }
+  std::error_code failure;
+  fs::create_directories(out, failure);  // saving reports what is wrong with it
+  save(draw_load_displacement(records, labels, first_peak_of(summary)),
+       out / "load_displacement.svg");
+  if (fs::exists(directory / "fields.pvd")) plot_series(directory, out, labels, options.scale);
+  return exit_done;
+}
+
+}  // namespace perilink

@@ -1,0 +1,41 @@
+#include "app/model/body/element_model.hpp"
+
+#include <limits>
+#include <vector>
+
+#include "discretization/lattices/triangulate.hpp"
+
+namespace perilink {
+namespace {
+
+/// The edges of the cells as bonds that cannot break.
+Network edge_network(const Body& body) {
+  Network network;
+  network.particles = body.particles;
+  network.bonds = edges_of(body.cells, body.particles);
+  const std::size_t count = static_cast<std::size_t>(network.bonds.size());
+  network.stiffness.assign(count, 1.0);
+  network.critical_stretch.assign(count, std::numeric_limits<double>::infinity());
+  network.first_tie = network.first_segment = network.bonds.size();
+  return network;
+}
+
+}  // namespace
+
+void build_elements(const CaseFile& input, Body& body, Model& model) {
+  const double thickness = body.particles.dim == 2 ? input.body.thickness : 1.0;
+  std::vector<IsotropicMaterial> materials;
+  for (const MaterialSection& material : input.materials) {
+    materials.push_back({material.youngs_modulus,
+                         material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))});
+  }
+  const std::span<const double> positions = body.particles.positions;
+  if (!input.body.mesh) {
+    body.facets = facets_of(body.cells, positions, thickness);
+    body.particles.volumes = shape_integrals(body.cells, positions, thickness);
+  }
+  model.elements = make_linear_elements(body.cells, positions, thickness, model.problem, materials);
+  model.network = edge_network(body);
+}
+
+}  // namespace perilink

@@ -1,0 +1,69 @@
+#include "app/model/body/fracture_rule.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "network/crack_cost.hpp"
+
+namespace perilink {
+namespace {
+
+/// By this factor the steps of a lattice may differ; the cost of cracks was measured where they are
+/// equal.
+constexpr double nearly_equal = 1.1;
+
+bool bonds_can_break(const CaseFile& input, const Model& model) {
+  const std::vector<double>& limits = model.network.critical_stretch;
+  return input.analysis.type != "elastic" &&
+         std::any_of(limits.begin(), limits.end(),
+                     [](double limit) { return std::isfinite(limit); });
+}
+
+/// Longest over shortest step of a lattice, each over that of the regular one.
+double ratio_of_steps(const Lattice& lattice) {
+  Vector3 steps = lattice.step;
+  if (lattice.pattern == Pattern::hexagonal) steps[1] /= std::sqrt(0.75);
+  const auto [least, most] = std::minmax_element(steps.begin(), steps.begin() + lattice.dim);
+  return *most / *least;
+}
+
+}  // namespace
+
+std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
+                                      NetworkInput& network) {
+  std::vector<double> costs;
+  if (input.body.critical_stretch != "dissipated") return costs;
+  for (SolidMaterial& material : network.materials) {
+    costs.push_back(crack_cost(body, network, material));
+    material.fracture_energy /= costs.back();
+  }
+  return costs;
+}
+
+std::optional<std::string> short_horizon_note(const CaseFile& input, const Model& model) {
+  const double ratio = model.horizon / model.lattice.spacing;
+  if (ratio > least_ratio_of_cracks - 1e-6 || !bonds_can_break(input, model)) return std::nullopt;
+  return fmt::format(
+      "the horizon is {:.3g} spacings: below 3, what a crack dissipates per area differs by 10 % "
+      "and more from one path to another; take horizon_ratio = 3 or more where bonds break",
+      ratio);
+}
+
+std::optional<std::string> unmeasured_cost_note(const CaseFile& input, const Model& model) {
+  if (model.crack_cost.empty() || !bonds_can_break(input, model)) return std::nullopt;
+  constexpr const char* what = "what a crack dissipates per area was not measured";
+  if (model.lattice.pattern != Pattern::irregular) {
+    const double ratio = ratio_of_steps(model.lattice);
+    if (ratio <= nearly_equal) return std::nullopt;
+    return fmt::format(
+        "{} on lattices like this one, whose steps differ by {:.0f} %: that of equal steps is "
+        "taken; choose a spacing that divides all sides of the body more evenly",
+        what, 100.0 * (ratio - 1.0));
+  }
+  if (model.network.dim() == 2) return std::nullopt;
+  return fmt::format("{} in irregular clouds in space: bonds are taken to release all of it", what);
+}
+
+}  // namespace perilink

@@ -1,0 +1,137 @@
+#include "app/model/body/mesh_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "discretization/meshes/mesh_body.hpp"
+#include "io/case/case_schema.hpp"
+#include "io/case/case_words.hpp"
+#include "io/mesh/gmsh_file.hpp"
+#include "io/mesh/gmsh_mesher.hpp"
+#include "io/text/toml_tree.hpp"
+
+namespace perilink {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path mesh_path(const CaseFile& input) {
+  return fs::path(input.path).parent_path() / *input.body.mesh;
+}
+
+const MeshGroup* find_group(const Mesh& mesh, const std::string& name) {
+  const auto found = std::find_if(mesh.groups.begin(), mesh.groups.end(),
+                                  [&](const MeshGroup& group) { return group.name == name; });
+  return found != mesh.groups.end() ? &*found : nullptr;
+}
+
+std::string suggest_group(const Mesh& mesh, const std::string& name) {
+  if (mesh.groups.empty()) {
+    return fmt::format(
+        "the mesh has no physical group at all; write Physical {}(\"{}\") = {{...}}; in the "
+        "geometry",
+        mesh.dim == 2 ? "Surface" : "Volume", name);
+  }
+  std::vector<std::string_view> names;
+  for (const MeshGroup& group : mesh.groups) names.push_back(group.name);
+  return suggest(name, names);
+}
+
+void refuse_unknown_groups(const CaseFile& input, const Mesh& mesh) {
+  for (std::size_t i = 0; i < input.regions.size(); ++i) {
+    const std::string& name = input.regions[i].group;
+    if (name.empty() || find_group(mesh, name) != nullptr) continue;
+    throw InputError(input.where(item_key("regions", i, "group")),
+                     fmt::format("is {}, but {} has no such physical group", quoted(name),
+                                 mesh_path(input).string()),
+                     suggest_group(mesh, name));
+  }
+}
+
+/// Regions of the materials with the material of each, in the order in which they count.
+struct Patches {
+  std::vector<Region> regions;
+  std::vector<Index> material;
+};
+
+Patches patches_of(const CaseFile& input, const Mesh& mesh) {
+  Patches patches;
+  for (std::size_t m = 0; m < input.materials.size(); ++m) {
+    for (const std::string& name : input.materials[m].regions) {
+      const auto region = std::find_if(input.regions.begin(), input.regions.end(),
+                                       [&](const Region& r) { return r.name == name; });
+      if (!region->group.empty()) {
+        group_of_cells(input, mesh, *region, item_key("materials", m), "material");
+      }
+      patches.regions.push_back(*region);
+      patches.material.push_back(static_cast<Index>(m));
+    }
+  }
+  return patches;
+}
+
+Mesh read_mesh(const CaseFile& input, int dim) {
+  try {
+    const std::string path = mesh_path(input).string();
+    return is_geometry(path) ? mesh_geometry(path, dim, input.body.mesh_size, input.trust_geometry)
+                             : read_gmsh_file(path, dim);
+  } catch (const FileError& error) {
+    throw InputError(input.where("body.mesh"), error.what(),
+                     "give the file as seen from the folder of the case");
+  }
+}
+
+}  // namespace
+
+const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const Region& region,
+                                const std::string& key, const std::string& contents) {
+  const MeshGroup* group = find_group(mesh, region.group);
+  if (group->dim == mesh.dim) return *group;
+  throw InputError(
+      input.where(key),
+      fmt::format("the region {} is a group of {}, which hold no {}", quoted(region.name),
+                  group->dim == 2   ? "triangles"
+                  : group->dim == 1 ? "lines"
+                                    : "points",
+                  contents),
+      fmt::format("name a physical {}, or give a box", mesh.dim == 2 ? "surface" : "volume"));
+}
+
+MeshInput read_mesh_input(const CaseFile& input, int dim) {
+  MeshInput read;
+  read.mesh = read_mesh(input, dim);
+  refuse_unknown_groups(input, read.mesh);
+  const Patches patches = patches_of(input, read.mesh);
+  read.material = materials_of_cells(read.mesh, patches.regions, patches.material);
+  return read;
+}
+
+Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes) {
+  const auto [mesh, material] = read_mesh_input(input, dim);
+  const auto left_out = std::count(material.begin(), material.end(), no_index);
+  if (left_out > 0) {
+    notes.push_back(fmt::format("{} of the {} cells of the mesh have no material and are left out",
+                                left_out, material.size()));
+  }
+  try {
+    return make_mesh_body(mesh, material, dim == 2 ? input.body.thickness : 1.0);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(input.where("body.mesh"),
+                     fmt::format("names {}: {}", mesh_path(input).string(), error.what()), "");
+  }
+}
+
+CaseFile seen_from(const CaseFile& input, const fs::path& directory) {
+  CaseFile moved = input;
+  if (!input.body.mesh || fs::path(*input.body.mesh).is_absolute()) return moved;
+  // Links are followed: ".." beyond one would lead elsewhere.
+  const fs::path mesh = fs::weakly_canonical(mesh_path(input));
+  moved.body.mesh = mesh.lexically_relative(fs::weakly_canonical(directory)).string();
+  return moved;
+}
+
+}  // namespace perilink

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "discretization/lattices/lattice.hpp"
+#include "discretization/meshes/mesh.hpp"
+#include "io/case/case_file.hpp"
+
+namespace perilink {
+
+/// The mesh that a case names.
+struct MeshInput {
+  Mesh mesh;
+  std::vector<Index> material;  ///< of every cell; no_index where no material covers it
+};
+
+/// Reads the mesh that a case names.
+/// \throws InputError  where the mesh cannot be read, or lacks a group or its cells
+MeshInput read_mesh_input(const CaseFile& input, int dim);
+
+/// The physical group of a region, which must consist of cells.
+/// \param key       of the case that asks, for the message
+/// \param contents  that the region is to hold, for the same
+/// \throws InputError  where it consists of what has no area (2D) or volume (3D)
+const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const Region& region,
+                                const std::string& key, const std::string& contents);
+
+/// Reads the mesh that a case names and makes its body.
+/// \param notes  gets a line where cells are left out because they have no material
+/// \throws InputError  where the mesh cannot be read, is damaged or does not suit the case: a group
+///         that it lacks, a material for a group without cells, cells that overlap
+Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes);
+
+/// The case with its mesh named as seen from a folder, so that it can be written there.
+CaseFile seen_from(const CaseFile& input, const std::filesystem::path& directory);
+
+}  // namespace perilink

@@ -1,0 +1,230 @@
+#include "app/model/conditions/boundary_conditions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/model/conditions/formula_field.hpp"
+#include "app/model/conditions/loads.hpp"
+#include "app/model/conditions/supports.hpp"
+#include "base/error.hpp"
+#include "io/case/sections/case_particles.hpp"
+#include "network/network_builder.hpp"
+
+namespace perilink {
+namespace {
+
+/// Forces on a free body that differ by more than this fraction of their sum are not in balance.
+constexpr double force_balance_tolerance = 1e-6;
+/// A net couple above this fraction of force times size is told to the user ...
+constexpr double couple_note = 1e-9;
+/// ... and above this one is no matter of unsymmetric rows: it would turn the body.
+constexpr double couple_limit = 0.1;
+
+double size_of_body(const Particles& particles) {
+  double size = 0.0;
+  for (int a = 0; a < particles.dim; ++a) {
+    double lower = particles.positions[a], upper = lower;
+    for (Index i = 0; i < particles.size(); ++i) {
+      lower = std::min(lower, particles.position(i)[a]);
+      upper = std::max(upper, particles.position(i)[a]);
+    }
+    size = std::max(size, upper - lower);
+  }
+  return size;
+}
+
+Loads loads_on(const Model& model, const Fragment& fragment) {
+  Loads own;
+  own.forces.assign(model.loads.forces.size(), 0.0);
+  for (const Index i : fragment.particles) {
+    for (int a = 0; a < model.network.width(); ++a) {
+      const std::size_t slot = static_cast<std::size_t>(i) * model.network.width() + a;
+      own.forces[slot] = model.loads.forces[slot];
+    }
+  }
+  return own;
+}
+
+/// The loads of a part that is pinned must balance by themselves; a small net couple is unavoidable
+/// where the rows of a lattice are not symmetric, and the pins take it.
+void require_balance(const CaseFile& input, Model& model, const Fragment& fragment) {
+  const LoadResultant sum = load_resultant(model.network, loads_on(model, fragment));
+  double force = 0.0, moment = 0.0;
+  for (const double f : sum.force) force = std::max(force, std::abs(f));
+  for (const double m : sum.moment) moment = std::max(moment, std::abs(m));
+  if (force > force_balance_tolerance * sum.scale) {
+    throw InputError(input.where("analysis.rigid_body_modes"),
+                     fmt::format("is \"pin\", but the loads of the free body are not in balance: "
+                                 "their sum is ({})",
+                                 fmt::join(sum.force, ", ")),
+                     "balance the loads or hold the body with [[supports]]");
+  }
+  const double couple = moment / (sum.scale * size_of_body(model.network.particles));
+  if (couple > couple_limit) {
+    throw InputError(input.where("analysis.rigid_body_modes"),
+                     fmt::format("is \"pin\", but the loads of the free body turn it: their couple "
+                                 "is {:.3g}",
+                                 moment),
+                     "balance the loads or hold the body with [[supports]]");
+  }
+  if (couple > couple_note) {
+    model.notes.push_back(fmt::format(
+        "the loads leave a net couple of {:.3g}, which the pinned displacements take: {:.2g} of "
+        "the sum of forces times the body's size",
+        moment, couple));
+  }
+}
+
+void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription) {
+  const std::vector<Fragment> fragments = find_fragments(model.network, prescription.held);
+  const bool pin = input.analysis.rigid_body_modes == "pin";
+  if (fragments.size() > 1) {
+    model.notes.push_back(
+        fmt::format("the body consists of {} parts that no bond connects", fragments.size()));
+  }
+  for (const Fragment& fragment : fragments) {
+    if (fragment.free_modes == 0) continue;
+    const int all = model.network.dim() == 2 ? 3 : 6;
+    const auto x = model.network.particles.position(fragment.particles.front());
+    const std::string where = fmt::format("the part of {} particles at ({})",
+                                          fragment.particles.size(), fmt::join(x, ", "));
+    if (!pin) {
+      throw InputError(
+          input.where(input.supports.empty() ? "analysis" : "supports[1]"),
+          fmt::format("{} of the {} rigid-body modes of {} are free", fragment.free_modes, all,
+                      fragments.size() == 1 ? "the body" : where),
+          "hold the body with [[supports]], [[symmetry]] or [[springs]], or, when the loads "
+          "balance by themselves, set analysis.rigid_body_modes = \"pin\"");
+    }
+    if (fragment.free_modes != all) {
+      throw InputError(input.where("analysis.rigid_body_modes"),
+                       fmt::format("is \"pin\", but {} is partly supported: {} of {} rigid-body "
+                                   "modes are free",
+                                   where, fragment.free_modes, all),
+                       "support all of them, or none");
+    }
+    require_balance(input, model, fragment);
+    pin_rigid_modes(model.network, fragment, prescription.held);
+    model.notes.push_back(fmt::format("{} rigid-body modes of the free body are pinned", all));
+  }
+}
+
+void refuse_loose_particles(const CaseFile& input, const Model& model,
+                            const Prescription& prescription) {
+  const int dim = model.network.dim();
+  for (const Index i : find_loose_particles(model.network)) {
+    bool held = true;
+    const std::size_t slot = static_cast<std::size_t>(i) * model.network.width();
+    for (int a = 0; a < dim; ++a) held &= prescription.held[slot + a] != 0;
+    if (held) continue;
+    throw InputError(
+        input.where(input.body.horizon ? "body.horizon" : "body"),
+        fmt::format("the particle at ({}) is held by bonds in fewer than {} directions",
+                    fmt::join(model.network.particles.position(i), ", "), dim),
+        is_particles(input.body)
+            ? "its neighbours lie in one line: grade the mesh less, or refine it"
+            : "enlarge the horizon or refine the spacing so that every particle has enough "
+              "neighbours");
+  }
+}
+
+/// The first table that loads the body.
+std::string key_of_loads(const CaseFile& input) {
+  if (!input.displacements.empty()) return "displacements[1]";
+  if (!input.velocities.empty()) return "velocities[1]";
+  if (!input.loads.empty()) return "loads[1]";
+  return input.tractions.empty() ? "point_loads[1]" : "tractions[1]";
+}
+
+/// The load and displacement that stand for all places, and the places.
+void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
+                 Prescription& prescription) {
+  std::array<bool, 6> held = prescription.kept;
+  const std::vector<double>& springs = model.network.support_stiffness;
+  for (std::size_t slot = 0; slot < springs.size(); ++slot) {
+    if (springs[slot] > 0.0) held[slot % model.network.width()] = true;
+  }
+  const double driven = relative_motion(prescription.driven, held, model.network.dim());
+  model.reference.driven = driven > 0.0;
+  model.reference.value = model.reference.driven ? driven : total_load(applied.places);
+  if (!(model.reference.value >= smallest_load)) {
+    throw InputError(
+        input.where(key_of_loads(input)),
+        "nothing loads the body: all formulas are zero on their particles, or too "
+        "small to compute with",
+        fmt::format("write a formula that is {:.0e} or more somewhere", smallest_load));
+  }
+  if (model.reference.driven) {
+    model.driven_places = std::move(prescription.driven);
+  } else {
+    model.loaded_places = std::move(applied.places);
+  }
+}
+
+/// Forces on supports do no work.
+void refuse_idle_loads(const CaseFile& input, const Model& model) {
+  if (model.reference.driven) return;
+  for (std::size_t slot = 0; slot < model.loads.forces.size(); ++slot) {
+    if (model.loads.forces[slot] != 0.0 && model.unknowns.number[slot] != no_index) return;
+  }
+  throw InputError(input.where(key_of_loads(input)),
+                   "loads nothing that can move: supports hold all particles along all forces on "
+                   "them",
+                   "load other particles, or hold fewer");
+}
+
+/// Values that a shift of the whole body meets strain nothing.
+void refuse_mere_shift(const CaseFile& input, const Model& model,
+                       const Prescription& prescription) {
+  const auto not_zero = [](double value) { return value != 0.0; };
+  const std::vector<double>& springs = model.network.support_stiffness;
+  if (input.analysis.type == "explicit" || !model.reference.driven ||
+      std::any_of(model.loads.forces.begin(), model.loads.forces.end(), not_zero) ||
+      std::any_of(springs.begin(), springs.end(), not_zero)) {
+    return;
+  }
+  const auto width = static_cast<std::size_t>(model.network.width());
+  std::vector<std::optional<double>> shift(width);
+  for (std::size_t a = model.network.dim(); a < width; ++a) shift[a] = 0.0;  // no rotation
+  for (std::size_t slot = 0; slot < prescription.value.size(); ++slot) {
+    if (!prescription.held[slot]) continue;
+    const double value = prescription.value[slot];
+    std::optional<double>& known = shift[slot % width];
+    if (!known) known = value;
+    if (*known != value) return;
+  }
+  throw InputError(input.where(key_of_loads(input)),
+                   "only moves the body as a whole, which strains nothing",
+                   "hold another part of the body along the axis that is driven");
+}
+
+}  // namespace
+
+void apply_boundary_conditions(const CaseFile& input, Model& model) {
+  Prescription prescription = collect_prescriptions(input, model);
+  AppliedLoads applied = collect_loads(input, model, model.network.width());
+  model.loads = std::move(applied.loads);
+  model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
+  model.network.support_stiffness = collect_springs(input, model);
+  choose_axes(input, model, applied, prescription);
+  refuse_mere_shift(input, model, prescription);
+  model.resultant = load_resultant(model.network, model.loads);
+  refuse_loose_particles(input, model, prescription);
+  hold_rigid_modes(input, model, prescription);
+  hold_idle_rotations(model.network, prescription.held);
+  model.gripped = std::move(prescription.gripped);
+  model.unknowns =
+      number_unknowns(model.network.width(), prescription.held, std::move(prescription.value));
+  if (model.unknowns.count == 0) {
+    throw InputError(
+        input.where(input.displacements.empty() ? "supports" : "displacements"),
+        "every displacement of every particle is prescribed, which leaves nothing to solve",
+        "prescribe those of fewer particles; the surface of the body is region = \"surface\"");
+  }
+  refuse_idle_loads(input, model);
+}
+
+}  // namespace perilink

@@ -1,0 +1,207 @@
+#include "app/model/conditions/supports.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/model/conditions/formula_field.hpp"
+#include "app/model/model_regions.hpp"
+#include "base/error.hpp"
+#include "io/case/case_words.hpp"
+
+namespace perilink {
+namespace {
+
+/// Formulas for the same displacement, typed in two entries, may differ by round-off.
+constexpr double same_value = 1e-9;
+
+/// Particles this close to a plane of symmetry, in spacings, are in it.
+constexpr double in_plane = 1e-6;
+
+std::string name_of_component(const Network& network, int component) {
+  const int dim = network.dim();
+  if (component < dim) return fmt::format("displacement along {}", "xyz"[component]);
+  return dim == 2 ? "rotation" : fmt::format("rotation about {}", "xyz"[component - dim]);
+}
+
+/// Component of the motion of a particle that an entry of SupportSection::fix means.
+int component_of(const Network& network, int entry) {
+  return entry < 3 || network.dim() == 3 ? entry : network.dim();
+}
+
+void prescribe(const CaseFile& input, const Model& model, Prescription& prescription,
+               std::span<const Index> particles, const std::string& key, int component,
+               const PositionField& values, double factor = 1.0) {
+  for (const Index i : particles) {
+    const std::size_t slot = static_cast<std::size_t>(i) * model.network.width() + component;
+    const std::span<const double> x = model.network.particles.position(i);
+    const double value = factor * values.at(x)[0];
+    const double before = prescription.value[slot];
+    if (prescription.held[slot]) {
+      const double largest = std::max(std::abs(value), std::abs(before));
+      if (std::abs(value - before) <= same_value * largest) continue;
+      throw InputError(
+          input.where(key),
+          fmt::format(
+              "sets the {} of the particle at ({}) to {}, where another entry sets it to {}",
+              name_of_component(model.network, component), fmt::join(x, ", "), value, before),
+          "let the regions of [[supports]], [[symmetry]], [[displacements]] and [[velocities]] not "
+          "overlap");
+    }
+    prescription.held[slot] = 1;
+    prescription.value[slot] = value;
+  }
+}
+
+void grip(const Network& network, Prescription& prescription, std::span<const Index> particles,
+          int component) {
+  if (component >= network.dim()) return;  // a rotation
+  for (const Index i : particles) prescription.gripped[i] = 1;
+}
+
+/// Particles in a plane of symmetry.
+std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model, std::size_t k) {
+  const SymmetrySection& section = input.symmetry[k];
+  if (!section.at) {
+    return particles_of_region(input, model, section.region, item_key("symmetry", k, "region"));
+  }
+  const Particles& particles = model.network.particles;
+  std::vector<Index> inside;
+  double nearest = INFINITY;
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (particles.kind[i] == ParticleKind::ghost) continue;
+    const double coordinate = particles.position(i)[section.axis];
+    if (std::abs(coordinate - *section.at) < std::abs(nearest - *section.at)) nearest = coordinate;
+    if (std::abs(coordinate - *section.at) <= in_plane * model.lattice.spacing) inside.push_back(i);
+  }
+  if (inside.empty()) {
+    throw InputError(
+        input.where(item_key("symmetry", k, "at")),
+        fmt::format("is {}, but no particle lies in that plane", *section.at),
+        fmt::format("the nearest particle has {} = {:.6g}", "xyz"[section.axis], nearest));
+  }
+  return inside;
+}
+
+/// Reflection leaves displacements in the plane and the rotation about its normal.
+void hold_in_plane(const CaseFile& input, const Model& model, std::size_t k,
+                   Prescription& prescription) {
+  const std::vector<Index> particles = particles_in_plane(input, model, k);
+  const std::string key = item_key("symmetry", k);
+  const Expression zero;
+  const PositionField values(input, key, {&zero, 1});
+  const int axis = input.symmetry[k].axis;
+  const int dim = model.network.dim();
+  prescribe(input, model, prescription, particles, key, axis, values);
+  prescription.kept[axis] = true;
+  for (int component = dim; component < model.network.width(); ++component) {
+    if (dim == 3 && component - dim == axis) continue;
+    prescribe(input, model, prescription, particles, key, component, values);
+  }
+}
+
+/// Notes that a place drives a component of particles, whose values are prescribed already.
+void note_driven(const Network& network, Prescription& prescription,
+                 std::span<const Index> particles, int component, const std::string& region) {
+  DrivenPlace& place = place_named(prescription.driven, region);
+  for (const Index i : particles) {
+    const std::size_t slot = static_cast<std::size_t>(i) * network.width() + component;
+    const double value = prescription.value[slot];
+    const bool first = !place.drives[component];
+    place.low[component] = first ? value : std::min(place.low[component], value);
+    place.high[component] = first ? value : std::max(place.high[component], value);
+    place.drives[component] = true;
+    place.slots.push_back(slot);
+  }
+}
+
+/// \param factor  displacement over the values of the sections
+void drive(const CaseFile& input, const Model& model, Prescription& prescription,
+           const std::string& table, const std::vector<DisplacementSection>& sections,
+           double factor) {
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const std::vector<Index> particles =
+        particles_of_region(input, model, sections[k].region, item_key(table, k, "region"));
+    for (int entry = 0; entry < 6; ++entry) {
+      const auto& value = sections[k].value[entry];
+      if (!value) continue;
+      const std::string name = motion_name(model.network.dim(), entry);
+      const PositionField values(input, item_key(table, k, name), {&*value, 1});
+      const int component = component_of(model.network, entry);
+      prescribe(input, model, prescription, particles, item_key(table, k), component, values,
+                factor);
+      note_driven(model.network, prescription, particles, component, sections[k].region);
+      grip(model.network, prescription, particles, component);
+    }
+  }
+}
+
+}  // namespace
+
+Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
+  const std::size_t width = model.network.width();
+  Prescription prescription;
+  prescription.held.assign(width * model.network.particles.size(), 0);
+  prescription.value.assign(prescription.held.size(), 0.0);
+  prescription.gripped.assign(static_cast<std::size_t>(model.network.particles.size()), 0);
+  for (std::size_t k = 0; k < input.supports.size(); ++k) {
+    const Expression zero;
+    const PositionField values(input, item_key("supports", k), {&zero, 1});
+    const std::vector<Index> particles = particles_of_region(input, model, input.supports[k].region,
+                                                             item_key("supports", k, "region"));
+    for (int entry = 0; entry < 6; ++entry) {
+      if (!input.supports[k].fix[entry]) continue;
+      const int component = component_of(model.network, entry);
+      prescribe(input, model, prescription, particles, item_key("supports", k), component, values);
+      prescription.kept[component] = true;
+      grip(model.network, prescription, particles, component);
+    }
+  }
+  for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
+    hold_in_plane(input, model, k, prescription);
+  }
+  drive(input, model, prescription, "displacements", input.displacements, 1.0);
+  drive(input, model, prescription, "velocities", input.velocities, input.analysis.duration);
+  return prescription;
+}
+
+std::vector<double> collect_springs(const CaseFile& input, const Model& model) {
+  if (input.springs.empty()) return {};
+  const Particles& particles = model.network.particles;
+  const std::size_t width = model.network.width();
+  std::vector<double> stiffness(width * particles.size(), 0.0);
+  for (std::size_t k = 0; k < input.springs.size(); ++k) {
+    const SpringSection& section = input.springs[k];
+    const std::string key = item_key("springs", k, "region");
+    std::vector<double> shares(static_cast<std::size_t>(particles.size()), 0.0);
+    double whole = 1.0;
+    if (section.stiffness) {
+      for (const Index facet : facets_of_region(input, model, section.region, key)) {
+        const std::span<const Index> corners = model.facets.corners.row(facet);
+        double square = 0.0;
+        for (const double component : model.facets.area_vector(facet)) {
+          square += component * component;
+        }
+        for (const Index i : corners) {
+          shares[i] += std::sqrt(square) / static_cast<double>(corners.size());
+        }
+      }
+    } else {
+      whole = 0.0;
+      for (const Index i : particles_of_region(input, model, section.region, key)) {
+        if (particles.kind[i] != ParticleKind::solid) continue;
+        whole += shares[i] = particles.volumes[i];
+      }
+    }
+    const Vector3& along = section.stiffness ? *section.stiffness : *section.total;
+    for (Index i = 0; i < particles.size(); ++i) {
+      for (int a = 0; a < particles.dim; ++a) {
+        stiffness[i * width + a] += along[a] * shares[i] / whole;
+      }
+    }
+  }
+  return stiffness;
+}
+
+}  // namespace perilink

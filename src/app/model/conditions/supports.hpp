@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/model/model.hpp"
+
+
+namespace perilink {
+
+/// Displacements and rotations that are prescribed.
+struct Prescription {
+  std::vector<std::uint8_t> held;     ///< shape (particles, width)
+  std::vector<double> value;          ///< at load factor 1 [length], of rotations [-];
+                                      ///< of velocities at the end of the duration
+  std::vector<std::uint8_t> gripped;  ///< see Model::gripped
+  std::vector<DrivenPlace> driven;
+  std::array<bool, 6> kept{};  ///< components that supports or planes of symmetry hold at zero
+};
+
+/// Supports, planes of symmetry, driven displacements and velocities of a case.
+/// \throws InputError  for regions without particles and entries that contradict each other
+Prescription collect_prescriptions(const CaseFile& input, const Model& model);
+
+/// Stiffness of the elastic supports of a case, Network::support_stiffness; empty: none. Facets
+/// share their area equally among their corners, a total is shared in proportion to the volumes.
+/// \throws InputError  for regions that catch no particle or no facet
+std::vector<double> collect_springs(const CaseFile& input, const Model& model);
+
+}  // namespace perilink

@@ -1,0 +1,131 @@
+#include "app/model/from_case/lattice_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "analysis/dynamics/lattice/body/lattice_loads.hpp"
+#include "analysis/dynamics/lattice/body/lattice_statics.hpp"
+#include "app/model/body/lattice_model.hpp"
+#include "app/model/conditions/formula_field.hpp"
+#include "app/model/conditions/loads.hpp"
+#include "app/model/conditions/supports.hpp"
+#include "app/model/gauges.hpp"
+#include "base/error.hpp"
+#include "io/case/case_unused.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double most_steps = 2e9;  ///< steps have 32-bit numbers
+
+/// Supports and driven displacements. \return what stands for all that are driven [length]
+double prescribe_motions(const CaseFile& input, const Model& places, ExplicitModel& model) {
+  const Prescription prescription = collect_prescriptions(input, places);
+  const std::size_t dim = model.lattice.dim;
+  std::vector<PrescribedMotion> motions;
+  for (std::size_t slot = 0; slot < prescription.held.size(); ++slot) {
+    if (!prescription.held[slot]) continue;
+    const double amplitude = prescription.value[slot];
+    motions.push_back(
+        {model.lattice.particle_slot[slot / dim], static_cast<int>(slot % dim), amplitude});
+  }
+  prescribe(model, motions);
+  return relative_motion(prescription.driven, prescription.kept, model.lattice.dim);
+}
+
+/// Forces on the particles. \return the reference load [force]; zero: none
+double load_particles(const CaseFile& input, const Model& places, ExplicitCase& built) {
+  const LatticeRows& lattice = built.model.lattice;
+  const AppliedLoads applied = collect_loads(input, places, lattice.dim);
+  const std::size_t dim = lattice.dim;
+  std::vector<AppliedForce> forces;
+  for (std::size_t slot = 0; slot < applied.loads.forces.size(); ++slot) {
+    if (applied.loads.forces[slot] == 0.0) continue;
+    forces.push_back({lattice.particle_slot[slot / dim], static_cast<int>(slot % dim),
+                      applied.loads.forces[slot]});
+  }
+  if (!forces.empty()) apply_forces(built.model, forces);
+  built.notes.insert(built.notes.end(), applied.notes.begin(), applied.notes.end());
+  return total_load(applied.places);
+}
+
+/// What moves the body, and what is measured.
+void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& built) {
+  const Model places = lattice_places(input, shape, built.model, built.model.lattice.particle_slot);
+  const double driven = prescribe_motions(input, places, built.model);
+  const double loaded = load_particles(input, places, built);
+  built.options.driven = driven > 0.0;
+  built.options.reference = built.options.driven ? driven : loaded;
+  if (!(built.options.reference >= smallest_load)) {
+    throw InputError(input.where(input.displacements.empty() ? "loads[1]" : "displacements[1]"),
+                     "nothing moves the body: all formulas are zero on their particles, or too "
+                     "small to compute with",
+                     "change a formula, or the region that it is for");
+  }
+  built.gauges = build_gauges(input, places);
+}
+
+/// External damping of a material that does not say what the fundamental period is.
+void damp_externally(const CaseFile& input, ExplicitCase& built) {
+  const LatticeMaterialSection& material = *input.materials.front().lattice;
+  if (material.external_damping > 0.0) {
+    built.fundamental_period = built.model.material.fundamental_period;
+  }
+  if (material.external_damping == 0.0 || material.fundamental_period) return;
+  try {
+    built.fundamental_period = fundamental_period(built.model);
+  } catch (const SolverError& error) {
+    throw InputError(
+        input.where("materials[1].external_damping"),
+        fmt::format("refers to the fundamental period, which is not found: {}", error.what()),
+        "give `fundamental_period`");
+  }
+  built.model.material.external_damping = material.external_damping;
+  built.model.material.fundamental_period = built.fundamental_period;
+  built.model.mass_damping = mass_damping_rate(material.external_damping, built.fundamental_period);
+}
+
+/// Chooses the step and refuses one that is not stable for certain.
+void choose_steps(const CaseFile& input, ExplicitCase& built) {
+  const AnalysisSection& analysis = input.analysis;
+  built.critical_time_step = critical_time_step(built.model);
+  built.time_step = analysis.time_step.value_or(analysis.safety * built.critical_time_step);
+  if (built.time_step > built.critical_time_step) {
+    throw InputError(input.where("analysis.time_step"),
+                     fmt::format("is {:.6g}, larger than the critical time step {:.6g}",
+                                 built.time_step, built.critical_time_step),
+                     "take less, or leave it out: `safety` takes a part of the critical one");
+  }
+  const double steps = std::ceil(analysis.duration / built.time_step);
+  if (!(steps <= most_steps)) {
+    throw InputError(input.where("analysis.duration"),
+                     fmt::format("takes {:.1e} steps of {:.4g}", steps, built.time_step),
+                     fmt::format("at most {:.0e} are possible", most_steps));
+  }
+  built.steps = static_cast<Index>(steps);
+  built.options.duration = analysis.duration;
+  built.options.ramp = analysis.ramp_time;
+  built.options.time_step = built.time_step;
+  built.options.rows = analysis.rows;
+}
+
+}  // namespace
+
+ExplicitCase build_explicit_case(const CaseFile& input) {
+  ExplicitCase built;
+  if (const auto note = note_of_unused(input)) built.notes.push_back(*note);
+  const LatticeShape shape(input);
+  built.model = build_lattice(input, shape, built.notes);
+  const LatticeRows& lattice = built.model.lattice;
+  load_body(input, shape, built);
+  damp_externally(input, built);
+  choose_steps(input, built);
+  for (const Index slot : lattice.particle_slot) built.bonds += lattice.bond_count[slot];
+  built.bonds /= 2;
+  return built;
+}
+
+}  // namespace perilink

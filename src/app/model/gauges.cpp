@@ -1,0 +1,139 @@
+#include "app/model/gauges.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/model/model_regions.hpp"
+#include "app/results/explicit_history.hpp"
+#include "app/results/history_file.hpp"
+#include "assembly/fields.hpp"
+#include "base/error.hpp"
+#include "discretization/bonds.hpp"
+#include "io/case/sections/case_lattice.hpp"
+
+namespace perilink {
+namespace {
+
+Index particle_at(const CaseFile& input, const Model& model, const std::string& key,
+                  const Vector3& point) {
+  const Particles& particles = model.network.particles;
+  const std::span<const double> at(point.data(), static_cast<std::size_t>(particles.dim));
+  const NearestParticle nearest = nearest_particle(particles, at);
+  if (nearest.distance <= model.lattice.spacing) return nearest.particle;
+  throw InputError(
+      input.where(key),
+      fmt::format("the point ({}) is {:.6g} from the nearest particle", fmt::join(at, ", "),
+                  nearest.distance),
+      fmt::format("particles are {:.6g} apart; a point of a gauge must lie within that of one",
+                  model.lattice.spacing));
+}
+
+/// Displacement of the second point relative to the first.
+void fill_difference(const CaseFile& input, const Model& model, const std::string& key,
+                     const GaugeSection& section, Gauge& gauge) {
+  const Index from = particle_at(input, model, key, section.between[0]);
+  const Index to = particle_at(input, model, key, section.between[1]);
+  if (from == to) {
+    throw InputError(input.where(key), "gives two points with the same nearest particle",
+                     "move the points apart or refine the spacing");
+  }
+  gauge.terms = {{from, -1.0}, {to, 1.0}};
+  if (section.axis) return;
+  const Vector3& a = section.between[0];
+  const Vector3& b = section.between[1];
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+  for (int axis = 0; axis < 3; ++axis) gauge.direction[axis] = (b[axis] - a[axis]) / length;
+}
+
+void fill_mean(const CaseFile& input, const Model& model, const std::string& key,
+               const GaugeSection& section, Gauge& gauge) {
+  const Particles& particles = model.network.particles;
+  double whole = 0.0;
+  for (const Index i : particles_of_region(input, model, section.region, key)) {
+    if (particles.kind[i] != ParticleKind::solid) continue;
+    gauge.terms.push_back({i, particles.volumes[i]});
+    whole += particles.volumes[i];
+  }
+  if (gauge.terms.empty()) {
+    throw InputError(input.where(key),
+                     fmt::format("is \"{}\", which holds only bars", section.region),
+                     "name a region with particles of the solid");
+  }
+  for (Gauge::Term& term : gauge.terms) term.weight /= whole;
+}
+
+/// Of the six components of a Stress.
+std::size_t number_of(const std::array<int, 2>& axes) {
+  if (axes[0] == axes[1]) return axes[0];
+  return axes[0] == 1 ? 4 : axes[1] == 1 ? 3 : 5;
+}
+
+}  // namespace
+
+std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
+  std::vector<Gauge> gauges;
+  const std::vector<std::string> taken = input.analysis.type != "explicit"
+                                             ? history_columns()
+                                             : explicit_history_columns(crack_count(input));
+  for (std::size_t k = 0; k < input.gauges.size(); ++k) {
+    const GaugeSection& section = input.gauges[k];
+    if (std::find(taken.begin(), taken.end(), section.name) != taken.end()) {
+      throw InputError(input.where(item_key("gauges", k, "name")),
+                       fmt::format("is \"{}\", a column that every history has", section.name),
+                       "choose another name");
+    }
+    Gauge gauge;
+    gauge.name = section.name;
+    gauge.stress = section.stress;
+    if (section.axis) gauge.direction[*section.axis] = 1.0;
+    if (section.at) {
+      gauge.terms = {{particle_at(input, model, item_key("gauges", k, "at"), *section.at), 1.0}};
+    } else if (!section.region.empty()) {
+      fill_mean(input, model, item_key("gauges", k, "region"), section, gauge);
+    } else {
+      fill_difference(input, model, item_key("gauges", k, "between"), section, gauge);
+    }
+    gauges.push_back(std::move(gauge));
+  }
+  return gauges;
+}
+
+std::vector<std::string> names_of(const std::vector<Gauge>& gauges) {
+  std::vector<std::string> names;
+  for (const Gauge& gauge : gauges) names.push_back(gauge.name);
+  return names;
+}
+
+StressInput stress_input(const Model& model, const Csr& families) {
+  return {model.network, families, model.problem, model.hooke, model.elements.has_value()};
+}
+
+std::vector<double> gauge_values(const Model& model, const StepState& state, double load_factor) {
+  const std::size_t dim = model.network.dim(), width = model.network.width();
+  Csr families;
+  std::vector<double> displacement;  // where a stress is measured
+  std::vector<double> values;
+  for (const Gauge& gauge : model.gauges) {
+    if (gauge.stress && families.rows() == 0) {
+      families = bonds_of_particles(model.network.bonds, model.network.particles.size());
+      displacement = translations(model.network, state.displacement);
+    }
+    double value = 0.0;
+    for (const Gauge::Term& term : gauge.terms) {
+      if (gauge.stress) {
+        const Stress stress = stress_at(stress_input(model, families), displacement, term.particle);
+        value += term.weight * stress[number_of(*gauge.stress)];
+        continue;
+      }
+      for (std::size_t a = 0; a < dim; ++a) {
+        value += term.weight * gauge.direction[a] * state.displacement[term.particle * width + a];
+      }
+    }
+    values.push_back(load_factor * value);
+  }
+  return values;
+}
+
+}  // namespace perilink

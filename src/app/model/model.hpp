@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/quasistatic/damage_analysis.hpp"
+#include "app/model/loaded_places.hpp"
+#include "assembly/linear_elements.hpp"
+#include "discretization/facets.hpp"
+#include "discretization/lattices/lattice.hpp"
+#include "io/case/case_file.hpp"
+#include "material/elasticity.hpp"
+#include "network/network.hpp"
+#include "network/particle_network.hpp"
+#include "network/rigid_modes.hpp"
+#include "network/unknowns.hpp"
+
+namespace perilink {
+
+/// A displacement or stress of the history: weights times values at particles.
+struct Gauge {
+  struct Term {
+    Index particle = no_index;
+    double weight = 0.0;
+  };
+  std::string name;
+  std::vector<Term> terms;
+  Vector3 direction{};                       ///< of the displacement that is measured
+  std::optional<std::array<int, 2>> stress;  ///< axes of the component instead of a displacement
+};
+
+/// A case turned into particles, bonds, unknowns and loads.
+struct Model {
+  Problem problem = Problem::plane_stress;
+  Lattice lattice;
+  Facets facets;              ///< of the body; corners are particles of the network
+  Simplices cells;            ///< of a mesh
+  std::vector<Group> groups;  ///< of a mesh
+  double horizon = 0.0;       ///< [length]
+  /// crack_cost() of each material, where critical_stretch = "dissipated" [-].
+  std::vector<double> crack_cost;
+  /// Where elements are linear: their particles, and as bonds the edges of the cells, which stand
+  /// for them in all questions of what holds what; their stiffness means nothing.
+  Network network;
+  std::optional<LinearElements> elements;         ///< with method = "linear_elements"
+  std::optional<ParticleFitReport> particle_fit;  ///< with model = "particles"
+  Unknowns unknowns;
+  Loads loads;
+  ReferenceLoad reference;
+  std::vector<LoadedPlace> loaded_places;  ///< by forces, where nothing is driven
+  std::vector<DrivenPlace> driven_places;
+  std::vector<Gauge> gauges;
+  /// Whether, per particle, a displacement of it is prescribed by a support or driven (planes of
+  /// symmetry grip nothing: a crack may run into them).
+  std::vector<std::uint8_t> gripped;
+  std::vector<HookeConstants> hooke;  ///< elastic constants per material
+  LoadResultant resultant;
+  std::vector<std::string> notes;  ///< what the user should know: pinned modes, unbalanced moments
+};
+
+Problem problem_of(const CaseFile& input);
+
+}  // namespace perilink

@@ -1,0 +1,171 @@
+#include "app/model/model_regions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "io/case/case_words.hpp"
+
+namespace perilink {
+namespace {
+
+/// Particles and centres of facets this close to a region's side, in spacings, are inside.
+constexpr double region_tolerance = 1e-6;
+
+/// The case's own region, or nothing: a name that every case has.
+const Region* find_region(const CaseFile& input, const std::string& name) {
+  const auto found = std::find_if(input.regions.begin(), input.regions.end(),
+                                  [&](const Region& region) { return region.name == name; });
+  return found == input.regions.end() ? nullptr : &*found;
+}
+
+std::vector<Index> corners_of_surface(const Facets& facets) {
+  std::vector<Index> corners;
+  for (Index facet = 0; facet < facets.size(); ++facet) {
+    if (!facets.on_surface(facet)) continue;
+    const std::span<const Index> row = facets.corners.row(facet);
+    corners.insert(corners.end(), row.begin(), row.end());
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+std::vector<Index> particles_inside(const Model& model, const Region* region,
+                                    const std::string& name) {
+  if (region == nullptr && name == surface_region) return corners_of_surface(model.facets);
+  if (region != nullptr && !region->group.empty()) {
+    return group_named(model, region->group).particles;
+  }
+  const Particles& particles = model.network.particles;
+  const double tolerance = region_tolerance * model.lattice.spacing;
+  std::vector<Index> inside;
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (particles.kind[i] == ParticleKind::ghost) continue;
+    if (region == nullptr || region->contains(particles.position(i), tolerance)) {
+      inside.push_back(i);
+    }
+  }
+  return inside;
+}
+
+double distance(const Region& region, std::span<const double> point) {
+  if (region.round && !region.round->axis) return region.round->distance(point);
+  double square = 0.0;
+  for (std::size_t a = 0; a < point.size(); ++a) {
+    const double outside =
+        std::max({region.box.lower[a] - point[a], point[a] - region.box.upper[a], 0.0});
+    square += outside * outside;
+  }
+  return std::sqrt(square);
+}
+
+/// Where the particle nearest to a box or a round region is; of groups nothing.
+std::string nearest_text(const Particles& particles, const Region* region) {
+  if (region == nullptr || !region->group.empty()) return "";
+  Index nearest = no_index;
+  double least = INFINITY;
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (particles.kind[i] != ParticleKind::solid) continue;
+    const double away = distance(*region, particles.position(i));
+    if (away < least) {
+      least = away;
+      nearest = i;
+    }
+  }
+  if (nearest == no_index) return "";
+  return fmt::format("the nearest one is {:.4g} outside, at ({:.6g}); ", least,
+                     fmt::join(particles.position(nearest), ", "));
+}
+
+[[noreturn]] void refuse_without_facets(const CaseFile& input, const Model& model,
+                                        const Region& region, const std::string& key) {
+  if (!region.group.empty()) {
+    throw InputError(input.where(key),
+                     fmt::format("is \"{}\", but tractions act on the surface, and no facet of it "
+                                 "belongs to the physical group \"{}\"",
+                                 region.name, region.group),
+                     "give the lines (2D) or faces (3D) that are loaded a physical group");
+  }
+  Vector3 nearest{};
+  double least = INFINITY;
+  for (Index facet = 0; facet < model.facets.size(); ++facet) {
+    if (!model.facets.on_surface(facet)) continue;
+    const Vector3 centre = model.facets.centre(facet, model.network.particles.positions);
+    const double away =
+        distance(region, {centre.data(), static_cast<std::size_t>(model.network.dim())});
+    if (away < least) {
+      least = away;
+      nearest = centre;
+    }
+  }
+  throw InputError(
+      input.where(key),
+      fmt::format("is \"{}\", but tractions act on the surface, and no facet of it has its centre "
+                  "in that region",
+                  region.name),
+      fmt::format("the nearest facet has its centre at ({})",
+                  fmt::join(nearest.begin(), nearest.begin() + model.network.dim(), ", ")));
+}
+
+}  // namespace
+
+const Group& group_named(const Model& model, const std::string& name) {
+  return *std::find_if(model.groups.begin(), model.groups.end(),
+                       [&](const Group& group) { return group.name == name; });
+}
+
+std::vector<Index> particles_of_region(const CaseFile& input, const Model& model,
+                                       const std::string& region, const std::string& key) {
+  const Particles& particles = model.network.particles;
+  std::vector<Index> inside = particles_inside(model, find_region(input, region), region);
+  const bool any_solid = std::any_of(inside.begin(), inside.end(), [&](Index i) {
+    return particles.kind[i] == ParticleKind::solid;
+  });
+  if (!any_solid) {
+    throw InputError(
+        input.where(key), fmt::format("no particle lies in the region \"{}\"", region),
+        fmt::format("{}particles are {:.6g} apart; make the region larger or move it onto the body",
+                    nearest_text(particles, find_region(input, region)), model.lattice.spacing));
+  }
+  return inside;
+}
+
+std::vector<Index> facets_of_region(const CaseFile& input, const Model& model,
+                                    const std::string& region, const std::string& key) {
+  const Region* own = find_region(input, region);
+  const Facets& facets = model.facets;
+  const double tolerance = region_tolerance * model.lattice.spacing;
+  std::vector<Index> inside;
+  if (own != nullptr && !own->group.empty()) {
+    inside = group_named(model, own->group).facets;
+  } else {
+    for (Index facet = 0; facet < facets.size(); ++facet) {
+      if (!facets.on_surface(facet)) continue;
+      const Vector3 centre = facets.centre(facet, model.network.particles.positions);
+      const std::span<const double> point(centre.data(), static_cast<std::size_t>(facets.dim));
+      if (own == nullptr || own->contains(point, tolerance)) inside.push_back(facet);
+    }
+  }
+  if (inside.empty()) refuse_without_facets(input, model, *own, key);
+  return inside;
+}
+
+NearestParticle nearest_particle(const Particles& particles, std::span<const double> point) {
+  NearestParticle nearest{no_index, INFINITY};
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (particles.kind[i] != ParticleKind::solid) continue;
+    double square = 0.0;
+    for (int a = 0; a < particles.dim; ++a) {
+      const double away = particles.position(i)[a] - point[a];
+      square += away * away;
+    }
+    const double distance = std::sqrt(square);
+    if (distance < nearest.distance) nearest = {i, distance};
+  }
+  return nearest;
+}
+
+}  // namespace perilink

@@ -1,0 +1,152 @@
+#include "app/plot/plot_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "app/plot/plot_axes.hpp"
+#include "app/results/field_file.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+namespace {
+
+const std::vector<double>& values_of(const VtuArray* array, const std::string& name, int components,
+                                     const std::string& path) {
+  if (!array || array->components != components) {
+    throw FileError(path + ": array '" + name + "' of " + std::to_string(components) +
+                    " component(s) is missing; was it written by perilink run?");
+  }
+  return array->values;
+}
+
+std::vector<Vector3> as_vectors(const std::vector<double>& values) {
+  std::vector<Vector3> vectors(values.size() / 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  }
+  return vectors;
+}
+
+void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBody& body) {
+  for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
+    if (grid.types[cell] != VtuCell::line) continue;
+    const std::size_t end = static_cast<std::size_t>(grid.offsets[cell]);
+    if (end < 2) continue;
+    const Ends ends{grid.connectivity[end - 2], grid.connectivity[end - 1]};
+    const bool bar = element[cell] == static_cast<double>(FieldElement::rebar_segment);
+    (bar ? body.segments : body.broken_bonds).push_back(ends);
+  }
+}
+
+/// Square and cubic lattices have one size. Others fill the plane with hexagons of the particles'
+/// volumes, space with cubes. Files without volumes have nothing but the spacing.
+std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
+  std::vector<double> sizes(body.positions.size(), body.spacing);
+  const VtuArray* volumes = grid.find_point_data("volume");
+  if (volumes == nullptr || volumes->values.size() != sizes.size() || on_square_lattice(body)) {
+    return sizes;
+  }
+  const double thickness = grid.field("thickness", 1.0);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double volume = volumes->values[i];
+    if (!(volume > 0.0)) continue;
+    sizes[i] = body.dim == 2 ? std::sqrt(volume / thickness * 2.0 / std::numbers::sqrt3)
+                             : std::cbrt(volume);
+  }
+  return sizes;
+}
+
+/// Von Mises' equivalent of xx, yy, zz, xy, yz, xz.
+double von_mises(const double* s) {
+  const double normal =
+      std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
+  return std::sqrt(0.5 * normal + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+double length(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
+
+}  // namespace
+
+PlotBody read_body(const VtuGrid& grid, const std::string& path) {
+  const auto point_values = [&](const char* name, int components) -> const std::vector<double>& {
+    return values_of(grid.find_point_data(name), name, components, path);
+  };
+  PlotBody body;
+  body.dim = grid.field("dimension", 2.0) == 3.0 ? 3 : 2;
+  body.spacing = grid.field("spacing", 0.0);
+  if (!(body.spacing > 0.0)) throw FileError(path + ": field 'spacing' is missing");
+  body.positions = as_vectors(grid.points);
+  body.displacements = as_vectors(point_values("displacement", 3));
+  body.damage = point_values("damage", 1);
+  for (const double kind : point_values("kind", 1)) {
+    if (!(kind >= 0.0 && kind <= 2.0)) throw FileError(path + ": a particle has no known 'kind'");
+    body.kind.push_back(static_cast<int>(kind));
+  }
+  read_lines(grid, values_of(grid.find_cell_data("element"), "element", 1, path), body);
+  body.sizes = particle_sizes(grid, body);
+  if (const VtuArray* stress = grid.find_point_data("stress"); stress && stress->components == 6) {
+    for (std::size_t i = 0; i < body.positions.size(); ++i) {
+      body.stress.push_back(von_mises(stress->values.data() + 6 * i));
+    }
+  }
+  return body;
+}
+
+double automatic_scale(const PlotBody& body) {
+  constexpr double share_of_size = 0.08;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vector3 low{infinity, infinity, infinity};
+  Vector3 high{-infinity, -infinity, -infinity};
+  double largest = 0.0;
+  for (Index i = 0; i < body.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], body.positions[i][c]);
+      high[c] = std::max(high[c], body.positions[i][c]);
+    }
+    if (!body.is_loose(i)) largest = std::max(largest, length(body.displacements[i]));
+  }
+  if (!(largest > 0.0)) return 1.0;
+  double size = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) size = std::max(size, high[c] - low[c]);
+  if (!(size > 0.0)) return 1.0;
+  // Rounding down alone could lose more than half; a quarter above the aim is still fine.
+  return round_down_to_nice(1.25 * share_of_size * size / largest);
+}
+
+std::vector<Vector3> deformed_positions(const PlotBody& body, double scale) {
+  std::vector<Vector3> deformed = body.positions;
+  for (std::size_t i = 0; i < deformed.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) deformed[i][c] += scale * body.displacements[i][c];
+  }
+  return deformed;
+}
+
+bool on_square_lattice(const PlotBody& body) {
+  const auto near_whole = [](double steps) { return std::abs(steps - std::round(steps)) < 0.05; };
+  Index solid = 0, fitting = 0, first = no_index;
+  for (Index i = 0; i < body.size(); ++i) {
+    if (body.kind[i] != 0) continue;
+    if (first == no_index) first = i;
+    ++solid;
+    bool fits = true;
+    for (int a = 0; a < body.dim; ++a) {
+      fits = fits && near_whole((body.positions[i][a] - body.positions[first][a]) / body.spacing);
+    }
+    fitting += fits;
+  }
+  return fitting > 0.95 * solid;
+}
+
+Vector3 view(const Vector3& point, int dim) {
+  if (dim == 2) return {point[0], point[1], 0.0};
+  const double turn = std::numbers::pi / 6.0;
+  const double tilt = std::numbers::pi / 8.0;
+  const double right = point[0] * std::cos(turn) - point[1] * std::sin(turn);
+  const double away = point[0] * std::sin(turn) + point[1] * std::cos(turn);
+  return {right, point[2] * std::cos(tilt) + away * std::sin(tilt),
+          point[2] * std::sin(tilt) - away * std::cos(tilt)};
+}
+
+}  // namespace perilink

@@ -1,0 +1,160 @@
+#include "app/plot/plot_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "app/plot/plot_axes.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr const char* title_style = "font-size=\"18\" font-weight=\"bold\" fill=\"#222\"";
+constexpr const char* note_style = "font-size=\"13\" fill=\"#444\"";
+constexpr const char* envelope_style =
+    "fill=\"none\" stroke=\"#0b3c6f\" stroke-width=\"2.4\" stroke-linejoin=\"round\" "
+    "stroke-linecap=\"round\"";
+constexpr const char* few_events_style =
+    "fill=\"none\" stroke=\"#0b3c6f\" stroke-width=\"1.5\" stroke-linejoin=\"round\"";
+constexpr const char* many_events_style =
+    "fill=\"none\" stroke=\"#9dbfe0\" stroke-width=\"0.5\" stroke-linejoin=\"round\"";
+
+/// Rectangle of the page [px].
+struct Area {
+  SvgPoint corner;  ///< upper left
+  double width = 0.0, height = 0.0;
+
+  bool holds(SvgPoint at) const {
+    return at.x >= corner.x && at.x <= corner.x + width && at.y >= corner.y &&
+           at.y <= corner.y + height;
+  }
+  bool meets(const Area& other) const {
+    return corner.x < other.corner.x + other.width && other.corner.x < corner.x + width &&
+           corner.y < other.corner.y + other.height && other.corner.y < corner.y + height;
+  }
+};
+
+/// What stands beside the peak.
+struct PeakLabel {
+  std::string text;
+  SvgPoint peak, at;
+  bool left_half = true;  ///< of the picture; the text runs to the right then
+
+  Area area() const {
+    // Letters are about 0.56 of their size wide.
+    const double width = 0.56 * 14.0 * static_cast<double>(text.size());
+    return {{left_half ? at.x : at.x - width, at.y - 14.0}, width, 20.0};
+  }
+};
+
+PeakLabel label_of(const CurveFrame& frame, const char* name, const CurvePoint& peak,
+                   const PlotLabels& labels) {
+  PeakLabel label;
+  label.text = fmt::format("{} {} at {}", name, in_unit(short_number(peak.load), labels.force),
+                           in_unit(short_number(peak.displacement), labels.length));
+  label.peak = frame.at(peak);
+  label.left_half = label.peak.x < (frame.x.pixel_low + frame.x.pixel_high) / 2;
+  label.at = {label.peak.x + (label.left_half ? 10.0 : -10.0),
+              label.peak.y + (peak.load < 0.0 ? 20.0 : -8.0)};
+  return label;
+}
+
+/// The peak, and where the load climbed again after the body had given way the first one too.
+std::vector<PeakLabel> labels_of(const CurveFrame& frame, const StepRecord& peak,
+                                 const std::optional<CurvePoint>& first_peak,
+                                 const PlotLabels& labels) {
+  std::vector<PeakLabel> all = {label_of(frame, "peak", {peak.displacement, peak.load}, labels)};
+  if (first_peak && std::abs(first_peak->load) < std::abs(peak.load)) {
+    all.push_back(label_of(frame, "first peak", *first_peak, labels));
+  }
+  return all;
+}
+
+void mark_peak(Svg& svg, const PeakLabel& label) {
+  svg.circle(label.peak, 4.5, "fill=\"#fff\" stroke=\"#b3202a\" stroke-width=\"2\"");
+  svg.text(label.at, label.text, label.left_half ? "start" : "end",
+           "font-size=\"14\" fill=\"#b3202a\" stroke=\"#fff\" stroke-width=\"4\" "
+           "paint-order=\"stroke\"");
+}
+
+/// The corner of the frame where the legend meets neither labels nor, as far as that is possible,
+/// the curve.
+Area legend_area(const CurveFrame& frame, std::span<const PeakLabel> labels,
+                 std::span<const CurvePoint> curve) {
+  constexpr double width = 222.0, height = 48.0, margin = 2.0;
+  const double right = frame.x.pixel_high - width, left = frame.x.pixel_low + margin;
+  const double top = frame.y.pixel_high + margin, bottom = frame.y.pixel_low - height - margin;
+  Area best;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const SvgPoint corner :
+       {SvgPoint{right, top}, {right, bottom}, {left, top}, {left, bottom}}) {
+    const Area area{corner, width, height};
+    std::size_t hidden = 0;
+    for (const PeakLabel& label : labels) hidden += area.meets(label.area()) ? curve.size() + 1 : 0;
+    for (const CurvePoint& point : curve) hidden += area.holds(frame.at(point));
+    if (hidden >= least) continue;
+    least = hidden;
+    best = area;
+  }
+  return best;
+}
+
+void draw_legend(Svg& svg, const Area& area) {
+  const double x = area.corner.x + 10.0;
+  const double y = area.corner.y + 14.0;
+  svg.rect(area.corner, area.width, area.height, "fill=\"#fff\"");
+  SvgPath smooth, events;
+  smooth.move_to({x, y});
+  smooth.line_to({x + 30, y});
+  events.move_to({x, y + 20});
+  for (int k = 0; k < 5; ++k) {
+    events.line_to({x + 6.0 * k + 4.0, y + 15});
+    events.line_to({x + 6.0 * k + 6.0, y + 24});
+  }
+  svg.path(smooth, envelope_style);
+  svg.path(events, many_events_style);
+  svg.text({x + 40, y + 4.5}, "envelope of equal energy", "start", note_style);
+  svg.text({x + 40, y + 24.5}, "events", "start", note_style);
+}
+
+}  // namespace
+
+std::size_t peak_row(std::span<const StepRecord> records) {
+  const auto peak = std::max_element(
+      records.begin(), records.end(),
+      [](const auto& a, const auto& b) { return std::abs(a.load) < std::abs(b.load); });
+  return static_cast<std::size_t>(peak - records.begin());
+}
+
+Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
+                           const std::optional<CurvePoint>& first_peak) {
+  std::vector<CurvePoint> events;
+  events.reserve(records.size());
+  for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
+  const CurveFrame frame = make_curve_frame(events, 62.0);
+  Svg svg(curve_figure_width, curve_figure_height);
+  svg.text({frame.x.pixel_low, 32}, labels.title, "start", title_style);
+  draw_axes(svg, frame.x, frame.y, with_unit("displacement", labels.length),
+            with_unit("load", labels.force), Grid::lines);
+  if (records.empty()) return svg;
+
+  const std::vector<CurvePoint> path = event_path(records);
+  const std::vector<PeakLabel> peaks =
+      labels_of(frame, records[peak_row(records)], first_peak, labels);
+  if (path.size() > events_for_envelope) {
+    svg.path(curve_path(frame, events), many_events_style);
+    svg.path(curve_path(frame, smooth_envelope(path, envelope_window(path.size()))),
+             envelope_style);
+    draw_legend(svg, legend_area(frame, peaks, events));
+  } else {
+    svg.path(curve_path(frame, events), few_events_style);
+  }
+  for (const PeakLabel& peak : peaks) mark_peak(svg, peak);
+  return svg;
+}
+
+}  // namespace perilink

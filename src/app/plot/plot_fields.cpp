@@ -1,0 +1,261 @@
+#include "app/plot/plot_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+#include <vector>
+
+#include "app/plot/color_map.hpp"
+#include "app/plot/plot_axes.hpp"
+#include "app/plot/plot_page.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr int shades = 40;
+constexpr const char* bar_style = "stroke=\"#2f6ea3\" stroke-linecap=\"round\" fill=\"none\"";
+constexpr const char* ghost_style =
+    "stroke=\"#9aa3ad\" stroke-linecap=\"round\" fill=\"none\" stroke-opacity=\"0.7\"";
+constexpr const char* face_color = "#5a0a12";
+
+std::string stroke_width(double pixels) { return fmt::format("stroke-width=\"{:.2f}\"", pixels); }
+
+/// Everything that the parts of the picture need.
+struct Scene {
+  const PlotBody& body;
+  const std::vector<Vector3>& seen;  ///< deformed, projected
+  const BodyPage& page;
+  const ColorBar& colors;
+  bool square = false;  ///< square lattice in the plane
+
+  double spacing_px() const { return body.spacing * page.pixels; }
+  double size_px(Index i) const { return body.sizes[i] * page.pixels; }
+  SvgPoint at(Index i) const { return page.at(seen[i]); }
+  /// Shade 0 is undamaged.
+  int shade(Index i) const {
+    if (body.stress.empty() && !(body.damage[i] > 0.0)) return 0;
+    const double value = body.stress.empty() ? body.damage[i] : body.stress[i] / colors.high;
+    return 1 + std::clamp(static_cast<int>(value * shades), 0, shades - 1);
+  }
+};
+
+/// Stresses from zero to the largest; of a body without any the bar is as good as that of another.
+ColorBar color_bar(const PlotBody& body, const PlotLabels& labels) {
+  ColorBar bar;
+  if (body.stress.empty()) return bar;
+  const bool known = !labels.force.empty() && !labels.length.empty();
+  bar.label = with_unit("von Mises stress", known ? labels.force + "/" + labels.length + "²" : "");
+  const double largest = *std::max_element(body.stress.begin(), body.stress.end());
+  if (largest > 0.0) bar.high = largest;
+  return bar;
+}
+
+std::string shade_color(int shade) {
+  return shade == 0 ? undamaged_color : damage_color((shade - 0.5) / shades);
+}
+
+/// Cells of one shade are one path. They overlap a little where they are small, or the page would
+/// show through as a moiré pattern.
+void draw_squares(Svg& svg, const Scene& scene) {
+  const double size = scene.spacing_px() * (scene.spacing_px() < 7.0 ? 1.1 : 0.94);
+  std::map<int, SvgPath> cells;  // light ones first, so that the damaged ones stay visible
+  for (Index i = 0; i < scene.body.size(); ++i) {
+    if (scene.body.kind[i] == 0) cells[scene.shade(i)].square(scene.at(i), size);
+  }
+  svg.open_group("stroke=\"none\"");
+  for (const auto& [shade, path] : cells) {
+    svg.path(path, fmt::format("fill=\"{}\"", shade_color(shade)));
+  }
+  svg.close_group();
+}
+
+/// The same off the square lattice: dots, drawn by the round caps of strokes, each as wide as its
+/// particle, in steps of a quarter of a pixel.
+void draw_dots(Svg& svg, const Scene& scene) {
+  constexpr double step = 0.25;
+  std::map<std::pair<int, long>, SvgPath> dots;
+  for (Index i = 0; i < scene.body.size(); ++i) {
+    if (scene.body.kind[i] != 0) continue;
+    const double size = scene.size_px(i) * (scene.size_px(i) < 7.0 ? 1.18 : 1.0);
+    const long steps = std::max(1L, std::lround(size / step));
+    dots[{scene.shade(i), steps}].dot(scene.at(i));
+  }
+  svg.open_group("fill=\"none\" stroke-linecap=\"round\"");
+  for (const auto& [look, path] : dots) {
+    svg.path(path, fmt::format("stroke=\"{}\" {}", shade_color(look.first),
+                               stroke_width(step * static_cast<double>(look.second))));
+  }
+  svg.close_group();
+}
+
+/// Three dimensions: balls from back to front, those hidden by others left out.
+void draw_balls(Svg& svg, const Scene& scene) {
+  std::vector<Index> order;
+  for (Index i = 0; i < scene.body.size(); ++i) {
+    if (scene.body.kind[i] == 0) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return scene.seen[a][2] < scene.seen[b][2]; });
+  const double pixel = 0.5 * scene.spacing_px();
+  const auto place = [&](Index i) {
+    const SvgPoint at = scene.at(i);
+    return static_cast<long>(at.x / pixel) * 1000003L + static_cast<long>(at.y / pixel);
+  };
+  std::unordered_map<long, double> front;
+  for (const Index i : order) front[place(i)] = scene.seen[i][2];
+  // Particles of meshes that can be seen have half of a cell or less.
+  const double wide = on_square_lattice(scene.body) ? 1.1 : 1.4;
+  svg.open_group("fill=\"none\" stroke-linecap=\"round\"");
+  for (const Index i : order) {
+    const double size = wide * scene.size_px(i);
+    if (scene.seen[i][2] < front[place(i)] - 1.5 * scene.body.spacing) continue;
+    SvgPath dot;
+    dot.dot(scene.at(i));
+    svg.path(dot, fmt::format("stroke=\"#6b7076\" {}", stroke_width(size)));
+    svg.path(dot, fmt::format("stroke=\"{}\" {}", shade_color(scene.shade(i)),
+                              stroke_width(0.86 * size)));
+  }
+  svg.close_group();
+}
+
+/// A broken bond between nearest neighbours shows as the face between their cells, once on either
+/// side: closed cracks become one line, open ones two. Longer bonds would only hide the crack.
+void draw_crack_faces(Svg& svg, const Scene& scene) {
+  const double nearest = scene.square ? 1.2 : 1.5;  // sizes are those of halved cells at surfaces
+  SvgPath path;
+  for (const auto& [i, j] : scene.body.broken_bonds) {
+    const Vector3& from = scene.body.positions[i];
+    const Vector3& to = scene.body.positions[j];
+    const double dx = to[0] - from[0];
+    const double dy = to[1] - from[1];
+    const double length = std::hypot(dx, dy);
+    const double size = std::max(scene.body.sizes[i], scene.body.sizes[j]);
+    if (!(length > 0.0) || length > nearest * size) continue;
+    const double face = (scene.square ? 1.0 : 0.62) * size * scene.page.pixels;
+    const SvgPoint half_face{0.5 * face * dy / length, 0.5 * face * dx / length};
+    for (const auto& [end, side] : {std::pair{i, 0.5}, std::pair{j, -0.5}}) {
+      if (scene.body.is_loose(end)) continue;
+      const SvgPoint at = scene.at(end);
+      const SvgPoint middle{at.x + side * dx * scene.page.pixels,
+                            at.y - side * dy * scene.page.pixels};
+      path.move_to({middle.x - half_face.x, middle.y - half_face.y});
+      path.line_to({middle.x + half_face.x, middle.y + half_face.y});
+    }
+  }
+  const double width = std::clamp(0.09 * scene.spacing_px(), 0.5, 2.2);
+  svg.path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\" {}", face_color,
+                             stroke_width(width)));
+}
+
+/// How much longer a line between two particles is than in the undeformed body, in spacings.
+double drawn_opening(const Scene& scene, const Ends& ends) {
+  const auto [i, j] = ends;
+  const Vector3 a = view(scene.body.positions[i], scene.body.dim);
+  const Vector3 b = view(scene.body.positions[j], scene.body.dim);
+  const double before = std::hypot(b[0] - a[0], b[1] - a[1]);
+  const double after =
+      std::hypot(scene.seen[j][0] - scene.seen[i][0], scene.seen[j][1] - scene.seen[i][1]);
+  return (after - before) / scene.body.spacing;
+}
+
+/// Broken bonds as hairlines, fainter the more there are: on a coarse grid they show where the long
+/// bonds went before the near ones. Across a gap that can be seen they would only fill it.
+void draw_bond_hairlines(Svg& svg, const Scene& scene) {
+  constexpr std::size_t too_many = 2000;
+  constexpr double visible_gap = 0.5;
+  const std::size_t count = scene.body.broken_bonds.size();
+  if (count > too_many) return;
+  SvgPath path;
+  for (const Ends& ends : scene.body.broken_bonds) {
+    if (scene.body.is_loose(ends.first) || scene.body.is_loose(ends.second)) continue;
+    if (drawn_opening(scene, ends) > visible_gap) continue;
+    path.move_to(scene.at(ends.first));
+    path.line_to(scene.at(ends.second));
+  }
+  const double opacity = std::clamp(60.0 / static_cast<double>(count + 1), 0.15, 0.6);
+  svg.path(path, fmt::format("fill=\"none\" stroke=\"#8b1020\" stroke-opacity=\"{:.2f}\" {}",
+                             opacity, stroke_width(0.8)));
+}
+
+std::string bar_line(const Scene& scene) {
+  return std::string(bar_style) + " " +
+         stroke_width(std::clamp(0.35 * scene.spacing_px(), 2.0, 5.0));
+}
+
+std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
+  std::vector<KeyEntry> key;
+  SvgPath ghosts;
+  for (Index i = 0; i < scene.body.size(); ++i) {
+    if (scene.body.kind[i] == 1) ghosts.dot(scene.at(i));
+  }
+  if (scene.body.dim == 3) {
+    draw_balls(svg, scene);  // bonds would shine through from the far side
+  } else {
+    if (scene.square) {
+      draw_squares(svg, scene);
+    } else {
+      draw_dots(svg, scene);
+    }
+    draw_bond_hairlines(svg, scene);
+    draw_crack_faces(svg, scene);
+    if (!scene.body.broken_bonds.empty()) {
+      key.push_back({"crack face", fmt::format("stroke=\"{}\" stroke-width=\"2\"", face_color)});
+    }
+  }
+  SvgPath bars;
+  for (const auto& [i, j] : scene.body.segments) {
+    bars.move_to(scene.at(i));
+    bars.line_to(scene.at(j));
+  }
+  svg.path(bars, bar_line(scene));
+  if (!bars.empty()) key.push_back({"reinforcing bar", bar_line(scene)});
+  if (!ghosts.empty()) {
+    const std::string style = std::string(ghost_style) + " " +
+                              stroke_width(std::clamp(0.22 * scene.spacing_px(), 1.0, 5.0));
+    svg.path(ghosts, style);
+    key.push_back({"ghost", style, true});
+  }
+  return key;
+}
+
+std::string caption_text(const FieldsCaption& caption, const PlotBody& body,
+                         const PlotLabels& labels, double scale) {
+  if (caption.time) {
+    return fmt::format("time {} · load factor {} · load {} · displacements × {}",
+                       short_number(*caption.time), short_number(caption.load_factor),
+                       in_unit(short_number(caption.load), labels.force), short_number(scale));
+  }
+  const std::string broken = body.stress.empty()
+                                 ? fmt::format("{} broken bond{} · ", caption.broken_bonds,
+                                               caption.broken_bonds == 1 ? "" : "s")
+                                 : "";
+  return fmt::format("{}load factor {} · load {} · displacements × {}", broken,
+                     short_number(caption.load_factor),
+                     in_unit(short_number(caption.load), labels.force), short_number(scale));
+}
+
+}  // namespace
+
+Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLabels& labels,
+                double scale) {
+  if (!(scale > 0.0)) scale = automatic_scale(body);
+  std::vector<Vector3> seen = deformed_positions(body, scale);
+  for (Vector3& point : seen) point = view(point, body.dim);
+  const BodyPage page = make_page(body, seen);
+  const ColorBar colors = color_bar(body, labels);
+  const Scene scene{body, seen, page, colors, body.dim == 2 && on_square_lattice(body)};
+
+  Svg svg(page.width, page.height);
+  svg.clip_rect("body", {page.left, page.top}, page.right - page.left, page.bottom - page.top);
+  svg.open_group("clip-path=\"url(#body)\"");
+  const std::vector<KeyEntry> key = draw_body(svg, scene);
+  svg.close_group();
+  draw_page(svg, page, body.dim, labels, caption_text(caption, body, labels, scale), colors, key);
+  return svg;
+}
+
+}  // namespace perilink

@@ -1,0 +1,39 @@
+#include "app/plot/plot_labels.hpp"
+
+#include "app/results/summary_file.hpp"
+
+namespace perilink {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string trim(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+}  // namespace
+
+std::string directory_name(const fs::path& directory) {
+  return fs::absolute(directory / ".").lexically_normal().parent_path().filename().string();
+}
+
+PlotLabels read_labels(const fs::path& directory) {
+  PlotLabels labels;
+  labels.title = directory_name(directory);
+  const auto summary = read_summary_file(directory);
+  if (!summary) return labels;
+  const auto text = [&](const char* key) { return summary_text(*summary, key, directory); };
+  if (!text("title").empty()) labels.title = text("title");
+  const std::string units = text("units");  // "kip, in, s": of force, of length, of time
+  const std::size_t comma = units.find(',');
+  if (comma != std::string::npos) {
+    labels.force = trim(units.substr(0, comma));
+    const std::size_t end = units.find(',', comma + 1);
+    labels.length = trim(units.substr(comma + 1, end - comma - 1));
+  }
+  return labels;
+}
+
+}  // namespace perilink

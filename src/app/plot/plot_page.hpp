@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/plot/plot_body.hpp"
+#include "app/plot/plot_labels.hpp"
+#include "app/plot/svg.hpp"
+
+/// \file
+/// The frame of a picture of the body: where it goes on the page, axes, scale bar, colour bar, key.
+
+namespace perilink {
+
+/// Rectangle of the page on which the deformed body is drawn.
+struct BodyPage {
+  double left = 0.0, right = 0.0, top = 0.0, bottom = 0.0;  ///< [px]
+  double width = 0.0, height = 0.0;                         ///< of the page [px]
+  double pixels = 1.0;                                      ///< per unit of length
+  Vector3 low{};                                            ///< of the view, at (left, bottom)
+
+  SvgPoint at(const Vector3& seen) const {
+    return {left + (seen[0] - low[0]) * pixels, bottom - (seen[1] - low[1]) * pixels};
+  }
+};
+
+/// Fits the points that are seen, crumbs left out.
+BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen);
+
+/// Entry of the key under the picture: a sample drawn with `style` and its name.
+struct KeyEntry {
+  std::string name;
+  std::string style;
+  bool dot = false;  ///< the sample is a dot, not a line
+};
+
+/// What the colours of the particles mean.
+struct ColorBar {
+  std::string label = "damage index";
+  double low = 0.0;
+  double high = 1.0;
+};
+
+/// Title, line of numbers, axes (two-dimensional bodies), scale bar, colour bar and key.
+void draw_page(Svg& svg, const BodyPage& page, int dim, const PlotLabels& labels,
+               const std::string& caption, const ColorBar& colors,
+               const std::vector<KeyEntry>& key);
+
+}  // namespace perilink

@@ -1,0 +1,113 @@
+#include "app/process/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace perilink {
+namespace {
+
+constexpr double terminal_interval = 0.1;  // [s]
+constexpr double log_interval = 10.0;      // [s]
+constexpr int bar_width = 24;
+
+/// Nobody may be there to read it: no reason for a run to end.
+void show(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+/// Over the line that stands there.
+void draw_line(const std::string& text) { show(fmt::format("\r{}\033[K", text)); }
+
+void erase_line() { draw_line(""); }
+
+}  // namespace
+
+std::string format_duration(double seconds) {
+  const long whole = std::lround(std::max(seconds, 0.0));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+ProgressBar::ProgressBar(bool quiet)
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      next_update_(terminal_ ? terminal_interval : log_interval) {}
+
+bool ProgressBar::is_due() {
+  if (quiet_) return false;
+  const double now = since_start_.seconds();
+  if (now < next_update_) return false;
+  next_update_ = now + (terminal_ ? terminal_interval : log_interval);
+  return true;
+}
+
+void ProgressBar::draw(const std::string& state, std::optional<double> done) {
+  const double now = since_start_.seconds();
+  const std::string left =
+      done && *done > 0.0 ? fmt::format(", {} left", format_duration(now / *done - now))
+                          : fmt::format(", {} so far", format_duration(now));
+  if (!terminal_) {
+    show(fmt::format("{}{}\n", state, left));
+    return;
+  }
+  std::string bar;
+  if (done) {
+    const int full = static_cast<int>(*done * bar_width);
+    bar = "[" + std::string(full, '#') + std::string(bar_width - full, '.') + "] ";
+  }
+  draw_line(bar + state + left);
+  drawn_ = true;
+}
+
+void ProgressBar::finish() {
+  if (drawn_) erase_line();
+  drawn_ = false;
+}
+
+Progress::Progress(bool quiet, std::optional<Index> last_broken_bonds,
+                   std::optional<double> last_displacement)
+    : bar_(quiet), last_broken_bonds_(last_broken_bonds), last_displacement_(last_displacement) {}
+
+std::optional<double> Progress::fraction(const StepRecord& record) const {
+  std::optional<double> done;
+  if (last_broken_bonds_ && *last_broken_bonds_ > 0) {
+    done = static_cast<double>(record.broken_bonds) / *last_broken_bonds_;
+  }
+  if (last_displacement_ && *last_displacement_ > 0.0) {
+    done = std::max(done.value_or(0.0), std::abs(record.displacement) / *last_displacement_);
+  }
+  if (done) done = std::clamp(*done, 0.0, 1.0);
+  return done;
+}
+
+void Progress::update(const StepRecord& record) {
+  if (!bar_.is_due()) return;
+  bar_.draw(fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds,
+                        record.load_factor),
+            fraction(record));
+}
+
+void Progress::finish() { bar_.finish(); }
+
+CalibrationProgress::CalibrationProgress(bool quiet)
+    : shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
+
+CalibrationProgress::~CalibrationProgress() {
+  if (drawn_) erase_line();
+}
+
+void CalibrationProgress::update(int search, double unbalanced) {
+  if (!shown_) return;
+  // Nothing is drawn while a search lasts: a time "so far" would soon be wrong.
+  draw_line(fmt::format("calibrating bonds: search {} begun after {}, forces out of balance {:.1e}",
+                        search, format_duration(since_start_.seconds()), unbalanced));
+  drawn_ = true;
+}
+
+}  // namespace perilink

@@ -1,0 +1,78 @@
+#include "app/process/threads.hpp"
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <omp.h>
+#include <pthread.h>
+
+#include <algorithm>
+#include <cmath>
+#include <latch>
+#include <thread>
+#include <vector>
+
+#include "app/process/console.hpp"
+#include "base/memory.hpp"
+
+namespace perilink {
+namespace {
+
+/// Part of the address space that the stacks of threads may take; the rest is for the model.
+constexpr double most_for_stacks = 0.5;
+
+double stack_size() {
+  pthread_attr_t attributes;
+  std::size_t bytes = 0;
+  if (pthread_attr_init(&attributes) != 0) return 0.0;
+  pthread_attr_getstacksize(&attributes, &bytes);
+  pthread_attr_destroy(&attributes);
+  return static_cast<double>(bytes);
+}
+
+/// Does not touch the heap, where a thread would take one of its own.
+void* wait_for_end(void* end) {
+  static_cast<std::latch*>(end)->wait();
+  return nullptr;
+}
+
+/// How many threads can live at once, this one included: OpenMP ends the program where it cannot
+/// make one, so it has to be known before.
+int threads_that_start(int wanted) {
+  std::vector<pthread_t> others(static_cast<std::size_t>(wanted - 1));
+  std::latch end(1);
+  std::size_t count = 0;
+  while (count < others.size() &&
+         pthread_create(&others[count], nullptr, wait_for_end, &end) == 0) {
+    ++count;
+  }
+  end.count_down();
+  for (std::size_t k = 0; k < count; ++k) pthread_join(others[k], nullptr);
+  return static_cast<int>(count) + 1;
+}
+
+int threads_with_room(int wanted) {
+  const double space = available_address_space();
+  if (std::isinf(space)) return wanted;
+  mallopt(M_ARENA_MAX, 1);  // heaps of threads would take 64 MB each
+  const double stacks = most_for_stacks * space / std::max(stack_size(), 1.0);
+  return static_cast<int>(std::min<double>(wanted, 1.0 + std::floor(stacks)));
+}
+
+}  // namespace
+
+int set_threads(int wanted) {
+  if (wanted <= 0) wanted = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = threads_that_start(threads_with_room(wanted));
+  if (threads < wanted) {
+    complain(
+        fmt::format("{} of {} threads are used: the limits on the process (ulimit -v, -d, -u) "
+                    "leave no room for more; the results do not depend on it",
+                    threads, wanted));
+  }
+  omp_set_num_threads(threads);
+#pragma omp parallel  // now, while there is room: they stay
+  {}
+  return threads;
+}
+
+}  // namespace perilink

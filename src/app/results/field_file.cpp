@@ -1,0 +1,162 @@
+#include "app/results/field_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assembly/fields.hpp"
+
+namespace perilink {
+namespace {
+
+/// Rows of `dim` numbers as rows of three, as VTK wants vectors.
+std::vector<double> padded_to_three(std::span<const double> values, int dim) {
+  const std::size_t width = static_cast<std::size_t>(dim);
+  std::vector<double> padded(values.size() / width * 3, 0.0);
+  for (std::size_t k = 0; k < values.size(); ++k) padded[k / width * 3 + k % width] = values[k];
+  return padded;
+}
+
+template <class T>
+std::vector<double> as_doubles(const std::vector<T>& values) {
+  std::vector<double> numbers(values.size());
+  std::transform(values.begin(), values.end(), numbers.begin(),
+                 [](T value) { return static_cast<double>(value); });
+  return numbers;
+}
+
+void append_cell(VtuGrid& grid, VtuCell type, std::span<const Index> points, FieldElement element,
+                 double broken_at) {
+  grid.types.push_back(type);
+  grid.connectivity.insert(grid.connectivity.end(), points.begin(), points.end());
+  grid.offsets.push_back(static_cast<Index>(grid.connectivity.size()));
+  grid.cell_data[0].values.push_back(static_cast<double>(element));
+  grid.cell_data[1].values.push_back(broken_at);
+}
+
+void append_cells(VtuGrid& grid, const Network& network, std::span<const Index> broken_elements) {
+  grid.cell_data = {{"element", 1, {}}, {"broken_at", 1, {}}};
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    append_cell(grid, VtuCell::vertex, {&i, 1}, FieldElement::particle, 0.0);
+  }
+  const auto ends = [&](Index b) {
+    return std::array{network.bonds.first[b], network.bonds.second[b]};
+  };
+  double broken_at = 0.0;
+  for (const Index b : broken_elements) {
+    append_cell(grid, VtuCell::line, ends(b), FieldElement::broken_bond, broken_at += 1.0);
+  }
+  for (Index b = network.first_segment; b < network.num_elements(); ++b) {
+    append_cell(grid, VtuCell::line, ends(b), FieldElement::rebar_segment, 0.0);
+  }
+}
+
+/// Half of stress times strain of every cell.
+std::vector<double> energy_densities(std::span<const double> strains,
+                                     std::span<const double> stresses, int dim) {
+  const std::size_t width = static_cast<std::size_t>(dim) * dim;
+  std::vector<double> densities(strains.size() / width, 0.0);
+  for (std::size_t k = 0; k < strains.size(); ++k) {
+    densities[k / width] += 0.5 * stresses[k] * strains[k];
+  }
+  return densities;
+}
+
+std::vector<std::pair<std::string, double>> field_data_of(const StepRecord& record, int dim,
+                                                          double spacing) {
+  return {
+      {"step", static_cast<double>(record.step)},
+      {"broken_bonds", static_cast<double>(record.broken_bonds)},
+      {"load_factor", record.load_factor},
+      {"load", record.load},
+      {"dimension", static_cast<double>(dim)},
+      {"spacing", spacing},
+  };
+}
+
+}  // namespace
+
+VtuGrid make_field_grid(const Network& network, const StepState& state, const StepRecord& record,
+                        std::span<const Index> broken_elements_in_order, const Csr& families,
+                        double spacing) {
+  const int dim = network.dim();
+  std::vector<double> motion(state.displacement.begin(), state.displacement.end());
+  for (double& u : motion) u *= record.load_factor;
+  const std::vector<double> displacement = translations(network, motion);
+
+  VtuGrid grid;
+  grid.points = padded_to_three(network.particles.positions, dim);
+  append_cells(grid, network, broken_elements_in_order);
+  grid.point_data = {
+      {"displacement", 3, padded_to_three(displacement, dim)},
+      {"damage", 1, damage_index(network, families, state.secants)},
+      {"region", 1, as_doubles(network.particles.material)},
+      {"kind", 1, as_doubles(network.particles.kind)},
+      {"volume", 1, network.particles.volumes},
+      {"strain_energy_density", 1, strain_energy_density(network, families, state.secants, motion)},
+      {"principal_strain", 3,
+       padded_to_three(principal_strains(network, families, state.secants, displacement), dim)},
+  };
+  if (network.carries_moments()) {
+    grid.point_data.push_back({"rotation", dim == 2 ? 1 : 3, rotations(network, motion)});
+  }
+  grid.field_data = field_data_of(record, dim, spacing);
+  return grid;
+}
+
+void number_cracks(VtuGrid& grid, std::span<const Index> cracked) {
+  for (VtuArray& field : grid.cell_data) {
+    if (field.name != "broken_at") continue;
+    for (std::size_t k = 0; k < cracked.size(); ++k) {
+      field.values[cracked[k]] = static_cast<double>(k + 1);
+    }
+  }
+}
+
+VtuGrid make_element_grid(const LinearElements& elements, const Particles& particles,
+                          std::span<const double> displacement, const StepRecord& record,
+                          double spacing) {
+  const int dim = particles.dim;
+  std::vector<double> motion(displacement.begin(), displacement.end());
+  for (double& u : motion) u *= record.load_factor;
+  const std::vector<double> strains = cell_strains(elements, motion);
+  const std::vector<double> stresses = cell_stresses(elements, strains);
+  const std::vector<double> densities = energy_densities(strains, stresses, dim);
+  const std::vector<double> principal = principal_values(strains, dim);
+
+  VtuGrid grid;
+  grid.points = padded_to_three(particles.positions, dim);
+  grid.cell_data = {{"element", 1, {}}, {"broken_at", 1, {}}};
+  for (Index i = 0; i < particles.size(); ++i) {
+    append_cell(grid, VtuCell::vertex, {&i, 1}, FieldElement::particle, 0.0);
+  }
+  for (Index number = 0; number < elements.cells.size(); ++number) {
+    append_cell(grid, dim == 2 ? VtuCell::triangle : VtuCell::tetrahedron,
+                elements.cells.cell(number), FieldElement::cell, 0.0);
+  }
+  const auto after_vertices = [&](const char* name, int width, const std::vector<double>& values) {
+    std::vector<double> all(particles.volumes.size() * static_cast<std::size_t>(width), 0.0);
+    all.insert(all.end(), values.begin(), values.end());
+    grid.cell_data.push_back({name, width, std::move(all)});
+  };
+  after_vertices("strain_energy_density", 1, densities);
+  after_vertices("principal_strain", 3, padded_to_three(principal, dim));
+  after_vertices("principal_stress", 3, padded_to_three(principal_values(stresses, dim), dim));
+  const std::vector<double> mean_strains =
+      averaged_at_particles(elements, strains, static_cast<std::size_t>(dim) * dim);
+  grid.point_data = {
+      {"displacement", 3, padded_to_three(motion, dim)},
+      {"damage", 1, std::vector<double>(particles.volumes.size(), 0.0)},
+      {"region", 1, as_doubles(particles.material)},
+      {"kind", 1, as_doubles(particles.kind)},
+      {"volume", 1, particles.volumes},
+      {"strain_energy_density", 1, averaged_at_particles(elements, densities, 1)},
+      {"principal_strain", 3, padded_to_three(principal_values(mean_strains, dim), dim)},
+  };
+  grid.field_data = field_data_of(record, dim, spacing);
+  return grid;
+}
+
+}  // namespace perilink

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "analysis/quasistatic/load_curve.hpp"
+#include "app/model/from_case/configure.hpp"
+
+namespace perilink {
+
+/// Where the load climbed above its first peak after the body had given way: which peak is which.
+std::optional<std::string> note_of_peaks(const PeakWatch& peaks);
+
+/// The same, and how many of the bonds that broke afterwards end at grips.
+/// \param broken  elements in the order in which they broke
+std::optional<std::string> note_of_peaks(const DamageResult& result, const Model& model,
+                                         std::span<const Index> broken);
+
+}  // namespace perilink

@@ -1,0 +1,109 @@
+#include "app/run/run_cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/run/summary.hpp"
+#include "base/timer.hpp"
+
+namespace perilink {
+namespace {
+
+/// Rough rates of a quiet server core (verification/benchmarks).
+constexpr double factor_flops_per_second = 15e9;
+constexpr double read_bytes_per_second = 36e9;
+constexpr double search_seconds_per_bond = 1e-9;
+/// An event of the smallest body: row, bookkeeping, progress.
+constexpr double seconds_per_row = 35e-6;
+
+/// Passes through the factor per break. A micropolar bond leaves with three modes in the plane and
+/// six in space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240
+/// unknowns) and 3.5 times (7 938 unknowns) the time of a truss per byte of the factor were
+/// measured, which itself has two or four times the numbers.
+double passes_per_break(const Network& network) {
+  if (!network.carries_moments()) return 1.0;
+  return network.dim() == 2 ? 1.5 : 3.5;
+}
+
+/// Steps are timed until they take this long.
+constexpr double long_enough = 0.02;  // [s]
+/// Steps of a run that breaks its body, with its rows and fields, over steps at rest: 1.9 to 2.6 in
+/// meshes/moving_block.toml, irregular_plate.toml and splm_tension.toml.
+constexpr double breaking = 2.0;
+
+bool can_break(const Network& network) {
+  const auto finite = [](double limit) { return std::isfinite(limit); };
+  return network.has_states() ||
+         std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite);
+}
+
+struct SilentBonds final : BondRunObserver {
+  void on_row(const ExplicitRecord&, const BondRunState&) override {}
+};
+
+struct SilentLattice final : ExplicitObserver {
+  void on_row(const ExplicitRecord&, const ExplicitState&) override {}
+};
+
+/// \param run  takes a number of steps; what it sets up before the first cancels out
+template <class Run>
+double time_of_step(Index most, Run run) {
+  const auto seconds = [&](Index steps) {
+    const Timer timer;
+    run(steps);
+    return timer.seconds();
+  };
+  Index few = 1, many = 16;
+  double before = seconds(few), after = seconds(many);
+  while (after - before < long_enough && many < most) {
+    few = many;
+    before = after;
+    many = std::min(4 * many, std::max<Index>(most, few + 1));
+    after = seconds(many);
+  }
+  return std::max(after - before, 0.0) / static_cast<double>(many - few);
+}
+
+/// So many steps, as the run takes them, with no rows between the first and the last.
+ExplicitOptions some_steps(ExplicitOptions options, double time_step, Index steps) {
+  options.time_step = time_step;
+  options.duration = time_step * static_cast<double>(steps);
+  options.rows = 1;
+  options.threads = 1;
+  return options;
+}
+
+}  // namespace
+
+ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor) {
+  const double bond_bytes = 100.0 * network.num_elements();
+  ExpectedCost cost;
+  // The draft is behind us: its peak is known.
+  cost.memory = std::max(peak_memory_bytes(), 1.3 * factor.bytes + 3.0 * bond_bytes);
+  cost.factorization = factor.flops / factor_flops_per_second;
+  cost.broken_bond = passes_per_break(network) * 1.1 * factor.bytes / read_bytes_per_second +
+                     search_seconds_per_bond * network.num_elements() + seconds_per_row;
+  return cost;
+}
+
+double seconds_per_step(const Model& model, const BondRunCase& built) {
+  const double at_rest = time_of_step(built.steps, [&](Index steps) {
+    SilentBonds silent;
+    run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference, built.inertia,
+                       built.rules, some_steps(built.options, built.options.time_step, steps),
+                       silent);
+  });
+  return can_break(model.network) ? breaking * at_rest : at_rest;
+}
+
+double seconds_per_step(const ExplicitCase& built) {
+  const double at_rest = time_of_step(built.steps, [&](Index steps) {
+    ExplicitState state(built.model);
+    SilentLattice silent;
+    run_explicit_analysis(built.model, state, some_steps(built.options, built.time_step, steps),
+                          silent);
+  });
+  return built.model.material.breakable ? breaking * at_rest : at_rest;
+}
+
+}  // namespace perilink

@@ -1,0 +1,105 @@
+#include "app/run/run_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perilink {
+
+namespace {
+
+/// Part of the energy at the end that is motion [-].
+double moving_part(const EnergyBalance& energy) {
+  const double all = energy.kinetic + energy.stored + energy.internal_damping +
+                     energy.external_damping + energy.fractured + energy.plastic;
+  return all > 0.0 ? energy.kinetic / all : 0.0;
+}
+
+std::string text_of_pieces(Index pieces) {
+  if (pieces == 0) return "the body, or pieces of it, move freely or are far from equilibrium";
+  return pieces == 1 ? "a piece of the body is held by nothing"
+                     : fmt::format("{} pieces of the body are held by nothing", pieces);
+}
+
+/// Runs that were cut short were not meant to end where they did.
+void doubt_motion(const ExplicitResult& result, const RunFacts& facts,
+                  std::vector<std::string>& doubts) {
+  constexpr double most_moving = 0.1;
+  if (facts.impact || result.ending != Ending::completed) return;
+  if (result.last.time < facts.wave_time) {
+    doubts.push_back(fmt::format(
+        "the run ends after {:.2g}, before a wave has gone along the body and back, which takes "
+        "{:.2g}: what happens at one end is not known at the other; are modulus, density and time "
+        "in units of one system?",
+        result.last.time, facts.wave_time));
+  }
+  const double moving = moving_part(result.last.energy);
+  if (moving <= most_moving) return;
+  doubts.push_back(fmt::format(
+      "{:.0f} % of the work is kinetic energy at the end: {}; loads and displacements are no "
+      "static ones: load more slowly, damp the motion, or hold what flies",
+      100.0 * moving, text_of_pieces(facts.loose_pieces)));
+}
+
+}  // namespace
+
+RunFacts run_facts(const CaseFile& input, double length, double peak_load) {
+  double slowness = INFINITY;
+  for (const MaterialSection& material : input.materials) {
+    const double density =
+        material.lattice ? material.lattice->density : material.density.value_or(INFINITY);
+    slowness = std::min(slowness, std::sqrt(density / material.youngs_modulus));
+  }
+  RunFacts facts;
+  facts.peak_load = peak_load;
+  facts.impact = !input.velocities.empty();
+  facts.wave_time = std::isfinite(slowness) ? 2.0 * length * slowness : 0.0;
+  return facts;
+}
+
+std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFacts& facts) {
+  constexpr double most_surplus = 0.01, most_difference = 0.05;
+  std::vector<std::string> doubts;
+  if (result.largest_surplus > most_surplus) {
+    doubts.push_back(
+        fmt::format("energy appeared from nothing or vanished, up to {:.2g} % of the work: forces "
+                    "and losses of these rules belong to no energy, or the step is too large",
+                    100.0 * result.largest_surplus));
+  }
+  const double load = std::abs(facts.peak_load), reaction = std::abs(result.peak_load);
+  // Supports that hold nothing but symmetry feel next to nothing of the load.
+  const bool carries = reaction > 0.5 * load && load > 0.0;
+  const double difference = std::abs(load - reaction);
+  if (carries && difference > most_difference * reaction) {
+    doubts.push_back(
+        fmt::format("the peaks of load and reaction differ by {:.2g} %: inertia, or damping of the "
+                    "motion by mass, is in the load; load more slowly, damp less, or read the "
+                    "reaction",
+                    100.0 * difference / reaction));
+  }
+  doubt_motion(result, facts, doubts);
+  return doubts;
+}
+
+std::vector<std::string> doubts_about(const DamageResult& result) {
+  // Results are printed with six digits; equilibria are exact but for round-off, which leaves ten.
+  constexpr double most_imbalance = 1e-6;
+  std::vector<std::string> doubts;
+  // Written so that what is not a number is in doubt too.
+  if (!(result.energy_error <= most_imbalance)) {
+    doubts.push_back(
+        fmt::format("work and energies are out of balance, up to {:.2g} of the work: the body is "
+                    "so compliant that round-off has reached its results",
+                    result.energy_error));
+  }
+  if (!(result.largest_residual <= most_imbalance)) {
+    doubts.push_back(
+        fmt::format("up to {:.2g} of the load is out of balance: the stiffness matrix is so close "
+                    "to singular that displacements are not solved for to six digits",
+                    result.largest_residual));
+  }
+  return doubts;
+}
+
+}  // namespace perilink

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "analysis/dynamics/explicit_run.hpp"
+#include "analysis/quasistatic/damage_analysis.hpp"
+#include "io/case/case_file.hpp"
+
+namespace perilink {
+
+/// What the doubts about an explicit run have to know of it.
+struct RunFacts {
+  double peak_load = 0.0;  ///< largest load of the history [force]
+  bool impact = false;     ///< moved by velocities: motion is what the run is about
+  /// In which a wave goes along the body and back [time].
+  double wave_time = 0.0;
+  Index loose_pieces = 0;  ///< of the body, that nothing holds at the end
+};
+
+/// The longest side of the box around a body [length]. \param position  of a particle along an axis
+template <class Position>
+double longest_side(int dim, Index particles, Position position) {
+  double longest = 0.0;
+  for (int axis = 0; axis < dim && particles > 0; ++axis) {
+    double lower = position(0, axis), upper = lower;
+    for (Index i = 1; i < particles; ++i) {
+      lower = std::min(lower, position(i, axis));
+      upper = std::max(upper, position(i, axis));
+    }
+    longest = std::max(longest, upper - lower);
+  }
+  return longest;
+}
+
+/// \param length  of the longest side of the body [length]
+RunFacts run_facts(const CaseFile& input, double length, double peak_load);
+
+/// What makes the numbers of an explicit run doubtful, a sentence each: energy that is missing or
+/// too much by more than a hundredth of the work, a load that the supports do not feel, a run that
+/// ends before a wave has come back, and more than a tenth of the work in motion at the end, unless
+/// the run is an impact.
+std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFacts& facts);
+
+/// The same of a quasistatic run: energies that balance, or forces, to no more than six digits.
+std::vector<std::string> doubts_about(const DamageResult& result);
+
+}  // namespace perilink

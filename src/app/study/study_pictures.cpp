@@ -1,0 +1,31 @@
+#include "app/study/study_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace perilink {
+
+ConvergencePlot study_picture(const StudyFile& study, std::span<const StudySeries> series,
+                              std::span<const StudyMember> members, std::size_t error, Cost cost,
+                              int dim) {
+  ConvergencePlot plot;
+  plot.title = study.title;
+  plot.cost_label = cost == Cost::unknowns ? "unknowns" : "run time (s)";
+  plot.error_label = fmt::format("relative error of {}", study.errors[error].name);
+  for (const StudySeries& one : series) plot.lines.push_back({one.name, {}, std::nullopt});
+  for (const StudyMember& member : members) {
+    if (member.failed()) continue;
+    ConvergenceLine& line = plot.lines[member.series];
+    const double at = cost == Cost::unknowns ? member.unknowns : member.seconds.total();
+    line.points.push_back({at, member.errors[error]});
+    // The finest pair with an order speaks for the line.
+    if (!std::isnan(member.orders[error])) line.order = member.orders[error];
+  }
+  if (cost == Cost::unknowns) {
+    plot.triangles = {{"order 1", -1.0 / dim}, {"order 2", -2.0 / dim}};
+  }
+  return plot;
+}
+
+}  // namespace perilink

@@ -1,0 +1,312 @@
+#include "calibration/calibration.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "calibration/calibration_equations.hpp"
+#include "calibration/facet_shares.hpp"
+#include "calibration/least_change/least_change.hpp"
+
+namespace perilink {
+namespace {
+
+/// Forces out of balance above this have no solution with the floors of all bonds.
+constexpr double met = CalibrationEquations::met;
+
+/// In space searches are repeated until forces and moments are less out of balance than this.
+constexpr double exact = 1e-10;
+constexpr int most_refinements = 3;
+
+/// Zeros stay where they bring the forces out of balance down to this part.
+constexpr double worth_dropping = 0.1;
+
+/// Few digits of the energies of dilatation are enough; what the exact forces move afterwards is
+/// more.
+constexpr double settling_tolerance = 0.01;
+
+/// Of conjugate gradients in one search. Those that end need less, up to 4000 in solids with edges;
+/// those of nearly contradictory equations would go on for minutes.
+constexpr int most_iterations = 8000;
+
+/// Of what is left of the equations of forces and moments. Multipliers of bodies that can be in
+/// balance are up to 1e3.
+constexpr double price = 1e5, no_price = std::numeric_limits<double>::infinity();
+
+/// Of irregular clouds in space, whose equations often contradict each other. Multipliers are
+/// about 1 to 1e3 where they do not.
+constexpr double proximity = 1e-8;
+
+/// With fewer variables per equation (horizons of two spacings) a third of all fields on boxes are
+/// soft, and a factor of all equations is made as fast.
+constexpr Index least_freedom = 3;
+
+/// Intermediate passes need no more digits; what they leave is no contradiction.
+constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
+
+/// The matrix of equations of bonds that lie alike is nearly full: so many take 2 GB. Only boxes
+/// whose steps differ along all axes have more, and horizons of four spacings then.
+constexpr Index most_alike_equations = 20000;
+
+class Calibration {
+ public:
+  Calibration(const CalibrationInput& input, const CalibrationOptions& options,
+              const Facets& facets, const BondStiffness& stiffness, const BondOrbits* orbits)
+      : in_space_(input.particles.dim == 3),
+        irregular_(input.all_free()),
+        tied_(orbits != nullptr),
+        moments_(!stiffness.bending.empty()),
+        tolerance_(options.tolerance),
+        on_search_(options.on_search),
+        energies_(irregular_),
+        equations_(input, options.least_weight, facets, stiffness, orbits) {}
+
+  CalibrationReport run();
+  CalibrationEquations::State result() const { return equations_.save(); }
+
+ private:
+  double unbalanced() const {
+    return soft_moments_ ? report_.residual_after
+                         : std::max(report_.residual_after, report_.moment_after);
+  }
+  /// What a search lessens, to compare two ends: prices the sum, least squares about the largest.
+  double left() const {
+    return irregular_ && !in_space_ && !soft_moments_ ? report_.sum_after : unbalanced();
+  }
+  void soften_moments();
+  LeastChange seek(const PointEquations& equations, const LeastChangeOptions& options);
+  bool solve(double tolerance);
+  bool attempt();
+  void settle();
+  void search(Method method, double charge, double tolerance);
+  bool balance(double tolerance);
+
+  bool in_space_, irregular_, tied_, moments_;
+  double tolerance_;
+  CalibrationObserver on_search_;
+  int searches_ = 0;
+  bool energies_;  // of dilatation take part
+  bool soft_moments_ = false;
+  CalibrationEquations equations_;
+  CalibrationEquations::State settled_;  // where the exact forces began
+  CalibrationReport report_;
+  KeptPreconditioner kept_;  // of the force equations
+};
+
+/// One search, whose answer becomes the present state.
+LeastChange Calibration::seek(const PointEquations& equations, const LeastChangeOptions& options) {
+  ++searches_;
+  if (on_search_) on_search_(searches_, unbalanced());
+  LeastChange change = least_change(equations, options, kept_);
+  equations_.apply(change.weights);
+  report_.iterations += change.iterations;
+  return change;
+}
+
+/// Energies of dilatation, and forces beside them. In the plane a step of Newton's method is cheap,
+/// but it can get lost.
+void Calibration::settle() {
+  const CalibrationEquations::State start = equations_.save();
+  LeastChangeOptions options;
+  options.tolerance = settling_tolerance;
+  options.preconditioner = Preconditioner::blocks_then_boxes;
+  for (const Method method : {Method::newton, Method::interior_point}) {
+    if (in_space_ && method == Method::newton) continue;
+    equations_.restore(start);
+    options.method = method;
+    kept_.reset();  // coefficients are those of the stiffnesses now
+    if (seek(equations_.settling(), options).converged) break;
+  }
+  kept_.reset();
+}
+
+/// One solution of the exact equations.
+void Calibration::search(Method method, double charge, double tolerance) {
+  LeastChangeOptions options;
+  options.tolerance = tolerance;
+  options.iterations = most_iterations;
+  options.method = method;
+  options.price = charge;
+  if (in_space_ && irregular_) options.proximity = proximity;
+  const PointEquations equations = equations_.balance();
+  const bool tight =
+      equations.num_variables() / least_freedom < static_cast<Index>(equations.right.size());
+  options.preconditioner = !in_space_             ? Preconditioner::factor
+                           : tight && !irregular_ ? Preconditioner::blocks_then_factor
+                                                  : Preconditioner::blocks_then_boxes;
+  seek(equations, options);
+  equations_.report_balance(report_);
+}
+
+/// The forces and moments, exactly. The interior point is the last resort where one factor serves
+/// several steps of Newton's method; the corners of solids without moments have no solution, and it
+/// would find none, but where bonds are made alike it costs little and may find back when Newton's
+/// method is lost. Where the search ends farther from balance the settled stiffnesses are kept.
+/// \return whether it is nearer now
+bool Calibration::balance(double tolerance) {
+  equations_.report_balance(report_);
+  const double before = left(), largest_before = unbalanced();
+  const CalibrationEquations::State settled = equations_.save();
+  const Method first = irregular_ && in_space_ ? Method::interior_point : Method::newton;
+  search(first, irregular_ && !in_space_ ? price : no_price, tolerance);
+  const bool solvable = moments_ || !in_space_;
+  // The tolerance is that of the mean.
+  const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
+  const bool lost = tied_ && unbalanced() > largest_before;
+  if (first == Method::newton && (unsolved || lost)) {
+    const CalibrationEquations::State climbed = equations_.save();
+    const double reached = left();
+    equations_.restore(settled);
+    kept_.reset();
+    search(Method::interior_point, irregular_ ? price : no_price, tolerance);
+    kept_.reset();
+    if (left() > reached) {
+      equations_.restore(climbed);
+      equations_.report_balance(report_);
+    }
+  }
+  if (unbalanced() <= met || left() <= before) return true;
+  equations_.restore(settled);
+  equations_.report_balance(report_);
+  return false;
+}
+
+bool Calibration::solve(double tolerance) {
+  equations_.start_over();
+  if (energies_) settle();
+  settled_ = equations_.save();
+  return balance(tolerance);
+}
+
+/// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
+/// all over) every bond keeps something to carry. \return whether the exact forces led anywhere
+bool Calibration::attempt() {
+  // Corners may have no solution: finding out takes few digits, where many are dear.
+  const bool cautious = in_space_ && !tied_;
+  const double coarse = cautious ? coarse_tolerance : tolerance_;
+  if (!solve(coarse)) return false;
+  const double floored = unbalanced();
+  const bool spread = in_space_ || !irregular_;  // is what cannot be met
+  if (spread && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
+    const CalibrationEquations::State with_floors = equations_.save();
+    equations_.restore(settled_);
+    balance(coarse);
+    if (unbalanced() <= worth_dropping * floored) {
+      equations_.drop_vanishing();
+      solve(tolerance_);
+      if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
+    }
+    equations_.take_all_back();
+    equations_.restore(with_floors);
+    equations_.report_balance(report_);
+    return true;
+  }
+  // Each search starts from the weights of the last and leaves a small part of what that left.
+  for (int pass = 0; in_space_ && unbalanced() > exact && pass < most_refinements; ++pass) {
+    const double before = unbalanced();
+    if (!balance(tolerance_) || unbalanced() > 0.5 * before) break;
+  }
+  return true;
+}
+
+/// Where forces and moments have no solution together (interfaces of materials that meet the
+/// surface of a lattice), forces alone are exact.
+void Calibration::soften_moments() {
+  const CalibrationEquations::State best = equations_.save();
+  const double reached = report_.residual_after;
+  equations_.take_all_back();
+  equations_.soften_moments();
+  soft_moments_ = true;
+  attempt();
+  if (report_.residual_after <= reached) return;
+  equations_.take_all_back();
+  equations_.restore(best);
+  equations_.report_balance(report_);
+}
+
+CalibrationReport Calibration::run() {
+  equations_.report_balance(report_);
+  report_.residual_before = report_.residual_after;
+  const double start = unbalanced();
+  if (!attempt() && energies_) {
+    const CalibrationEquations::State settled = equations_.save();
+    const double reached = left();
+    energies_ = false;
+    attempt();
+    if (left() > reached) {
+      equations_.take_all_back();
+      equations_.restore(settled);
+      equations_.report_balance(report_);
+    }
+  }
+  if (moments_ && !tied_ && unbalanced() > met) soften_moments();
+  if (!(unbalanced() <= start)) {  // too few neighbours all over
+    equations_.take_all_back();
+    equations_.report_balance(report_);
+  }
+  equations_.report_weights(report_);
+  return report_;
+}
+
+/// The same constants all over; materials may differ in strength.
+bool uniform(const CalibrationInput& input) {
+  const LameConstants& first = input.materials[input.particles.material.front()];
+  return std::all_of(input.particles.material.begin(), input.particles.material.end(),
+                     [&](Index m) { return input.materials[m] == first; });
+}
+
+/// Bonds of a box that lie alike are made alike: a problem whose size does not depend on the size
+/// of the box. \return what was reached in the whole box, none where it has no exact solution
+std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
+                                                 const CalibrationOptions& options,
+                                                 const Facets& facets, BondStiffness& stiffness) {
+  const BondOrbits orbits = find_orbits(*input.box, input.particles, input.bonds, input.free);
+  const Index rows = ForceRows{input.particles.dim, !stiffness.bending.empty()}.count();
+  if (orbits.representatives.empty() ||
+      static_cast<Index>(orbits.representatives.size()) * rows > most_alike_equations) {
+    return std::nullopt;
+  }
+  const OrbitSample sample =
+      sample_orbits(orbits, input.particles, input.bonds, input.free, stiffness);
+  const CalibrationInput sampled{input.particles, sample.bonds, input.materials, sample.free};
+  Calibration calibration(sampled, options, facets, sample.stiffness, &sample.orbits);
+  CalibrationReport report = calibration.run();
+  CalibrationEquations whole(input, options.least_weight, facets, stiffness);
+  whole.report_balance(report);
+  report.residual_before = report.residual_after;
+  CalibrationEquations::State state = whole.save();
+  if (!spread(sample, calibration.result().stiffness, orbits, state.stiffness)) {
+    return std::nullopt;
+  }
+  whole.restore(state);
+  whole.report_balance(report);
+  if (std::max(report.residual_after, report.moment_after) > exact) return std::nullopt;
+  report.at_least_weight = report.dropped = 0;
+  whole.report_weights(report);
+  stiffness = std::move(state.stiffness);
+  return report;
+}
+
+}  // namespace
+
+CalibrationReport calibrate_bonds(const CalibrationInput& input, const CalibrationOptions& options,
+                                  Facets& facets, BondStiffness& stiffness) {
+  std::vector<double> lambda;
+  for (const LameConstants& material : input.materials) lambda.push_back(material.lambda);
+  balance_shares(facets, input.particles.positions,
+                 connected_parts(input.bonds, input.particles.size()), lambda);
+  if (!stiffness.bending.empty()) stiffness.inflection.assign(stiffness.bending.size(), 0.5);
+  if (input.box && !input.all_free() && uniform(input)) {
+    if (const auto report = calibrate_alike(input, options, facets, stiffness)) return *report;
+  }
+  Calibration calibration(input, options, facets, stiffness, nullptr);
+  const CalibrationReport report = calibration.run();
+  CalibrationEquations::State found = calibration.result();
+  stiffness = std::move(found.stiffness);
+  facets.shares = std::move(found.shares);
+  return report;
+}
+
+}  // namespace perilink

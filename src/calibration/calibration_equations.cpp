@@ -1,0 +1,393 @@
+#include "calibration/calibration_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calibration/least_change/variable_parts.hpp"
+#include "calibration/surface_columns.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double most_weight = 100.0;
+constexpr double round_off = 1e-12;
+
+/// Where a bond may fall to zero, it is on its way there below this weight.
+constexpr double vanishing = 1e-3;
+
+/// Energies of dilatation are soft equations: squares weigh 1 / ridge against those of the changes.
+/// In space the forces beside them are a little soft too: at edges and corners positive weights
+/// often cannot do both.
+constexpr double dilatation_ridge = 0.003;
+constexpr double forces_ridge_in_space = 1e-4;
+
+/// A change of a share by this costs as much as doubling the stiffness of a bond. Little, so that
+/// shares move only where stiffnesses cannot do it (by 0.3 at corners whose edges differ
+/// threefold): where they move freely the displacements of coarse plates with a hole are up to
+/// twice as far off. In space less makes the search slow.
+constexpr double share_scale_in_plane = 0.01, share_scale_in_space = 0.1;
+/// Every corner keeps this much of its facets.
+constexpr double least_share = 0.05;
+
+/// Least couples over those at the start at the two ends of a bond that hangs from the surface; of
+/// other bonds zero. At corners and edges all bonds lie on one side of the axes, and only couples
+/// that are all exactly zero would be in balance if none could change its sign: the search would
+/// have no room. The bending stiffness, their sum, stays positive, with the inflection within one
+/// length of the bond.
+constexpr double least_couple_at_surface = -0.2, least_couple_below = 0.4;
+
+/// Couples that have fallen to zero can come back by steps of this part of what they were.
+constexpr double least_couple_scale = 0.1;
+
+}  // namespace
+
+CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double least_weight,
+                                           const Facets& facets, const BondStiffness& stiffness,
+                                           const BondOrbits* orbits)
+    : input_(input),
+      orbits_(orbits),
+      least_weight_(least_weight),
+      dim_(input.particles.dim),
+      forces_{dim_, !stiffness.bending.empty()},
+      stiffness_(stiffness),
+      facets_(facets),
+      start_{stiffness, facets.shares},
+      given_(start_),
+      floor_(static_cast<std::size_t>(input.bonds.size()), Floor::least_weight) {
+  choose_points();
+  measure_particles();
+  on_surface_.assign(static_cast<std::size_t>(input.particles.size()), 0);
+  for (const Index i : facets_.corners.values) on_surface_[i] = 1;
+}
+
+void CalibrationEquations::choose_points() {
+  const Index num_particles = input_.particles.size();
+  std::vector<std::uint8_t> touched(static_cast<std::size_t>(num_particles), 0);
+  for (Index b = 0; b < input_.bonds.size(); ++b) {
+    if (!input_.all_free() && !input_.free[b]) continue;
+    free_bonds_.push_back(b);
+    touched[input_.bonds.first[b]] = touched[input_.bonds.second[b]] = 1;
+  }
+  if (orbits_) {
+    std::fill(touched.begin(), touched.end(), 0);
+    for (const Index i : orbits_->representatives) touched[i] = 1;
+  }
+  kept_ = free_bonds_;
+  point_of_.assign(static_cast<std::size_t>(num_particles), no_index);
+  for (Index i = 0; i < num_particles; ++i) {
+    if (!touched[i]) continue;
+    point_of_[i] = static_cast<Index>(particle_of_.size());
+    particle_of_.push_back(i);
+  }
+}
+
+void CalibrationEquations::measure_particles() {
+  const std::size_t count = static_cast<std::size_t>(input_.particles.size());
+  modulus_.assign(count, 0.0);
+  length_.assign(count, 0.0);
+  std::vector<double> forces(count, 0.0);
+  const Bonds& bonds = input_.bonds;
+  for (Index b = 0; b < bonds.size(); ++b) {
+    const double force = stiffness_.axial[b] * bonds.lengths[b];
+    for (const Index i : {bonds.first[b], bonds.second[b]}) {
+      modulus_[i] += 0.5 * force * bonds.lengths[b];
+      forces[i] += 0.5 * force;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (forces[i] > 0.0) length_[i] = modulus_[i] / forces[i];
+  }
+}
+
+void CalibrationEquations::take_all_back() {
+  start_ = given_;
+  kept_ = free_bonds_;
+  std::fill(floor_.begin(), floor_.end(), Floor::least_weight);
+  start_over();
+}
+
+CalibrationEquations::Variable CalibrationEquations::axial_variable(Index b) const {
+  const double k = stiffness_.axial[b], start = start_.stiffness.axial[b];
+  const double scale = std::max(k, least_weight_ * start);
+  const double floor = floor_[b] == Floor::none    ? 0.0
+                       : floor_[b] == Floor::small ? vanishing
+                                                   : least_weight_;
+  const double least = std::min(k, floor * start), most = most_weight * scale;
+  const Index first = input_.bonds.first[b], second = input_.bonds.second[b];
+  return {Kind::axial, b, 0, first, second, k, scale, least, most};
+}
+
+/// The part of the bending stiffness whose couple acts at one end.
+CalibrationEquations::Variable CalibrationEquations::couple_variable(Index b, Index end) const {
+  const auto part = [&](const BondStiffness& of) {
+    return of.bending[b] * (end == 0 ? of.inflection[b] : 1.0 - of.inflection[b]);
+  };
+  const double present = part(stiffness_);
+  const double scale = std::max(present, least_couple_scale * part(start_.stiffness));
+  const Index ends[2] = {input_.bonds.first[b], input_.bonds.second[b]};
+  const bool here = on_surface_[ends[end]] != 0, there = on_surface_[ends[1 - end]] != 0;
+  const double least = here == there ? 0.0 : here ? least_couple_at_surface : least_couple_below;
+  return {Kind::couple,       b,       end,   ends[end],
+          ends[1 - end],      present, scale, std::min(least * part(start_.stiffness), present),
+          most_weight * scale};
+}
+
+/// Transfers between the corners of the facets.
+template <class Visit>
+void CalibrationEquations::for_each_share(Visit visit) const {
+  const double scale = dim_ == 2 ? share_scale_in_plane : share_scale_in_space;
+  for (Index f = 0; f < facets_.size(); ++f) {
+    const Index begin = facets_.corners.offsets[f];
+    const bool edge = facets_.corners.offsets[f + 1] - begin == 2;
+    const double part = edge ? 1.0 : 0.5;  // corners of triangles take part in two transfers
+    const auto spare = [&](Index corner) {
+      return part * std::max(0.0, facets_.shares[corner] - least_share);
+    };
+    for (Index c = begin; c < (edge ? begin + 1 : facets_.corners.offsets[f + 1]); ++c) {
+      const Index to = next_corner(f, c);
+      const Index first = facets_.corners.values[c], second = facets_.corners.values[to];
+      if (point_of_[first] == no_index || point_of_[second] == no_index) continue;
+      if (spare(to) + spare(c) == 0.0) continue;
+      visit(Variable{Kind::share, f, c, first, second, 0.0, scale, -spare(to), spare(c)});
+    }
+  }
+}
+
+/// In the order of the equations.
+template <class Visit>
+void CalibrationEquations::for_each_variable(Visit visit) const {
+  for (const Index b : kept_) visit(axial_variable(b));
+  if (carries_moments()) {
+    for (const Index b : kept_) {
+      if (!(start_.stiffness.bending[b] > 0.0)) continue;  // a truss (Poisson's ratio at its limit)
+      visit(couple_variable(b, 0));
+      visit(couple_variable(b, 1));
+    }
+  }
+  if (shares_vary()) for_each_share(visit);
+}
+
+void CalibrationEquations::change(const Variable& variable, double value) {
+  switch (variable.kind) {
+    case Kind::axial: stiffness_.axial[variable.index] = value; break;
+    case Kind::couple: {
+      const double other = couple_variable(variable.index, 1 - variable.end).present;
+      const double sum = value + other;
+      const double at_first = variable.end == 0 ? value : other;
+      // Two couples at their bounds may sum to round-off of either sign.
+      const bool bends = sum > round_off * start_.stiffness.bending[variable.index];
+      stiffness_.bending[variable.index] = bends ? sum : 0.0;
+      stiffness_.inflection[variable.index] = bends ? at_first / sum : 0.5;
+      break;
+    }
+    case Kind::share:
+      facets_.shares[variable.end] -= value;
+      facets_.shares[next_corner(variable.index, variable.end)] += value;
+  }
+}
+
+void CalibrationEquations::apply(std::span<const double> weights) {
+  auto weight = weights.begin();
+  std::vector<std::pair<Variable, double>> changes;
+  for_each_variable([&](const Variable& variable) {
+    changes.emplace_back(variable, variable.present + variable.scale * (*weight++ - 1.0));
+  });
+  for (const auto& [variable, value] : changes) change(variable, value);
+}
+
+/// Per unit of the variable, at its first particle.
+void CalibrationEquations::fill_row(const ForceRows& form, const Variable& variable,
+                                    double* row) const {
+  const Bonds& bonds = input_.bonds;
+  if (variable.kind == Kind::axial) {
+    form.axial(bonds.lengths[variable.index], bonds.direction(variable.index), row);
+    return;
+  }
+  if (variable.kind == Kind::couple) {
+    form.shear(bonds.lengths[variable.index], bonds.direction(variable.index), row);
+    // Away from the first particle, and the whole couple instead of one half at each end.
+    for (int r = 0; r < form.odd(); ++r) row[r] *= variable.end == 0 ? 1.0 : -1.0;
+    for (int r = form.odd(); r < form.balance(); ++r) row[r] *= 2.0;
+    return;
+  }
+  const LameConstants jump = constants_across(facets_, variable.index, input_.materials);
+  Vector3 lambda_area{}, mu_area{};
+  for (int a = 0; a < dim_; ++a) {
+    lambda_area[a] = jump.lambda * facets_.area_vector(variable.index)[a];
+    mu_area[a] = jump.mu * facets_.area_vector(variable.index)[a];
+  }
+  form.right(lambda_area, mu_area, row);
+}
+
+/// All but the right sides of the dilatation.
+PointEquations CalibrationEquations::make_equations(const ForceRows& form) const {
+  PointEquations equations;
+  equations.dim = dim_;
+  equations.rows = form.count();
+  equations.odd = form.odd();
+  equations.one_ended = static_cast<Index>(kept_.size());
+  std::vector<double> row(static_cast<std::size_t>(form.count()));
+  for_each_variable([&](const Variable& variable) {
+    equations.first.push_back(point_of_[variable.first]);
+    equations.second.push_back(point_of_[variable.second]);
+    if (orbits_) equations.unknown.push_back(unknown_of(variable));
+    fill_row(form, variable, row.data());
+    for (const double value : row) equations.coefficients.push_back(variable.scale * value);
+    equations.lower.push_back(1.0 + (variable.least - variable.present) / variable.scale);
+    equations.upper.push_back(1.0 + (variable.most - variable.present) / variable.scale);
+  });
+  for (const Index i : particle_of_) {
+    const auto x = input_.particles.position(i);
+    equations.positions.insert(equations.positions.end(), x.begin(), x.end());
+  }
+  set_right_sides(equations);
+  if (moments_ridge_ == 0.0) return equations;
+  equations.ridge.assign(static_cast<std::size_t>(equations.rows), moments_ridge_);
+  std::fill_n(equations.ridge.begin(), forces_.odd(), 0.0);
+  return equations;
+}
+
+/// Shape (particles, rows of forces_).
+std::vector<double> CalibrationEquations::out_of_balance() const {
+  return forces_out_of_balance(forces_, facets_, input_.materials, input_.bonds, stiffness_,
+                               input_.particles.size());
+}
+
+/// Of forces and moments; that of the dilatation is left to the caller.
+void CalibrationEquations::set_right_sides(PointEquations& equations) const {
+  const std::size_t rows = static_cast<std::size_t>(equations.rows);
+  const std::size_t known = static_cast<std::size_t>(forces_.count());
+  // What the bonds that stay leave to be done: the rest, and what the variables carry now.
+  const std::vector<double> rest = out_of_balance();
+  for (const Index i : particle_of_) {
+    for (std::size_t r = 0; r < rows; ++r) {
+      equations.right.push_back(r < known ? rest[i * known + r] : 0.0);
+      const double arm = static_cast<int>(r) < equations.odd ? length_[i] : r < known ? 1.0 : 0.0;
+      equations.scale.push_back(arm / modulus_[i]);
+    }
+  }
+  for (Index v = 0; v < equations.num_variables(); ++v) {
+    const double* a = equations.coefficients.data() + v * rows;
+    for_each_part(equations, v, [&](Index p, int from, int to, double sign) {
+      if (p == no_index) return;
+      for (int r = from; r < std::min<int>(to, static_cast<int>(known)); ++r) {
+        equations.right[p * rows + r] += sign * a[r];
+      }
+    });
+  }
+}
+
+PointEquations CalibrationEquations::settling() const {
+  PointEquations equations = make_equations({dim_, forces_.bending, true});
+  equations.ridge.resize(static_cast<std::size_t>(equations.rows), 0.0);
+  if (dim_ == 3) std::fill_n(equations.ridge.begin(), forces_.odd(), forces_ridge_in_space);
+  equations.ridge.back() = dilatation_ridge;
+  gather_dilatations(equations);
+  return equations;
+}
+
+void CalibrationEquations::gather_dilatations(PointEquations& equations) const {
+  const std::vector<Index> head = surface_columns(input_.bonds, facets_, input_.particles);
+  const std::size_t rows = static_cast<std::size_t>(equations.rows);
+  for (const Index i : particle_of_) {
+    const Index group = point_of_[head[i] == no_index ? i : head[i]];
+    equations.group.push_back(group);
+    equations.right[(group + 1) * rows - 1] += dilatation_modulus(
+        dim_, input_.particles.volumes[i], input_.materials[input_.particles.material[i]]);
+  }
+  scale_last_rows(equations);
+  for (std::size_t p = 0; p < particle_of_.size(); ++p) {
+    if (head[particle_of_[p]] == no_index) equations.scale[(p + 1) * rows - 1] = 0.0;
+  }
+}
+
+void CalibrationEquations::report_balance(CalibrationReport& report) const {
+  const std::vector<double> rest = out_of_balance();
+  const std::size_t rows = static_cast<std::size_t>(forces_.count());
+  report.residual_after = report.moment_after = report.sum_after = 0.0;
+  report.unmet = 0;
+  report.worst_particle = no_index;
+  for (const Index i : particle_of_) {
+    double force = 0.0, moment = 0.0;  // of this particle
+    for (std::size_t r = 0; r < rows; ++r) {
+      double size = std::abs(rest[i * rows + r]) / modulus_[i];
+      if (!std::isfinite(size)) size = std::numeric_limits<double>::infinity();
+      const bool is_force = static_cast<int>(r) < forces_.odd();
+      double& largest = is_force ? force : moment;
+      largest = std::max(largest, is_force ? size * length_[i] : size);
+    }
+    report.unmet += std::max(force, moment) > met;
+    report.sum_after += std::max(force, moment);
+    if (std::max(force, moment) > std::max(report.residual_after, report.moment_after)) {
+      report.worst_particle = i;
+    }
+    report.residual_after = std::max(report.residual_after, force);
+    report.moment_after = std::max(report.moment_after, moment);
+  }
+}
+
+void CalibrationEquations::report_weights(CalibrationReport& report) const {
+  report.free_bonds = static_cast<Index>(free_bonds_.size());
+  for (const Index b : free_bonds_) {
+    if (stiffness_.axial[b] == 0.0) {
+      ++report.dropped;
+      continue;
+    }
+    const double weight = stiffness_.axial[b] / start_.stiffness.axial[b];
+    report.at_least_weight += weight <= 1.000001 * least_weight_;
+    report.smallest_weight = std::min(report.smallest_weight, weight);
+    report.largest_weight = std::max(report.largest_weight, weight);
+  }
+}
+
+bool CalibrationEquations::allow_zero(double limit) {
+  const std::vector<double> rest = out_of_balance();
+  const std::size_t rows = static_cast<std::size_t>(forces_.count());
+  const auto unmet = [&](Index i) {
+    if (point_of_[i] == no_index) return false;
+    const auto forces = rest.begin() + static_cast<std::ptrdiff_t>(i * rows);
+    return std::any_of(forces, forces + forces_.odd(), [&](double force) {
+      return std::abs(force) * length_[i] > limit * modulus_[i];
+    });
+  };
+  std::vector<std::uint8_t> loose(orbits_ ? orbits_->num_views : floor_.size(), 0);
+  for (const Index b : free_bonds_) {
+    if (unmet(input_.bonds.first[b]) || unmet(input_.bonds.second[b])) loose[class_of(b)] = 1;
+  }
+  bool any = false;
+  for (const Index b : free_bonds_) {
+    if (floor_[b] == Floor::none || !loose[class_of(b)]) continue;
+    floor_[b] = Floor::none;
+    any = true;
+  }
+  return any;
+}
+
+void CalibrationEquations::drop_vanishing() {
+  std::vector<Index> stay;
+  for (const Index b : kept_) {
+    double& start = start_.stiffness.axial[b];
+    if (floor_[b] != Floor::none || stiffness_.axial[b] >= vanishing * start) {
+      if (floor_[b] == Floor::none) floor_[b] = Floor::small;
+      stay.push_back(b);
+      continue;
+    }
+    start = 0.0;
+    if (carries_moments()) start_.stiffness.bending[b] = 0.0;
+  }
+  kept_ = std::move(stay);
+}
+
+bool CalibrationEquations::hollow() const {
+  std::vector<Index> kept_minus_lost(static_cast<std::size_t>(input_.particles.size()), 0);
+  for (Index b = 0; b < input_.bonds.size(); ++b) {
+    const Index vote = stiffness_.axial[b] > 0.0 ? 1 : -1;
+    for (const Index i : {input_.bonds.first[b], input_.bonds.second[b]})
+      kept_minus_lost[i] += vote;
+  }
+  return std::any_of(particle_of_.begin(), particle_of_.end(),
+                     [&](Index i) { return kept_minus_lost[i] < 0; });
+}
+
+}  // namespace perilink

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "calibration/calibration.hpp"
+#include "calibration/least_change/least_change.hpp"
+
+namespace perilink {
+
+/// What a calibration may change, how far it has come, and the equations for the next step.
+/// Variables are the axial stiffness of the free bonds, for micropolar ones the couples at their
+/// two ends, and, where all bonds are free, the shares that corners have in their facets.
+class CalibrationEquations {
+ public:
+  /// Forces and moments out of balance above this are told to the user. Round-off leaves up to 1e-8
+  /// along boundaries of some hundred spacings.
+  static constexpr double met = 1e-7;
+
+  /// \param least_weight  floor of the axial stiffness, relative to the start
+  /// \param stiffness     that the calibration starts from
+  /// \param orbits        of the bonds, that change alike; only their representatives are asked for
+  ///                      balance. None: all particles are
+  CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,
+                       const BondStiffness& stiffness, const BondOrbits* orbits = nullptr);
+
+  /// Forces and moments in balance at every particle, in every uniform strain, exactly (moments
+  /// until soften_moments()).
+  PointEquations balance() const { return make_equations(forces_); }
+  /// The same with the energies of dilatation of particles inside and of columns under the
+  /// surface, softly.
+  PointEquations settling() const;
+  /// From now on moments are soft equations beside the exact forces.
+  void soften_moments() { moments_ridge_ = soft_ridge; }
+  /// Makes a solution of these equations the present state.
+  void apply(std::span<const double> weights);
+
+  /// Forces and moments out of balance, into the report.
+  void report_balance(CalibrationReport& report) const;
+  /// Weights of the free bonds, into the report.
+  void report_weights(CalibrationReport& report) const;
+
+  /// Takes the floor from the bonds of particles that are out of balance by more than the limit.
+  /// \return whether there was a floor to take
+  bool allow_zero(double limit);
+  /// Takes what has fallen to zero out of the equations. Where weights must be exactly zero no
+  /// multiplier brings them there, only nearer and nearer.
+  void drop_vanishing();
+  /// Whether a particle has lost more than half of its bonds.
+  bool hollow() const;
+
+  /// Stiffnesses and shares: a state to come back to.
+  struct State {
+    BondStiffness stiffness;
+    std::vector<double> shares;
+  };
+  State save() const { return {stiffness_, facets_.shares}; }
+  void restore(State state) {
+    stiffness_ = std::move(state.stiffness);
+    facets_.shares = std::move(state.shares);
+  }
+  void start_over() { restore(start_); }  ///< without what was dropped
+  void take_all_back();                   ///< with all bonds and their floors again
+
+ private:
+  enum class Kind { axial, couple, share };
+  /// Of the axial stiffness; small: of bonds that stay after others fell to zero.
+  enum class Floor : std::uint8_t { least_weight, none, small };
+
+  /// A quantity in the equations: its value is present + scale (weight - 1).
+  struct Variable {
+    Kind kind;
+    Index index;          // bond or facet
+    Index end;            // 0 or 1: where the couple acts; corner in the facets that gives
+    Index first, second;  // particles; first is the one at that end or corner
+    double present, scale, least, most;
+  };
+  template <class Visit>
+  void for_each_variable(Visit visit) const;
+  template <class Visit>
+  void for_each_share(Visit visit) const;
+  Index next_corner(Index facet, Index corner) const {
+    return corner + 1 == facets_.corners.offsets[facet + 1] ? facets_.corners.offsets[facet]
+                                                            : corner + 1;
+  }
+  Index class_of(Index bond) const { return orbits_ ? orbits_->of_bond(bond) : bond; }
+  Index unknown_of(const Variable& variable) const {
+    return variable.kind == Kind::axial
+               ? orbits_->of_bond(variable.index)
+               : orbits_->num_views + orbits_->views[variable.index][variable.end];
+  }
+  Variable axial_variable(Index bond) const;
+  Variable couple_variable(Index bond, Index end) const;
+  void change(const Variable& variable, double value);
+  void fill_row(const ForceRows& form, const Variable& variable, double* row) const;
+  PointEquations make_equations(const ForceRows& form) const;
+  void set_right_sides(PointEquations& equations) const;
+  void gather_dilatations(PointEquations& equations) const;
+  std::vector<double> out_of_balance() const;
+  void choose_points();
+  void measure_particles();
+  bool shares_vary() const { return input_.all_free(); }
+  bool carries_moments() const { return forces_.bending; }
+
+  /// Squares of soft moments weigh its inverse against those of the changes.
+  static constexpr double soft_ridge = 1e-4;
+
+  const CalibrationInput& input_;
+  const BondOrbits* orbits_;
+  double least_weight_;
+  int dim_;
+  ForceRows forces_;
+  BondStiffness stiffness_;         // at present
+  Facets facets_;                   // with the shares at present
+  State start_;                     // zero for bonds that were dropped
+  const State given_;               // all of them
+  std::vector<Index> point_of_;     // of each particle, no_index where no free bond ends
+  std::vector<Index> particle_of_;  // of each point
+  double moments_ridge_ = 0.0;      // 0: exact
+  std::vector<Index> free_bonds_;
+  std::vector<Index> kept_;               // of these: not dropped
+  std::vector<Floor> floor_;              // of each bond
+  std::vector<std::uint8_t> on_surface_;  // of each particle: at a facet
+  std::vector<double> modulus_;           // 1/2 sum k xi^2 of each particle at the start
+  std::vector<double> length_;            // mean xi of each particle
+};
+
+}  // namespace perilink

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "calibration/least_change/least_change.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// Second level of the preconditioner of least_change(): on boxes of neighbouring points the fields
+/// that the variables inside the box hardly resist. Blocks of single points take care of the rest,
+/// so that the iterations of conjugate gradients do not grow with the body
+/// (docs/theory/calibration.md).
+class BoxSpace {
+ public:
+  /// \param active    of each variable: its part in the system, from 0 to 1
+  /// \param diagonal  added to that of the system, shape (points, rows)
+  BoxSpace(const PointEquations& equations, const std::vector<double>& active,
+           const std::vector<double>& diagonal);
+
+  /// The coarse system P' S P of other variables or diagonals, with the fields as they are.
+  void refactorize(const PointEquations& equations, const std::vector<double>& active,
+                   const std::vector<double>& diagonal);
+
+  /// Adds P (P' S P)^-1 P' residual to `result`, both of shape (points, rows).
+  void add_correction(const double* residual, double* result) const;
+
+  Index num_fields() const { return first_field_.back(); }
+
+ private:
+  Index num_boxes() const { return static_cast<Index>(boxes_.size()); }
+  using Key = std::array<Index, 4>;  // boxes on which a variable acts, ascending
+  using GroupProducts = std::array<std::array<Eigen::MatrixXd, 4>, 4>;
+  void sort_variables(const PointEquations& equations);
+  void add_diagonal(Index box, const std::vector<double>& diagonal, Eigen::MatrixXd& own) const;
+  GroupProducts products(std::size_t group, const PointEquations& equations,
+                         const std::vector<double>& active) const;
+  void factorize(const std::vector<Eigen::MatrixXd>& blocks);
+  void make_boxes(const PointEquations& equations);
+  void find_fields(const PointEquations& equations, const std::vector<double>& active,
+                   const std::vector<double>& diagonal);
+  Eigen::MatrixXd soft_fields(Index box, const std::vector<Index>& inside,
+                              const PointEquations& equations, const std::vector<double>& active,
+                              const std::vector<double>& blocks) const;
+
+  int rows_;
+  int threads_;                                 // as many as BLAS has room for
+  std::vector<std::vector<Index>> boxes_;       // points of each
+  std::vector<Index> box_of_, place_;           // of each point, and where it is in its box
+  std::vector<Index> first_, second_;           // of the variables
+  std::vector<std::pair<Key, Index>> order_;    // variables, by boxes
+  std::vector<std::size_t> groups_;             // where those of the same boxes begin in order_
+  std::vector<std::pair<Index, Index>> pairs_;  // of boxes that variables join, ascending
+  std::vector<Eigen::MatrixXd> fields_;         // of each box, shape (fields, points * rows)
+  std::vector<Index> first_field_;              // of each box, and the number of all
+  std::unique_ptr<Factor> factor_;
+};
+
+/// Blocks of the single points of the system, shape (points, rows, rows).
+std::vector<double> point_blocks(const PointEquations& equations, const std::vector<double>& active,
+                                 const std::vector<double>& diagonal);
+
+}  // namespace perilink

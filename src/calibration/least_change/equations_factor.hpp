@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "calibration/least_change/least_change.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// Factor of the whole system A D A' + diagonal of least_change(): for bodies and boundaries in the
+/// plane, and where variables are few.
+class EquationsFactor {
+ public:
+  /// The pattern, which does not depend on the weights.
+  explicit EquationsFactor(const PointEquations& equations);
+
+  /// Of the same equations, again where their weights have changed.
+  /// \param active    of each variable: its part in the system, from 0 to 1
+  /// \param diagonal  added to that of the system, shape (points, rows)
+  void factorize(const PointEquations& equations, const std::vector<double>& active,
+                 const std::vector<double>& diagonal);
+
+  /// result = S^-1 residual, both of shape (points, rows).
+  void solve(const std::vector<double>& residual, std::vector<double>& result) const;
+
+ private:
+  double* block(Index upper, Index lower, int column);
+  void fill(const PointEquations& equations, const std::vector<double>& active,
+            const std::vector<double>& diagonal, double floor);
+
+  Index rows_;
+  std::vector<Index> offsets_, later_;  // points after each one that share a variable with it
+  SparseMatrix matrix_;                 // lower triangle
+  std::unique_ptr<Factor> factor_;
+};
+
+}  // namespace perilink

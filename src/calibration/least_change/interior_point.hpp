@@ -1,0 +1,231 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "calibration/least_change/normal_equations.hpp"
+
+namespace perilink {
+
+/// The problem of least_change() by a primal-dual interior-point method: weights w strictly between
+/// their bounds with multipliers z, Z > 0 of these, w = 1 + A'y + z - Z, A w + ridge y = r and, on
+/// the way to zero, z (w - lower) = Z (upper - w) = mu. Newton's method for all of these leaves the
+/// system of NormalEquations with the mobility 1 / (1 + z / (w - lower) + Z / (upper - w)).
+///
+/// Newton's method on the dual function alone takes short steps where many weights pass their
+/// bounds at once, and diverges where nothing is between the bounds; this one needs ten to thirty
+/// steps whatever the bounds do. What is left of an equation with a price p is the difference of
+/// two positive variables with s (p - y) = S (p + y) = mu, which add s / (p - y) + S / (p + y) to
+/// the diagonal.
+///
+/// Without a price equations may be left by proximity * y: contradictions then end about where the
+/// squares of what is left are least, where they would shorten every step.
+template <class Normal>
+class InteriorPoint {
+ public:
+  using Vector = std::vector<double>;  // shape (points, rows)
+
+  /// \param proximity  of the multipliers; 0: that of the system
+  InteriorPoint(const PointEquations& equations, Normal& normal, double proximity)
+      : equations_(equations),
+        normal_(normal),
+        proximity_(proximity),
+        lower_(equations.lower),
+        upper_(equations.upper),
+        y_(equations.right.size(), 0.0),
+        weights_(lower_.size()),
+        elongation_(lower_.size(), 0.0),
+        at_lower_(lower_.size()),
+        at_upper_(lower_.size()) {}
+
+  /// \param target      norm of the scaled residual that is enough
+  /// \param most        iterations of conjugate gradients after which no step begins
+  /// \param iterations  are added
+  /// \return whether it was reached
+  bool solve(double target, int most, int& iterations);
+  const Vector& multipliers() const { return y_; }
+  const std::vector<double>& weights() const { return weights_; }
+
+ private:
+  /// Multipliers of the bounds to begin with; those of soft equations grow to this order.
+  static constexpr double first_gap = 30.0;
+  /// z (w - lower) at the end: weights at a bound are off by its square root at most.
+  static constexpr double last_gap = 1e-4;
+  static constexpr int most_steps = 60;
+  /// Part of the way to the nearest bound that a step may take.
+  static constexpr double boldness = 0.99;
+  /// Reduction of the residual by a step while bounds are found out, and the least of the others.
+  static constexpr double coarse = 0.1, finest = 1e-8;
+  /// Steps in a row that leave more than this of the residual at settled multipliers leave
+  /// contradictions or round-off.
+  static constexpr double contradiction = 0.9;
+  static constexpr int most_stalls = 2;
+
+  void start();
+  double gap() const;
+  void measure(const std::vector<double>& weights, Vector& residual) const;
+  template <class Visit>
+  void for_each_rest(Visit visit);
+  Vector linearize(double mu);
+  template <class Visit>
+  void for_each_pair(const std::vector<double>& change, const Vector& direction, Visit visit);
+  double take_step(double mu, double reduction, int& iterations);
+
+  const PointEquations& equations_;
+  Normal& normal_;
+  double proximity_;
+  std::span<const double> lower_, upper_;
+  Vector y_;
+  std::vector<double> weights_;
+  std::vector<double> elongation_;           // A' y
+  std::vector<double> pull_;                 // on the weights, but for the change of y
+  std::vector<double> at_lower_, at_upper_;  // z, Z
+  Vector over_, under_;                      // s, S; empty without a price
+};
+
+template <class Normal>
+void InteriorPoint<Normal>::start() {
+  for (std::size_t v = 0; v < weights_.size(); ++v) {
+    const double margin = 0.1 * std::min(1.0, upper_[v] - lower_[v]);
+    weights_[v] = std::clamp(1.0, lower_[v] + margin, upper_[v] - margin);
+    at_lower_[v] = first_gap / (weights_[v] - lower_[v]);
+    at_upper_[v] = first_gap / (upper_[v] - weights_[v]);
+  }
+  if (!std::isfinite(normal_.price())) return;
+  over_.assign(y_.size(), first_gap / normal_.price());
+  under_ = over_;
+}
+
+/// Calls visit(k, s, p - y, S, p + y).
+template <class Normal>
+template <class Visit>
+void InteriorPoint<Normal>::for_each_rest(Visit visit) {
+  for (std::size_t k = 0; k < over_.size(); ++k) {
+    if (!normal_.has_price(k)) continue;
+    visit(k, over_[k], normal_.price() - y_[k], under_[k], normal_.price() + y_[k]);
+  }
+}
+
+/// Mean of z (w - lower) and Z (upper - w).
+template <class Normal>
+double InteriorPoint<Normal>::gap() const {
+  if (weights_.empty()) return 0.0;
+  double sum = 0.0;
+  for (std::size_t v = 0; v < weights_.size(); ++v) {
+    sum += at_lower_[v] * (weights_[v] - lower_[v]) + at_upper_[v] * (upper_[v] - weights_[v]);
+  }
+  return 0.5 * sum / static_cast<double>(weights_.size());
+}
+
+/// What the weights leave of the right sides of the steps.
+template <class Normal>
+void InteriorPoint<Normal>::measure(const std::vector<double>& weights, Vector& residual) const {
+  normal_.measure(weights, y_, residual);
+  for (std::size_t k = 0; k < y_.size(); ++k) residual[k] -= proximity_ * y_[k];
+}
+
+/// The linear system of a Newton step towards z (w - lower) = mu. \return its right side
+template <class Normal>
+auto InteriorPoint<Normal>::linearize(double mu) -> Vector {
+  const std::size_t count = weights_.size();
+  std::vector<double> change(count);
+  pull_.resize(count);
+  for (std::size_t v = 0; v < count; ++v) {
+    const double below = weights_[v] - lower_[v], above = upper_[v] - weights_[v];
+    normal_.mobility[v] = 1.0 / (1.0 + at_lower_[v] / below + at_upper_[v] / above);
+    pull_[v] = 1.0 + elongation_[v] - weights_[v] + mu / below - mu / above;
+    change[v] = weights_[v] + normal_.mobility[v] * pull_[v];
+  }
+  Vector residual;
+  measure(change, residual);
+  for_each_rest([&](std::size_t k, double over, double below, double under, double above) {
+    normal_.compliance[k] = over / below + under / above;
+    residual[k] -= mu / below - mu / above;
+  });
+  return residual;
+}
+
+/// Calls visit(variable, slack, change of the slack): the variable, positive, times its slack is on
+/// the way to mu.
+template <class Normal>
+template <class Visit>
+void InteriorPoint<Normal>::for_each_pair(const std::vector<double>& change,
+                                          const Vector& direction, Visit visit) {
+  for (std::size_t v = 0; v < weights_.size(); ++v) {
+    visit(at_lower_[v], weights_[v] - lower_[v], change[v]);
+    visit(at_upper_[v], upper_[v] - weights_[v], -change[v]);
+  }
+  for_each_rest([&](std::size_t k, double& over, double below, double& under, double above) {
+    visit(over, below, -direction[k]);
+    visit(under, above, direction[k]);
+  });
+}
+
+/// A Newton step towards mu, as far as the bounds allow. \return its length
+template <class Normal>
+double InteriorPoint<Normal>::take_step(double mu, double reduction, int& iterations) {
+  const Vector residual = linearize(mu);
+  Vector direction;
+  normal_.prepare();
+  iterations += normal_.solve(residual, reduction, direction);
+  std::vector<double> stretch(weights_.size()), change(weights_.size());
+  normal_.apply_transpose(direction, stretch);
+  for (std::size_t v = 0; v < change.size(); ++v) {
+    change[v] = normal_.mobility[v] * (stretch[v] + pull_[v]);
+  }
+  const auto change_of = [&](double variable, double slack, double change_of_slack) {
+    return (mu - variable * (slack + change_of_slack)) / slack;
+  };
+  double length = 1.0;
+  const auto limit = [&](double value, double step) {
+    if (step < 0.0) length = std::min(length, -boldness * value / step);
+  };
+  for_each_pair(change, direction, [&](double variable, double slack, double change_of_slack) {
+    limit(slack, change_of_slack);
+    limit(variable, change_of(variable, slack, change_of_slack));
+  });
+  for_each_pair(change, direction, [&](double& variable, double slack, double change_of_slack) {
+    variable += length * change_of(variable, slack, change_of_slack);
+  });
+  for (std::size_t v = 0; v < change.size(); ++v) {
+    weights_[v] += length * change[v];
+    elongation_[v] += length * stretch[v];
+  }
+  for (std::size_t k = 0; k < y_.size(); ++k) y_[k] += length * direction[k];
+  return length;
+}
+
+template <class Normal>
+bool InteriorPoint<Normal>::solve(double target, int most, int& iterations) {
+  start();
+  normal_.proximity = proximity_;
+  double centring = 0.2, last_size = std::numeric_limits<double>::infinity();
+  int stalls = 0;
+  bool full = true;  // the last step
+  Vector residual;
+  for (int step = 0; step < most_steps && iterations < most; ++step) {
+    measure(weights_, residual);
+    for_each_rest([&](std::size_t k, double over, double, double under, double) {
+      residual[k] -= over - under;
+    });
+    const double size = norm(residual), present = gap();
+    const bool settled = present <= last_gap;
+    // What the equations are left by needs no more digits.
+    const double rest = proximity_ * norm(y_), enough = std::max(target, 0.1 * rest);
+    if (settled && size <= enough) return rest <= target;
+    stalls = settled && full && size > contradiction * last_size ? stalls + 1 : 0;
+    if (stalls == most_stalls) break;
+    last_size = size;
+    // Once the bounds are settled the steps only take the residual down.
+    const double reduction = settled ? std::clamp(0.1 * enough / size, finest, coarse) : coarse;
+    const double mu = std::max(centring * present, 0.1 * last_gap);
+    full = take_step(mu, reduction, iterations) > 0.8;
+    centring = full ? 0.1 : 0.4;
+  }
+  return false;
+}
+
+}  // namespace perilink

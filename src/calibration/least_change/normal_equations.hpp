@@ -1,0 +1,326 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "calibration/least_change/box_space.hpp"
+#include "calibration/least_change/equations_factor.hpp"
+#include "calibration/least_change/least_change.hpp"
+#include "calibration/least_change/variable_parts.hpp"
+
+namespace perilink {
+
+inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+inline double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
+
+/// Round-off that multipliers leave in the residual, over their norm (a tenth of an ulp, measured
+/// on strips of up to 60 000 particles). Those of long waves along thin bodies reach 1e9, and
+/// iterations below this only move digits that do not exist.
+constexpr double round_off = 2e-17;
+
+/// The matrices A, A' and S = A D A' + ridge of least_change(), scaled equations by weights, and
+/// conjugate gradients for S. D, the mobility of the variables, is between 0 (at a bound) and 1.
+template <int Rows, int Odd, bool Grouped>
+class NormalEquations {
+ public:
+  using Vector = std::vector<double>;  // shape (points, Rows)
+
+  NormalEquations(const PointEquations& equations, const LeastChangeOptions& options,
+                  KeptPreconditioner& kept)
+      : mobility(static_cast<std::size_t>(equations.num_variables()), 1.0),
+        equations_(equations),
+        options_(options),
+        size_(equations.right.size()),
+        num_paired_(
+            static_cast<std::size_t>(std::min(equations.num_variables(), equations.one_ended))),
+        scaled_(size_),
+        kept_(kept),
+        by_factor_(options.preconditioner == Preconditioner::factor ||
+                   (options.preconditioner == Preconditioner::blocks_then_factor && kept.factor)),
+        with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes) {
+    if (std::isfinite(options.price)) compliance.assign(size_, 0.0);
+  }
+
+  void apply_transpose(const Vector& y, std::vector<double>& result);
+  void apply(const std::vector<double>& w, Vector& result) const;
+  double price() const { return options_.price; }
+  bool has_price(std::size_t k) const {
+    return std::isfinite(price()) && equations_.ridge_of(k % Rows) == 0.0;
+  }
+  /// Part of equation k that is given up at the multiplier y, which is above the price then, by as
+  /// much.
+  double given_up(std::size_t k, double y) const {
+    if (!has_price(k) || std::abs(y) <= price()) return 0.0;
+    return y > 0.0 ? y - price() : y + price();
+  }
+  /// What the weights leave of the right sides, less ridge times y and what is given up.
+  void measure(const std::vector<double>& weights, const Vector& y, Vector& residual) const;
+  /// Makes the preconditioner for the mobility as it is now, or keeps the factor of an earlier one
+  /// while it takes less time than a new one.
+  void prepare();
+  /// The factor of an earlier mobility serves until it needs too many iterations.
+  void prepare_if_stale(bool settled);
+  /// S direction = residual, the residual reduced by the factor. \return iterations
+  int solve(const Vector& residual, double reduction, Vector& direction);
+
+  std::vector<double> mobility;
+  /// What an exact equation gives way per unit of its multiplier, shape (points, Rows); empty where
+  /// none has a price.
+  Vector compliance;
+  /// Weight of the method of multipliers, relative to equations of order one: contradictions decay
+  /// by this factor over the smallest squared singular value in each step. 0: the least.
+  double proximity = 0.0;
+
+ private:
+  using Block = Eigen::Matrix<double, Rows, Rows>;
+  static constexpr int own = Grouped ? Rows - 1 : Rows;  // rows that hold at each point
+
+  /// Least weights of the method of multipliers. Long waves along a boundary have singular values
+  /// that fall with the square of their length: a factor of the equations allows a smaller one.
+  static constexpr double least_proximity = 1e-10;
+  static constexpr double factor_proximity = 1e-18;
+  /// As many iterations take about the time of a factor.
+  static constexpr int worth_of_factor = 15;
+  /// A factor is made anew when the last solution needed more iterations than this.
+  static constexpr int stale_iterations = 40;
+  /// Iterations of a solution after which blocks get help.
+  static constexpr int patience = 60;
+  /// The coarse system of boxes takes the time of forty iterations, its fields that of a hundred;
+  /// they are made anew where a solution needs more than this, since more will follow.
+  static constexpr int stale_coarse = 40, stale_fields = 40;
+
+  template <class Values>
+  auto& last_row(Values& values, Index point) const {
+    return values[static_cast<std::size_t>(equations_.group[point]) * Rows + own];
+  }
+  int iterate(const Vector& residual, double reduction, int most, Vector& direction);
+  void precondition(const Vector& residual, Vector& result) const;
+  /// Blocks without help, that may get some.
+  bool alone() const {
+    return !by_factor_ && !with_boxes_ && options_.preconditioner != Preconditioner::blocks;
+  }
+  void build_blocks();
+  void renew_coarse();
+  void build_factor();
+  Vector diagonal() const;
+
+  const PointEquations& equations_;
+  const LeastChangeOptions& options_;
+  std::size_t size_;
+  std::size_t num_paired_;  // variables that act at both ends in all rows
+  Vector scaled_;
+  std::vector<Block> inverse_blocks_;
+  KeptPreconditioner& kept_;
+  bool by_factor_;
+  bool with_boxes_;
+  bool own_factor_ = false;  // made for these equations, not for those of the last search
+  int last_iterations_ = 0;
+  std::vector<double> coarse_of_;  // mobility of the coarse system; empty: of another search
+  Vector compliance_of_factor_;
+};
+
+/// result_v = a_v . (s y at the first end -+ s y at the second).
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
+                                                          std::vector<double>& result) {
+  for (std::size_t k = 0; k < size_; ++k) scaled_[k] = y[k] * equations_.scale[k];
+  const auto ends = [&](std::size_t v) {
+    return std::pair(scaled_.data() + static_cast<std::size_t>(equations_.first[v]) * Rows,
+                     scaled_.data() + static_cast<std::size_t>(equations_.second[v]) * Rows);
+  };
+  for (std::size_t v = 0; v < num_paired_; ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    const auto [p, q] = ends(v);
+    double sum = 0.0;
+    for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
+    for (int r = Odd; r < own; ++r) sum += a[r] * (p[r] + q[r]);
+    if constexpr (Grouped)
+      sum += a[own] *
+             (last_row(scaled_, equations_.first[v]) + last_row(scaled_, equations_.second[v]));
+    result[v] = sum;
+  }
+  for (std::size_t v = num_paired_; v < result.size(); ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    const auto [p, q] = ends(v);
+    double sum = 0.0;
+    for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
+    for (int r = Odd; r < own; ++r) sum += a[r] * p[r];
+    result[v] = sum;
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::apply(const std::vector<double>& w,
+                                                Vector& result) const {
+  result.assign(size_, 0.0);
+  for (std::size_t v = 0; v < w.size(); ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    double* p = result.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
+    double* q = result.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
+    const double weight = w[v];
+    for (int r = 0; r < Odd; ++r) {
+      const double term = a[r] * weight;
+      p[r] += term;
+      q[r] -= term;
+    }
+    for (int r = Odd; r < own; ++r) p[r] += a[r] * weight;
+    if (v >= num_paired_) continue;
+    for (int r = Odd; r < own; ++r) q[r] += a[r] * weight;
+    if constexpr (Grouped) {
+      last_row(result, equations_.first[v]) += a[own] * weight;
+      last_row(result, equations_.second[v]) += a[own] * weight;
+    }
+  }
+  for (std::size_t k = 0; k < size_; ++k) result[k] *= equations_.scale[k];
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::measure(const std::vector<double>& weights,
+                                                  const Vector& y, Vector& residual) const {
+  apply(weights, residual);
+  for (std::size_t k = 0; k < size_; ++k) {
+    residual[k] = equations_.right[k] * equations_.scale[k] - residual[k] -
+                  equations_.ridge_of(k % Rows) * y[k] - given_up(k, y[k]);
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
+  const std::vector<double> added = diagonal();
+  const std::vector<double> blocks = point_blocks(equations_, mobility, added);
+  inverse_blocks_.resize(size_ / Rows);
+  for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
+    inverse_blocks_[p] =
+        Eigen::Map<const Block>(blocks.data() + p * Rows * Rows).llt().solve(Block::Identity());
+  }
+  // The coarse system serves other weights too; the blocks are cheap.
+  if (with_boxes_ && last_iterations_ > stale_coarse) renew_coarse();
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::renew_coarse() {
+  kept_.boxes->refactorize(equations_, mobility, diagonal());
+  coarse_of_ = mobility;
+}
+
+/// What the diagonal of the system holds beside A D A', shape (points, Rows).
+template <int Rows, int Odd, bool Grouped>
+auto NormalEquations<Rows, Odd, Grouped>::diagonal() const -> Vector {
+  Vector result(size_);
+  for (std::size_t k = 0; k < size_; ++k) {
+    result[k] = equations_.ridge_of(k % Rows) +
+                std::max(proximity, by_factor_ ? factor_proximity : least_proximity) +
+                (compliance.empty() ? 0.0 : compliance[k]);
+  }
+  return result;
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::build_factor() {
+  if (!own_factor_) kept_.factor = std::make_unique<EquationsFactor>(equations_);
+  own_factor_ = true;
+  kept_.factor->factorize(equations_, mobility, diagonal());
+  compliance_of_factor_ = compliance;
+  last_iterations_ = 0;
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::prepare() {
+  if (!by_factor_) {
+    build_blocks();
+  } else if (!kept_.factor || last_iterations_ > worth_of_factor) {
+    build_factor();
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled) {
+  if (!by_factor_) {
+    if (!settled) build_blocks();
+  } else if (!kept_.factor || last_iterations_ > stale_iterations ||
+             compliance_of_factor_ != compliance) {
+    build_factor();
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
+                                                       Vector& result) const {
+  using Column = Eigen::Matrix<double, Rows, 1>;
+  if (by_factor_) return kept_.factor->solve(residual, result);
+  for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
+    Eigen::Map<Column>(result.data() + p * Rows).noalias() =
+        inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
+  }
+  if (with_boxes_) kept_.boxes->add_correction(residual.data(), result.data());
+}
+
+template <int Rows, int Odd, bool Grouped>
+int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double reduction,
+                                               Vector& direction) {
+  int count = 0;
+  if (with_boxes_ && coarse_of_ != mobility) {
+    count = last_iterations_ = iterate(residual, reduction, stale_coarse, direction);
+    if (count < stale_coarse) return count;
+    renew_coarse();
+  }
+  int most = options_.iterations;
+  if (with_boxes_) most = stale_fields;
+  if (alone()) most = patience;
+  last_iterations_ = iterate(residual, reduction, most, direction);
+  count += last_iterations_;
+  if (last_iterations_ < most || most == options_.iterations) return count;
+  if (options_.preconditioner == Preconditioner::blocks_then_factor) {
+    by_factor_ = true;
+    build_factor();
+  } else {
+    with_boxes_ = true;
+    kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal());
+    coarse_of_ = mobility;
+  }
+  last_iterations_ = iterate(residual, reduction, options_.iterations, direction);
+  return count + last_iterations_;
+}
+
+/// Conjugate gradients on (S + proximity) direction = residual.
+template <int Rows, int Odd, bool Grouped>
+int NormalEquations<Rows, Odd, Grouped>::iterate(const Vector& residual, double reduction, int most,
+                                                 Vector& direction) {
+  const Vector shift = diagonal();
+  Vector r = residual, z(size_), q(size_);
+  std::vector<double> stretch(mobility.size());
+  direction.assign(size_, 0.0);
+  precondition(r, z);
+  Vector p = z;
+  double rz = dot(r, z);
+  const double target = reduction * norm(residual);
+  int count = 0;
+  for (; count < most && norm(r) > std::max(target, round_off * norm(direction)); ++count) {
+    apply_transpose(p, stretch);
+    for (std::size_t v = 0; v < stretch.size(); ++v) stretch[v] *= mobility[v];
+    apply(stretch, q);
+    for (std::size_t k = 0; k < size_; ++k) q[k] += shift[k] * p[k];
+    const double step = rz / dot(p, q);
+    for (std::size_t k = 0; k < size_; ++k) {
+      direction[k] += step * p[k];
+      r[k] -= step * q[k];
+    }
+    precondition(r, z);
+    const double next = dot(r, z);
+    for (std::size_t k = 0; k < size_; ++k) p[k] = z[k] + next / rz * p[k];
+    rz = next;
+  }
+  return count;
+}
+
+}  // namespace perilink

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include "calibration/least_change/least_change.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// The problem of least_change() whose variables share unknowns (PointEquations::unknown), with a
+/// column of the matrix for each unknown. That of n variables stands for sqrt(n) times their
+/// change, w = 1 + (u - 1) / sqrt(n), so that squares of changes count for each variable.
+struct TiedEquations {
+  using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
+  PointEquations equations;       ///< right sides, scale and ridge; bounds of the unknowns
+  Matrix matrix;                  ///< scaled, shape (points * rows, unknowns)
+  std::vector<double> root;       ///< sqrt(n) of each unknown
+  std::vector<Index> unknown_of;  ///< of each variable
+
+  /// Weights of the variables from the unknowns.
+  std::vector<double> weights(std::span<const double> unknowns) const;
+};
+
+TiedEquations tie(const PointEquations& equations);
+
+/// What NormalEquations are to other problems. The matrices are small but full, and symmetry makes
+/// some rows depend on others: a factor, renewed when it serves badly, preconditions the conjugate
+/// gradients.
+class TiedNormalEquations {
+ public:
+  using Vector = std::vector<double>;  // shape (points, rows)
+
+  explicit TiedNormalEquations(const TiedEquations& tied);
+
+  void apply_transpose(const Vector& y, std::vector<double>& result) const;
+  /// What the unknowns leave of the right sides, less ridge times y.
+  void measure(const std::vector<double>& unknowns, const Vector& y, Vector& residual) const;
+  /// Makes the factor for the mobility as it is now.
+  void prepare();
+  void prepare_if_stale(bool settled);
+  /// S direction = residual, the residual reduced by the factor. \return iterations
+  int solve(const Vector& residual, double reduction, Vector& direction);
+
+  /// Tied equations have no price.
+  static constexpr double price() { return std::numeric_limits<double>::infinity(); }
+  static constexpr bool has_price(std::size_t) { return false; }
+  static constexpr double given_up(std::size_t, double) { return 0.0; }
+
+  std::vector<double> mobility;
+  Vector compliance;       // stays empty
+  double proximity = 0.0;  // stays zero: tied equations are those of lattices
+
+ private:
+  const TiedEquations& tied_;
+  TiedEquations::Matrix transposed_;
+  Eigen::VectorXd shift_;     // added to the diagonal
+  std::vector<Index> point_;  // of each row
+  std::unique_ptr<Factor> factor_;
+  int last_iterations_ = 0;
+};
+
+}  // namespace perilink

@@ -1,0 +1,167 @@
+#include "discretization/meshes/cell_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "discretization/facet_geometry.hpp"
+
+namespace perilink {
+namespace {
+
+/// Heights below this part of the longest edge are round-off of the coordinates.
+constexpr double flattest_cell = 1e-10;
+constexpr double most_steps = 2000;  ///< of the grid along an axis
+
+struct Corners {
+  int count = 0;
+  std::array<Vector3, 4> at{};
+};
+
+Corners corners_of(const Mesh& mesh, Index cell) {
+  Corners corners;
+  corners.count = mesh.dim + 1;
+  for (int k = 0; k < corners.count; ++k) {
+    const auto point =
+        static_cast<std::size_t>(mesh.cells[static_cast<std::size_t>(cell) * corners.count + k]);
+    for (int a = 0; a < mesh.dim; ++a) corners.at[k][a] = mesh.positions[point * mesh.dim + a];
+  }
+  return corners;
+}
+
+double longest_edge(const Corners& corners) {
+  double longest = 0.0;
+  for (int a = 0; a < corners.count; ++a) {
+    for (int b = 0; b < a; ++b) {
+      longest = std::max(longest, norm(minus(corners.at[a], corners.at[b])));
+    }
+  }
+  return longest;
+}
+
+/// Normal of the side opposite to corner k, as long as twice its size.
+Vector3 normal_of_side(const Corners& corners, int k) {
+  const Vector3& a = corners.at[(k + 1) % corners.count];
+  const Vector3 u = minus(corners.at[(k + 2) % corners.count], a);
+  if (corners.count == 3) return {-u[1], u[0], 0.0};
+  return cross(u, minus(corners.at[(k + 3) % corners.count], a));
+}
+
+}  // namespace
+
+CellSearch::CellSearch(const Mesh& mesh, std::span<const Index> cells, double tolerance)
+    : dim_(mesh.dim), tolerance_(tolerance) {
+  if (cells.empty()) throw std::invalid_argument("there is no cell to look for points in");
+  std::vector<Box> boxes;
+  for (const Index cell : cells) {
+    add_sides(mesh, cell);
+    const Corners corners = corners_of(mesh, cell);
+    Box box{corners.at[0], corners.at[0]};
+    for (int k = 1; k < corners.count; ++k) {
+      for (int a = 0; a < dim_; ++a) {
+        box.lower[a] = std::min(box.lower[a], corners.at[k][a]);
+        box.upper[a] = std::max(box.upper[a], corners.at[k][a]);
+      }
+    }
+    for (int a = 0; a < dim_; ++a) {
+      box.lower[a] -= tolerance;
+      box.upper[a] += tolerance;
+    }
+    boxes.push_back(box);
+  }
+  lay_grid(boxes);
+}
+
+void CellSearch::add_sides(const Mesh& mesh, Index cell) {
+  const Corners corners = corners_of(mesh, cell);
+  const double flat = flattest_cell * longest_edge(corners);
+  for (int k = 0; k < corners.count; ++k) {
+    Vector3 normal = normal_of_side(corners, k);
+    const double length = norm(normal);
+    double height = 0.0;
+    if (length > 0.0) {
+      for (double& entry : normal) entry /= length;
+      height = dot(normal, minus(corners.at[k], corners.at[(k + 1) % corners.count]));
+    }
+    if (!(std::abs(height) > flat)) {
+      const Vector3& x = corners.at[0];
+      throw std::invalid_argument(
+          fmt::format("the cell with a corner at ({:.6g}) is flat: it has no {}",
+                      fmt::join(x.begin(), x.begin() + dim_, ", "), dim_ == 2 ? "area" : "volume"));
+    }
+    const double sign = height > 0.0 ? 1.0 : -1.0;
+    for (int a = 0; a < dim_; ++a) sides_.push_back(sign * normal[a]);
+    sides_.push_back(-sign * dot(normal, corners.at[(k + 1) % corners.count]));
+  }
+}
+
+void CellSearch::lay_grid(const std::vector<Box>& boxes) {
+  box_ = boxes.front();
+  for (const Box& box : boxes) {
+    for (int a = 0; a < dim_; ++a) {
+      box_.lower[a] = std::min(box_.lower[a], box.lower[a]);
+      box_.upper[a] = std::max(box_.upper[a], box.upper[a]);
+    }
+  }
+  double volume = 1.0;
+  for (int a = 0; a < dim_; ++a) volume *= box_.upper[a] - box_.lower[a];
+  const double size = std::pow(volume / static_cast<double>(boxes.size()), 1.0 / dim_);
+  for (int a = 0; a < dim_; ++a) {
+    const double steps = (box_.upper[a] - box_.lower[a]) / size;
+    counts_[a] = static_cast<int>(std::clamp(std::ceil(steps), 1.0, most_steps));
+  }
+  const auto visit = [&](const Box& box, const auto& act) {
+    std::array<int, 3> low{}, high{};
+    for (int a = 0; a < dim_; ++a) {
+      low[a] = step(a, box.lower[a]);
+      high[a] = step(a, box.upper[a]);
+    }
+    for (int k = low[2]; k <= high[2]; ++k) {
+      for (int j = low[1]; j <= high[1]; ++j) {
+        for (int i = low[0]; i <= high[0]; ++i) act(bucket({i, j, k}));
+      }
+    }
+  };
+  const auto size_of_grid = static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2];
+  buckets_.offsets.assign(size_of_grid + 1, 0);
+  for (const Box& box : boxes) visit(box, [&](Index b) { ++buckets_.offsets[b + 1]; });
+  for (std::size_t b = 0; b < size_of_grid; ++b) buckets_.offsets[b + 1] += buckets_.offsets[b];
+  buckets_.values.resize(static_cast<std::size_t>(buckets_.offsets.back()));
+  std::vector<Index> next(buckets_.offsets.begin(), buckets_.offsets.end() - 1);
+  for (std::size_t cell = 0; cell < boxes.size(); ++cell) {
+    visit(boxes[cell], [&](Index b) { buckets_.values[next[b]++] = static_cast<Index>(cell); });
+  }
+}
+
+int CellSearch::step(int axis, double coordinate) const {
+  const double part =
+      (coordinate - box_.lower[axis]) / (box_.upper[axis] - box_.lower[axis]) * counts_[axis];
+  return static_cast<int>(std::clamp(std::floor(part), 0.0, counts_[axis] - 1.0));
+}
+
+Index CellSearch::bucket(const std::array<int, 3>& steps) const {
+  return static_cast<Index>((steps[2] * counts_[1] + steps[1]) * counts_[0] + steps[0]);
+}
+
+bool CellSearch::contains(const Vector3& point) const {
+  const std::span<const double> x(point.data(), static_cast<std::size_t>(dim_));
+  if (!box_.contains(x, 0.0)) return false;
+  std::array<int, 3> steps{};
+  for (int a = 0; a < dim_; ++a) steps[a] = step(a, point[a]);
+  const std::span<const Index> near = buckets_.row(bucket(steps));
+  return std::any_of(near.begin(), near.end(), [&](Index cell) {
+    const int width = dim_ + 1;
+    const double* side = sides_.data() + static_cast<std::size_t>(cell) * width * width;
+    for (int k = 0; k < width; ++k, side += width) {
+      double distance = side[dim_];
+      for (int a = 0; a < dim_; ++a) distance += side[a] * point[a];
+      if (distance < -tolerance_) return false;
+    }
+    return true;
+  });
+}
+
+}  // namespace perilink

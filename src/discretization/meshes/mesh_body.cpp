@@ -1,0 +1,293 @@
+#include "discretization/meshes/mesh_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "discretization/facet_geometry.hpp"
+#include "discretization/mesh_faces.hpp"
+#include "discretization/meshes/mesh_conformity.hpp"
+#include "discretization/meshes/mesh_overlap.hpp"
+
+namespace perilink {
+namespace {
+
+/// Cells flatter than this, volume over the longest edge to the power dim, have no usable shape
+/// functions: the regular triangle has 0.4, round-off of the coordinates leaves 1e-16.
+constexpr double flattest_cell = 1e-10;
+
+/// Area or volume, negative where the corners run the wrong way.
+double signed_volume(std::span<const double> positions, int dim, std::span<const Index> cell) {
+  const Vector3 a = point_of(positions, dim, cell[0]);
+  const Vector3 u = minus(point_of(positions, dim, cell[1]), a);
+  const Vector3 v = minus(point_of(positions, dim, cell[2]), a);
+  if (dim == 2) return 0.5 * (u[0] * v[1] - u[1] * v[0]);
+  return dot(cross(u, v), minus(point_of(positions, dim, cell[3]), a)) / 6.0;
+}
+
+double longest_edge(std::span<const double> positions, int dim, std::span<const Index> cell) {
+  double square = 0.0;
+  for (std::size_t a = 0; a < cell.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const Vector3 edge =
+          minus(point_of(positions, dim, cell[a]), point_of(positions, dim, cell[b]));
+      square = std::max(square, dot(edge, edge));
+    }
+  }
+  return std::sqrt(square);
+}
+
+/// Particle of every point of the mesh; no_index where no cell with a material needs it.
+std::vector<Index> number_particles(const Mesh& mesh, std::span<const Index> material) {
+  std::vector<Index> particle(static_cast<std::size_t>(mesh.num_points()), no_index);
+  const int width = mesh.dim + 1;
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
+    if (material[cell] == no_index) continue;
+    for (int k = 0; k < width; ++k) {
+      particle[mesh.cells[static_cast<std::size_t>(cell) * width + k]] = 0;
+    }
+  }
+  Index count = 0;
+  for (Index& number : particle) {
+    if (number != no_index) number = count++;
+  }
+  return particle;
+}
+
+void add_particles(const Mesh& mesh, std::span<const Index> particle, Particles& particles) {
+  particles.dim = mesh.dim;
+  for (Index point = 0; point < mesh.num_points(); ++point) {
+    if (particle[point] == no_index) continue;
+    const double* x = mesh.positions.data() + static_cast<std::size_t>(point) * mesh.dim;
+    particles.positions.insert(particles.positions.end(), x, x + mesh.dim);
+    particles.volumes.push_back(0.0);
+    particles.material.push_back(no_index);
+    particles.kind.push_back(ParticleKind::solid);
+  }
+}
+
+/// Adds the cells, turned round where they run the wrong way, and shares their volume and material
+/// among their particles. Returns the number in the body of every cell of the mesh.
+std::vector<Index> add_cells(const Mesh& mesh, std::span<const Index> material, double thickness,
+                             std::span<const Index> particle, Body& body) {
+  const int dim = mesh.dim;
+  const std::size_t width = static_cast<std::size_t>(dim) + 1;
+  std::vector<Index> number(material.size(), no_index);
+  body.cells.dim = dim;
+  std::vector<Index> corners(width);
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
+    if (material[cell] == no_index) continue;
+    for (std::size_t k = 0; k < width; ++k) corners[k] = particle[mesh.cells[cell * width + k]];
+    const auto& positions = body.particles.positions;
+    const double volume = signed_volume(positions, dim, corners);
+    if (!(std::abs(volume) >
+          flattest_cell * std::pow(longest_edge(positions, dim, corners), dim))) {
+      const Vector3 x = point_of(positions, dim, corners[0]);
+      throw std::invalid_argument(
+          fmt::format("the cell with a corner at ({:.6g}) is flat: it has no {}",
+                      fmt::join(x.begin(), x.begin() + dim, ", "), dim == 2 ? "area" : "volume"));
+    }
+    if (volume < 0.0) std::swap(corners[width - 2], corners[width - 1]);
+    number[cell] = body.cells.size();
+    body.cells.vertices.insert(body.cells.vertices.end(), corners.begin(), corners.end());
+    body.cells.material.push_back(material[cell]);
+    const double share =
+        std::abs(volume) * (dim == 2 ? thickness : 1.0) / static_cast<double>(width);
+    for (const Index i : corners) {
+      body.particles.volumes[i] += share;
+      body.particles.material[i] = std::max(body.particles.material[i], material[cell]);
+    }
+  }
+  return number;
+}
+
+/// Facet on the surface of every face, no_index for the others; facets stand in the order of faces.
+std::vector<Index> number_surface_facets(const CellFaces& faces, const Simplices& cells) {
+  std::vector<Index> number(static_cast<std::size_t>(faces.size()), no_index);
+  Index count = 0;
+  for (Index f = 0; f < faces.size(); ++f) {
+    const auto [inner, outer] = faces.cells[f];
+    if (outer == no_index) {
+      number[f] = count++;
+    } else if (cells.material[inner] != cells.material[outer]) {
+      ++count;
+    }
+  }
+  return number;
+}
+
+double mean_edge_length(const Body& body) {
+  std::vector<std::pair<Index, Index>> edges;
+  for (Index cell = 0; cell < body.cells.size(); ++cell) {
+    const std::span<const Index> corners = body.cells.cell(cell);
+    for (std::size_t a = 0; a < corners.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        edges.emplace_back(std::min(corners[a], corners[b]), std::max(corners[a], corners[b]));
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  double sum = 0.0;
+  for (const auto& [i, j] : edges) {
+    const Vector3 edge = minus(point_of(body.particles.positions, body.particles.dim, i),
+                               point_of(body.particles.positions, body.particles.dim, j));
+    sum += std::sqrt(dot(edge, edge));
+  }
+  return sum / static_cast<double>(edges.size());
+}
+
+/// What connects the numbers of the mesh with those of the body.
+struct Numbering {
+  std::vector<Index> particle;       ///< of every point
+  std::vector<Index> cell;           ///< of every cell
+  std::vector<Index> surface_facet;  ///< of every face
+  bool whole = true;                 ///< every cell has a material
+};
+
+[[noreturn]] void refuse_loose_facet(const Mesh& mesh, const MeshGroup& group, Index element) {
+  Vector3 x = point_of(mesh.positions, mesh.dim,
+                       mesh.facets[static_cast<std::size_t>(element) * mesh.dim]);
+  throw std::invalid_argument(
+      fmt::format("an element of the group \"{}\" with a corner at ({:.6g}) is no side of a cell",
+                  group.name, fmt::join(x.begin(), x.begin() + mesh.dim, ", ")));
+}
+
+void refuse_overlap(const Mesh& mesh, const CellFaces& faces, const Numbering& numbering,
+                    const Body& body) {
+  const auto overlap = find_overlap(body.cells, body.particles.positions, faces);
+  if (!overlap) return;
+  const auto tag_of = [&](Index cell) {
+    const auto found = std::find(numbering.cell.begin(), numbering.cell.end(), cell);
+    const auto number = static_cast<std::size_t>(found - numbering.cell.begin());
+    return mesh.cell_tags.empty() ? static_cast<std::int64_t>(number) + 1 : mesh.cell_tags[number];
+  };
+  Vector3 centre{};
+  for (const Index i : body.cells.cell((*overlap)[0])) {
+    const Vector3 x = point_of(body.particles.positions, mesh.dim, i);
+    for (int axis = 0; axis < mesh.dim; ++axis) centre[axis] += x[axis] / (mesh.dim + 1);
+  }
+  throw std::invalid_argument(fmt::format(
+      "the elements {} and {} overlap at ({:.6g}), so their material would count twice; join the "
+      "parts of the geometry before they are meshed: BooleanFragments or Coherence in gmsh",
+      tag_of((*overlap)[0]), tag_of((*overlap)[1]),
+      fmt::join(centre.begin(), centre.begin() + mesh.dim, ", ")));
+}
+
+/// Facets of the surface that a group of facets names. Those between cells are not on the surface,
+/// and those of cells that were left out are not in the body.
+std::vector<Index> facets_of_facets(const Mesh& mesh, const MeshGroup& group,
+                                    const CellFaces& faces, const Numbering& numbering) {
+  std::vector<Index> found;
+  std::vector<Index> corners(static_cast<std::size_t>(mesh.dim));
+  for (const Index element : group.elements) {
+    for (int k = 0; k < mesh.dim; ++k) {
+      corners[k] =
+          numbering.particle[mesh.facets[static_cast<std::size_t>(element) * mesh.dim + k]];
+    }
+    const bool known = std::find(corners.begin(), corners.end(), no_index) == corners.end();
+    const Index face = known ? find_face(faces, corners) : no_index;
+    if (face == no_index && numbering.whole) refuse_loose_facet(mesh, group, element);
+    if (face != no_index && numbering.surface_facet[face] != no_index) {
+      found.push_back(numbering.surface_facet[face]);
+    }
+  }
+  return found;
+}
+
+std::vector<Index> facets_of_cells(const MeshGroup& group, const CellFaces& faces,
+                                   const Numbering& numbering, Index num_cells) {
+  std::vector<bool> member(static_cast<std::size_t>(num_cells), false);
+  for (const Index element : group.elements) {
+    if (numbering.cell[element] != no_index) member[numbering.cell[element]] = true;
+  }
+  std::vector<Index> found;
+  for (Index f = 0; f < faces.size(); ++f) {
+    if (numbering.surface_facet[f] != no_index && member[faces.cells[f][0]]) {
+      found.push_back(numbering.surface_facet[f]);
+    }
+  }
+  return found;
+}
+
+Group body_group(const Mesh& mesh, const MeshGroup& group, const CellFaces& faces,
+                 const Numbering& numbering, Index num_cells) {
+  Group result;
+  result.name = group.name;
+  for (const Index point : group.points) {
+    if (numbering.particle[point] != no_index) {
+      result.particles.push_back(numbering.particle[point]);
+    }
+  }
+  if (group.dim == mesh.dim) result.facets = facets_of_cells(group, faces, numbering, num_cells);
+  if (group.dim == mesh.dim - 1) result.facets = facets_of_facets(mesh, group, faces, numbering);
+  std::sort(result.facets.begin(), result.facets.end());
+  result.facets.erase(std::unique(result.facets.begin(), result.facets.end()), result.facets.end());
+  return result;
+}
+
+}  // namespace
+
+std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> regions,
+                                      std::span<const Index> material) {
+  std::vector<Index> result(static_cast<std::size_t>(mesh.num_cells()), no_index);
+  const std::size_t width = static_cast<std::size_t>(mesh.dim) + 1;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    if (!regions[r].group.empty()) {
+      for (const MeshGroup& group : mesh.groups) {
+        if (group.name != regions[r].group || group.dim != mesh.dim) continue;
+        for (const Index cell : group.elements) result[cell] = material[r];
+      }
+      continue;
+    }
+    for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
+      Vector3 centre{};
+      for (std::size_t k = 0; k < width; ++k) {
+        const Vector3 x = point_of(mesh.positions, mesh.dim, mesh.cells[cell * width + k]);
+        for (int axis = 0; axis < mesh.dim; ++axis) {
+          centre[axis] += x[axis] / static_cast<double>(width);
+        }
+      }
+      const std::span<const double> point(centre.data(), static_cast<std::size_t>(mesh.dim));
+      if (regions[r].contains(point, 0.0)) result[cell] = material[r];
+    }
+  }
+  return result;
+}
+
+Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness) {
+  if (material.size() != static_cast<std::size_t>(mesh.num_cells())) {
+    throw std::invalid_argument("every cell of the mesh needs a material or none");
+  }
+  if (!(thickness > 0.0)) throw std::invalid_argument("the thickness must be positive");
+  if (std::all_of(material.begin(), material.end(), [](Index m) { return m == no_index; })) {
+    throw std::invalid_argument("the body is empty: no cell of the mesh has a material");
+  }
+  Body body;
+  Numbering numbering;
+  numbering.whole = std::find(material.begin(), material.end(), no_index) == material.end();
+  numbering.particle = number_particles(mesh, material);
+  add_particles(mesh, numbering.particle, body.particles);
+  numbering.cell = add_cells(mesh, material, thickness, numbering.particle, body);
+  const CellFaces faces = find_faces(body.cells, body.particles.positions);
+  body.facets = facets_of(body.cells, body.particles.positions, thickness);
+  refuse_overlap(mesh, faces, numbering, body);
+  numbering.surface_facet = number_surface_facets(faces, body.cells);
+  refuse_unjoined_parts(body.particles, body.facets);
+  for (const MeshGroup& group : mesh.groups) {
+    body.groups.push_back(body_group(mesh, group, faces, numbering, body.cells.size()));
+  }
+  const std::vector<double>& volumes = body.particles.volumes;
+  body.lattice.pattern = Pattern::irregular;
+  body.lattice.dim = mesh.dim;
+  body.lattice.spacing = mean_edge_length(body);
+  body.lattice.cell_volume = std::accumulate(volumes.begin(), volumes.end(), 0.0) /
+                             static_cast<double>(volumes.size());
+  return body;
+}
+
+}  // namespace perilink

@@ -1,0 +1,252 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/types.hpp"
+#include "discretization/lattices/lattice.hpp"
+#include "discretization/region.hpp"
+#include "io/text/formula.hpp"
+
+/// \file
+/// The case file as it stands in the TOML text: every value that can be wrong by itself has been
+/// checked; what is wrong only in the light of the body (empty regions, free rigid modes) is found
+/// in app/configure. docs/case_file.md is the user's page; the one home of every default is here.
+
+namespace perilink {
+
+struct TomlValue;
+
+/// [body]
+struct BodySection {
+  std::optional<std::string> mesh;       ///< file, from the folder of the case; irregular pattern
+  std::optional<double> mesh_size;       ///< of the cells where `mesh` is a geometry [length]
+  std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
+  std::string method = "bonds";          ///< bonds | linear_elements
+  std::string model = "bond_based";      ///< bond_based | micropolar | lattice | particles
+  double torsion = 1.0;                  ///< torsional over bending modulus of micropolar bonds, 3D
+  double thickness = 1.0;                ///< of two-dimensional bodies
+  Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
+  Surface surface = Surface::calibrated;
+  std::optional<int> columns;  ///< particles across the body in x: this, spacing or mesh
+  std::optional<double> spacing;
+  std::optional<double> horizon;         ///< exactly one of horizon, horizon_level, horizon_ratio
+  std::optional<int> horizon_level;      ///< 0–8 of Gerstle, Sau & Silling 2005, Fig. 5
+  std::optional<double> horizon_ratio;   ///< horizon / spacing
+  std::string micromodulus = "lattice";  ///< lattice | continuum, of a mesh always continuum
+  /// dissipated | lattice (not of a mesh) | continuum: what a crack's fracture energy counts.
+  std::string critical_stretch = "dissipated";
+  double rotation = 0.0;  ///< of the rows of model = lattice against x, about z [degrees]
+  Vector3 offset{};       ///< one of its lattice points [length]
+  std::string variant = "consistent";  ///< its rules: consistent | 2018 | 2017
+};
+
+/// Keys of [[materials]] of bodies with model = lattice; some also of those with particles.
+struct LatticeMaterialSection {
+  double density = 0.0;                    ///< [mass/length^3]
+  std::optional<double> tensile_strength;  ///< [force/length^2]; absent: unbreakable
+  /// Crack opening at which the stress has fallen to zero [length]; absent: from fracture_energy.
+  std::optional<double> critical_opening;
+  double knee_stress_ratio = 0.25;       ///< stress over strength where the softening bends
+  double knee_opening_ratio = 0.1;       ///< opening over the critical one there
+  double compression_ratio = 6.0;        ///< compression over tensile strength that forbids damage
+  double compression_threshold = 0.8;    ///< tensile damage where that in compression begins
+  double boundary_factor = 1.0;          ///< on the stress of particles that lack bonds
+  std::optional<double> yield_strength;  ///< [force/length^2]; absent: no flow
+  std::optional<double> ultimate_strength;        ///< [force/length^2]
+  std::optional<double> ultimate_plastic_strain;  ///< at the ultimate strength
+  /// Dissipated by softening per area; infinite: none; absent in the papers' variants
+  /// [force/length].
+  std::optional<double> crushing_energy;
+  double internal_damping = 0.0;  ///< ratio at the frequency of a particle's own vibration
+  double external_damping = 0.0;  ///< ratio at the fundamental frequency of the body
+  std::optional<double> fundamental_period;  ///< [time]
+};
+
+/// [[materials]]: elastic constants and fracture energy of one or more regions. A later entry
+/// counts where regions overlap.
+struct MaterialSection {
+  std::string name;  ///< "material 2" for the second one where the file gives none
+  std::vector<std::string> regions;
+  std::vector<std::string> holes;  ///< regions cut out of those, of bodies with model = lattice
+  double youngs_modulus = 0.0;
+  std::optional<double> poissons_ratio;  ///< of micropolar bonds; of others only to be refused with
+                                         ///< an explanation, or confirmed
+  double fracture_energy = 0.0;          ///< infinity: unbreakable ("infinite" in the file)
+  std::optional<double> density;         ///< of bonds in explicit analyses [mass/length^3]
+  std::optional<LatticeMaterialSection> lattice;  ///< of state-based particles
+};
+
+/// [[supports]]: displacements and rotations held at zero.
+struct SupportSection {
+  std::string region;
+  std::array<bool, 6> fix{};  ///< displacements along x, y, z, rotations about x, y, z
+};
+
+/// [[displacements]]: displacements and rotations driven in proportion to the load factor; and
+/// [[velocities]], which move bodies of bonds in explicit analyses [per time].
+struct DisplacementSection {
+  std::string region;
+  /// At load factor 1 along x, y, z [length] and of rotations about x, y, z [-].
+  std::array<std::optional<Expression>, 6> value;
+};
+
+/// [[loads]]: exactly one of force (total, shared by volume) and body_force (per volume).
+struct LoadSection {
+  std::string region;
+  std::optional<Vector3> force;                ///< at load factor 1 [force]
+  std::optional<ExpressionVector> body_force;  ///< at load factor 1 [force/length^3]
+};
+
+/// [[tractions]]: exactly one of traction and pressure, on facets of the surface.
+struct TractionSection {
+  std::string region;
+  std::optional<ExpressionVector> traction;  ///< at load factor 1 [force/length^2]
+  std::optional<Expression> pressure;  ///< at load factor 1, positive inwards [force/length^2]
+};
+
+/// [[point_loads]]: force on the particle nearest to a point; moment in micropolar bodies.
+struct PointLoadSection {
+  Vector3 at{};
+  Vector3 force{};   ///< at load factor 1 [force]
+  Vector3 moment{};  ///< at load factor 1 about x, y, z; in two dimensions z [force length]
+};
+
+/// [[symmetry]]: a plane across which the body is mirrored; exactly one of at and region.
+struct SymmetrySection {
+  int axis = 0;              ///< normal to the plane
+  std::optional<double> at;  ///< coordinate of the plane [length]
+  std::string region;        ///< particles in the plane
+};
+
+/// [[springs]]: elastic supports; exactly one of stiffness and total.
+struct SpringSection {
+  std::string region;
+  std::optional<Vector3> stiffness;  ///< per area of the surface along each axis [force/length^3]
+  std::optional<Vector3> total;      ///< shared by volume, along each axis [force/length]
+};
+
+/// [[cracks]]: there before the analysis begins.
+struct CrackSection {
+  std::vector<Vector3> points;  ///< of a line (2D), corners of a plane convex polygon (3D) [length]
+};
+
+/// [[rebar]]
+struct RebarSection {
+  Vector3 from{};
+  Vector3 to{};
+  double youngs_modulus = 0.0;
+  double area = 0.0;
+  std::optional<double> yield_strength;  ///< absent: elastic
+  bool yields = true;                    ///< false: stays elastic whatever its yield strength
+  bool ties_break = true;                ///< false: the bond to the concrete is perfect
+};
+
+/// [[gauges]]: a displacement or stress that is written as a column of the history. Exactly one of
+/// between, at and region; exactly one of axis and stress but that `between` needs none.
+struct GaugeSection {
+  std::string name;
+  std::vector<Vector3> between;  ///< two points: displacement of the second relative to the first
+  std::optional<Vector3> at;
+  std::string region;  ///< mean over its particles
+  /// Of the displacement; between two points else that from one to the other.
+  std::optional<int> axis;
+  std::optional<std::array<int, 2>> stress;  ///< axes of a component of the stress, ascending
+};
+
+/// [analysis]
+struct AnalysisSection {
+  std::string type = "damage";              ///< damage | elastic | explicit | relaxation
+  std::string control = "events";           ///< events | steps
+  std::vector<double> load_factors;         ///< of control = steps and type = relaxation
+  std::string rigid_body_modes = "refuse";  ///< refuse | pin
+  std::string factor = "in_place";          ///< in_place | cholmod_updown | refactorize
+  double duration = 0.0;                    ///< of type = explicit and below [time]
+  double ramp_time = 0.0;                   ///< in which the load factor rises to one [time]
+  std::optional<double> time_step;          ///< [time]
+  double safety = 0.9;                      ///< of the critical time step, without time_step
+  int rows = 500;                           ///< of the history, about
+  double damping_rate = 0.0;                ///< of bonds [1/time]
+  std::string masses = "volume";            ///< of bonds: volume | uniform
+  std::string strain = "small";             ///< of bonds that move: small | green
+  double tolerance = 1e-6;                  ///< of type = relaxation: relative residual force
+  int iterations = 1000000;                 ///< of type = relaxation: most of a load step
+};
+
+/// [stop]: the run ends at the first rule met (always at collapse).
+struct StopSection {
+  std::optional<int> broken_bonds;
+  std::optional<double> load_fraction;  ///< of the peak load factor
+  std::optional<double> displacement;
+};
+
+/// [output]
+struct OutputSection {
+  std::vector<int> fields_at;        ///< numbers of broken bonds at which fields are written
+  std::optional<int> fields_every;   ///< and after every so many
+  std::vector<double> fields_times;  ///< of type = explicit: times of fields [time]
+};
+
+/// A whole case.
+struct CaseFile {
+  std::string path;
+  std::string title;
+  std::string units;  ///< label of plots, "kip, in"
+  BodySection body;
+  std::vector<Region> regions;
+  std::vector<MaterialSection> materials;
+  std::vector<SupportSection> supports;
+  std::vector<DisplacementSection> displacements;
+  std::vector<DisplacementSection> velocities;
+  std::vector<LoadSection> loads;
+  std::vector<TractionSection> tractions;
+  std::vector<PointLoadSection> point_loads;
+  std::vector<SymmetrySection> symmetry;
+  std::vector<SpringSection> springs;
+  std::vector<CrackSection> cracks;
+  std::vector<RebarSection> rebar;
+  std::vector<GaugeSection> gauges;
+  AnalysisSection analysis;
+  StopSection stop;
+  OutputSection output;
+
+  /// Keys and tables that this type of analysis does not use; those of another, for which the case
+  /// serves as well.
+  std::vector<std::string> unused;
+  bool trust_geometry = false;  ///< from the command line: `mesh` may be any script of gmsh
+
+  /// Line of every key path that the file has; the entries of a list of tables count from one, as
+  /// their reader does: "materials[2].region" belongs to the second [[materials]].
+  std::map<std::string, int> lines;
+
+  /// Location of a key, with the line of the nearest table above it where the file lacks the key.
+  SourceLocation where(const std::string& key) const;
+};
+
+/// Key path of an entry of a list of tables, from the zero-based index of its vector:
+/// item_key("materials", 1, "region") is "materials[2].region".
+std::string item_key(const std::string& table, std::size_t index, const std::string& key = "");
+
+/// Reads and checks a case.
+/// \throws InputError  with file, line, key, value given, what is allowed and a suggestion
+/// \throws FileError   when the file cannot be read
+CaseFile read_case_file(const std::string& path);
+
+/// The same from text, for tests and fuzzing.
+CaseFile parse_case(const std::string& text, const std::string& path);
+
+/// A member of a study: the case with other keys of [body] (override_body), checked as if the file
+/// held them.
+CaseFile read_case_file(const std::string& path, const std::vector<TomlValue>& body_keys);
+CaseFile parse_case(const std::string& text, const std::string& path,
+                    const std::vector<TomlValue>& body_keys);
+
+/// The case as resolved, as TOML text that reads back to the same case.
+std::string write_case(const CaseFile& input);
+
+}  // namespace perilink

@@ -1,0 +1,213 @@
+#include "io/case/case_schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "io/case/case_file.hpp"
+
+namespace perilink {
+namespace {
+
+/// Longer words are no misspelling of a key, and comparing them would only cost time.
+constexpr std::size_t longest_word = 64;
+
+/// Names in a list of allowed words before it is cut.
+constexpr std::size_t longest_list = 20;
+
+bool is_bare_key(const std::string& key) {
+  return !key.empty() && key.size() <= longest_word &&
+         std::all_of(key.begin(), key.end(), [](unsigned char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                  c == '_' || c == '-';
+         });
+}
+
+std::string join_path(std::string_view table, const std::string& key) {
+  const std::string shown = is_bare_key(key) ? key : quoted(key);
+  return table.empty() ? shown : fmt::format("{}.{}", table, shown);
+}
+
+std::string header(const TableSchema& schema) {
+  if (schema.name.empty()) return "the top of the file";
+  return schema.list ? fmt::format("[[{}]]", schema.name) : fmt::format("[{}]", schema.name);
+}
+
+bool has_key(const TableSchema& schema, const std::string& key) {
+  return std::find(schema.keys.begin(), schema.keys.end(), key) != schema.keys.end();
+}
+
+/// What is checked against what, for messages.
+struct Document {
+  const std::string& path;
+  const std::vector<TableSchema>& schema;
+  std::string_view name;
+};
+
+/// A key that another table has was probably written below the wrong header.
+std::string suggest_key(const Document& document, const TableSchema& here, const std::string& key) {
+  std::string homes;
+  for (const TableSchema& other : document.schema) {
+    if (!has_key(other, key)) continue;
+    homes += (homes.empty() ? "" : ", ") + header(other);
+  }
+  const std::string allowed = suggest(key, here.keys);
+  return homes.empty() ? allowed : fmt::format("`{}` belongs to {}. {}", key, homes, allowed);
+}
+
+void check_keys(const Document& document, const TableSchema& schema, const TomlValue& table,
+                const std::string& table_path) {
+  if (table.kind != TomlValue::Kind::table) {
+    throw InputError({document.path, table.line, table_path},
+                     fmt::format("is {}, but must be a table", describe(table)),
+                     fmt::format("write {} and its keys on the lines below", header(schema)));
+  }
+  for (const TomlValue& value : table.entries) {
+    const std::string& key = value.key;
+    if (has_key(schema, key)) continue;
+    throw InputError({document.path, value.line, join_path(table_path, key)},
+                     fmt::format("{} has no such key", header(schema)),
+                     suggest_key(document, schema, key));
+  }
+}
+
+void check_table(const Document& document, const TableSchema& schema, const TomlValue& value) {
+  const std::string name(schema.name);
+  if (!schema.list) {
+    if (value.kind == TomlValue::Kind::array) {
+      throw InputError({document.path, value.line, name},
+                       fmt::format("is a list of tables [[{}]]", name),
+                       fmt::format("a {} has one; write {}", document.name, header(schema)));
+    }
+    check_keys(document, schema, value, name);
+    return;
+  }
+  if (value.kind != TomlValue::Kind::array) {
+    throw InputError({document.path, value.line, name},
+                     fmt::format("is {}, but must be a list of tables", describe(value)),
+                     fmt::format("write {} with two brackets, once for each", header(schema)));
+  }
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    check_keys(document, schema, value.items[i], item_key(name, i));
+  }
+}
+
+}  // namespace
+
+const std::vector<TableSchema>& case_schema() {
+  static const std::vector<TableSchema> schema = {
+      {"", false, {"title", "units"}},
+      {"body",
+       false,
+       {"problem", "method", "model", "torsion", "thickness", "mesh", "mesh_size", "pattern",
+        "surface", "columns", "spacing", "horizon", "horizon_level", "horizon_ratio",
+        "micromodulus", "critical_stretch", "rotation", "offset", "variant"}},
+      {"regions", true, {"name", "group", "x", "y", "z", "center", "radius"}},
+      {"materials",
+       true,
+       {"name", "region", "regions", "holes", "youngs_modulus", "poissons_ratio", "fracture_energy",
+        "density", "tensile_strength", "critical_opening", "knee_stress_ratio",
+        "knee_opening_ratio", "compression_ratio", "compression_threshold", "boundary_factor",
+        "yield_strength", "ultimate_strength", "ultimate_plastic_strain", "crushing_energy",
+        "internal_damping", "external_damping", "fundamental_period"}},
+      {"supports", true, {"region", "fix"}},
+      {"displacements", true, {"region", "x", "y", "z", "rotation", "rx", "ry", "rz"}},
+      {"velocities", true, {"region", "x", "y", "z", "rotation", "rx", "ry", "rz"}},
+      {"loads", true, {"region", "force", "body_force"}},
+      {"tractions", true, {"region", "traction", "pressure"}},
+      {"point_loads", true, {"at", "force", "moment"}},
+      {"symmetry", true, {"axis", "at", "region"}},
+      {"springs", true, {"region", "stiffness", "total"}},
+      {"cracks", true, {"points", "corners"}},
+      {"rebar",
+       true,
+       {"from", "to", "youngs_modulus", "area", "yield_strength", "yields", "ties_break"}},
+      {"gauges", true, {"name", "between", "at", "region", "axis", "stress"}},
+      {"analysis",
+       false,
+       {"type", "control", "load_factors", "rigid_body_modes", "factor", "duration", "ramp_time",
+        "time_step", "safety", "rows", "damping_rate", "masses", "strain", "tolerance",
+        "iterations"}},
+      {"stop", false, {"broken_bonds", "load_fraction", "displacement"}},
+      {"output", false, {"fields_at", "fields_every", "fields_times"}},
+  };
+  return schema;
+}
+
+void check_against_schema(const TomlValue& document, const std::string& path) {
+  if (const TomlValue* vary = document.find("vary")) {
+    throw InputError({path, vary->line, "vary"}, "belongs to a study, and this is to be a case",
+                     fmt::format("run the study by `perilink converge {}`", path));
+  }
+  check_against_schema(document, path, case_schema(), "case");
+}
+
+void check_against_schema(const TomlValue& document, const std::string& path,
+                          const std::vector<TableSchema>& schema, std::string_view document_name) {
+  const Document checked{path, schema, document_name};
+  std::vector<std::string_view> tables;
+  for (const TableSchema& table : schema) {
+    if (!table.name.empty()) tables.push_back(table.name);
+  }
+  for (const TomlValue& value : document.entries) {
+    const std::string& key = value.key;
+    if (has_key(schema.front(), key)) continue;
+    const auto found = std::find_if(schema.begin(), schema.end(),
+                                    [name = std::string_view(key)](const auto& table) {
+                                      return !name.empty() && table.name == name;
+                                    });
+    if (found != schema.end()) {
+      check_table(checked, *found, value);
+      continue;
+    }
+    const bool table = value.kind == TomlValue::Kind::table ||
+                       (value.kind == TomlValue::Kind::array && !value.items.empty() &&
+                        value.items.front().kind == TomlValue::Kind::table);
+    throw InputError({path, value.line, join_path("", key)},
+                     table ? fmt::format("a {} has no such table", document_name)
+                           : "the top of the file has no such key",
+                     table ? suggest(key, tables) : suggest_key(checked, schema.front(), key));
+  }
+}
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> before_last(b.size() + 1);
+  std::vector<int> last(b.size() + 1);
+  std::vector<int> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before_last.swap(last);
+    last.swap(row);
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+      }
+    }
+  }
+  return row[b.size()];
+}
+
+std::string suggest(const std::string& word, const std::vector<std::string_view>& allowed) {
+  std::string_view nearest;
+  int least = 1 + std::max(2, static_cast<int>(word.size()) / 3);
+  std::string list;
+  for (std::size_t i = 0; i < allowed.size(); ++i) {
+    const std::string_view candidate = allowed[i];
+    if (i < longest_list) list += (i > 0 ? ", " : "") + std::string(candidate);
+    if (i == longest_list) list += fmt::format(", and {} more", allowed.size() - i);
+    if (word.size() > longest_word || candidate.size() > longest_word) continue;
+    const int distance = edit_distance(word, candidate);
+    if (distance < least && distance < static_cast<int>(candidate.size())) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  const std::string all = fmt::format("Allowed: {}", list);
+  return nearest.empty() ? all : fmt::format("did you mean `{}`? {}", nearest, all);
+}
+
+}  // namespace perilink

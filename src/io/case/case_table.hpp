@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/types.hpp"
+#include "io/text/formula.hpp"
+#include "io/text/toml_tree.hpp"
+
+namespace perilink {
+
+/// Reads checked values of one table of a case. Every reader returns nothing where the key is
+/// absent and throws InputError where the value is of the wrong type or out of its range.
+class CaseTable {
+ public:
+  /// \param table     must outlive this object
+  /// \param key_path  "body" or "materials[2]"; empty: the top of the file
+  CaseTable(const TomlValue& table, std::string key_path, std::string file)
+      : table_(table), key_path_(std::move(key_path)), file_(std::move(file)) {}
+
+  bool has(const std::string& key) const { return table_.find(key) != nullptr; }
+
+  /// One printable line.
+  std::optional<std::string> text(const std::string& key) const;
+  /// The same, long enough for the name of a file with its folders.
+  std::optional<std::string> path(const std::string& key) const;
+  /// The same, one of a few words.
+  std::optional<std::string> choice(const std::string& key,
+                                    const std::vector<std::string_view>& allowed) const;
+  std::optional<bool> boolean(const std::string& key) const;
+  std::optional<int> integer(const std::string& key, int lowest, int highest) const;
+  /// Integers count as numbers.
+  std::optional<double> number(const std::string& key) const;
+  std::optional<double> positive(const std::string& key) const;
+  std::optional<std::vector<double>> numbers(const std::string& key) const;
+  /// As many numbers as the body has dimensions.
+  std::optional<Vector3> vector(const std::string& key, int dim) const;
+  /// A number, or text that is a formula of the position.
+  std::optional<Expression> expression(const std::string& key, int dim) const;
+  /// As many of them as the body has dimensions.
+  std::optional<ExpressionVector> expressions(const std::string& key, int dim) const;
+  /// A list of them.
+  std::optional<std::vector<Vector3>> vectors(const std::string& key, int dim) const;
+  std::optional<std::vector<int>> integers(const std::string& key, int lowest, int highest) const;
+  std::optional<std::vector<std::string>> texts(const std::string& key) const;
+
+  /// The value, or a refusal that says what is missing.
+  template <class T>
+  T need(const std::string& key, std::optional<T> value, const std::string& meaning) const {
+    if (!value) refuse_missing(key, meaning);
+    return *std::move(value);
+  }
+
+  /// Refuses both and none of keys that exclude each other.
+  void need_one_of(const std::vector<std::string>& keys) const;
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& fault,
+                           const std::string& suggestion) const;
+  [[noreturn]] void refuse_missing(const std::string& key, const std::string& meaning) const;
+
+  /// Value as written, for messages.
+  const TomlValue* value(const std::string& key) const { return table_.find(key); }
+
+ private:
+  double checked_number(const std::string& key, const TomlValue& value) const;
+  int checked_integer(const std::string& key, const TomlValue& value, int lowest,
+                      int highest) const;
+  std::string checked_text(const std::string& key, const TomlValue& value,
+                           std::size_t longest) const;
+  Expression checked_expression(const std::string& key, const TomlValue& value, int dim) const;
+  Vector3 checked_vector(const std::string& key, const TomlValue& list, int dim) const;
+  const TomlValue* array(const std::string& key, const char* of) const;
+
+  const TomlValue& table_;
+  std::string key_path_;
+  std::string file_;
+};
+
+/// Overwrites a default where the file has a value.
+template <class T>
+void assign(T& target, std::optional<T> value) {
+  if (value) target = *std::move(value);
+}
+
+}  // namespace perilink

@@ -1,0 +1,332 @@
+// [body] and [[materials]]: the solid itself.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+#include "io/case/case_schema.hpp"
+#include "io/case/case_words.hpp"
+#include "io/case/sections/case_lattice.hpp"
+#include "io/case/sections/case_particles.hpp"
+#include "io/case/sections/case_sections.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr int fewest_columns = 2;
+constexpr int most_columns = 100000;
+
+void check_pattern(const CaseTable& table, const BodySection& body) {
+  const bool flat = is_flat(body.pattern);
+  if (flat == (dimension_of(body) == 2)) return;
+  table.refuse("pattern",
+               fmt::format("is \"{}\", a {}-dimensional pattern, but problem is \"{}\"",
+                           word_of(body.pattern), flat ? "two" : "three", body.problem),
+               flat ? "Allowed here: cubic, face_centred" : "Allowed here: rectangular, hexagonal");
+}
+
+void read_lattice(const CaseTable& table, BodySection& body) {
+  if (dimension_of(body) == 3) body.pattern = Pattern::cubic;
+  if (const auto word = table.choice("pattern", pattern_words())) body.pattern = pattern_of(*word);
+  check_pattern(table, body);
+  if (const auto word = table.choice("surface", surface_words())) body.surface = surface_of(*word);
+  if (body.surface == Surface::ghost && dimension_of(body) == 3) {
+    table.refuse("surface", "is \"ghost\", but the ghost layer is for two-dimensional bodies",
+                 "Allowed in three dimensions: calibrated, energy, none");
+  }
+  body.columns = table.integer("columns", fewest_columns, most_columns);
+  body.spacing = table.positive("spacing");
+}
+
+/// The mesh says where the particles are, and has no lattice for other keys to speak of.
+void read_mesh(const CaseTable& table, BodySection& body) {
+  read_mesh_file(table, body);
+  body.pattern = Pattern::irregular;
+  body.micromodulus = "continuum";
+  if (table.has("pattern")) {
+    table.refuse("pattern", "is given beside `mesh`", "delete it: the mesh places the particles");
+  }
+  if (const auto word = table.choice("surface", surface_words())) body.surface = surface_of(*word);
+  if (body.surface == Surface::ghost) {
+    table.refuse("surface", "is \"ghost\", but the ghost layer belongs to a lattice",
+                 "delete it, or fill the body with a lattice");
+  }
+  if (table.has("horizon_level")) {
+    table.refuse("horizon_level", "is given, but a mesh has no levels",
+                 "give `horizon` or `horizon_ratio`");
+  }
+}
+
+/// Where the constants of bonds come from.
+void read_constants(const CaseTable& table, BodySection& body) {
+  assign(body.micromodulus, table.choice("micromodulus", {"lattice", "continuum"}));
+  assign(body.critical_stretch,
+         table.choice("critical_stretch", {"dissipated", "lattice", "continuum"}));
+  if (body.pattern != Pattern::irregular) return;
+  for (const char* key : {"micromodulus", "critical_stretch"}) {
+    if (table.text(key) != "lattice") continue;
+    table.refuse(key, "is \"lattice\", but a mesh has no lattice to count on",
+                 "delete it, or write \"continuum\"");
+  }
+}
+
+void read_horizon(const CaseTable& table, BodySection& body) {
+  table.need_one_of({"horizon", "horizon_level", "horizon_ratio"});
+  body.horizon = table.positive("horizon");
+  if (body.horizon && body.spacing && *body.horizon < *body.spacing) {
+    table.refuse("horizon",
+                 fmt::format("is {}, less than the spacing {}: no particle would have a neighbour",
+                             *body.horizon, *body.spacing),
+                 "two to four spacings are usual");
+  }
+  if (table.has("horizon_level") && !is_flat(body.pattern)) {
+    table.refuse(
+        "horizon_level",
+        fmt::format("is given, but the pattern \"{}\" has no levels", word_of(body.pattern)),
+        "give `horizon` or `horizon_ratio`");
+  }
+  body.horizon_level = table.integer("horizon_level", 0, 8);
+  body.horizon_ratio = table.positive("horizon_ratio");
+  if (body.horizon_ratio && *body.horizon_ratio < 1.0) {
+    table.refuse(
+        "horizon_ratio",
+        fmt::format("is {}, less than 1: no particle would have a neighbour", *body.horizon_ratio),
+        "2 to 4 is usual");
+  }
+}
+
+/// On a lattice calibrated bonds are stiff by equations of their own; a mesh has nothing but the
+/// continuum's formula to start from.
+void refuse_unused_micromodulus(const CaseTable& table, const BodySection& body) {
+  if (body.surface != Surface::calibrated || body.mesh || body.micromodulus != "continuum") return;
+  table.refuse("micromodulus", "is \"continuum\", but calibrated bonds have other stiffnesses",
+               "delete it, or set surface = \"none\"");
+}
+
+/// Keys that speak of bonds mean nothing to elements.
+void refuse_keys_of_bonds(const CaseTable& table) {
+  for (const char* key : {"model", "torsion", "surface", "horizon", "horizon_level",
+                          "horizon_ratio", "micromodulus", "critical_stretch"}) {
+    if (!table.has(key)) continue;
+    table.refuse(key, "is given, but linear elements have no bonds",
+                 "delete it, or the line method = \"linear_elements\"");
+  }
+}
+
+void check_element_ratio(const CaseTable& table, double given) {
+  if (given > -1.0 && given < 0.5) return;
+  table.refuse("poissons_ratio",
+               fmt::format("is {}, but an elastic solid has ratios above -1 and below 1/2", given),
+               "an incompressible solid would need other elements");
+}
+
+/// Poisson's ratio of bonds that act along their length, the most that micropolar bonds can have
+/// (Gerstle, Sau & Silling 2005, section 2; Gerstle, Sau & Aguilera 2007, Eqs. 15, 17 and 20). The
+/// material module has the same two numbers; this module may not include it, and a test holds the
+/// two together.
+bool ratio_is_third(const BodySection& body) { return body.problem == "plane_stress"; }
+
+/// What else a material can be made of whose ratio no bonds have.
+std::string other_model(double given) {
+  if (!(given > -1.0 && given < 0.5)) return "";
+  return "; where no bond is to break, method = \"linear_elements\" in [body] with "
+         "analysis.type = \"elastic\" has ratios up to 1/2";
+}
+
+void check_bond_based_ratio(const CaseTable& table, const BodySection& body, double given) {
+  constexpr double tolerance = 1e-3;  // users write 0.333
+  const bool third = ratio_is_third(body);
+  const double only = third ? 1.0 / 3.0 : 0.25;
+  if (std::abs(given - only) <= tolerance) return;
+  const char* word = third ? "1/3" : "1/4";
+  table.refuse(
+      "poissons_ratio",
+      fmt::format("is {}, but a bond-based solid in {} has the Poisson's ratio {}", given,
+                  body.problem, word),
+      given > -1.0 && given < only
+          ? std::string("leave the key out, or set model = \"micropolar\" in [body], whose bonds "
+                        "bend and have this ratio")
+          : fmt::format("leave the key out; model = \"micropolar\" in [body] has ratios above -1 "
+                        "and up to {} only{}",
+                        word, other_model(given)));
+}
+
+void check_micropolar_ratio(const CaseTable& table, const BodySection& body, double given) {
+  const bool third = ratio_is_third(body);
+  const double largest = third ? 1.0 / 3.0 : 0.25;
+  if (given > -1.0 && given <= largest) return;
+  table.refuse("poissons_ratio",
+               fmt::format("is {}, but micropolar bonds in {} have ratios above -1 and up to {}",
+                           given, body.problem, third ? "1/3" : "1/4"),
+               "no bonds of this version have other ratios" + other_model(given));
+}
+
+std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySection& body) {
+  std::optional<double> given = table.number("poissons_ratio");
+  if (body.method == "linear_elements") {
+    if (given) check_element_ratio(table, *given);
+  } else if (body.model == "micropolar") {
+    given = table.need("poissons_ratio", given, "Poisson's ratio, which micropolar bonds need");
+    check_micropolar_ratio(table, body, *given);
+  } else if (given) {
+    check_bond_based_ratio(table, body, *given);
+  }
+  return given;
+}
+
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0 &&
+         end == text.c_str() + text.size();
+}
+
+std::vector<std::string> read_material_regions(const CaseTable& table) {
+  table.need_one_of({"region", "regions"});
+  if (const auto single = table.text("region")) return {*single};
+  std::vector<std::string> names = *table.texts("regions");
+  if (names.empty()) {
+    table.refuse("regions", "names no region", "name at least one region, or delete the material");
+  }
+  std::vector<std::string> sorted = names;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) {
+    table.refuse("regions", fmt::format("names {} twice", quoted(*twice)), "name it once");
+  }
+  return names;
+}
+
+std::vector<std::string> read_holes(const CaseTable& table, const BodySection& body) {
+  const std::vector<std::string> holes = table.texts("holes").value_or(std::vector<std::string>{});
+  if (table.has("holes") && holes.empty()) {
+    table.refuse("holes", "names no region", "name one, or delete the key");
+  }
+  if (!holes.empty() && body.mesh && !is_lattice(body)) {
+    table.refuse("holes", "is given, but the mesh is the body",
+                 "leave the hole out of the geometry");
+  }
+  return holes;
+}
+
+}  // namespace
+
+void read_mesh_file(const CaseTable& table, BodySection& body) {
+  if (!table.has("mesh")) {
+    if (!table.has("mesh_size")) return;
+    table.refuse("mesh_size", "is given, but the body has no `mesh`", "delete it");
+  }
+  body.mesh = table.path("mesh");
+  if (body.mesh->empty()) table.refuse("mesh", "is empty", "name the file of a gmsh mesh");
+  body.mesh_size = table.positive("mesh_size");
+  if (body.mesh_size && !is_geometry(*body.mesh)) {
+    table.refuse("mesh_size", "is given, but `mesh` is meshed already",
+                 "delete it, or name a geometry (.geo, .step, .stp, .brep) as `mesh`");
+  }
+  if (!body.mesh_size && is_geometry(*body.mesh) && !is_gmsh_script(*body.mesh)) {
+    table.refuse_missing("mesh_size", "the size of the cells of this geometry");
+  }
+}
+
+int dimension_of(const BodySection& body) { return body.problem == "three_dimensional" ? 3 : 2; }
+
+double read_fracture_energy(const CaseTable& table) {
+  const std::string key = "fracture_energy";
+  const TomlValue* value = table.value(key);
+  if (value != nullptr && value->kind == TomlValue::Kind::text) {
+    if (is_number(value->text)) {
+      table.refuse(
+          key,
+          fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
+          fmt::format("write the number without quotes: {} = {}", key, value->text));
+    }
+    if (value->text != "infinite") {
+      table.refuse(key,
+                   fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
+                   "write numbers without quotes and units. " + suggest(value->text, {"infinite"}));
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+  if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
+    table.refuse(key, fmt::format("is {}", describe(*value)),
+                 "write fracture_energy = \"infinite\" for a material that cannot break");
+  }
+  return table.need(key, table.positive(key),
+                    "the fracture energy, or \"infinite\" for a material that cannot break");
+}
+
+BodySection read_body(const CaseTable& table) {
+  BodySection body;
+  assign(body.problem,
+         table.choice("problem", {"plane_stress", "plane_strain", "three_dimensional"}));
+  if (dimension_of(body) == 3 && table.has("thickness")) {
+    table.refuse("thickness", "is given, but a three-dimensional body has none",
+                 "delete it; the regions' z intervals say how thick the body is");
+  }
+  assign(body.thickness, table.positive("thickness"));
+  assign(body.method, table.choice("method", method_words()));
+  if (body.method == "linear_elements") refuse_keys_of_bonds(table);
+  assign(body.model, table.choice("model", {"bond_based", "micropolar", "lattice", "particles"}));
+  if (is_lattice(body)) {
+    read_lattice_body(table, body);
+    return body;
+  }
+  refuse_lattice_keys(table, body);
+  if (table.has("torsion") && (dimension_of(body) == 2 || body.model != "micropolar")) {
+    table.refuse(
+        "torsion",
+        fmt::format("is given, but {}", body.model == "micropolar"
+                                            ? "bonds of a two-dimensional body do not twist"
+                                            : "bonds of a bond-based solid do not twist"),
+        "delete it; three-dimensional bodies with model = \"micropolar\" have it");
+  }
+  assign(body.torsion, table.positive("torsion"));
+  if (is_particles(body)) refuse_horizon_keys(table);
+  table.need_one_of({"columns", "spacing", "mesh"});
+  if (table.has("mesh")) {
+    read_mesh(table, body);
+  } else {
+    read_mesh_file(table, body);
+    read_lattice(table, body);
+  }
+  if (is_particles(body)) {
+    body.surface = Surface::none;
+    return body;
+  }
+  if (body.method == "bonds") read_horizon(table, body);
+  read_constants(table, body);
+  refuse_unused_micromodulus(table, body);
+  return body;
+}
+
+MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index) {
+  MaterialSection material;
+  material.name = table.text("name").value_or(fmt::format("material {}", index + 1));
+  if (material.name.empty()) {
+    table.refuse("name", "is empty", "name the material, or delete the key");
+  }
+  material.regions = read_material_regions(table);
+  material.holes = read_holes(table, body);
+  material.youngs_modulus =
+      table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");
+  if (is_lattice(body)) {
+    read_lattice_material(table, body, material);
+    return material;
+  }
+  if (is_particles(body)) {
+    read_particle_material(table, body, material);
+    return material;
+  }
+  refuse_lattice_material_keys(table);
+  material.poissons_ratio = read_poissons_ratio(table, body);
+  material.fracture_energy = read_fracture_energy(table);
+  material.density = table.positive("density");
+  return material;
+}
+
+}  // namespace perilink

@@ -1,0 +1,96 @@
+#include "io/case/sections/case_bond_dynamics.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "io/case/sections/case_particles.hpp"
+#include "io/case/sections/case_sections.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr int most_iterations = 2000000000;
+
+/// A run at rest is left with a residual of some 1e-15 of its forces.
+constexpr double least_tolerance = 1e-13;
+
+void check_strain(const CaseFile& input) {
+  const bool moves = input.analysis.type == "explicit" || input.analysis.type == "relaxation";
+  if (!moves || input.lines.count("analysis.strain") == 0) return;
+  const SourceLocation where = input.where("analysis.strain");
+  if (input.body.model == "lattice") {
+    throw InputError(where, "is given, but lattice particles stretch by their true lengths",
+                     "delete it");
+  }
+  if (is_particles(input.body) && input.analysis.strain == "green") {
+    throw InputError(where, "is \"green\", but state-based particles know small strains",
+                     "delete it");
+  }
+  if (input.analysis.strain == "green" && input.body.model != "bond_based") {
+    throw InputError(where,
+                     fmt::format("is \"green\", but model is \"{}\", whose moments know small "
+                                 "rotations only",
+                                 input.body.model),
+                     "set model = \"bond_based\" in [body], or strain = \"small\"");
+  }
+}
+
+void check_velocities(const CaseFile& input) {
+  if (input.velocities.empty()) return;
+  const std::string key = item_key("velocities", 0);
+  if (input.analysis.type != "explicit") {
+    throw InputError(input.where(key),
+                     fmt::format("is given, but analysis.type is \"{}\", which knows no time",
+                                 input.analysis.type),
+                     "give [[displacements]], or set type = \"explicit\"");
+  }
+  if (input.body.model == "lattice") {
+    throw InputError(input.where(key), "is given, but only regions of bonds have velocities",
+                     "give [[displacements]], which follow the smooth load factor");
+  }
+  for (std::size_t k = 0; k < input.displacements.size(); ++k) {
+    for (const auto& value : input.displacements[k].value) {
+      if (!value || value->is_zero()) continue;
+      throw InputError(input.where(key),
+                       fmt::format("is given beside [[displacements]] that drive region \"{}\"",
+                                   input.displacements[k].region),
+                       "drive all regions by one of the two");
+    }
+  }
+}
+
+}  // namespace
+
+void read_strain(const CaseTable& table, AnalysisSection& analysis) {
+  assign(analysis.strain, table.choice("strain", {"small", "green"}));
+}
+
+void read_relaxation(const CaseTable& table, AnalysisSection& analysis) {
+  assign(analysis.tolerance, table.positive("tolerance"));
+  if (analysis.tolerance >= 1.0) {
+    table.refuse("tolerance", fmt::format("is {}, but must be less than 1", analysis.tolerance),
+                 "1e-6 is the default");
+  }
+  if (analysis.tolerance < least_tolerance) {
+    table.refuse("tolerance",
+                 fmt::format("is {}, below the round-off of the forces", analysis.tolerance),
+                 fmt::format("give at least {}; 1e-6 is the default", least_tolerance));
+  }
+  assign(analysis.iterations, table.integer("iterations", 1, most_iterations));
+}
+
+void write_relaxation(TomlWriter& out, const CaseFile& input) {
+  out.write("load_factors", input.analysis.load_factors);
+  out.write("strain", input.analysis.strain);
+  out.write("tolerance", input.analysis.tolerance);
+  out.write("iterations", input.analysis.iterations);
+  out.write("rigid_body_modes", input.analysis.rigid_body_modes);
+}
+
+void check_moving_bonds(const CaseFile& input) {
+  check_strain(input);
+  check_velocities(input);
+}
+
+}  // namespace perilink

@@ -1,0 +1,104 @@
+// [[gauges]] of a case.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "io/case/case_words.hpp"
+#include "io/case/sections/case_gauges.hpp"
+#include "io/case/sections/case_sections.hpp"
+
+namespace perilink {
+namespace {
+
+/// Names head columns of a table, where a minus sign would begin a formula, and name pictures.
+bool is_plain(const std::string& name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  return !name.empty() && name[0] != '-' && std::all_of(name.begin(), name.end(), plain);
+}
+
+std::vector<std::string_view> stress_names(int dim) {
+  if (dim == 2) return {"xx", "yy", "xy"};
+  return {"xx", "yy", "zz", "xy", "yz", "xz"};
+}
+
+}  // namespace
+
+std::string stress_name(const std::array<int, 2>& axes) {
+  return std::string(axis_names[axes[0]]) + axis_names[axes[1]];
+}
+
+GaugeSection read_gauge(const CaseTable& table, int dim) {
+  GaugeSection gauge;
+  gauge.name = table.need("name", table.text("name"), "the heading of its column");
+  if (!is_plain(gauge.name)) {
+    table.refuse("name", fmt::format("is {}", quoted(gauge.name)),
+                 "use letters, digits, _ and - (not as the first), since it heads a column");
+  }
+  table.need_one_of({"between", "at", "region"});
+  assign(gauge.between, table.vectors("between", dim));
+  if (table.has("between") && gauge.between.size() != 2) {
+    table.refuse("between", fmt::format("holds {} points", gauge.between.size()),
+                 "give two: [[0, 0], [0, 1]]");
+  }
+  gauge.at = table.vector("at", dim);
+  assign(gauge.region, table.text("region"));
+  if (table.has("between")) {
+    if (table.has("stress")) {
+      table.refuse("stress", "is given beside `between`",
+                   "measure a stress `at` a point or in a `region`");
+    }
+  } else {
+    table.need_one_of({"axis", "stress"});
+  }
+  std::vector<std::string_view> axes(axis_names.begin(), axis_names.begin() + dim);
+  if (const auto axis = table.choice("axis", axes)) gauge.axis = (*axis)[0] - 'x';
+  if (const auto stress = table.choice("stress", stress_names(dim))) {
+    gauge.stress = {(*stress)[0] - 'x', (*stress)[1] - 'x'};
+  }
+  return gauge;
+}
+
+void write_gauges(TomlWriter& out, const CaseFile& input) {
+  const int dim = dimension_of(input.body);
+  for (const GaugeSection& gauge : input.gauges) {
+    out.header("[[gauges]]");
+    out.write("name", gauge.name);
+    std::vector<std::vector<double>> points;
+    for (const Vector3& point : gauge.between) {
+      points.emplace_back(point.begin(), point.begin() + dim);
+    }
+    if (!points.empty()) out.write("between", points);
+    if (gauge.at) out.write("at", *gauge.at, dim);
+    if (!gauge.region.empty()) out.write("region", gauge.region);
+    if (gauge.axis) out.write("axis", axis_names[*gauge.axis]);
+    if (gauge.stress) out.write("stress", stress_name(*gauge.stress));
+  }
+}
+
+void check_gauges(const CaseFile& input) {
+  for (std::size_t k = 0; k < input.gauges.size(); ++k) {
+    const GaugeSection& gauge = input.gauges[k];
+    const auto named = [&](const GaugeSection& other) { return other.name == gauge.name; };
+    const auto first = std::find_if(input.gauges.begin(), input.gauges.end(), named);
+    if (first - input.gauges.begin() != static_cast<std::ptrdiff_t>(k)) {
+      throw InputError(input.where(item_key("gauges", k, "name")),
+                       fmt::format("is {}, the name of another gauge", quoted(gauge.name)),
+                       "give every gauge a name of its own");
+    }
+    if (gauge.stress && input.analysis.type != "elastic") {
+      throw InputError(
+          input.where(item_key("gauges", k, "stress")),
+          fmt::format("is given, but analysis.type is \"{}\", where what breaks carries none",
+                      input.analysis.type),
+          "measure a displacement, or set analysis.type = \"elastic\"");
+    }
+  }
+}
+
+}  // namespace perilink

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "io/case/case_file.hpp"
+#include "io/case/case_table.hpp"
+#include "io/text/toml_writer.hpp"
+
+/// \file
+/// Lattice bodies and the explicit analyses that move them: what their keys in [body],
+/// [[materials]] and [analysis] have of their own.
+
+namespace perilink {
+
+/// Whether [body] says model = "lattice".
+bool is_lattice(const BodySection& body);
+
+/// Whether it says that or model = "particles".
+bool has_state_based_particles(const BodySection& body);
+
+/// The keys of [body] below `model`.
+void read_lattice_body(const CaseTable& table, BodySection& body);
+/// Refuses keys of lattice bodies in [body] of others.
+void refuse_lattice_keys(const CaseTable& table, const BodySection& body);
+
+/// Poisson's ratio, fracture_energy and what other bodies' materials lack.
+void read_lattice_material(const CaseTable& table, const BodySection& body,
+                           MaterialSection& material);
+/// Of these what particles anywhere have, too: elastic constants, density and softening.
+void read_state_material(const CaseTable& table, const BodySection& body,
+                         MaterialSection& material);
+void write_softening(TomlWriter& out, const LatticeMaterialSection& section);
+/// Yield strength and what goes with it.
+void read_lattice_yielding(const CaseTable& table, const BodySection& body,
+                           LatticeMaterialSection& section);
+/// Refuses keys of lattice materials in those of others.
+void refuse_lattice_material_keys(const CaseTable& table);
+
+/// Keys of [analysis] that only type = "explicit" has; it must have a duration.
+void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis);
+
+void write_lattice_body(TomlWriter& out, const BodySection& body);
+void write_lattice_material(TomlWriter& out, const MaterialSection& material);
+void write_lattice_yielding(TomlWriter& out, const LatticeMaterialSection& section);
+void write_explicit_analysis(TomlWriter& out, const CaseFile& input);
+
+/// Refuses what lattice bodies and explicit analyses cannot be combined with.
+void check_lattice(const CaseFile& input);
+
+}  // namespace perilink

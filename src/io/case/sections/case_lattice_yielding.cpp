@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "io/case/case_words.hpp"
+#include "io/case/sections/case_lattice.hpp"
+#include "io/case/sections/case_sections.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr const char* infinite = "infinite";
+
+double read_crushing_energy(const CaseTable& table) {
+  const std::string key = "crushing_energy";
+  const TomlValue* value = table.value(key);
+  if (value != nullptr && value->kind == TomlValue::Kind::text) {
+    if (value->text == infinite) return std::numeric_limits<double>::infinity();
+    table.refuse(key, fmt::format("is \"{}\", neither a number nor \"infinite\"", value->text),
+                 "write numbers without quotes and units");
+  }
+  return table.need(key, table.positive(key),
+                    "the energy per area that crushing takes, or \"infinite\" for a material "
+                    "that keeps its ultimate strength");
+}
+
+}  // namespace
+
+void read_lattice_yielding(const CaseTable& table, const BodySection& body,
+                           LatticeMaterialSection& section) {
+  section.yield_strength = table.positive("yield_strength");
+  for (const char* key : {"ultimate_strength", "ultimate_plastic_strain", "crushing_energy"}) {
+    if (section.yield_strength || !table.has(key)) continue;
+    table.refuse(key, "is given, but the material does not yield",
+                 "delete it, or give `yield_strength`");
+  }
+  if (!section.yield_strength) return;
+  if (dimension_of(body) == 3 && body.variant == "2018") {
+    table.refuse("yield_strength", "is given, but the rules of 2018 have no flow in space",
+                 "take another variant in [body], or a body in the plane");
+  }
+  section.ultimate_strength =
+      table.need("ultimate_strength", table.positive("ultimate_strength"),
+                 "the yield stress where hardening ends; that of `yield_strength` for none");
+  if (*section.ultimate_strength < *section.yield_strength) {
+    table.refuse("ultimate_strength",
+                 fmt::format("is {}, less than the yield strength {}", *section.ultimate_strength,
+                             *section.yield_strength),
+                 "give at least the yield strength");
+  }
+  section.ultimate_plastic_strain =
+      table.need("ultimate_plastic_strain", table.positive("ultimate_plastic_strain"),
+                 "the plastic strain at the ultimate strength");
+  if (body.variant == "consistent") {
+    section.crushing_energy = read_crushing_energy(table);
+  } else if (table.has("crushing_energy")) {
+    table.refuse("crushing_energy",
+                 fmt::format("is given, but the rules of {} soften in their own way", body.variant),
+                 "delete it, or take variant = \"consistent\" in [body]");
+  }
+}
+
+void write_lattice_yielding(TomlWriter& out, const LatticeMaterialSection& section) {
+  if (!section.yield_strength) return;
+  out.write("yield_strength", section.yield_strength);
+  out.write("ultimate_strength", section.ultimate_strength);
+  out.write("ultimate_plastic_strain", section.ultimate_plastic_strain);
+  if (!section.crushing_energy) return;
+  if (*section.crushing_energy == std::numeric_limits<double>::infinity()) {
+    out.write("crushing_energy", infinite);
+  } else {
+    out.write("crushing_energy", section.crushing_energy);
+  }
+}
+
+}  // namespace perilink

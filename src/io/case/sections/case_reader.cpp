@@ -1,0 +1,156 @@
+#include "io/case/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include <type_traits>
+
+#include "io/case/case_overrides.hpp"
+#include "io/case/case_schema.hpp"
+#include "io/case/case_table.hpp"
+#include "io/case/case_unused.hpp"
+#include "io/case/sections/case_rules.hpp"
+#include "io/case/sections/case_sections.hpp"
+#include "io/text/input_text.hpp"
+#include "io/text/toml_tree.hpp"
+
+namespace perilink {
+namespace {
+
+/// Records the line of a key and of all below it, but not of single numbers of a list.
+void collect_lines(const TomlValue& value, const std::string& key,
+                   std::map<std::string, int>& lines) {
+  if (!key.empty()) lines[key] = value.line;
+  for (const TomlValue& entry : value.entries) {
+    collect_lines(entry, key.empty() ? entry.key : key + "." + entry.key, lines);
+  }
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    if (value.items[i].kind == TomlValue::Kind::table) {
+      collect_lines(value.items[i], item_key(key, i), lines);
+    }
+  }
+}
+
+/// The document's tables as CaseTable; absent ones are empty.
+class Document {
+ public:
+  Document(const TomlValue& root, const std::string& path) : root_(root), path_(path) {}
+
+  CaseTable top() const { return {root_, "", path_}; }
+
+  CaseTable table(const std::string& name) const {
+    static const TomlValue absent;
+    const TomlValue* found = root_.find(name);
+    return {found != nullptr ? *found : absent, name, path_};
+  }
+
+  CaseTable needed_table(const std::string& name) const {
+    if (root_.find(name) == nullptr) refuse_missing("[" + name + "]");
+    return table(name);
+  }
+
+  /// Reads every entry of a list of tables.
+  template <class Reader>
+  auto list(const std::string& name, Reader reader) const {
+    std::vector<std::decay_t<std::invoke_result_t<Reader, CaseTable, std::size_t>>> result;
+    const TomlValue* found = root_.find(name);
+    for (std::size_t i = 0; found != nullptr && i < found->items.size(); ++i) {
+      result.push_back(reader(CaseTable(found->items[i], item_key(name, i), path_), i));
+    }
+    return result;
+  }
+
+  template <class Reader>
+  auto needed_list(const std::string& name, Reader reader) const {
+    auto result = list(name, reader);
+    if (result.empty()) refuse_missing("[[" + name + "]]");
+    return result;
+  }
+
+ private:
+  [[noreturn]] void refuse_missing(const std::string& header) const {
+    throw InputError(
+        {path_, 0, ""}, fmt::format("the case has no {}", header),
+        "a case needs [body], [[regions]], [[materials]] and [[loads]], [[tractions]], "
+        "[[point_loads]] or [[displacements]]; docs/case_file.md describes them");
+  }
+
+  const TomlValue& root_;
+  const std::string& path_;
+};
+
+}  // namespace
+
+std::string item_key(const std::string& table, std::size_t index, const std::string& key) {
+  const std::string item = fmt::format("{}[{}]", table, index + 1);
+  return key.empty() ? item : item + "." + key;
+}
+
+SourceLocation CaseFile::where(const std::string& key) const {
+  std::string above = key;
+  while (!above.empty()) {
+    const auto found = lines.find(above);
+    if (found != lines.end()) return {path, found->second, key};
+    const std::size_t end = above.find_last_of(".[");
+    above.resize(end == std::string::npos ? 0 : end);
+  }
+  return {path, 0, key};
+}
+
+CaseFile parse_case(const std::string& text, const std::string& path) {
+  return parse_case(text, path, {});
+}
+
+CaseFile parse_case(const std::string& text, const std::string& path,
+                    const std::vector<TomlValue>& body_keys) {
+  refuse_large_input(text, path);
+  TomlValue root = parse_toml(text, path);
+  override_body(root, body_keys);
+  check_against_schema(root, path);
+  const Document document(root, path);
+
+  CaseFile input;
+  input.path = path;
+  collect_lines(root, "", input.lines);
+  assign(input.title, document.top().text("title"));
+  assign(input.units, document.top().text("units"));
+  input.body = read_body(document.needed_table("body"));
+  const int dim = dimension_of(input.body);
+  const auto in_dimension = [dim](auto reader) {
+    return [dim, reader](const CaseTable& table, std::size_t) { return reader(table, dim); };
+  };
+  input.regions = document.needed_list("regions", in_dimension(read_region));
+  input.materials =
+      document.needed_list("materials", [&input](const CaseTable& table, std::size_t index) {
+        return read_material(table, input.body, index);
+      });
+  const auto in_body = [&input](auto reader) {
+    return [&input, reader](const CaseTable& table, std::size_t) {
+      return reader(table, input.body);
+    };
+  };
+  input.supports = document.list("supports", in_body(read_support));
+  input.displacements = document.list("displacements", in_body(read_displacement));
+  input.velocities = document.list("velocities", in_body(read_displacement));
+  input.loads = document.list("loads", in_dimension(read_load));
+  input.tractions = document.list("tractions", in_dimension(read_traction));
+  input.point_loads = document.list("point_loads", in_body(read_point_load));
+  input.symmetry = document.list("symmetry", in_dimension(read_symmetry));
+  input.springs = document.list("springs", in_dimension(read_springs));
+  input.cracks = document.list("cracks", in_dimension(read_crack));
+  input.rebar = document.list("rebar", in_dimension(read_rebar));
+  input.gauges = document.list("gauges", in_dimension(read_gauge));
+  input.analysis = read_analysis(document.table("analysis"));
+  input.stop = read_stop(document.table("stop"));
+  input.output = read_output(document.table("output"));
+  set_aside_unused(input);
+  check_rules(input);
+  return input;
+}
+
+CaseFile read_case_file(const std::string& path) { return read_case_file(path, {}); }
+
+CaseFile read_case_file(const std::string& path, const std::vector<TomlValue>& body_keys) {
+  return parse_case(read_input_text(path), path, body_keys);
+}
+
+}  // namespace perilink

@@ -1,0 +1,295 @@
+#include "io/case/sections/case_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/case/case_schema.hpp"
+#include "io/case/case_words.hpp"
+#include "io/case/sections/case_bond_dynamics.hpp"
+#include "io/case/sections/case_gauges.hpp"
+#include "io/case/sections/case_lattice.hpp"
+#include "io/case/sections/case_particles.hpp"
+#include "io/case/sections/case_sections.hpp"
+#include "io/text/toml_tree.hpp"
+
+namespace perilink {
+namespace {
+
+/// Names of all regions, each once.
+std::set<std::string> check_region_names(const CaseFile& input) {
+  std::map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < input.regions.size(); ++i) {
+    const std::string& name = input.regions[i].name;
+    if (name == surface_region || name == body_region) {
+      throw InputError(input.where(item_key("regions", i, "name")),
+                       fmt::format("is {}, a name that stands for {} in every case", quoted(name),
+                                   name == body_region ? "the whole body" : "its whole surface"),
+                       "choose another name");
+    }
+    const auto [at, is_new] = first.emplace(name, i);
+    if (is_new) continue;
+    throw InputError(input.where(item_key("regions", i, "name")),
+                     fmt::format("is {}, the name of another region at line {}", quoted(name),
+                                 input.where(item_key("regions", at->second, "name")).line),
+                     "give every region a name of its own");
+  }
+  std::set<std::string> names;
+  for (const auto& [name, index] : first) names.insert(name);
+  return names;
+}
+
+/// Stiffer materials beside soft ones leave the soft ones no digits: where a half of a strip was so
+/// much stiffer, the load of the other was wrong by 2e-7 for a ratio of 1e10, 1e-3 for 1e14.
+constexpr double largest_stiffness_ratio = 1e10;
+
+void check_stiffness_ratio(const CaseFile& input) {
+  const auto softer = [](const MaterialSection& a, const MaterialSection& b) {
+    return a.youngs_modulus < b.youngs_modulus;
+  };
+  const auto [soft, stiff] =
+      std::minmax_element(input.materials.begin(), input.materials.end(), softer);
+  const double ratio = stiff->youngs_modulus / soft->youngs_modulus;
+  if (ratio <= largest_stiffness_ratio) return;
+  const auto m = static_cast<std::size_t>(stiff - input.materials.begin());
+  throw InputError(
+      input.where(item_key("materials", m, "youngs_modulus")),
+      fmt::format(
+          "is {:.6g}, {:.2g} times that of {}, {:.6g}: numbers of 16 digits do not hold both",
+          stiff->youngs_modulus, ratio, quoted(soft->name), soft->youngs_modulus),
+      fmt::format("at most {:.0e} times is possible; a thousand times is rigid to the eye",
+                  largest_stiffness_ratio));
+}
+
+/// Regions that need not be declared are for what holds and loads the body, not for materials.
+enum class Reserved { allowed, refused };
+
+void check_reference(const CaseFile& input, const std::set<std::string>& names,
+                     const std::string& key, const std::string& region, Reserved reserved) {
+  if (names.count(region) > 0) return;
+  if (reserved == Reserved::allowed) {
+    if (region == body_region) return;
+    if (region == surface_region) {
+      if (input.body.surface != Surface::ghost) return;
+      throw InputError(input.where(key),
+                       "is \"surface\", but a body with surface = \"ghost\" has no particles on it",
+                       "name a region of the case, or set surface = \"none\" in [body]");
+    }
+  }
+  std::vector<std::string_view> allowed;
+  for (const Region& known : input.regions) allowed.push_back(known.name);
+  if (reserved == Reserved::allowed) allowed.insert(allowed.end(), {surface_region, body_region});
+  throw InputError(input.where(key),
+                   fmt::format("is {}, but no [[regions]] has that name", quoted(region)),
+                   suggest(region, allowed));
+}
+
+void check_groups(const CaseFile& input) {
+  if (input.body.mesh) return;
+  for (std::size_t i = 0; i < input.regions.size(); ++i) {
+    if (input.regions[i].group.empty()) continue;
+    throw InputError(
+        input.where(item_key("regions", i, "group")),
+        fmt::format("is {}, a physical group of a mesh, but the body has no mesh",
+                    quoted(input.regions[i].group)),
+        is_lattice(input.body)
+            ? "give `mesh` in [body], or the intervals of a box here"
+            : "give `mesh` in [body] instead of `spacing` or `columns`, or the intervals of a box "
+              "here");
+  }
+}
+
+template <class Section>
+void check_references(const CaseFile& input, const std::set<std::string>& names,
+                      const std::string& table, const std::vector<Section>& sections) {
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    check_reference(input, names, item_key(table, i, "region"), sections[i].region,
+                    Reserved::allowed);
+  }
+}
+
+/// A material fills space; a region that is a line or a point holds none. The lattices of bonds
+/// are fitted to boxes.
+void check_shape(const CaseFile& input, const std::string& key, const std::string& name) {
+  for (const Region& region : input.regions) {
+    if (region.name != name || !region.group.empty()) continue;
+    if (region.round && !is_lattice(input.body) && !input.body.mesh) {
+      throw InputError(
+          input.where(key),
+          fmt::format("is {}, which is round, but a lattice of bonds fills boxes", quoted(name)),
+          "give the shape as a `mesh` in [body], or set model = \"lattice\" there; round regions "
+          "of this body are for supports, displacements and loads");
+    }
+    for (int axis = 0; axis < dimension_of(input.body); ++axis) {
+      if (region.box.lower[axis] < region.box.upper[axis]) continue;
+      throw InputError(
+          input.where(key),
+          fmt::format("is {}, which has no extent along {}", quoted(name), "xyz"[axis]),
+          "regions of materials need a lower end less than the upper one; lines and points are for "
+          "supports, displacements and loads");
+    }
+  }
+}
+
+/// Materials overlap on purpose (a weak patch within a body), but two for the very same region are
+/// a slip: the first would have no effect.
+void check_materials(const CaseFile& input, const std::set<std::string>& names) {
+  std::map<std::string, std::size_t> owner;
+  for (std::size_t i = 0; i < input.materials.size(); ++i) {
+    const std::string list = item_key("materials", i, "regions");
+    const std::string key = input.lines.count(list) > 0 ? list : item_key("materials", i, "region");
+    for (const std::string& region : input.materials[i].regions) {
+      check_reference(input, names, key, region, Reserved::refused);
+      check_shape(input, key, region);
+      const auto [at, is_new] = owner.emplace(region, i);
+      if (is_new) continue;
+      throw InputError(input.where(key),
+                       fmt::format("is {}, which has a material already: {}", quoted(region),
+                                   quoted(input.materials[at->second].name)),
+                       "give every region one material at most; a patch of another material is a "
+                       "region of its own, and the later material counts");
+    }
+    for (const std::string& hole : input.materials[i].holes) {
+      const std::string where = item_key("materials", i, "holes");
+      check_reference(input, names, where, hole, Reserved::refused);
+      if (!is_lattice(input.body)) check_shape(input, where, hole);
+      if (owner.count(hole) == 0) continue;
+      throw InputError(input.where(where),
+                       fmt::format("is {}, a region of the material", quoted(hole)),
+                       "a region is filled or cut out; delete one of the two");
+    }
+  }
+}
+
+std::string shown(const Expression& value) {
+  return value.is_constant() ? fmt::format("{}", value.number) : quoted(value.formula);
+}
+
+using Held = std::set<std::pair<std::string, int>>;
+
+void check_driven_once(const CaseFile& input, const Held& held, const std::string& table,
+                       const std::vector<DisplacementSection>& sections) {
+  std::map<std::pair<std::string, int>, Expression> driven;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const DisplacementSection& section = sections[i];
+    for (int axis = 0; axis < 6; ++axis) {
+      if (!section.value[axis]) continue;
+      const Expression& value = *section.value[axis];
+      const std::string name = motion_name(dimension_of(input.body), axis);
+      const SourceLocation where = input.where(item_key(table, i, name));
+      if (!value.is_zero() && held.count({section.region, axis}) > 0) {
+        throw InputError(where,
+                         fmt::format("drives region {} by {}, but [[supports]] holds it in {}",
+                                     quoted(section.region), shown(value), name),
+                         "delete one of the two");
+      }
+      const auto [at, is_new] = driven.emplace(std::pair(section.region, axis), value);
+      if (!is_new && !(at->second == value)) {
+        throw InputError(where,
+                         fmt::format("drives region {} by {}, but another table drives it by {}",
+                                     quoted(section.region), shown(value), shown(at->second)),
+                         "delete one of the two");
+      }
+    }
+  }
+}
+
+/// A displacement that is driven cannot be held or driven elsewhere too.
+void check_contradictions(const CaseFile& input) {
+  Held held;
+  for (const SupportSection& support : input.supports) {
+    for (int axis = 0; axis < 6; ++axis) {
+      if (support.fix[axis]) held.emplace(support.region, axis);
+    }
+  }
+  check_driven_once(input, held, "displacements", input.displacements);
+  check_driven_once(input, held, "velocities", input.velocities);
+}
+
+void check_driven(const CaseFile& input) {
+  bool driven = !input.loads.empty() || !input.tractions.empty() || !input.point_loads.empty();
+  for (const auto* sections : {&input.displacements, &input.velocities}) {
+    for (const DisplacementSection& section : *sections) {
+      for (const auto& value : section.value) driven = driven || (value && !value->is_zero());
+    }
+  }
+  if (driven) return;
+  throw InputError(
+      input.where("loads"), "nothing loads the body",
+      "add [[loads]], [[tractions]], [[point_loads]], or [[displacements]] that are not zero");
+}
+
+void refuse_on_ghosts(const CaseFile& input, const std::string& key) {
+  if (input.body.surface != Surface::ghost) return;
+  throw InputError(input.where(key),
+                   "acts on the surface, but with surface = \"ghost\" the particles stand in the "
+                   "middle of their cells and none on it",
+                   "share a total over a region ([[loads]].force, [[springs]].total), or set "
+                   "surface = \"none\" in [body]");
+}
+
+void check_method(const CaseFile& input) {
+  if (input.body.method != "linear_elements") return;
+  const SourceLocation where = input.where("body.method");
+  if (input.analysis.type != "elastic") {
+    throw InputError(where, "is \"linear_elements\", which cannot break",
+                     "set analysis.type = \"elastic\", or delete the line");
+  }
+  if (!input.rebar.empty()) {
+    throw InputError(where, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
+                     "delete one of the two");
+  }
+  if (!input.cracks.empty()) {
+    throw InputError(where, "is \"linear_elements\", but the case has [[cracks]], which cut bonds",
+                     "delete one of the two, or leave the crack out of the mesh");
+  }
+  if (!input.springs.empty()) {
+    throw InputError(where,
+                     "is \"linear_elements\", but the case has [[springs]], which only bonds know",
+                     "delete one of the two");
+  }
+}
+
+}  // namespace
+
+void check_rules(const CaseFile& input) {
+  check_moving_bonds(input);
+  check_particles(input);
+  check_lattice(input);
+  check_method(input);
+  const std::set<std::string> names = check_region_names(input);
+  check_groups(input);
+  check_materials(input, names);
+  check_stiffness_ratio(input);
+  check_references(input, names, "supports", input.supports);
+  check_references(input, names, "displacements", input.displacements);
+  check_references(input, names, "velocities", input.velocities);
+  check_references(input, names, "loads", input.loads);
+  if (!input.tractions.empty()) refuse_on_ghosts(input, "tractions[1]");
+  check_references(input, names, "tractions", input.tractions);
+  for (std::size_t i = 0; i < input.springs.size(); ++i) {
+    if (input.springs[i].stiffness) refuse_on_ghosts(input, item_key("springs", i, "stiffness"));
+  }
+  check_references(input, names, "springs", input.springs);
+  for (std::size_t i = 0; i < input.symmetry.size(); ++i) {
+    if (input.symmetry[i].at) continue;
+    check_reference(input, names, item_key("symmetry", i, "region"), input.symmetry[i].region,
+                    Reserved::refused);
+  }
+  for (std::size_t i = 0; i < input.gauges.size(); ++i) {
+    if (input.gauges[i].region.empty()) continue;
+    check_reference(input, names, item_key("gauges", i, "region"), input.gauges[i].region,
+                    Reserved::allowed);
+  }
+  check_gauges(input);
+  check_contradictions(input);
+  check_driven(input);
+}
+
+}  // namespace perilink

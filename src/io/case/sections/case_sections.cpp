@@ -1,0 +1,252 @@
+#include "io/case/sections/case_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "io/case/case_schema.hpp"
+#include "io/case/case_words.hpp"
+#include "io/case/sections/case_bond_dynamics.hpp"
+#include "io/case/sections/case_lattice.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr int largest_count = std::numeric_limits<int>::max();
+
+/// Rotations that the particles of the body do not have, or that go by another name.
+void refuse_rotations(const CaseTable& table, const BodySection& body) {
+  const bool flat = dimension_of(body) == 2;
+  for (const char* key : {"rotation", "rx", "ry", "rz"}) {
+    if (!table.has(key)) continue;
+    if (body.model != "micropolar") {
+      table.refuse(key, "is given, but " + why_nothing_rotates(body),
+                   "delete it, or " + what_rotates(body));
+    }
+    if (flat == (std::string_view(key) == "rotation")) continue;
+    table.refuse(key,
+                 fmt::format("is no rotation of a body in {} dimensions", flat ? "two" : "three"),
+                 flat ? "Allowed: rotation" : "Allowed: rx, ry, rz");
+  }
+}
+
+/// Index in SupportSection::fix of what a support names.
+std::size_t find_held_component(const CaseTable& table, const BodySection& body,
+                                const std::string& name) {
+  const int dim = dimension_of(body);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (name == axis_names[axis]) {
+      if (axis == 2) refuse_third_axis(table, "fix", dim);
+      return axis;
+    }
+    const bool turns = dim == 3 || axis == 2;
+    if (!turns || name != rotation_name(dim, axis)) continue;
+    if (body.model != "micropolar") {
+      table.refuse("fix", fmt::format("names {}, but {}", quoted(name), why_nothing_rotates(body)),
+                   "delete it, or " + what_rotates(body));
+    }
+    return 3 + axis;
+  }
+  const bool rotates = body.model == "micropolar";
+  table.refuse("fix", fmt::format("names {}, which is no axis", quoted(name)),
+               dim == 2 ? (rotates ? "Allowed: x, y, rotation" : "Allowed: x, y")
+                        : (rotates ? "Allowed: x, y, z, rx, ry, rz" : "Allowed: x, y, z"));
+}
+
+/// Keys of [analysis] that only quasistatic analyses have.
+void read_events(const CaseTable& table, AnalysisSection& analysis) {
+  assign(analysis.control, table.choice("control", {"events", "steps"}));
+  assign(analysis.factor, table.choice("factor", {"in_place", "cholmod_updown", "refactorize"}));
+}
+
+std::string need_region(const CaseTable& table, const std::string& use) {
+  return table.need("region", table.text("region"), "the name of the region " + use);
+}
+
+}  // namespace
+
+void refuse_third_axis(const CaseTable& table, const std::string& key, int dim) {
+  if (dim == 3) return;
+  table.refuse(key, "is an axis that a two-dimensional body does not have",
+               "delete it, or set problem = \"three_dimensional\" in [body]");
+}
+
+std::string why_nothing_rotates(const BodySection& body) {
+  if (body.method == "linear_elements") return "the corners of linear elements do not rotate";
+  return fmt::format("the particles of a {} body do not rotate", is_lattice(body) ? "lattice"
+                                                                 : has_state_based_particles(body)
+                                                                     ? "state-based"
+                                                                     : "bond-based");
+}
+
+std::string what_rotates(const BodySection& body) {
+  return body.method == "linear_elements"
+             ? "set model = \"micropolar\" in [body] instead of method = \"linear_elements\""
+             : "set model = \"micropolar\" in [body]";
+}
+
+SupportSection read_support(const CaseTable& table, const BodySection& body) {
+  SupportSection support;
+  support.region = need_region(table, "that is held");
+  const std::vector<std::string> names =
+      table.need("fix", table.texts("fix"), "the axes that are held, fix = [\"x\", \"y\"]");
+  if (names.empty()) table.refuse("fix", "names no axis", "write fix = [\"x\", \"y\"]");
+  for (const std::string& name : names) {
+    bool& fixed = support.fix[find_held_component(table, body, name)];
+    if (fixed) table.refuse("fix", fmt::format("names \"{}\" twice", name), "name it once");
+    fixed = true;
+  }
+  return support;
+}
+
+DisplacementSection read_displacement(const CaseTable& table, const BodySection& body) {
+  const int dim = dimension_of(body);
+  DisplacementSection driven;
+  driven.region = need_region(table, "that is driven");
+  if (table.has("z")) refuse_third_axis(table, "z", dim);
+  refuse_rotations(table, body);
+  bool any = false;
+  for (std::size_t component = 0; component < 6; ++component) {
+    if (dim == 2 && component >= 2 && component != 5) continue;
+    driven.value[component] = table.expression(motion_name(dim, component), dim);
+    any = any || driven.value[component].has_value();
+  }
+  if (!any) {
+    table.refuse("", "drives no axis",
+                 dim == 2 ? "give x or y or both" : "give one or more of x, y, z");
+  }
+  return driven;
+}
+
+LoadSection read_load(const CaseTable& table, int dim) {
+  LoadSection load;
+  load.region = need_region(table, "that is loaded");
+  table.need_one_of({"force", "body_force"});
+  load.force = table.vector("force", dim);
+  load.body_force = table.expressions("body_force", dim);
+  if (load.force ? *load.force == Vector3{} : load.body_force->is_zero()) {
+    table.refuse(load.force ? "force" : "body_force", "is zero in every direction",
+                 "give the load at load factor 1, or delete the table");
+  }
+  return load;
+}
+
+CrackSection read_crack(const CaseTable& table, int dim) {
+  const std::string key = dim == 2 ? "points" : "corners";
+  if (const std::string other = dim == 2 ? "corners" : "points"; table.has(other)) {
+    table.refuse(other, fmt::format("is given, but the body has {} dimensions", dim),
+                 dim == 2 ? "give the `points` of a line: [[0, 1], [2, 1]]"
+                          : "give the `corners` of a plane polygon");
+  }
+  CrackSection crack;
+  crack.points = table.need(key, table.vectors(key, dim),
+                            dim == 2 ? "the points of a line: [[0, 1], [2, 1]]"
+                                     : "the corners of a plane convex polygon");
+  if (crack.points.size() < static_cast<std::size_t>(dim)) {
+    table.refuse(
+        key, fmt::format("has {}", crack.points.size()),
+        dim == 2 ? "a crack needs two points or more" : "a crack needs three corners or more");
+  }
+  return crack;
+}
+
+RebarSection read_rebar(const CaseTable& table, int dim) {
+  RebarSection bar;
+  bar.from = table.need("from", table.vector("from", dim), "the point where the bar begins");
+  bar.to = table.need("to", table.vector("to", dim), "the point where the bar ends");
+  if (bar.from == bar.to) {
+    table.refuse("to", "is the same point as `from`, so the bar has no length",
+                 "give the two ends of the bar");
+  }
+  bar.youngs_modulus =
+      table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus of the bar");
+  bar.area = table.need("area", table.positive("area"), "the area of the bar's cross-section");
+  bar.yield_strength = table.positive("yield_strength");
+  assign(bar.yields, table.boolean("yields"));
+  assign(bar.ties_break, table.boolean("ties_break"));
+  if (table.has("yields") && bar.yields && !bar.yield_strength) {
+    table.refuse("yields", "is true, but the bar has no yield strength",
+                 "give `yield_strength`, or leave `yields` out for an elastic bar");
+  }
+  return bar;
+}
+
+std::vector<double> read_load_factors(const CaseTable& table) {
+  const std::vector<double> factors = table.need("load_factors", table.numbers("load_factors"),
+                                                 "the load factors of the steps: [0.1, 0.2, 0.3]");
+  if (factors.empty()) table.refuse("load_factors", "is empty", "give one number for each step");
+  if (std::any_of(factors.begin(), factors.end(), [](double factor) { return factor < 0.0; })) {
+    table.refuse(
+        "load_factors", "holds a negative load factor",
+        "turn the signs of the loads and displacements instead: bonds are searched for breaks "
+        "under a growing load");
+  }
+  if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 0.0; })) {
+    table.refuse("load_factors", "holds only zeros, so no step loads the body",
+                 "give one number for each step: [0.1, 0.2, 0.3]");
+  }
+  return factors;
+}
+
+AnalysisSection read_analysis(const CaseTable& table) {
+  AnalysisSection analysis;
+  assign(analysis.type, table.choice("type", {"damage", "elastic", "explicit", "relaxation"}));
+  assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
+  const bool is_explicit = analysis.type == "explicit", relaxes = analysis.type == "relaxation";
+  // Keys of other types are checked, too, and then forgotten.
+  AnalysisSection other;
+  read_strain(table, is_explicit || relaxes ? analysis : other);
+  read_explicit_analysis(table, is_explicit ? analysis : other);
+  read_relaxation(table, relaxes ? analysis : other);
+  read_events(table, is_explicit || relaxes ? other : analysis);
+  if (relaxes) analysis.load_factors = {1.0};
+  if (!table.has("load_factors") && analysis.control != "steps") return analysis;
+  const std::vector<double> factors = read_load_factors(table);
+  if (is_explicit) return analysis;
+  if (!relaxes && analysis.control == "events") {
+    table.refuse("load_factors", "is given, but control = \"events\" finds the load factors itself",
+                 "set control = \"steps\", or delete `load_factors`");
+  }
+  analysis.load_factors = factors;
+  return analysis;
+}
+
+StopSection read_stop(const CaseTable& table) {
+  StopSection stop;
+  stop.broken_bonds = table.integer("broken_bonds", 1, largest_count);
+  stop.load_fraction = table.positive("load_fraction");
+  if (stop.load_fraction && *stop.load_fraction >= 1.0) {
+    table.refuse("load_fraction",
+                 fmt::format("is {}, but must be less than 1", *stop.load_fraction),
+                 "0.1 stops the run when the load has fallen to a tenth of its peak");
+  }
+  stop.displacement = table.positive("displacement");
+  return stop;
+}
+
+OutputSection read_output(const CaseTable& table) {
+  OutputSection output;
+  assign(output.fields_at, table.integers("fields_at", 1, largest_count));
+  for (std::size_t i = 1; i < output.fields_at.size(); ++i) {
+    if (output.fields_at[i] > output.fields_at[i - 1]) continue;
+    table.refuse("fields_at",
+                 fmt::format("has {} after {}, but the numbers must ascend", output.fields_at[i],
+                             output.fields_at[i - 1]),
+                 "sort the numbers of broken bonds, each once");
+  }
+  output.fields_every = table.integer("fields_every", 1, largest_count);
+  assign(output.fields_times, table.numbers("fields_times"));
+  for (std::size_t i = 0; i < output.fields_times.size(); ++i) {
+    const double before = i > 0 ? output.fields_times[i - 1] : 0.0;
+    if (output.fields_times[i] > before) continue;
+    table.refuse(
+        "fields_times",
+        fmt::format("has {} after {}, but times must ascend", output.fields_times[i], before),
+        "sort the times, each once; the fields at time 0 are always written");
+  }
+  return output;
+}
+
+}  // namespace perilink

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/case/case_file.hpp"
+#include "io/case/case_table.hpp"
+#include "io/text/toml_writer.hpp"
+
+/// \file
+/// Readers of the tables of a case. Each checks what is wrong within its table;
+/// case_rules.hpp checks what is wrong between tables.
+
+namespace perilink {
+
+/// 2 or 3.
+int dimension_of(const BodySection& body);
+
+/// Why particles have no rotations where the body is not micropolar, and what would give them some:
+/// parts of refusals.
+std::string why_nothing_rotates(const BodySection& body);
+std::string what_rotates(const BodySection& body);
+
+/// Refuses a key for the third axis of a body in the plane.
+void refuse_third_axis(const CaseTable& table, const std::string& key, int dim);
+
+/// `mesh` and `mesh_size`, where the body has them.
+void read_mesh_file(const CaseTable& table, BodySection& body);
+
+BodySection read_body(const CaseTable& table);
+/// A positive number, or infinity for "infinite".
+double read_fracture_energy(const CaseTable& table);
+Region read_region(const CaseTable& table, int dim);
+void write_region(TomlWriter& out, const Region& region, int dim);
+/// \param index  zero-based, for the name of a nameless material
+MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index);
+SupportSection read_support(const CaseTable& table, const BodySection& body);
+DisplacementSection read_displacement(const CaseTable& table, const BodySection& body);
+LoadSection read_load(const CaseTable& table, int dim);
+TractionSection read_traction(const CaseTable& table, int dim);
+PointLoadSection read_point_load(const CaseTable& table, const BodySection& body);
+SymmetrySection read_symmetry(const CaseTable& table, int dim);
+SpringSection read_springs(const CaseTable& table, int dim);
+CrackSection read_crack(const CaseTable& table, int dim);
+RebarSection read_rebar(const CaseTable& table, int dim);
+GaugeSection read_gauge(const CaseTable& table, int dim);
+/// The load factors that an analysis must have.
+std::vector<double> read_load_factors(const CaseTable& table);
+AnalysisSection read_analysis(const CaseTable& table);
+StopSection read_stop(const CaseTable& table);
+OutputSection read_output(const CaseTable& table);
+
+}  // namespace perilink

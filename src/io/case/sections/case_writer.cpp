@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "io/case/case_file.hpp"
+#include "io/case/case_words.hpp"
+#include "io/case/sections/case_bond_dynamics.hpp"
+#include "io/case/sections/case_gauges.hpp"
+#include "io/case/sections/case_lattice.hpp"
+#include "io/case/sections/case_particles.hpp"
+#include "io/case/sections/case_sections.hpp"
+#include "io/text/toml_writer.hpp"
+
+namespace perilink {
+namespace {
+
+void write_body(TomlWriter& out, const BodySection& body) {
+  out.header("[body]");
+  out.write("problem", body.problem);
+  out.write("method", body.method);
+  const bool bonds = body.method == "bonds";
+  if (bonds) out.write("model", body.model);
+  if (dimension_of(body) == 3 && body.model == "micropolar") out.write("torsion", body.torsion);
+  if (dimension_of(body) == 2) out.write("thickness", body.thickness);
+  if (is_lattice(body)) return write_lattice_body(out, body);
+  out.write("mesh", body.mesh);
+  out.write("mesh_size", body.mesh_size);
+  if (!body.mesh) out.write("pattern", word_of(body.pattern));
+  const bool has_horizon = bonds && !is_particles(body);
+  if (has_horizon) out.write("surface", word_of(body.surface));
+  out.write("columns", body.columns);
+  out.write("spacing", body.spacing);
+  out.write("horizon", body.horizon);
+  out.write("horizon_level", body.horizon_level);
+  out.write("horizon_ratio", body.horizon_ratio);
+  if (!has_horizon) return;
+  out.write("micromodulus", body.micromodulus);
+  out.write("critical_stretch", body.critical_stretch);
+}
+
+void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
+  for (const Region& region : input.regions) write_region(out, region, dim);
+  for (const MaterialSection& material : input.materials) {
+    out.header("[[materials]]");
+    out.write("name", material.name);
+    out.write("regions", material.regions);
+    if (!material.holes.empty()) out.write("holes", material.holes);
+    out.write("youngs_modulus", material.youngs_modulus);
+    out.write("poissons_ratio", material.poissons_ratio);
+    if (std::isinf(material.fracture_energy)) {
+      out.write("fracture_energy", "infinite");
+    } else if (material.fracture_energy > 0.0) {
+      out.write("fracture_energy", material.fracture_energy);
+    }
+    if (is_particles(input.body)) {
+      write_particle_material(out, material);
+    } else if (material.lattice) {
+      write_lattice_material(out, material);
+    } else {
+      out.write("density", material.density);
+    }
+  }
+}
+
+void write_driven(TomlWriter& out, const std::string& header,
+                  const std::vector<DisplacementSection>& sections, int dim) {
+  for (const DisplacementSection& section : sections) {
+    out.header(header);
+    out.write("region", section.region);
+    for (std::size_t c = 0; c < 6; ++c) out.write(motion_name(dim, c), section.value[c]);
+  }
+}
+
+void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
+  for (const SupportSection& support : input.supports) {
+    out.header("[[supports]]");
+    out.write("region", support.region);
+    std::vector<std::string> axes;
+    for (int axis = 0; axis < dim; ++axis) {
+      if (support.fix[axis]) axes.emplace_back(axis_names[axis]);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (support.fix[3 + axis]) axes.emplace_back(rotation_name(dim, axis));
+    }
+    out.write("fix", axes);
+  }
+  write_driven(out, "[[displacements]]", input.displacements, dim);
+  write_driven(out, "[[velocities]]", input.velocities, dim);
+  for (const LoadSection& load : input.loads) {
+    out.header("[[loads]]");
+    out.write("region", load.region);
+    if (load.force) out.write("force", *load.force, dim);
+    if (load.body_force) out.write("body_force", *load.body_force, dim);
+  }
+}
+
+void write_more_loading(TomlWriter& out, const CaseFile& input, int dim) {
+  for (const TractionSection& section : input.tractions) {
+    out.header("[[tractions]]");
+    out.write("region", section.region);
+    if (section.traction) out.write("traction", *section.traction, dim);
+    out.write("pressure", section.pressure);
+  }
+  for (const PointLoadSection& section : input.point_loads) {
+    out.header("[[point_loads]]");
+    out.write("at", section.at, dim);
+    out.write("force", section.force, dim);
+    if (section.moment == Vector3{}) continue;
+    if (dim == 2) out.write("moment", section.moment[2]);
+    if (dim == 3) out.write("moment", section.moment, dim);
+  }
+  for (const SymmetrySection& section : input.symmetry) {
+    out.header("[[symmetry]]");
+    out.write("axis", axis_names[section.axis]);
+    out.write("at", section.at);
+    if (!section.at) out.write("region", section.region);
+  }
+  for (const SpringSection& section : input.springs) {
+    out.header("[[springs]]");
+    out.write("region", section.region);
+    if (section.stiffness) out.write("stiffness", *section.stiffness, dim);
+    if (section.total) out.write("total", *section.total, dim);
+  }
+}
+
+void write_crack(TomlWriter& out, const CrackSection& crack, int dim) {
+  out.header("[[cracks]]");
+  std::vector<std::vector<double>> points;
+  for (const Vector3& point : crack.points) points.emplace_back(point.begin(), point.begin() + dim);
+  out.write(dim == 2 ? "points" : "corners", points);
+}
+
+void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
+  out.header("[[rebar]]");
+  out.write("from", bar.from, dim);
+  out.write("to", bar.to, dim);
+  out.write("youngs_modulus", bar.youngs_modulus);
+  out.write("area", bar.area);
+  out.write("yield_strength", bar.yield_strength);
+  // `yields = true` without a yield strength is refused when it is written out.
+  if (bar.yield_strength || !bar.yields) out.write("yields", bar.yields);
+  out.write("ties_break", bar.ties_break);
+}
+
+void write_run(TomlWriter& out, const CaseFile& input) {
+  out.header("[analysis]");
+  out.write("type", input.analysis.type);
+  if (input.analysis.type == "explicit") {
+    write_explicit_analysis(out, input);
+    out.header("[output]");
+    out.write("fields_times", input.output.fields_times);
+    return;
+  }
+  if (input.analysis.type == "relaxation") return write_relaxation(out, input);
+  out.write("control", input.analysis.control);
+  if (input.analysis.control == "steps") out.write("load_factors", input.analysis.load_factors);
+  out.write("rigid_body_modes", input.analysis.rigid_body_modes);
+  out.write("factor", input.analysis.factor);
+  out.header("[stop]");
+  out.write("broken_bonds", input.stop.broken_bonds);
+  out.write("load_fraction", input.stop.load_fraction);
+  out.write("displacement", input.stop.displacement);
+  out.header("[output]");
+  out.write("fields_at", input.output.fields_at);
+  out.write("fields_every", input.output.fields_every);
+}
+
+}  // namespace
+
+std::string write_case(const CaseFile& input) {
+  const int dim = dimension_of(input.body);
+  TomlWriter out;
+  out.write("title", input.title);
+  out.write("units", input.units);
+  write_body(out, input.body);
+  write_solid(out, input, dim);
+  write_loading(out, input, dim);
+  write_more_loading(out, input, dim);
+  for (const CrackSection& crack : input.cracks) write_crack(out, crack, dim);
+  for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);
+  write_gauges(out, input);
+  write_run(out, input);
+  return out.take();
+}
+
+}  // namespace perilink

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "io/text/formula.hpp"
+#include "io/text/toml_tree.hpp"
+
+/// \file
+/// The study file: which case is run over which refinements and options, and what its error is.
+/// docs/studies.md is the user's page.
+
+namespace perilink {
+
+/// [vary]: the case is run for every combination. An empty list leaves the case's own value.
+struct VarySection {
+  std::string refinement;         ///< key of [body] that refines: spacing, columns, mesh, mesh_size
+  SourceLocation where;           ///< of that key
+  std::vector<TomlValue> values;  ///< of that key, numbers, integers or texts
+  std::vector<double> horizon_ratio;
+  std::vector<std::string> surface;
+  std::vector<std::string> method;  ///< bonds | linear_elements
+};
+
+/// What the error of a quantity is measured against.
+enum class Reference {
+  number,        ///< a given one
+  finest,        ///< the finest member of the same combination
+  extrapolated,  ///< the limit of its three finest members
+};
+
+/// [error]: exactly one of displacement, gauge and quantity.
+struct ErrorSection {
+  SourceLocation where;
+  std::string name;                      ///< of columns and pictures
+  std::vector<Expression> displacement;  ///< closed form, one formula of x, y, z for each axis
+  bool remove_rigid_motion = false;      ///< from the difference to the closed form
+  std::string gauge;                     ///< column of the history
+  std::string quantity;                  ///< one of quantity_words()
+  Reference reference = Reference::number;
+  double reference_value = 0.0;
+
+  bool is_field() const { return !displacement.empty(); }
+};
+
+/// A whole study.
+struct StudyFile {
+  std::string path;
+  std::string title;
+  std::string case_path;  ///< as the program opens it
+  int repeats = 1;        ///< of every member; the shortest time counts
+  VarySection vary;
+  std::vector<ErrorSection> errors;
+  bool trust_geometry = false;  ///< from the command line, as in CaseFile
+};
+
+/// Numbers of a run that a study can measure.
+const std::vector<std::string_view>& quantity_words();
+
+/// Reads and checks a study; the case itself is not opened.
+/// \throws InputError  with file, line, key, value given, what is allowed and a suggestion
+/// \throws FileError   when the file cannot be read
+StudyFile read_study_file(const std::string& path);
+
+/// The same from text.
+StudyFile parse_study(const std::string& text, const std::string& path);
+
+/// The study as TOML text that reads back to the same study from a file in `directory`: paths of
+/// files are relative to it.
+std::string write_study(const StudyFile& study, const std::string& directory);
+
+}  // namespace perilink

@@ -1,0 +1,187 @@
+#include "io/mesh/gmsh_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/files.hpp"
+#include "io/mesh/gmsh_sections.hpp"
+#include "io/text/toml_tree.hpp"
+
+namespace perilink {
+namespace {
+
+/// More would overflow the 32-bit numbers of bonds at the usual horizons.
+constexpr std::size_t most_nodes = 30'000'000;
+
+/// What a mesh takes while it is read, its file included [bytes per byte of the file]; 2.7 were
+/// measured, for a million triangles as text and in binary.
+constexpr double memory_per_byte = 3.0;
+
+/// Two-dimensional meshes lie in a plane of constant z to this fraction of their extent.
+constexpr double flatness = 1e-9;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& fault,
+                         const std::string& advice) {
+  throw InputError({path, 0, ""}, fault, advice);
+}
+
+/// Finds nodes by tag.
+class NodeTable {
+ public:
+  NodeTable(const GmshSections& sections, const std::string& path) : path_(path) {
+    const auto count = static_cast<Index>(sections.node_tags.size());
+    sorted_.reserve(sections.node_tags.size());
+    for (Index i = 0; i < count; ++i) sorted_.emplace_back(sections.node_tags[i], i);
+    std::sort(sorted_.begin(), sorted_.end());
+    for (std::size_t i = 1; i < sorted_.size(); ++i) {
+      if (sorted_[i].first == sorted_[i - 1].first) {
+        refuse(path, fmt::format("has two nodes with the tag {}", sorted_[i].first), "");
+      }
+    }
+  }
+
+  Index find(std::int64_t tag) const {
+    // Tags are nearly always 1, 2, 3, ...
+    const std::int64_t guess = tag - sorted_.front().first;
+    if (guess >= 0 && guess < static_cast<std::int64_t>(sorted_.size()) &&
+        sorted_[guess].first == tag) {
+      return sorted_[guess].second;
+    }
+    const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(tag, Index{0}));
+    if (found == sorted_.end() || found->first != tag) {
+      refuse(path_, fmt::format("has an element with the node {}, which is not in the file", tag),
+             "the file is damaged: write the mesh again");
+    }
+    return found->second;
+  }
+
+ private:
+  const std::string& path_;
+  std::vector<std::pair<std::int64_t, Index>> sorted_;
+};
+
+void check_dimension(const GmshSections& sections, const std::string& path, int dim) {
+  bool cells = false;
+  for (const GmshBlock& block : sections.blocks) {
+    cells = cells || (block.entity.first == dim && !block.nodes.empty());
+    if (block.entity.first > dim) {
+      refuse(path, "holds tetrahedra, but the body has two dimensions",
+             "set problem = \"three_dimensional\" in [body], or mesh the surface only: gmsh -2");
+    }
+  }
+  if (cells) return;
+  if (dim == 2) refuse(path, "holds no triangles", "mesh the surface: gmsh FILE.geo -2");
+  refuse(
+      path, "holds no tetrahedra, but the body has three dimensions",
+      "mesh the volume: gmsh FILE.geo -3; or set problem = \"plane_stress\" in [body]. Where the "
+      "geometry has physical groups, the volume needs one too");
+}
+
+void add_positions(const GmshSections& sections, const std::string& path, Mesh& mesh) {
+  const std::size_t count = sections.node_tags.size();
+  if (count > most_nodes) {
+    refuse(path, fmt::format("has {} nodes", count),
+           fmt::format("at most {} are possible: mesh with larger cells", most_nodes));
+  }
+  double lower = INFINITY, upper = -INFINITY, extent = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* x = sections.coordinates.data() + 3 * i;
+    mesh.positions.insert(mesh.positions.end(), x, x + mesh.dim);
+    lower = std::min(lower, x[2]);
+    upper = std::max(upper, x[2]);
+    for (int axis = 0; axis < 2; ++axis) {
+      extent = std::max(extent, std::abs(x[axis] - sections.coordinates[axis]));
+    }
+  }
+  if (mesh.dim == 2 && upper - lower > flatness * extent) {
+    refuse(path, fmt::format("is no plane mesh: z goes from {:.6g} to {:.6g}", lower, upper),
+           "draw two-dimensional bodies in the plane of x and y");
+  }
+}
+
+/// The group of a physical tag, made when it is first met.
+MeshGroup& group_of(std::map<GmshKey, MeshGroup>& groups, const GmshSections& sections,
+                    const GmshKey& key) {
+  MeshGroup& group = groups[key];
+  group.dim = key.first;
+  const auto name = sections.names.find(key);
+  group.name = name != sections.names.end() ? name->second : std::to_string(key.second);
+  return group;
+}
+
+void sort_points(std::vector<Index>& points) {
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+}
+
+std::vector<MeshGroup> named_once(std::map<GmshKey, MeshGroup>& groups, const std::string& path) {
+  std::vector<MeshGroup> result;
+  std::map<std::string, int> seen;
+  for (auto& [key, group] : groups) {
+    sort_points(group.points);
+    if (!seen.emplace(group.name, group.dim).second) {
+      refuse(path,
+             fmt::format("has two physical groups with the name {}", perilink::quoted(group.name)),
+             "give every physical group a name of its own");
+    }
+    result.push_back(std::move(group));
+  }
+  return result;
+}
+
+void add_elements(const GmshSections& sections, const std::string& path, Mesh& mesh) {
+  const NodeTable table(sections, path);
+  std::map<GmshKey, MeshGroup> groups;
+  std::vector<Index> nodes;
+  for (const GmshBlock& block : sections.blocks) {
+    const int dim = block.entity.first;
+    const auto tags = sections.physical_tags.find(block.entity);
+    const bool grouped = tags != sections.physical_tags.end() && !tags->second.empty();
+    if (dim < mesh.dim && !grouped) continue;
+    nodes.clear();
+    for (const std::int64_t tag : block.nodes) nodes.push_back(table.find(tag));
+    const bool is_cell = dim == mesh.dim, is_facet = dim == mesh.dim - 1;
+    std::vector<Index>* elements = is_cell ? &mesh.cells : is_facet ? &mesh.facets : nullptr;
+    const std::size_t width = static_cast<std::size_t>(dim) + 1;
+    const auto first = static_cast<Index>(elements != nullptr ? elements->size() / width : 0);
+    if (elements != nullptr) elements->insert(elements->end(), nodes.begin(), nodes.end());
+    if (is_cell) mesh.cell_tags.insert(mesh.cell_tags.end(), block.tags.begin(), block.tags.end());
+    if (!grouped) continue;
+    std::vector<int> distinct = tags->second;
+    std::sort(distinct.begin(), distinct.end());
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    for (const int tag : distinct) {
+      MeshGroup& group = group_of(groups, sections, {dim, tag});
+      group.points.insert(group.points.end(), nodes.begin(), nodes.end());
+      for (std::size_t k = 0; elements != nullptr && k < nodes.size() / width; ++k) {
+        group.elements.push_back(first + static_cast<Index>(k));
+      }
+    }
+  }
+  mesh.groups = named_once(groups, path);
+}
+
+}  // namespace
+
+Mesh parse_gmsh(std::string_view bytes, const std::string& path, int dim) {
+  const GmshSections sections = read_gmsh_sections(bytes, path);
+  check_dimension(sections, path, dim);
+  Mesh mesh;
+  mesh.dim = dim;
+  add_positions(sections, path, mesh);
+  add_elements(sections, path, mesh);
+  return mesh;
+}
+
+Mesh read_gmsh_file(const std::string& path, int dim) {
+  const std::string bytes = read_regular_file(path, SIZE_MAX, memory_per_byte);
+  return parse_gmsh(bytes, path, dim);
+}
+
+}  // namespace perilink

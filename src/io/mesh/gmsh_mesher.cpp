@@ -1,0 +1,263 @@
+#include "io/mesh/gmsh_mesher.hpp"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/files.hpp"
+#include "io/case/case_words.hpp"
+#include "io/mesh/gmsh_file.hpp"
+#include "io/mesh/gmsh_script.hpp"
+
+#ifdef PERILINK_GMSH_LIBRARY
+#include <dlfcn.h>
+#include <gmshc.h>
+#endif
+
+namespace perilink {
+#ifndef PERILINK_GMSH_LIBRARY
+
+bool has_gmsh() { return false; }
+
+Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> /*size*/,
+                   bool /*trusted*/) {
+  throw FileError(fmt::format(
+      "{}: is a geometry, and this program was built without gmsh to mesh it\n"
+      "  mesh it by hand: gmsh -{} -format msh41 {}; or install libgmsh-dev and build again",
+      path, dim, path));
+}
+
+#else
+
+namespace {
+
+/// The functions of the library that are used, found when it is loaded.
+struct Gmsh {
+  decltype(&gmshInitialize) initialize = nullptr;
+  decltype(&gmshOpen) open = nullptr;
+  decltype(&gmshWrite) write = nullptr;
+  decltype(&gmshOptionSetNumber) set_number = nullptr;
+  decltype(&gmshModelMeshGenerate) generate = nullptr;
+  decltype(&gmshLoggerGetLastError) last_error = nullptr;
+};
+
+Gmsh load_gmsh() {
+  void* library = dlopen(PERILINK_GMSH_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) {
+    throw FileError(
+        fmt::format("gmsh's library cannot be loaded: {}\n  install it (libgmsh), or mesh the "
+                    "geometry by hand and name the .msh file",
+                    dlerror()));
+  }
+  const auto find = [library](auto& function, const char* name) {
+    void* address = dlsym(library, name);
+    if (address == nullptr) throw FileError(fmt::format("gmsh's library lacks {}", name));
+    std::memcpy(&function, &address, sizeof address);
+  };
+  Gmsh gmsh;
+  find(gmsh.initialize, "gmshInitialize");
+  find(gmsh.open, "gmshOpen");
+  find(gmsh.write, "gmshWrite");
+  find(gmsh.set_number, "gmshOptionSetNumber");
+  find(gmsh.generate, "gmshModelMeshGenerate");
+  find(gmsh.last_error, "gmshLoggerGetLastError");
+  return gmsh;
+}
+
+/// gmshInitialize has gained an argument in gmsh 4.10.
+void initialize(void (*function)(int, char**, int, int*), std::vector<char*>& arguments,
+                int& error) {
+  function(static_cast<int>(arguments.size()), arguments.data(), 0, &error);
+}
+[[maybe_unused]] void initialize(void (*function)(int, char**, int, int, int*),
+                                 std::vector<char*>& arguments, int& error) {
+  function(static_cast<int>(arguments.size()), arguments.data(), 0, 0, &error);
+}
+
+/// Calls gmsh; to be used once in a process, because gmsh keeps constants of one script for the
+/// next.
+class Session {
+ public:
+  explicit Session(std::optional<double> script_size) {
+    std::vector<std::string> words = {"perilink"};
+    if (script_size) {
+      words.insert(words.end(), {"-setnumber", "h", fmt::format("{}", *script_size)});
+    }
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    initialize(gmsh_.initialize, arguments, error_);
+    check();
+    for (const auto& [name, value] :
+         {std::pair{"General.Terminal", 0.0}, std::pair{"General.NumThreads", 1.0},
+          std::pair{"Mesh.MshFileVersion", 4.1}, std::pair{"Mesh.Binary", 1.0}}) {
+      set(name, value);
+    }
+  }
+
+  void set(const char* option, double value) {
+    gmsh_.set_number(option, value, &error_);
+    check();
+  }
+  void open(const std::string& path) {
+    gmsh_.open(path.c_str(), &error_);
+    check();
+  }
+  void generate(int dim) {
+    gmsh_.generate(dim, &error_);
+    check();
+  }
+  void write(const std::string& target) {
+    gmsh_.write(target.c_str(), &error_);
+    check();
+  }
+
+ private:
+  void check() {
+    if (error_ == 0) return;
+    char* text = nullptr;
+    int ignored = 0;
+    gmsh_.last_error(&text, &ignored);
+    throw Error(text != nullptr && text[0] != '\0' ? text : "gmsh gives no reason");
+  }
+
+  Gmsh gmsh_ = load_gmsh();
+  int error_ = 0;
+};
+
+void write_mesh(const std::string& path, int dim, std::optional<double> size,
+                const std::string& target) {
+  const bool script = is_gmsh_script(path);
+  Session session(script ? size : std::nullopt);
+  session.open(path);
+  if (!script && size) {
+    session.set("Mesh.MeshSizeMin", *size);
+    session.set("Mesh.MeshSizeMax", *size);
+  }
+  session.generate(dim);
+  session.write(target);
+}
+
+/// What became of a child process.
+struct Outcome {
+  int status = 0;       // as waitpid() gives it
+  std::string message;  // what it wrote
+};
+
+/// Makes the child end with its parent, whose lock of the results it holds, too, and at the first
+/// Ctrl-C.
+void follow_parent(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);  // it has ended before that
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+}
+
+/// Runs gmsh in a process of its own: it keeps what one script defined, and where it crashes on a
+/// geometry the program can still say so.
+Outcome mesh_in_child(const std::string& path, int dim, std::optional<double> size,
+                      const std::string& target) {
+  int ends[2];
+  if (pipe(ends) != 0) throw FileError(fmt::format("{}: {}", path, std::strerror(errno)));
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) throw FileError(fmt::format("{}: {}", path, std::strerror(errno)));
+  if (child == 0) {
+    follow_parent(parent);
+    close(ends[0]);
+    std::string message;
+    try {
+      write_mesh(path, dim, size, target);
+    } catch (const std::exception& error) {
+      message = error.what();
+    }
+    const auto written = write(ends[1], message.data(), message.size());
+    // Nothing of the parent may be flushed or destroyed twice.
+    _exit(message.empty() && written == 0 ? 0 : 1);
+  }
+  close(ends[1]);
+  Outcome outcome;
+  std::array<char, 4096> block;
+  for (ssize_t count = 1; count > 0;) {
+    count = read(ends[0], block.data(), block.size());
+    if (count > 0) outcome.message.append(block.data(), static_cast<std::size_t>(count));
+  }
+  close(ends[0]);
+  while (waitpid(child, &outcome.status, 0) < 0 && errno == EINTR) {
+  }
+  return outcome;
+}
+
+/// A file of its own that goes away with the object.
+class TemporaryMesh {
+ public:
+  TemporaryMesh() {
+    std::string name = (std::filesystem::temp_directory_path() / "perilink_XXXXXX.msh").string();
+    const int descriptor = mkstemps(name.data(), 4);
+    if (descriptor < 0) {
+      throw FileError(fmt::format("{}: cannot be made: {}", name, std::strerror(errno)));
+    }
+    close(descriptor);
+    path_ = name;
+  }
+  ~TemporaryMesh() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryMesh(const TemporaryMesh&) = delete;
+  TemporaryMesh& operator=(const TemporaryMesh&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+void check_script(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  static const std::regex constant(R"(DefineConstant\s*\[(?:[^\]]*[\s,])?h\s*=)");
+  if (std::regex_search(text, constant)) return;
+  throw InputError(
+      {path, 0, ""}, "has no constant `h` for mesh_size to set",
+      "write DefineConstant[ h = 0.1 ]; in it and use h as the size of points, or delete "
+      "mesh_size");
+}
+
+}  // namespace
+
+bool has_gmsh() { return true; }
+
+Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size, bool trusted) {
+  read_regular_file(path, 0);  // refuses what gmsh would wait for
+  if (!trusted) refuse_unsafe_geometry(path);
+  if (is_gmsh_script(path) && size) check_script(path);
+  const TemporaryMesh target;
+  const Outcome outcome = mesh_in_child(path, dim, size, target.path());
+  if (!WIFEXITED(outcome.status) || WEXITSTATUS(outcome.status) != 0) {
+    throw InputError({path, 0, ""},
+                     WIFEXITED(outcome.status) ? "gmsh cannot mesh it: " + outcome.message
+                                               : "gmsh crashed on it",
+                     "open the geometry with gmsh to see what is wrong");
+  }
+  std::ifstream file(target.path(), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  return parse_gmsh(bytes, path, dim);  // messages name the geometry
+}
+
+#endif
+
+}  // namespace perilink

@@ -1,0 +1,26 @@
+#include "io/text/input_text.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/files.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{16} << 20;
+
+}  // namespace
+
+std::string read_input_text(const std::string& path) {
+  return read_regular_file(path, largest_file + 1);
+}
+
+void refuse_large_input(const std::string& text, const std::string& path) {
+  if (text.size() <= largest_file) return;
+  throw InputError({path, 0, ""},
+                   fmt::format("is larger than {} MiB, so it is no case file", largest_file >> 20),
+                   "name the .toml file of a case");
+}
+
+}  // namespace perilink

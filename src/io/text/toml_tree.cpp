@@ -1,0 +1,184 @@
+#include "io/text/toml_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "base/plain_text.hpp"
+#include "io/text/toml_guard.hpp"
+
+namespace perilink {
+namespace {
+
+class BrokenAssumption {};
+
+/// A function of its own, for a throw within the assertions of functions that are noexcept would
+/// draw a warning at each.
+[[noreturn]] void break_assumption() { throw BrokenAssumption(); }
+
+}  // namespace
+}  // namespace perilink
+
+// toml++ 3.3 asserts what some malformed documents violate (`[= 1]`), and compiled with NDEBUG it
+// takes these assertions for granted. Here they end the parse instead, in every build.
+#undef NDEBUG
+#define TOML_ASSERT(condition) ((condition) ? void() : perilink::break_assumption())
+#include <toml++/toml.h>
+
+namespace perilink {
+namespace {
+
+int line_of(const toml::source_region& region) { return static_cast<int>(region.begin.line); }
+
+TomlValue convert(const toml::node& node, int line);
+
+/// Tables of toml++ are sorted by key; messages should come in the file's order.
+void convert_entries(const toml::table& table, TomlValue& result) {
+  struct Entry {
+    toml::source_position position;
+    const toml::key* key;
+    const toml::node* node;
+  };
+  std::vector<Entry> order;
+  for (const auto& [key, node] : table) order.push_back({key.source().begin, &key, &node});
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Entry& a, const Entry& b) { return a.position < b.position; });
+  for (const Entry& entry : order) {
+    const int line = static_cast<int>(entry.position.line);
+    result.entries.push_back(convert(*entry.node, line));
+    result.entries.back().key = entry.key->str();
+  }
+}
+
+TomlValue convert(const toml::node& node, int line) {
+  using Kind = TomlValue::Kind;
+  TomlValue result;
+  result.line = line;
+  if (const auto* table = node.as_table()) {
+    result.kind = Kind::table;
+    convert_entries(*table, result);
+  } else if (const auto* array = node.as_array()) {
+    result.kind = Kind::array;
+    for (const toml::node& item : *array)
+      result.items.push_back(convert(item, line_of(item.source())));
+  } else if (const auto* text = node.as_string()) {
+    result.kind = Kind::text;
+    result.text = text->get();
+  } else if (const auto* integer = node.as_integer()) {
+    result.kind = Kind::integer;
+    result.integer = integer->get();
+    result.number = static_cast<double>(integer->get());
+  } else if (const auto* number = node.as_floating_point()) {
+    result.kind = Kind::number;
+    result.number = number->get();
+  } else if (const auto* boolean = node.as_boolean()) {
+    result.kind = Kind::boolean;
+    result.boolean = boolean->get();
+  } else {
+    result.kind = Kind::date;
+  }
+  return result;
+}
+
+/// Bytes of a UTF-8 character that begins with `lead`; 0 where none begins so.
+std::size_t utf8_length(unsigned char lead) {
+  if (lead < 0x80) return 1;
+  if (lead >= 0xC2 && lead < 0xE0) return 2;
+  if (lead >= 0xE0 && lead < 0xF0) return 3;
+  if (lead >= 0xF0 && lead < 0xF5) return 4;
+  return 0;
+}
+
+/// Whether TOML forbids the character, even within comments. toml++ relies on its absence in places
+/// where a release build would go on undefined.
+bool is_forbidden(unsigned char c) {
+  return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
+}
+
+/// Line of the first byte that is not UTF-8 text, or 0. The parser's own message for such a file
+/// shows the byte but names no line that an editor would show.
+int line_without_text(const std::string& text) {
+  int line = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    line += lead == '\n';
+    const std::size_t length = utf8_length(lead);
+    if (length == 0 || i + length > text.size() || is_forbidden(lead)) return line;
+    for (std::size_t k = 1; k < length; ++k) {
+      if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80U) return line;
+    }
+    i += length;
+  }
+  return 0;
+}
+
+}  // namespace
+
+const TomlValue* TomlValue::find(const std::string& name) const {
+  for (const TomlValue& value : entries) {
+    if (value.key == name) return &value;
+  }
+  return nullptr;
+}
+
+TomlValue parse_toml(const std::string& text, const std::string& path) {
+  if (const int line = line_without_text(text); line > 0) {
+    throw InputError({path, line, ""}, "the line holds bytes that are not UTF-8 text",
+                     "name the .toml file of a case, saved as UTF-8");
+  }
+  const std::string safe = guard_toml(text, path);
+  try {
+    const toml::table document = toml::parse(std::string_view(safe), std::string_view(path));
+    return convert(document, 1);
+  } catch (const toml::parse_error& error) {
+    throw InputError({path, line_of(error.source()), ""},
+                     fmt::format("is not valid TOML: {}", error.description()),
+                     "docs/case_file.md shows how a case is written; text stands between quotes");
+  } catch (const BrokenAssumption&) {
+    throw InputError({path, 0, ""}, "is not valid TOML",
+                     "docs/case_file.md shows how a case is written; look for a misplaced bracket");
+  }
+}
+
+std::string quoted(const std::string& text) {
+  constexpr std::size_t longest = 60;
+  std::string result = "\"";
+  for (std::size_t i = 0; i < text.size();) {
+    if (i >= longest) return result + "...\"";
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = std::max<std::size_t>(1, utf8_length(lead));
+    if (lead < 0x20 || lead == 0x7F) {
+      result += fmt::format("\\x{:02x}", lead);
+    } else {
+      result += printable(text.substr(i, length));
+    }
+    i += length;
+  }
+  return result + "\"";
+}
+
+std::string describe(const TomlValue& value) {
+  using Kind = TomlValue::Kind;
+  switch (value.kind) {
+    case Kind::boolean:
+      return value.boolean ? "the boolean true" : "the boolean false";
+    case Kind::integer:
+      return fmt::format("the integer {}", value.integer);
+    case Kind::number:
+      return fmt::format("the number {}", value.number);
+    case Kind::text:
+      return fmt::format("the text {}", quoted(value.text));
+    case Kind::date:
+      return "a date or time";
+    case Kind::array:
+      return fmt::format("an array of {} value{}", value.items.size(),
+                         value.items.size() == 1 ? "" : "s");
+    case Kind::table:
+      break;
+  }
+  return "a table";
+}
+
+}  // namespace perilink

@@ -1,0 +1,133 @@
+#include "network/bond_strength.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "material/critical_stretch.hpp"
+
+namespace perilink {
+namespace {
+
+/// Sums over the inner particles of a cloud and the ends of bonds there.
+struct InnerBonds {
+  double volume = 0.0;
+  double axial = 0.0;    ///< k xi^3 / 2
+  double bending = 0.0;  ///< k_b / bending_ratio xi^3 / 2
+
+  InnerBonds operator+(const InnerBonds& other) const {
+    return {volume + other.volume, axial + other.axial, bending + other.bending};
+  }
+};
+
+/// Values of pairs of materials by bond.
+class PairOf {
+ public:
+  PairOf(const NetworkInput& input, const Network& network)
+      : network_(network), count_(input.materials.size()) {}
+  std::size_t operator()(Index bond) const {
+    const std::vector<Index>& material = network_.particles.material;
+    return static_cast<std::size_t>(material[network_.bonds.first[bond]]) * count_ +
+           static_cast<std::size_t>(material[network_.bonds.second[bond]]);
+  }
+
+ private:
+  const Network& network_;
+  std::size_t count_;
+};
+
+/// Particles that are bonded to none on a facet.
+std::vector<std::uint8_t> inner_particles(const Network& network) {
+  std::vector<std::uint8_t> inner(static_cast<std::size_t>(network.particles.size()), 1);
+  std::vector<std::uint8_t> on_facet(inner.size(), 0);
+  for (const Index i : network.facets.corners.values) on_facet[i] = 1;
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const Index i = network.bonds.first[b], j = network.bonds.second[b];
+    if (on_facet[i] || on_facet[j]) inner[i] = inner[j] = 0;
+  }
+  return inner;
+}
+
+/// By material.
+std::vector<InnerBonds> sum_inner_bonds(const Network& network, std::size_t num_materials) {
+  const std::vector<std::uint8_t> inner = inner_particles(network);
+  const std::vector<Index>& material = network.particles.material;
+  std::vector<InnerBonds> sums(num_materials);
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    if (inner[i]) sums[material[i]].volume += network.particles.volumes[i];
+  }
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const double cube = std::pow(network.bonds.lengths[b], 3);
+    const bool bends = network.carries_moments() && network.bending_ratio[b] > 0.0;
+    const double bending = bends ? network.bending[b] / network.bending_ratio[b] : 0.0;
+    for (const Index i : {network.bonds.first[b], network.bonds.second[b]}) {
+      if (!inner[i]) continue;
+      sums[material[i]].axial += 0.5 * network.stiffness[b] * cube;
+      sums[material[i]].bending += 0.5 * bending * cube;
+    }
+  }
+  return sums;
+}
+
+/// \param fracture_sums  Q of every pair of materials; zero: unknown
+void apply_fracture_sums(const NetworkInput& input, const std::vector<double>& fracture_sums,
+                         Network& network) {
+  std::vector<double> stretches;
+  for (const SolidMaterial& a : input.materials) {
+    for (const SolidMaterial& b : input.materials) {
+      const double energy = 0.5 * (a.fracture_energy + b.fracture_energy);
+      const double sum = fracture_sums[stretches.size()];
+      stretches.push_back(sum > 0.0 ? lattice_critical_stretch(energy, sum) : 0.0);
+    }
+  }
+  const PairOf pair(input, network);
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const double stretch = stretches[pair(b)];
+    if (stretch > 0.0) network.critical_stretch[b] = stretch;
+  }
+}
+
+}  // namespace
+
+std::vector<double> own_bending_ratios(const Network& network) {
+  std::vector<double> ratios;
+  for (std::size_t b = 0; b < network.bending.size(); ++b) {
+    ratios.push_back(network.ratio_of_bending(static_cast<Index>(b)));
+  }
+  return ratios;
+}
+
+void set_critical_stretches(const NetworkInput& input, const LatticeFamilies& families,
+                            double cell_volume, Network& network) {
+  const Index count = static_cast<Index>(input.materials.size());
+  std::vector<double> sums, stiffness(families.offsets().size());
+  for (Index a = 0; a < count; ++a) {
+    for (Index b = 0; b < count; ++b) {
+      for (std::size_t k = 0; k < stiffness.size(); ++k) {
+        stiffness[k] = 0.5 * (families.stiffness(a).axial[k] + families.stiffness(b).axial[k]);
+      }
+      sums.push_back(
+          fracture_sum_of_family(input.problem, families.offsets(), stiffness, cell_volume));
+    }
+  }
+  apply_fracture_sums(input, sums, network);
+}
+
+void set_strength_of_cloud(const NetworkInput& input, Network& network) {
+  const std::vector<InnerBonds> inner = sum_inner_bonds(network, input.materials.size());
+  std::vector<double> fracture_sums, factors;
+  for (const InnerBonds& a : inner) {
+    for (const InnerBonds& b : inner) {
+      const InnerBonds both = a + b;
+      fracture_sums.push_back(
+          both.volume > 0.0 ? mean_cosine(input.problem) * both.axial / both.volume : 0.0);
+      factors.push_back(both.bending > 0.0 ? both.bending / both.axial : 1.0);
+    }
+  }
+  apply_fracture_sums(input, fracture_sums, network);
+  const PairOf pair(input, network);
+  for (std::size_t b = 0; b < network.bending_ratio.size(); ++b) {
+    network.bending_ratio[b] *= factors[pair(static_cast<Index>(b))];
+  }
+}
+
+}  // namespace perilink

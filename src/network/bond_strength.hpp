@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "network/lattice_families.hpp"
+#include "network/network.hpp"
+#include "network/network_builder.hpp"
+
+/// \file
+/// When calibrated bonds break. Calibration changes what single bonds carry, not what the material
+/// bears: their limits are those of the bonds inside the body, the same for all of a pair of
+/// materials, and such that a straight crack releases G_F in the mean.
+
+namespace perilink {
+
+/// k_b / k of every bond as it is, the Network::bending_ratio before a calibration [-]; empty where
+/// no bond carries a moment.
+std::vector<double> own_bending_ratios(const Network& network);
+
+/// Critical stretches from the families of a lattice, the mean over all directions of a crack.
+/// \param cell_volume  of a particle inside [length^3]
+void set_critical_stretches(const NetworkInput& input, const LatticeFamilies& families,
+                            double cell_volume, Network& network);
+
+/// Critical stretches of an irregular cloud, from the calibrated bonds of the particles that are
+/// bonded to none on a facet: G_F = s_c^2 / 2 times the mean of |cos| times sum k xi^3 / (2 V).
+/// Network::bending_ratio is multiplied by the mean of k_b / (ratio k) of these bonds, each with
+/// its xi^3, so that bonds that break in shear release as much as those that break in extension.
+/// Pairs of materials without such particles keep what they have.
+void set_strength_of_cloud(const NetworkInput& input, Network& network);
+
+}  // namespace perilink

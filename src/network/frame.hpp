@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "network/network.hpp"
+
+/// \file Micropolar bonds as frame elements. The energy of a bond of length xi between the
+/// particles i and j is a sum of squares,
+///
+///   U = 1/2 sum over modes of k_m e_m^2,   e_m = b_first . q_i + b_second . q_j,
+///
+/// q a particle's displacements and rotations. With the unit vector n along the bond, t across it
+/// and u = u_j - u_i (Gerstle, Sau & Aguilera 2007, Eq. 5 in diagonal form):
+///
+///   axial    k                       e = u . n
+///   shear    kb                      e = u . t - xi (a theta_i + (1 - a) theta_j)
+///   bending  kb xi^2 / 12            e = theta_j - theta_i
+///   torsion  torsion kb xi^2 / 12    e = (theta_j - theta_i) . n     (three dimensions)
+///
+/// a is one half in the paper; calibrated bonds have their inflection elsewhere
+/// (Network::inflection). In three dimensions shear and bending come twice, for the two directions
+/// across the bond. A rigid motion, rotations included, costs nothing.
+
+namespace perilink {
+
+/// The modes of one bond, intact. Components as in Network::width().
+template <int Dim>
+struct FrameModes {
+  static constexpr int width = Dim == 2 ? 3 : 6;
+  static constexpr int count = width;
+
+  std::array<double, count> stiffness;                    ///< k_m [force/length, force length]
+  std::array<std::array<double, width>, count> first{};   ///< b of the first end
+  std::array<std::array<double, width>, count> second{};  ///< b of the second end
+
+  /// e_m of the motion of all particles, shape (particles, width).
+  template <class Real>
+  Real deformation(int mode, const Real* first_end, const Real* second_end) const {
+    Real sum = 0.0;
+    for (int a = 0; a < width; ++a) {
+      sum += first[mode][a] * first_end[a] + second[mode][a] * second_end[a];
+    }
+    return sum;
+  }
+};
+
+namespace detail {
+
+inline FrameModes<2> plane_modes(const double* n, double xi, double k, double kb,
+                                 double inflection) {
+  FrameModes<2> modes;
+  modes.stiffness = {k, kb, kb * xi * xi / 12.0};
+  modes.first[0] = {-n[0], -n[1], 0.0};
+  modes.second[0] = {n[0], n[1], 0.0};
+  modes.first[1] = {n[1], -n[0], -inflection * xi};
+  modes.second[1] = {-n[1], n[0], -(1.0 - inflection) * xi};
+  modes.first[2] = {0.0, 0.0, -1.0};
+  modes.second[2] = {0.0, 0.0, 1.0};
+  return modes;
+}
+
+/// A unit vector across n, from the axis that lies farthest from it.
+inline Vector3 across(const Vector3& n) {
+  int axis = 0;
+  for (int a = 1; a < 3; ++a) {
+    if (std::abs(n[a]) < std::abs(n[axis])) axis = a;
+  }
+  Vector3 t{};
+  t[axis] = 1.0;
+  for (int a = 0; a < 3; ++a) t[a] -= n[axis] * n[a];
+  const double length = std::sqrt(1.0 - n[axis] * n[axis]);
+  for (double& component : t) component /= length;
+  return t;
+}
+
+inline FrameModes<3> space_modes(const double* direction, double xi, double k, double kb,
+                                 double torsion, double inflection) {
+  const double bending = kb * xi * xi / 12.0;
+  const Vector3 n{direction[0], direction[1], direction[2]};
+  const Vector3 t1 = across(n);
+  const Vector3 t2{n[1] * t1[2] - n[2] * t1[1], n[2] * t1[0] - n[0] * t1[2],
+                   n[0] * t1[1] - n[1] * t1[0]};
+  FrameModes<3> modes;
+  modes.stiffness = {k, kb, kb, bending, bending, torsion * bending};
+  for (int a = 0; a < 3; ++a) {
+    // A rigid rotation w moves the second end by w x n xi: along t1 by xi w . t2, along t2 by
+    // -xi w . t1.
+    const std::array<double, 3> translation{n[a], t1[a], t2[a]};
+    for (int m = 0; m < 3; ++m) {
+      modes.first[m][a] = -translation[m];
+      modes.second[m][a] = translation[m];
+    }
+    modes.first[1][3 + a] = -inflection * xi * t2[a];
+    modes.second[1][3 + a] = -(1.0 - inflection) * xi * t2[a];
+    modes.first[2][3 + a] = inflection * xi * t1[a];
+    modes.second[2][3 + a] = (1.0 - inflection) * xi * t1[a];
+    const std::array<double, 3> rotation{t1[a], t2[a], n[a]};
+    for (int m = 0; m < 3; ++m) {
+      modes.first[3 + m][3 + a] = -rotation[m];
+      modes.second[3 + m][3 + a] = rotation[m];
+    }
+  }
+  return modes;
+}
+
+}  // namespace detail
+
+/// Modes of an element of a network that carries moments; elements without bending stiffness are
+/// trusses, whose other modes have no stiffness.
+template <int Dim>
+FrameModes<Dim> frame_modes(const Network& network, Index element) {
+  const double* n = network.bonds.directions.data() + static_cast<std::size_t>(element) * Dim;
+  const double xi = network.bonds.lengths[element];
+  const double k = network.stiffness[element];
+  const double kb = network.bending[element];
+  const double inflection = network.inflection_of(element);
+  if constexpr (Dim == 2) {
+    return detail::plane_modes(n, xi, k, kb, inflection);
+  } else {
+    return detail::space_modes(n, xi, k, kb, network.torsion, inflection);
+  }
+}
+
+}  // namespace perilink

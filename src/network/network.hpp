@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/types.hpp"
+#include "calibration/calibration.hpp"
+#include "discretization/bonds.hpp"
+#include "discretization/facets.hpp"
+#include "discretization/particles.hpp"
+
+namespace perilink {
+
+/// Ends of a bond, as bits.
+enum BondEnd : std::uint8_t { first_end = 1, second_end = 2 };
+
+/// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds
+/// of the solid first, then ties between bars and solid, then the segments of the bars.
+struct Network {
+  Particles particles;
+  Bonds bonds;
+  std::vector<double> stiffness;  ///< intact axial stiffness k [force/length], per element
+  /// Intact bending stiffness 12 d V_i V_j / xi^3 of micropolar bonds [force/length], per element;
+  /// empty where no bond carries a moment.
+  std::vector<double> bending;
+  /// The k_b / k with which shear and bending of calibrated bonds count in their equivalent
+  /// stretch, that of the uncalibrated bond (docs/theory/micropolar.md, section 5) [-], per
+  /// element; empty: bending over stiffness of the bond itself.
+  std::vector<double> bending_ratio;
+  /// Where micropolar bonds bent by a transverse force have their inflection, from the first end
+  /// over the length [-], per element; empty: in the middle.
+  std::vector<double> inflection;
+  /// Of state-based particles: beside its bonds a particle stores c s^2 / 2, s the sum of the
+  /// extensions of its neighbours' bonds, c = b / 2 [force/length] (b / (2 L_0) of a lattice), per
+  /// particle; negative where Poisson's ratio is below that of the bonds alone. Empty: bonds only.
+  /// Trusses alone have it.
+  std::vector<double> state_stiffness;
+  /// In whose sums the extension of a bond counts, see BondEnd, per element; empty: in those of
+  /// both its ends. Nearest neighbours need not be mutual.
+  std::vector<std::uint8_t> state_of;
+  double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
+  std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
+  /// Stiffness of elastic supports between the components of particles and the ground
+  /// [force/length], shape (particles, width); empty: none.
+  std::vector<double> support_stiffness;
+  Index first_tie = 0;               ///< number of the first tie
+  Index first_segment = 0;           ///< number of the first bar segment
+  std::vector<double> yield_strain;  ///< per segment [-]; infinity: stays elastic
+  Facets facets;  ///< surface and interfaces, with the shares that the bonds balance
+  std::optional<CalibrationReport> calibration;  ///< of calibrated bonds
+
+  std::vector<Index> cut_by_crack;  ///< bonds that each pre-crack took out
+
+  int dim() const { return particles.dim; }
+  /// Components of the motion of a particle: displacements along the axes and, where bonds carry
+  /// moments, rotations: (u, v) or (u, v, theta) in two dimensions, (u, v, w) or
+  /// (u, v, w, theta_x, theta_y, theta_z) in three.
+  int width() const { return bending.empty() ? dim() : dim() == 2 ? 3 : 6; }
+  double ratio_of_bending(Index element) const {
+    return bending_ratio.empty() ? bending[element] / stiffness[element] : bending_ratio[element];
+  }
+  double inflection_of(Index element) const {
+    return inflection.empty() ? 0.5 : inflection[element];
+  }
+  bool carries_moments() const { return !bending.empty(); }
+  bool has_states() const { return !state_stiffness.empty(); }
+  /// Whether the extension of a bond counts in the sum of its first end, or its second.
+  bool counts_for(Index element, BondEnd end) const {
+    return state_of.empty() || (state_of[element] & end) != 0;
+  }
+  Index num_elements() const { return bonds.size(); }
+  bool is_segment(Index element) const { return element >= first_segment; }
+};
+
+}  // namespace perilink

@@ -1,0 +1,280 @@
+#include "network/network_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Eigenvalues>
+
+#include "discretization/cuts/bonds_across_gaps.hpp"
+#include "discretization/cuts/outside_bonds.hpp"
+#include "material/critical_stretch.hpp"
+#include "material/micromodulus.hpp"
+#include "network/surface_correction.hpp"
+#include "network/unknowns.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Ties are not stiffer than those of this length, in spacings.
+constexpr double shortest_tie = 0.1;
+
+void check_input(const Body& body, const NetworkInput& input) {
+  if (body.particles.dim != dimension_of(input.problem)) {
+    throw std::invalid_argument("a " + std::to_string(body.particles.dim) +
+                                "-dimensional lattice does not fit the kind of problem");
+  }
+  if (!(input.horizon > 0.0)) throw std::invalid_argument("the horizon must be positive");
+  if (input.bars.size() != input.bar_materials.size()) {
+    throw std::invalid_argument("every bar needs a material");
+  }
+  const auto last =
+      std::max_element(body.particles.material.begin(), body.particles.material.end());
+  if (last == body.particles.material.end() ||
+      *last >= static_cast<Index>(input.materials.size())) {
+    throw std::invalid_argument("a particle has a material that is not defined");
+  }
+}
+
+/// Moduli and critical stretch of every pair of materials.
+class PairConstants {
+ public:
+  PairConstants(const Body& body, const NetworkInput& input) : count_(input.materials.size()) {
+    std::vector<MicropolarModuli> moduli;
+    for (const auto& material : input.materials) {
+      moduli.push_back(moduli_of(body, input, material));
+    }
+    const bool on_lattice = input.critical_stretch == Constants::lattice;
+    const BulkFamily family =
+        on_lattice ? bulk_family(body.lattice, input.horizon) : BulkFamily{};
+    for (std::size_t a = 0; a < count_; ++a) {
+      for (std::size_t b = 0; b < count_; ++b) {
+        const double c = 0.5 * (moduli[a].micromodulus + moduli[b].micromodulus);
+        const double energy =
+            0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy);
+        const double stretch = !on_lattice
+                                   ? continuum_critical_stretch(input.problem, energy, c,
+                                                                input.horizon, input.thickness)
+                                   : lattice_critical_stretch(
+                                         energy, lattice_fracture_sum(input.problem, family.offsets,
+                                                                      body.lattice.cell_volume, c));
+        micromodulus_.push_back(c);
+        bending_modulus_.push_back(0.5 * (moduli[a].bending_modulus + moduli[b].bending_modulus));
+        critical_stretch_.push_back(stretch);
+      }
+    }
+  }
+
+  double micromodulus(Index a, Index b) const { return micromodulus_[a * count_ + b]; }
+  double bending_modulus(Index a, Index b) const { return bending_modulus_[a * count_ + b]; }
+  double critical_stretch(Index a, Index b) const { return critical_stretch_[a * count_ + b]; }
+
+ private:
+  std::size_t count_;
+  std::vector<double> micromodulus_;
+  std::vector<double> bending_modulus_;
+  std::vector<double> critical_stretch_;
+};
+
+void add_bonds(const PairConstants& constants, Network& network) {
+  const Particles& particles = network.particles;
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const Index i = network.bonds.first[b];
+    const Index j = network.bonds.second[b];
+    const Index own = particles.material[i];  // a ghost is never first
+    const bool ghost = particles.kind[j] == ParticleKind::ghost;
+    const Index other = ghost ? own : particles.material[j];
+    const double c = constants.micromodulus(own, other) * (ghost ? 0.5 : 1.0);
+    network.stiffness.push_back(c * particles.volumes[i] * particles.volumes[j] /
+                                network.bonds.lengths[b]);
+    network.critical_stretch.push_back(constants.critical_stretch(own, other));
+  }
+}
+
+/// Bending stiffness of the bonds between particles.
+void add_bending(const PairConstants& constants, Network& network) {
+  const Particles& particles = network.particles;
+  network.bending.reserve(static_cast<std::size_t>(network.bonds.size()));
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const Index i = network.bonds.first[b];
+    const Index j = network.bonds.second[b];
+    const Index own = particles.material[i];
+    const bool ghost = particles.kind[j] == ParticleKind::ghost;
+    const double d = constants.bending_modulus(own, ghost ? own : particles.material[j]) *
+                     (ghost ? 0.5 : 1.0);
+    const double length = network.bonds.lengths[b];
+    network.bending.push_back(12.0 * d * particles.volumes[i] * particles.volumes[j] /
+                              (length * length * length));
+  }
+}
+
+/// Nodes of bars whose ties do not break.
+std::vector<std::uint8_t> perfectly_tied(const RebarMesh& mesh, const NetworkInput& input,
+                                         Index num_particles) {
+  std::vector<std::uint8_t> perfect(static_cast<std::size_t>(num_particles), 0);
+  for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
+    if (input.bar_materials[mesh.bar_of_segment[segment]].ties_break) continue;
+    perfect[mesh.segments.first[segment]] = 1;
+    perfect[mesh.segments.second[segment]] = 1;
+  }
+  return perfect;
+}
+
+void append_elements(const Bonds& elements, Bonds& all) {
+  const auto extend = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  extend(all.first, elements.first);
+  extend(all.second, elements.second);
+  extend(all.lengths, elements.lengths);
+  extend(all.directions, elements.directions);
+}
+
+void add_bars(const Body& body, const NetworkInput& input, const PairConstants& constants,
+              Network& network) {
+  Particles& particles = network.particles;
+  RebarMesh mesh = add_rebar(particles, input.bars, body.lattice.spacing, input.horizon,
+                                   body.lattice.cell_volume);
+  if (!input.cracks.empty()) {
+    const CutBonds cut = find_cut_bonds(particles, mesh.ties, input.cracks, body.lattice.spacing);
+    keep_bonds(particles, mesh.ties, cut.keep);
+  }
+  const auto perfect = perfectly_tied(mesh, input, particles.size());
+  const double least_length = shortest_tie * body.lattice.spacing;
+  network.first_tie = network.bonds.size();
+  append_elements(mesh.ties, network.bonds);
+  for (Index tie = 0; tie < mesh.ties.size(); ++tie) {
+    const Index solid = mesh.ties.first[tie];
+    const Index node = mesh.ties.second[tie];
+    const Index material = particles.material[solid];
+    network.stiffness.push_back(constants.micromodulus(material, material) *
+                                particles.volumes[solid] * particles.volumes[node] /
+                                std::max(mesh.ties.lengths[tie], least_length));
+    network.critical_stretch.push_back(
+        perfect[node] ? infinity : constants.critical_stretch(material, material));
+  }
+  network.first_segment = network.bonds.size();
+  append_elements(mesh.segments, network.bonds);
+  for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
+    const BarMaterial& bar = input.bar_materials[mesh.bar_of_segment[segment]];
+    network.stiffness.push_back(bar.youngs_modulus * bar.area / mesh.segments.lengths[segment]);
+    network.critical_stretch.push_back(infinity);
+    network.yield_strain.push_back(bar.yield_strength / bar.youngs_modulus);
+  }
+}
+
+}  // namespace
+
+MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
+                           const SolidMaterial& material) {
+  const ElasticConstants elastic{material.youngs_modulus, material.poissons_ratio};
+  // Calibration starts from the continuum: a lattice alone may not reach the Poisson's ratio.
+  const bool continuum = input.micromodulus == Constants::continuum ||
+                         body.lattice.surface == Surface::calibrated;
+  if (input.model == BondModel::micropolar) {
+    if (continuum) {
+      return continuum_micropolar(input.problem, elastic, input.horizon, input.thickness);
+    }
+    return lattice_micropolar(input.problem, bulk_family(body.lattice, input.horizon).offsets,
+                              body.lattice.cell_volume, elastic);
+  }
+  if (continuum) {
+    return {continuum_micromodulus(input.problem, material.youngs_modulus, input.horizon,
+                                   input.thickness),
+            0.0};
+  }
+  const BulkFamily family = bulk_family(body.lattice, input.horizon);
+  const LatticeModuli moduli =
+      lattice_moduli(input.problem, family.offsets, body.lattice.cell_volume);
+  return {moduli.micromodulus_per_modulus * material.youngs_modulus, 0.0};
+}
+
+LameConstants lame_constants(const NetworkInput& input, const SolidMaterial& material) {
+  const double nu = input.model == BondModel::micropolar ? material.poissons_ratio
+                                                         : bond_poissons_ratio(input.problem);
+  const double mu = 0.5 * material.youngs_modulus / (1.0 + nu);
+  const double through = input.problem == Problem::plane_stress ? 1.0 - nu : 1.0 - 2.0 * nu;
+  return {2.0 * mu * nu / through, mu};
+}
+
+Network build_network(const Body& body, const NetworkInput& input) {
+  check_input(body, input);
+  const PairConstants constants(body, input);
+  Network network;
+  network.particles = body.particles;
+  network.bonds = make_bonds(network.particles, input.horizon);
+  remove_bonds_across_gaps(network.particles, network.bonds, input.solid,
+                           1e-6 * body.lattice.spacing);
+  if (body.lattice.pattern == Pattern::irregular) {
+    remove_bonds_outside(network.particles, network.bonds, body.facets, body.lattice.spacing);
+  }
+  remove_loose_ghosts(network.particles, network.bonds);
+  network.facets = body.facets;
+  network.stiffness.reserve(static_cast<std::size_t>(network.bonds.size()));
+  network.critical_stretch.reserve(static_cast<std::size_t>(network.bonds.size()));
+  add_bonds(constants, network);
+  if (input.model == BondModel::micropolar) {
+    network.torsion = input.torsion;
+    add_bending(constants, network);
+  }
+  correct_surfaces(body, input, network);
+  if (!input.cracks.empty()) {
+    // After the calibration: a crack is not a surface on which a uniform strain finds its stress.
+    const CutBonds cut =
+        find_cut_bonds(network.particles, network.bonds, input.cracks, body.lattice.spacing);
+    keep_elements(network, cut.keep);
+    network.cut_by_crack = cut.count;
+  }
+  add_bars(body, input, constants, network);
+  for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
+    if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
+  }
+  if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
+  return network;
+}
+
+void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
+  keep_bonds(network.particles, network.bonds, keep);
+  for (std::vector<double>* values :
+       {&network.stiffness, &network.bending, &network.bending_ratio, &network.inflection,
+        &network.critical_stretch}) {
+    std::size_t next = 0;
+    for (std::size_t e = 0; e < values->size(); ++e) {
+      if (keep[e]) (*values)[next++] = (*values)[e];
+    }
+    values->resize(next);
+  }
+}
+
+std::vector<Index> find_loose_particles(const Network& network) {
+  const int dim = network.dim();
+  const Bonds& bonds = network.bonds;
+  std::vector<Eigen::Matrix3d> grams(static_cast<std::size_t>(network.particles.size()),
+                                     Eigen::Matrix3d::Zero());
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!(network.stiffness[e] > 0.0)) continue;
+    Eigen::Vector3d n = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < dim; ++axis) n[axis] = bonds.direction(e)[axis];
+    grams[bonds.first[e]] += n * n.transpose();
+    grams[bonds.second[e]] += n * n.transpose();
+  }
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  std::vector<Index> loose;
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    if (!rotating.empty() && rotating[i]) continue;  // one frame holds every direction
+    Eigen::Matrix3d& gram = grams[i];
+    const double trace = gram.trace();
+    if (dim == 2) gram(2, 2) = trace;  // the third direction is not asked for
+    const Eigen::Vector3d eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+    // Squared sines between directions; round-off leaves 1e-15.
+    if (!(eigenvalues[0] > 1e-10 * trace)) loose.push_back(i);
+  }
+  return loose;
+}
+
+}  // namespace perilink

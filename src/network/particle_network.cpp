@@ -1,0 +1,177 @@
+#include "network/particle_network.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "discretization/cuts/outside_bonds.hpp"
+#include "discretization/neighbor_search.hpp"
+#include "discretization/voronoi.hpp"
+
+namespace perilink {
+namespace {
+
+/// Second neighbours are farther than this times the farthest one: in the face-centred lattice
+/// those at sqrt(2) spacings, the farthest, but not those at one.
+constexpr double far_from = 0.85;
+constexpr double tie = 1e-6;  ///< of distances
+/// Candidates per neighbour: some are lost to slits, some families need more than the nearest.
+constexpr int spare = 4;
+
+/// Pairs near enough to be neighbours that see each other within the body.
+Bonds find_candidates(const Body& body, int count) {
+  const Particles& particles = body.particles;
+  std::vector<double> radius =
+      distances_of_nearest(particles.positions, particles.dim, spare * count);
+  for (double& r : radius) r *= 1.0 + tie;
+  const Csr around =
+      find_neighbors_within(particles.positions, particles.positions, particles.dim, radius);
+  std::vector<std::pair<Index, Index>> pairs;
+  for (Index i = 0; i < particles.size(); ++i) {
+    for (const Index j : around.row(i)) {
+      if (j != i) pairs.emplace_back(std::min(i, j), std::max(i, j));
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  Bonds bonds;
+  bonds.dim = particles.dim;
+  for (const auto& [i, j] : pairs) bonds.append(particles, i, j);
+  remove_bonds_outside(particles, bonds, body.facets, body.lattice.spacing);
+  return bonds;
+}
+
+/// The neighbours of a particle among its candidates, and their constants.
+struct Family {
+  std::vector<Index> elements;  ///< of the candidates
+  std::vector<FamilyBond> bonds;
+  ParticleFit fit;
+  bool enlarged = false;  ///< beyond the nearest, which left some strain free
+};
+
+class Families {
+ public:
+  Families(const Bonds& candidates, const Particles& particles, Problem problem,
+           std::span<const IsotropicMaterial> materials)
+      : candidates_(candidates),
+        particles_(particles),
+        problem_(problem),
+        materials_(materials),
+        around_(bonds_of_particles(candidates, particles.size())),
+        count_(particles.dim == 2 ? neighbors_in_plane : neighbors_in_space) {}
+
+  Family of(Index particle) const {
+    std::vector<Index> nearest(around_.row(particle).begin(), around_.row(particle).end());
+    std::stable_sort(nearest.begin(), nearest.end(), [&](Index a, Index b) {
+      return candidates_.lengths[a] < candidates_.lengths[b];
+    });
+    Family family = of_nearest(particle, nearest, count_);
+    for (std::size_t more = count_ + 1;
+         family.fit.kind == FitKind::singular && more <= nearest.size(); ++more) {
+      family = of_nearest(particle, nearest, more);
+      family.enlarged = true;
+    }
+    return family;
+  }
+
+ private:
+  /// As many as `count` of those sorted by distance, with all that are as far as the last one.
+  Family of_nearest(Index particle, std::span<const Index> nearest, std::size_t count) const {
+    Family family;
+    if (!nearest.empty()) {
+      const double last = candidates_.lengths[nearest[std::min(count, nearest.size()) - 1]];
+      for (const Index e : nearest) {
+        if (candidates_.lengths[e] > last * (1.0 + tie)) break;
+        family.elements.push_back(e);
+        FamilyBond bond;
+        bond.length = candidates_.lengths[e];
+        bond.far = bond.length > far_from * last;
+        const auto n = candidates_.direction(e);
+        // Signs do not matter: products n n'.
+        std::copy(n.begin(), n.end(), bond.direction.begin());
+        family.bonds.push_back(bond);
+      }
+    }
+    const Index number = particles_.material[particle];
+    if (number == no_index) throw std::logic_error("a particle has no material");
+    const IsotropicMaterial& material = materials_[number];
+    family.fit = fit_particle_moduli(problem_, material.youngs_modulus, material.poissons_ratio,
+                                     family.bonds, particles_.volumes[particle]);
+    return family;
+  }
+
+  const Bonds& candidates_;
+  const Particles& particles_;
+  Problem problem_;
+  std::span<const IsotropicMaterial> materials_;
+  Csr around_;
+  std::size_t count_;
+};
+
+void note(const Family& family, Index particle, ParticleFitReport& report) {
+  const ParticleFit& fit = family.fit;
+  switch (fit.kind) {
+    case FitKind::exact: ++report.exact; break;
+    case FitKind::least: ++report.least; break;
+    case FitKind::many: ++report.many; break;
+    case FitKind::indefinite: ++report.indefinite; break;
+    case FitKind::singular: ++report.singular; break;
+  }
+  report.enlarged += family.enlarged ? 1 : 0;
+  report.mean_residual += fit.residual;
+  if (report.worst != no_index && !(fit.residual > report.largest_residual)) return;
+  report.largest_residual = fit.residual;
+  report.worst = particle;
+}
+
+/// Candidates that became neighbours of at least one end, with what their states make them.
+void keep_neighbours(const Bonds& candidates, std::span<const double> stiffness,
+                     std::span<const std::uint8_t> state_of, Network& network) {
+  network.bonds.dim = candidates.dim;
+  for (Index e = 0; e < candidates.size(); ++e) {
+    if (state_of[e] == 0) continue;
+    network.bonds.append(network.particles, candidates.first[e], candidates.second[e]);
+    network.stiffness.push_back(stiffness[e]);
+    network.state_of.push_back(state_of[e]);
+  }
+  network.critical_stretch.assign(network.stiffness.size(),
+                                  std::numeric_limits<double>::infinity());
+  network.first_tie = network.first_segment = network.bonds.size();
+}
+
+}  // namespace
+
+ParticleNetwork make_particle_network(const Body& body, Problem problem,
+                                      std::span<const IsotropicMaterial> materials,
+                                      double thickness) {
+  ParticleNetwork result;
+  Network& network = result.network;
+  network.particles = body.particles;
+  network.particles.volumes = voronoi_volumes(body.particles, body.cells, thickness);
+  network.facets = body.facets;
+  const int count = body.particles.dim == 2 ? neighbors_in_plane : neighbors_in_space;
+  const Bonds candidates = find_candidates(body, count);
+  const Families families(candidates, network.particles, problem, materials);
+  std::vector<double> stiffness(static_cast<std::size_t>(candidates.size()), 0.0);
+  std::vector<std::uint8_t> state_of(stiffness.size(), 0);
+  const Index size = network.particles.size();
+  for (Index i = 0; i < size; ++i) {
+    const Family family = families.of(i);
+    note(family, i, result.report);
+    for (std::size_t k = 0; k < family.elements.size(); ++k) {
+      const Index e = family.elements[k];
+      const double own =
+          family.fit.moduli.own + (family.bonds[k].far ? family.fit.moduli.far : 0.0);
+      stiffness[e] += 0.5 * own / family.bonds[k].length;
+      state_of[e] |= candidates.first[e] == i ? first_end : second_end;
+    }
+    network.state_stiffness.push_back(0.5 * family.fit.moduli.state);
+  }
+  result.report.mean_residual /= std::max<Index>(1, size);
+  keep_neighbours(candidates, stiffness, state_of, network);
+  return result;
+}
+
+}  // namespace perilink

@@ -1,0 +1,311 @@
+#include "network/rigid_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+
+namespace perilink {
+namespace {
+
+using Row = Eigen::Matrix<double, 6, 1>;
+using Gram = Eigen::Matrix<double, 6, 6>;
+
+/// Smallest squared sine between rigid-body modes that counts as independent: a lever of 1e-6 of
+/// the fragment's radius. Round-off leaves 1e-15.
+constexpr double rank_tolerance = 1e-12;
+
+/// The lever itself.
+constexpr double rank_lever = 1e-6;
+
+/// Parts of a set of particles, joined pair by pair.
+class UnionFind {
+ public:
+  explicit UnionFind(Index count) : parent_(static_cast<std::size_t>(count)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  Index root(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// The lower number becomes the root.
+  void join(Index i, Index j) {
+    const Index a = root(i);
+    const Index b = root(j);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+/// Components of the motion of one particle in the rigid-body modes of a fragment: translations,
+/// then rotations about its centroid, scaled to about one at its rim. A particle's own rotation
+/// counts as the displacement that it means at the rim. Unused entries are zero.
+class RigidModes {
+ public:
+  RigidModes(const Network& network, const std::vector<std::uint8_t>& rotating,
+             const std::vector<Index>& members)
+      : particles_(network.particles), rotating_(rotating), width_(network.width()) {
+    const Particles& particles = network.particles;
+    for (const Index i : members) {
+      for (int axis = 0; axis < particles.dim; ++axis) {
+        centroid_[axis] += particles.position(i)[axis] / static_cast<double>(members.size());
+      }
+    }
+    for (const Index i : members) {
+      const Vector3 arm = arm_of(i);
+      radius_ = std::max(radius_, std::hypot(arm[0], arm[1], arm[2]));
+    }
+  }
+
+  int dim() const { return particles_.dim; }
+
+  /// Components that the modes move: displacements, and rotations where bonds turn the particle.
+  int components(Index particle) const {
+    return !rotating_.empty() && rotating_[particle] ? width_ : particles_.dim;
+  }
+
+  std::size_t slot(Index particle, int component) const {
+    return static_cast<std::size_t>(particle) * width_ + component;
+  }
+
+  Row row(Index particle, int component) const {
+    Row modes = Row::Zero();
+    if (component >= particles_.dim) {
+      modes[particles_.dim == 2 ? 5 : component] = 1.0;
+      return modes;
+    }
+    const int axis = component;
+    modes[axis] = 1.0;
+    if (radius_ == 0.0) return modes;  // one particle does not move as it turns
+    const Vector3 arm = arm_of(particle);
+    // Rotation about axis k moves the next axis forward and the one after it backward.
+    for (int k = particles_.dim == 2 ? 2 : 0; k < 3; ++k) {
+      if (axis == (k + 1) % 3) modes[3 + k] = -arm[(k + 2) % 3] / radius_;
+      if (axis == (k + 2) % 3) modes[3 + k] = arm[(k + 1) % 3] / radius_;
+    }
+    return modes;
+  }
+
+ private:
+  Vector3 arm_of(Index particle) const {
+    Vector3 arm{};
+    for (int axis = 0; axis < particles_.dim; ++axis) {
+      arm[axis] = particles_.position(particle)[axis] - centroid_[axis];
+    }
+    return arm;
+  }
+
+  const Particles& particles_;
+  const std::vector<std::uint8_t>& rotating_;
+  int width_;
+  Vector3 centroid_{};
+  double radius_ = 0.0;
+};
+
+int rank(const Gram& gram) {
+  const Row eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Gram>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+  const double least = rank_tolerance * gram.trace();
+  return static_cast<int>((eigenvalues.array() > least).count());
+}
+
+/// Rank of the rigid-body modes on all unknowns of a fragment, and on the held ones.
+struct ModeRanks {
+  int all;
+  int held;
+};
+
+ModeRanks mode_ranks(const std::vector<Index>& members, const RigidModes& modes,
+                     const std::vector<std::uint8_t>& held) {
+  Gram all = Gram::Zero();
+  Gram constrained = Gram::Zero();
+  for (const Index i : members) {
+    for (int a = 0; a < modes.components(i); ++a) {
+      const Row row = modes.row(i, a);
+      all += row * row.transpose();
+      if (held[modes.slot(i, a)]) constrained += row * row.transpose();
+    }
+  }
+  return {rank(all), rank(constrained)};
+}
+
+/// Orthonormal rows that the held unknowns span.
+class HeldSpan {
+ public:
+  Row residual(Row row) const {
+    for (const Row& direction : basis_) row -= direction.dot(row) * direction;
+    return row;
+  }
+  void add(const Row& row) {
+    const Row rest = residual(residual(row));  // twice: orthogonal to round-off
+    if (rest.squaredNorm() > rank_tolerance * row.squaredNorm()) {
+      basis_.push_back(rest.normalized());
+    }
+  }
+
+ private:
+  std::vector<Row> basis_;
+};
+
+/// Particles none of whose elements can break.
+std::vector<std::uint8_t> unbreakable_particles(const Network& network) {
+  std::vector<std::uint8_t> unbreakable(static_cast<std::size_t>(network.particles.size()), 1);
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (std::isinf(network.critical_stretch[e])) continue;
+    unbreakable[network.bonds.first[e]] = 0;
+    unbreakable[network.bonds.second[e]] = 0;
+  }
+  return unbreakable;
+}
+
+}  // namespace
+
+std::vector<Fragment> find_fragments(const Network& network,
+                                     const std::vector<std::uint8_t>& held) {
+  const Index num_particles = network.particles.size();
+  UnionFind parts(num_particles);
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (network.stiffness[e] > 0.0) parts.join(network.bonds.first[e], network.bonds.second[e]);
+  }
+  std::vector<Fragment> fragments;
+  std::vector<Index> fragment_of_root(static_cast<std::size_t>(num_particles), no_index);
+  for (Index i = 0; i < num_particles; ++i) {
+    Index& number = fragment_of_root[parts.root(i)];
+    if (number == no_index) {
+      number = static_cast<Index>(fragments.size());
+      fragments.emplace_back();
+    }
+    fragments[number].particles.push_back(i);
+  }
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  std::vector<std::uint8_t> resisted = held;
+  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
+    if (network.support_stiffness[slot] > 0.0) resisted[slot] = 1;
+  }
+  for (Fragment& fragment : fragments) {
+    const RigidModes modes(network, rotating, fragment.particles);
+    const ModeRanks ranks = mode_ranks(fragment.particles, modes, resisted);
+    fragment.free_modes = ranks.all - ranks.held;
+  }
+  return fragments;
+}
+
+std::vector<std::vector<double>> free_motions(const Network& network, const Fragment& fragment,
+                                              const std::vector<std::uint8_t>& held) {
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  const RigidModes modes(network, rotating, fragment.particles);
+  Gram all = Gram::Zero(), constrained = Gram::Zero();
+  for (const Index i : fragment.particles) {
+    for (int a = 0; a < modes.components(i); ++a) {
+      const Row row = modes.row(i, a);
+      all += row * row.transpose();
+      if (held[modes.slot(i, a)]) constrained += row * row.transpose();
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Gram> solver(constrained);
+  std::vector<std::vector<double>> motions;
+  for (int m = 0; m < 6; ++m) {
+    const Row mode = solver.eigenvectors().col(m);
+    if (solver.eigenvalues()[m] > rank_tolerance * constrained.trace()) continue;
+    if (!(mode.dot(all * mode) > rank_tolerance * all.trace())) continue;  // moves nothing
+    std::vector<double>& motion = motions.emplace_back(held.size(), 0.0);
+    for (const Index i : fragment.particles) {
+      for (int a = 0; a < modes.components(i); ++a) {
+        const std::size_t slot = modes.slot(i, a);
+        if (!held[slot]) motion[slot] = modes.row(i, a).dot(mode);
+      }
+    }
+  }
+  return motions;
+}
+
+LoadResultant load_resultant(const Network& network, const Loads& loads) {
+  const Particles& particles = network.particles;
+  const int dim = particles.dim;
+  double volume = 0.0;
+  Vector3 centroid{};
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (particles.kind[i] != ParticleKind::solid) continue;
+    volume += particles.volumes[i];
+    for (int axis = 0; axis < dim; ++axis) {
+      centroid[axis] += particles.volumes[i] * particles.position(i)[axis];
+    }
+  }
+  if (volume > 0.0) {
+    for (double& coordinate : centroid) coordinate /= volume;
+  }
+  Vector3 force{};
+  Vector3 moment{};
+  LoadResultant resultant;
+  const int width = network.width();
+  for (Index i = 0; i < particles.size(); ++i) {
+    Vector3 arm{};
+    Vector3 load{};
+    const double* own = loads.forces.data() + static_cast<std::size_t>(i) * width;
+    for (int axis = 0; axis < dim; ++axis) {
+      arm[axis] = particles.position(i)[axis] - centroid[axis];
+      load[axis] = own[axis];
+      force[axis] += load[axis];
+    }
+    for (int a = dim; a < width; ++a) moment[dim == 2 ? 2 : a - dim] += own[a];
+    for (int k = 0; k < 3; ++k) {
+      const int next = (k + 1) % 3;
+      const int last = (k + 2) % 3;
+      moment[k] += arm[next] * load[last] - arm[last] * load[next];
+    }
+    resultant.scale += std::hypot(load[0], load[1], load[2]);
+  }
+  resultant.force.assign(force.begin(), force.begin() + dim);
+  resultant.moment =
+      dim == 2 ? std::vector<double>{moment[2]} : std::vector<double>(moment.begin(), moment.end());
+  return resultant;
+}
+
+void pin_rigid_modes(const Network& network, const Fragment& fragment,
+                     std::vector<std::uint8_t>& held) {
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  const RigidModes modes(network, rotating, fragment.particles);
+  const ModeRanks ranks = mode_ranks(fragment.particles, modes, held);
+  const auto unbreakable = unbreakable_particles(network);
+  HeldSpan span;
+  for (const Index i : fragment.particles) {
+    for (int a = 0; a < modes.components(i); ++a) {
+      if (held[modes.slot(i, a)]) span.add(modes.row(i, a));
+    }
+  }
+  // The unknown that the modes left free move most comes next; one of a particle that cannot be
+  // torn off is taken unless its lever is a thousand times too short.
+  constexpr double least_preferred = 1e-3;
+  for (int pinned = ranks.held; pinned < ranks.all; ++pinned) {
+    struct Best {
+      double residual = 0.0;
+      Index particle = no_index;
+      int component = 0;
+    };
+    Best preferred;
+    Best any;
+    Best rotation;  // taken where no displacement is left, as along a line of particles
+    for (const Index i : fragment.particles) {
+      for (int a = 0; a < modes.components(i); ++a) {
+        if (held[modes.slot(i, a)]) continue;
+        const double residual = span.residual(modes.row(i, a)).norm();
+        Best& best = a < modes.dim() ? any : rotation;
+        if (residual > best.residual) best = {residual, i, a};
+        if (a < modes.dim() && unbreakable[i] && residual > preferred.residual) {
+          preferred = {residual, i, a};
+        }
+      }
+    }
+    const Best& best = preferred.residual > least_preferred ? preferred
+                       : any.residual > rank_lever          ? any
+                                                            : rotation;
+    if (best.particle == no_index) return;
+    held[modes.slot(best.particle, best.component)] = 1;
+    span.add(modes.row(best.particle, best.component));
+  }
+}
+
+}  // namespace perilink

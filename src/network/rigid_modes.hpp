@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "network/network.hpp"
+#include "network/unknowns.hpp"
+
+namespace perilink {
+
+/// A part of the body that nothing holds together with the rest.
+struct Fragment {
+  std::vector<Index> particles;
+  int free_modes = 0;  ///< rigid-body modes that prescribed displacements and elastic supports
+                       ///< leave free
+};
+
+/// Connected parts of the network (elements of zero stiffness do not connect) with the number of
+/// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of
+/// particles that no bond turns hold nothing.
+std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held);
+
+/// The rigid-body motions of a fragment that `held` leaves free, each of shape (particles, width)
+/// with zeros at other particles and at what is held; linearly independent, not scaled. Springs of
+/// supports are not looked at.
+std::vector<std::vector<double>> free_motions(const Network& network, const Fragment& fragment,
+                                              const std::vector<std::uint8_t>& held);
+
+/// Sums of the applied loads.
+struct LoadResultant {
+  std::vector<double> force;   ///< size dim [force]
+  std::vector<double> moment;  ///< about the solid's centroid, size 1 in 2D, 3 in 3D [force length]
+  double scale = 0.0;          ///< sum of |forces|
+};
+LoadResultant load_resultant(const Network& network, const Loads& loads);
+
+/// Holds exactly the rigid-body modes of a free fragment (three unknowns in 2D, six in 3D) by
+/// marking them in `held`; prefers displacements to rotations and particles
+/// whose bonds cannot break.
+void pin_rigid_modes(const Network& network, const Fragment& fragment,
+                     std::vector<std::uint8_t>& held);
+
+}  // namespace perilink

@@ -1,0 +1,248 @@
+#include "network/surface_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "base/timer.hpp"
+#include "calibration/calibration.hpp"
+#include "calibration/calibration_cost.hpp"
+#include "network/bond_strength.hpp"
+#include "network/lattice_families.hpp"
+
+namespace perilink {
+namespace {
+
+/// 1/2 sum k xi^2 of every particle, axial [force length].
+std::vector<double> moduli_of_particles(const Network& network, std::span<const double> stiffness) {
+  std::vector<double> modulus(static_cast<std::size_t>(network.particles.size()), 0.0);
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const double xi = network.bonds.lengths[b];
+    modulus[network.bonds.first[b]] += 0.5 * stiffness[b] * xi * xi;
+    modulus[network.bonds.second[b]] += 0.5 * stiffness[b] * xi * xi;
+  }
+  return modulus;
+}
+
+/// The same per volume in the infinite body: the integral of c xi / 2 over the horizon.
+double continuum_modulus(const NetworkInput& input, double micromodulus) {
+  const double delta = input.horizon;
+  if (dimension_of(input.problem) == 3) {
+    return 0.5 * std::numbers::pi * micromodulus * std::pow(delta, 4);
+  }
+  return std::numbers::pi / 3.0 * micromodulus * input.thickness * std::pow(delta, 3);
+}
+
+bool can_break(const NetworkInput& input) {
+  return std::any_of(input.materials.begin(), input.materials.end(),
+                     [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); });
+}
+
+class Correction {
+ public:
+  Correction(const Body& body, const NetworkInput& input, Network& network)
+      : body_(body), input_(input), network_(network) {}
+
+  void energy();
+  void calibrate();
+  void balance(const CalibrationInput& calibration);
+
+ private:
+  bool on_lattice() const { return body_.lattice.pattern != Pattern::irregular; }
+  bool micropolar() const { return input_.model == BondModel::micropolar; }
+  Index material(Index particle) const { return network_.particles.material[particle]; }
+  void fade_at_horizon();
+  void favor_short_bonds();
+  void take_bulk_families(const LatticeFamilies& families);
+  std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
+  void scale_to(const std::vector<double>& wanted);
+  std::vector<std::uint8_t> free_bonds(const LatticeFamilies& families) const;
+
+  const Body& body_;
+  const NetworkInput& input_;
+  Network& network_;
+};
+
+/// Neighbours at the horizon count with the part of their cells that lies within it.
+void Correction::fade_at_horizon() {
+  for (Index b = 0; b < network_.bonds.size(); ++b) {
+    const double part =
+        partial_volume(network_.bonds.lengths[b], input_.horizon, body_.lattice.spacing);
+    network_.stiffness[b] *= part;
+    if (micropolar()) network_.bending[b] *= part;
+  }
+}
+
+/// Stiffnesses like 1/xi^(d+1): bonds of each length carry the same part of the energy inside the
+/// body, and a wave is felt too soft by about half as much as with 1/xi. Cracks would be held back
+/// by the shortest bonds (docs/theory/calibration.md).
+void Correction::favor_short_bonds() {
+  for (Index b = 0; b < network_.bonds.size(); ++b) {
+    const double part = std::pow(input_.horizon / network_.bonds.lengths[b], network_.dim());
+    network_.stiffness[b] *= part;
+    if (micropolar()) network_.bending[b] *= part;
+  }
+}
+
+/// Stiffness of the isotropic families, in proportion to the volumes of the ends.
+void Correction::take_bulk_families(const LatticeFamilies& families) {
+  const double volume = body_.lattice.cell_volume;
+  for (Index e = 0; e < network_.bonds.size(); ++e) {
+    const Index i = network_.bonds.first[e], j = network_.bonds.second[e];
+    const Index k = families.find(network_.bonds.direction(e), network_.bonds.lengths[e]);
+    if (k == no_index) continue;
+    const double share =
+        network_.particles.volumes[i] / volume * (network_.particles.volumes[j] / volume);
+    const FamilyStiffness& a = families.stiffness(material(i));
+    const FamilyStiffness& b = families.stiffness(material(j));
+    network_.stiffness[e] = 0.5 * (a.axial[k] + b.axial[k]) * share;
+    if (micropolar()) network_.bending[e] = 0.5 * (a.bending[k] + b.bending[k]) * share;
+  }
+}
+
+/// What moduli_of_particles() would be inside the body.
+std::vector<double> Correction::wanted_moduli(const LatticeFamilies* families) const {
+  std::vector<double> per_volume;
+  for (std::size_t m = 0; m < input_.materials.size(); ++m) {
+    per_volume.push_back(
+        families ? families->modulus(static_cast<Index>(m)) / body_.lattice.cell_volume
+                 : continuum_modulus(input_,
+                                     moduli_of(body_, input_, input_.materials[m]).micromodulus));
+  }
+  std::vector<double> wanted(static_cast<std::size_t>(network_.particles.size()));
+  for (Index i = 0; i < network_.particles.size(); ++i) {
+    wanted[i] = per_volume[material(i)] * network_.particles.volumes[i];
+  }
+  return wanted;
+}
+
+void Correction::scale_to(const std::vector<double>& wanted) {
+  const std::vector<double> present = moduli_of_particles(network_, network_.stiffness);
+  for (Index b = 0; b < network_.bonds.size(); ++b) {
+    const Index i = network_.bonds.first[b], j = network_.bonds.second[b];
+    const double factor = 0.5 * (wanted[i] / present[i] + wanted[j] / present[j]);
+    network_.stiffness[b] *= factor;
+    if (micropolar()) network_.bending[b] *= factor;
+  }
+}
+
+/// Bonds with an end that lacks neighbours, or has some of another material. In three dimensions
+/// and in micropolar bodies the particles bonded to such ends count as well: few neighbours leave
+/// the equations of a thinner layer nearly singular, and those of forces and moments along a side
+/// without positive weights.
+std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families) const {
+  std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
+  const Bonds& bonds = network_.bonds;
+  std::vector<LameConstants> constants;  // materials may differ in strength only
+  for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
+  for (Index b = 0; b < bonds.size(); ++b) {
+    const Index i = bonds.first[b], j = bonds.second[b];
+    if (!(constants[material(i)] == constants[material(j)])) continue;
+    if (families.find(bonds.direction(b), bonds.lengths[b]) == no_index) continue;
+    ++regular[i];
+    ++regular[j];
+  }
+  std::vector<std::uint8_t> layer(regular.size());
+  for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = regular[i] != families.size();
+  if (network_.dim() == 3 || micropolar()) {
+    const std::vector<std::uint8_t> thinner = layer;
+    for (Index b = 0; b < bonds.size(); ++b) {
+      if (thinner[bonds.first[b]]) layer[bonds.second[b]] = 1;
+      if (thinner[bonds.second[b]]) layer[bonds.first[b]] = 1;
+    }
+  }
+  std::vector<std::uint8_t> free(static_cast<std::size_t>(bonds.size()));
+  for (Index b = 0; b < bonds.size(); ++b) {
+    free[b] = layer[bonds.first[b]] != 0 || layer[bonds.second[b]] != 0;
+  }
+  return free;
+}
+
+void Correction::energy() {
+  std::vector<double> wanted = wanted_moduli(nullptr);
+  if (on_lattice()) {
+    // Moduli of the lattice's own family, so that nothing changes inside.
+    double sum = 0.0;
+    for (const Vector3& x : bulk_family(body_.lattice, input_.horizon).offsets) {
+      sum += std::hypot(x[0], x[1], x[2]);
+    }
+    std::vector<double> micromoduli;
+    for (const SolidMaterial& m : input_.materials) {
+      micromoduli.push_back(moduli_of(body_, input_, m).micromodulus);
+    }
+    for (Index i = 0; i < network_.particles.size(); ++i) {
+      wanted[i] = 0.5 * micromoduli[material(i)] * sum * body_.lattice.cell_volume *
+                  network_.particles.volumes[i];
+    }
+  }
+  scale_to(wanted);
+}
+
+void Correction::calibrate() {
+  const Timer timer;
+  std::optional<LatticeFamilies> families;
+  fade_at_horizon();
+  if (on_lattice()) {
+    families.emplace(body_, input_);
+    take_bulk_families(*families);
+  } else if (!can_break(input_)) {
+    favor_short_bonds();
+  }
+  const LatticeFamilies* family = families ? &*families : nullptr;
+  CalibrationInput calibration{network_.particles, network_.bonds, {}, {}};
+  if (family) {
+    calibration.free = free_bonds(*family);
+    calibration.box = lattice_box(body_);
+  }
+  std::vector<double> bulk = network_.stiffness;
+  std::vector<double> bulk_bending = network_.bending;
+  scale_to(wanted_moduli(family));
+  for (std::size_t b = 0; b < calibration.free.size(); ++b) {
+    if (calibration.free[b]) continue;
+    network_.stiffness[b] = bulk[b];  // exactly
+    if (micropolar()) network_.bending[b] = bulk_bending[b];
+  }
+  for (const SolidMaterial& m : input_.materials) {
+    calibration.materials.push_back(lame_constants(input_, m));
+  }
+  // What single bonds lose or gain from here on is no measure of their strength.
+  network_.bending_ratio = own_bending_ratios(network_);
+  if (input_.draft) {
+    network_.calibration = expected_calibration(calibration, micropolar());
+  } else {
+    balance(calibration);
+    network_.calibration->seconds = timer.seconds();
+  }
+  if (!family) {
+    set_strength_of_cloud(input_, network_);
+  } else if (input_.critical_stretch == Constants::lattice) {
+    set_critical_stretches(input_, *family, body_.lattice.cell_volume, network_);
+  }
+}
+
+/// Bonds that may carry nothing are taken out.
+void Correction::balance(const CalibrationInput& calibration) {
+  BondStiffness stiffness{network_.stiffness, network_.bending, {}};
+  CalibrationOptions options;
+  options.on_search = input_.on_search;
+  network_.calibration = calibrate_bonds(calibration, options, network_.facets, stiffness);
+  network_.stiffness = std::move(stiffness.axial);
+  network_.bending = std::move(stiffness.bending);
+  network_.inflection = std::move(stiffness.inflection);
+  if (network_.calibration->dropped > 0) {
+    std::vector<std::uint8_t> keep;
+    for (const double k : network_.stiffness) keep.push_back(k > 0.0);
+    keep_elements(network_, keep);
+  }
+}
+
+}  // namespace
+
+void correct_surfaces(const Body& body, const NetworkInput& input, Network& network) {
+  const Surface surface = body.lattice.surface;
+  if (surface == Surface::energy) Correction(body, input, network).energy();
+  if (surface == Surface::calibrated) Correction(body, input, network).calibrate();
+}
+
+}  // namespace perilink

@@ -1,0 +1,38 @@
+#include "network/unknowns.hpp"
+
+#include <utility>
+
+namespace perilink {
+
+Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
+                         std::vector<double> prescribed) {
+  Unknowns unknowns;
+  unknowns.width = width;
+  unknowns.prescribed = std::move(prescribed);
+  unknowns.number.resize(held.size());
+  for (std::size_t slot = 0; slot < held.size(); ++slot) {
+    unknowns.number[slot] = held[slot] ? no_index : unknowns.count++;
+  }
+  return unknowns;
+}
+
+std::vector<std::uint8_t> rotating_particles(const Network& network) {
+  if (!network.carries_moments()) return {};
+  std::vector<std::uint8_t> rotating(static_cast<std::size_t>(network.particles.size()), 0);
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!(network.bending[e] > 0.0)) continue;
+    rotating[network.bonds.first[e]] = 1;
+    rotating[network.bonds.second[e]] = 1;
+  }
+  return rotating;
+}
+
+void hold_idle_rotations(const Network& network, std::vector<std::uint8_t>& held) {
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  const std::size_t width = network.width();
+  for (std::size_t i = 0; i < rotating.size(); ++i) {
+    for (std::size_t a = network.dim(); a < width && !rotating[i]; ++a) held[i * width + a] = 1;
+  }
+}
+
+}  // namespace perilink

@@ -1,0 +1,36 @@
+#include "analysis/dynamics/bonds/break_order.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace perilink {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(BreakOrder, IsThatOfTheStepsAndInAStepThatOfTheNumbers) {
+  BreakOrder order(3);
+  EXPECT_THAT(order.so_far(), IsEmpty());
+  order.add(2, 5, std::vector<Index>{40, 7});
+  order.add(0, 6, std::vector<Index>{1});
+  order.add(0, 7, std::vector<Index>{50, 3});
+  order.add(1, 5, std::vector<Index>{9});
+  order.add(1, 6, {});
+  EXPECT_THAT(order.so_far(), ElementsAre(7, 9, 40, 1, 3, 50));
+  order.add(1, 8, std::vector<Index>{2});
+  EXPECT_THAT(order.so_far(), ElementsAre(7, 9, 40, 1, 3, 50, 2));
+}
+
+TEST(BreakOrder, CountsBothHalvesOfABondOnce) {
+  BreakOrder order(2);
+  order.add(0, 5, std::vector<Index>{4, 4});
+  order.add(0, 6, std::vector<Index>{8});
+  order.add(1, 6, std::vector<Index>{8});
+  EXPECT_THAT(order.so_far(), ElementsAre(4, 8));
+  order.add(1, 7, std::vector<Index>{4, 2});  // a step later, after somebody looked
+  EXPECT_THAT(order.so_far(), ElementsAre(4, 8, 2));
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,163 @@
+#include "analysis/quasistatic/events/limit_search.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/quasistatic/events/event_engine.hpp"
+#include "base/error.hpp"
+#include "support/analysis_bodies.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+/// Round-off of one ratio, written as a sum over the axes: a few units of the last place.
+constexpr double round_off = 1e-13;
+
+const LatticeCase plane{"plane", Pattern::hexagonal, Surface::none};
+const LatticeCase space{"space", Pattern::cubic, Surface::none};
+
+/// Every bond, one by one.
+LimitSearch::Hit brute_force(const Network& network, const std::vector<double>& u,
+                             const std::vector<std::uint8_t>& removed = {}) {
+  LimitSearch::Hit best;
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!removed.empty() && removed[e]) continue;
+    const double ratio = stretch(network, u, e) / network.critical_stretch[e];
+    if (ratio > best.ratio) best = {e, ratio};
+  }
+  return best;
+}
+
+class EveryDimension : public testing::TestWithParam<LatticeCase> {};
+
+TEST_P(EveryDimension, FindsTheLargestRatioAgainAndAgain) {
+  const Network network = make_network(GetParam(), 4);
+  std::vector<std::uint8_t> removed(static_cast<std::size_t>(network.num_elements()), 0);
+  LimitSearch search(network);
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const auto u = random_vector(network.particles.positions.size(), seed);
+    const LimitSearch::Hit expected = brute_force(network, u, removed);
+    const LimitSearch::Hit hit = search.find(u, tie_tolerance, 1);
+    ASSERT_EQ(hit.element, expected.element) << "seed " << seed;
+    EXPECT_NEAR(hit.ratio, expected.ratio, round_off * expected.ratio);
+    search.remove(hit.element);
+    removed[hit.element] = 1;
+  }
+}
+
+TEST_P(EveryDimension, RemovedBondsNeverComeBack) {
+  const Network network = make_network(GetParam(), 2);
+  const auto u = random_vector(network.particles.positions.size(), 3);
+  LimitSearch search(network);
+  std::vector<std::uint8_t> removed(static_cast<std::size_t>(network.num_elements()), 0);
+  double last = std::numeric_limits<double>::infinity();
+  while (true) {
+    const LimitSearch::Hit hit = search.find(u, tie_tolerance, 1);
+    if (hit.element == no_index) break;
+    ASSERT_FALSE(removed[hit.element]);
+    EXPECT_LE(hit.ratio, last * (1.0 + tie_tolerance));
+    last = hit.ratio;
+    removed[hit.element] = 1;
+    search.remove(hit.element);
+  }
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    EXPECT_EQ(removed[e] != 0, stretch(network, u, e) > 0.0) << e;
+  }
+}
+
+TEST_P(EveryDimension, NegativeStretchNeverBreaks) {
+  const Network network = make_network(GetParam(), 3);
+  const auto shrink = linear_field(network.particles, {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}});
+  const auto rest = std::vector<double>(shrink.size(), 0.0);
+  LimitSearch search(network);
+  EXPECT_EQ(search.find(shrink, tie_tolerance, 1).element, no_index);
+  EXPECT_EQ(search.find(rest, tie_tolerance, 1).element, no_index);
+}
+
+INSTANTIATE_TEST_SUITE_P(LimitSearch, EveryDimension, testing::Values(plane, space),
+                         [](const auto& test) { return test.param.name; });
+
+/// Bonds of one length in a row have equal ratios under a uniform strain; then one is changed by
+/// less, or more, than the width of a tie.
+TEST(LimitSearch, TiesWithinTheToleranceGoToTheLowestNumber) {
+  AnalysisBody body = make_chains(6, 1 + 1, false, 1.0, 0.01);
+  Network& network = body.network;
+  const auto u = linear_field(network.particles, {{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}});
+  const std::vector<Index> row = bonds_of_row(network, 0.0);
+  ASSERT_EQ(row.size(), 6u);
+
+  EXPECT_EQ(LimitSearch(network).find(u, tie_tolerance, 1).element, row[0]);
+  network.critical_stretch[row[4]] = 0.01 * (1.0 - 0.5 * tie_tolerance);
+  EXPECT_EQ(LimitSearch(network).find(u, tie_tolerance, 1).element, row[0]);
+  network.critical_stretch[row[4]] = 0.01 * (1.0 - 2.0 * tie_tolerance);
+  EXPECT_EQ(LimitSearch(network).find(u, tie_tolerance, 1).element, row[4]);
+}
+
+TEST(LimitSearch, LeavesOutWhatCannotBreak) {
+  AnalysisBody body = make_chains(3, 2, false, 1.0, 0.01);
+  Network& network = body.network;
+  const auto u = linear_field(network.particles, {{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}});
+  const Index first = bonds_of_row(network, 0.0)[0];
+  network.critical_stretch[first] = std::numeric_limits<double>::infinity();
+  LimitSearch search(network);
+  search.remove(first);  // not in the table: nothing happens
+  EXPECT_EQ(search.find(u, tie_tolerance, 1).element, bonds_of_row(network, 0.0)[1]);
+
+  for (double& limit : network.critical_stretch) limit = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(LimitSearch(network).find(u, tie_tolerance, 1).element, no_index);
+}
+
+/// A measure that is not a number is no bond that holds, wherever in a block it stands and whatever
+/// the others say; nor is a limit.
+TEST(LimitSearch, RefusesWhatIsNotFinite) {
+  for (const LatticeCase& lattice : {plane, space}) {
+    Network network = make_network(lattice, 4);
+    const auto u = random_vector(network.particles.positions.size(), 3);
+    for (const float bad : {NAN, -NAN, INFINITY, -INFINITY}) {
+      for (const std::size_t slot : {std::size_t{0}, u.size() / 2, u.size() - 1}) {
+        auto broken = u;
+        broken[slot] = bad;
+        LimitSearch search(network);
+        EXPECT_THROW(search.find(broken, tie_tolerance, 1), SolverError) << bad << " at " << slot;
+        EXPECT_NO_THROW(search.find(u, tie_tolerance, 1));
+      }
+    }
+    network.critical_stretch[7] = NAN;
+    LimitSearch search(network);
+    try {
+      search.find(u, tie_tolerance, 1);
+      FAIL() << "a limit that is not a number was taken for infinite";
+    } catch (const SolverError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("element 7 "));
+    }
+  }
+}
+
+/// The table is searched in parallel from 400 blocks of 512 bonds on.
+TEST(LimitSearch, ThreadsDoNotChangeTheResult) {
+  const Network network = make_network({"large", Pattern::rectangular, Surface::none}, 150);
+  ASSERT_GT(network.num_elements(), 401 * 512);
+  std::vector<LimitSearch> searches(3, LimitSearch(network));
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    const auto u = random_vector(network.particles.positions.size(), seed);
+    const LimitSearch::Hit expected = searches[0].find(u, tie_tolerance, 1);
+    EXPECT_EQ(expected.element, brute_force(network, u).element);
+    for (int threads = 2; threads <= 3; ++threads) {
+      const LimitSearch::Hit hit = searches[threads - 1].find(u, tie_tolerance, threads);
+      EXPECT_EQ(hit.element, expected.element);
+      EXPECT_EQ(hit.ratio, expected.ratio) << "to the last bit";
+    }
+  }
+  // A uniform strain: a tie of all bonds along x, decided by the number.
+  const auto pull = linear_field(network.particles, {{{1, 0, 0}, {0, -1, 0}, {0, 0, 0}}});
+  for (int threads = 1; threads <= 3; ++threads) {
+    EXPECT_EQ(searches[threads - 1].find(pull, tie_tolerance, threads).element, 0);
+  }
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,130 @@
+// src/analysis/quasistatic/events/separation.cpp: what holds the ends of an element once
+// it is gone.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/quasistatic/events/single_event_engine.hpp"
+#include "support/slender_bodies.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
+                                  FactorRoute::refactorize};
+
+SingleEventEngine make_engine(const AnalysisBody& body, FactorRoute route) {
+  EngineOptions options;
+  options.route = route;
+  return {body.network, body.unknowns, body.loads, options};
+}
+
+/// Particle 0 at the origin, pulled by 1 along x and held by a bond of stiffness 1 that can break
+/// and one of stiffness `rest` that cannot; it keeps its y. With `bending`, the bonds are
+/// micropolar and it keeps its rotation too.
+AnalysisBody make_pair(double rest, double bending = 0.0) {
+  Network network;
+  network.particles.dim = network.bonds.dim = 2;
+  network.particles.positions = {0, 0, -1, 0, -2, 0};
+  network.particles.volumes.assign(3, 1.0);
+  network.particles.material.assign(3, 0);
+  network.particles.kind.assign(3, ParticleKind::solid);
+  network.bonds.append(network.particles, 0, 1);
+  network.bonds.append(network.particles, 0, 2);
+  network.stiffness = {1.0, rest};
+  if (bending > 0.0) network.bending = {bending, bending * rest};
+  network.critical_stretch = {1e-3, infinity};
+  network.first_tie = network.first_segment = 2;
+  AnalysisBody body = free_body(std::move(network));
+  body.loads.forces[0] = 1.0;
+  number(body, [](Index i, int axis) { return i > 0 || axis > 0; });
+  body.reference = {false, 1.0};
+  return body;
+}
+
+/// The pivot is rest / (1 + rest), however small: what remains bears the load at u = 1 / rest.
+TEST(Separation, WhatIsWeakStillHolds) {
+  for (const double bending : {0.0, 2.0}) {
+    for (const double rest : {1e-3, 1e-8, 1e-13, 1e-20}) {
+      for (const FactorRoute route : routes) {
+        SCOPED_TRACE(to_string(route) + " " + std::to_string(std::log10(rest)));
+        const AnalysisBody body = make_pair(rest, bending);
+        SingleEventEngine engine = make_engine(body, route);
+        const Event event = engine.next_event();
+        ASSERT_EQ(event.element, 0);
+        const EventOutcome outcome = engine.apply(event);
+        ASSERT_FALSE(outcome.mechanism);
+        EXPECT_NEAR(outcome.pivot, rest / (1.0 + rest), 1e-14 * rest);
+        // The analysis looks at the equilibrium after every pivot this small.
+        const Equilibrium equilibrium = engine.check_equilibrium();
+        EXPECT_NEAR(equilibrium.stored_energy, 0.5 / rest, 1e-9 / rest);  // the tolerance is 1e-10
+        EXPECT_NEAR(engine.displacement()[0], 1.0 / rest, 1e-9 / rest);
+        EXPECT_NEAR(engine.load_work().forces, 1.0 / rest, 1e-9 / rest);
+        EXPECT_NEAR(outcome.compliance_growth, 1.0 / rest - 1.0 / (1.0 + rest), 1e-9 / rest);
+      }
+    }
+  }
+}
+
+TEST(Separation, WhatIsNotThereHoldsNothing) {
+  for (const double bending : {0.0, 2.0}) {
+    for (const FactorRoute route : routes) {
+      AnalysisBody body = make_pair(0.0, bending);
+      SingleEventEngine engine = make_engine(body, route);
+      const EventOutcome outcome = engine.apply(engine.next_event());
+      EXPECT_TRUE(outcome.mechanism);
+      EXPECT_EQ(outcome.pivot, 0.0);
+      EXPECT_EQ(engine.secants()[0], 1.0);  // nothing was changed
+      EXPECT_NEAR(engine.displacement()[0], 1.0, 1e-15);
+    }
+  }
+}
+
+/// A thousandth of what held the particle is the least that elastic supports alone may give.
+TEST(Separation, WeakSupportsHoldNothing) {
+  for (const double bending : {0.0, 2.0}) {
+    for (const double spring : {1e-10, 0.9e-3, 1.1e-3, 1.0}) {
+      AnalysisBody body = make_pair(0.0, bending);
+      body.network.support_stiffness.assign(body.unknowns.number.size(), 0.0);
+      body.network.support_stiffness[0] = spring;
+      SingleEventEngine engine = make_engine(body, FactorRoute::in_place);
+      const EventOutcome outcome = engine.apply(engine.next_event());
+      EXPECT_EQ(outcome.mechanism, spring < 1e-3) << spring;
+      if (outcome.mechanism) continue;
+      EXPECT_NEAR(engine.displacement()[0], 1.0 / spring, 1e-12 / spring);
+    }
+  }
+}
+
+/// Round-off leaves 1e-16 times stiffness times displacement of a driven body's reactions.
+TEST(Separation, DrivenBodiesThatNothingHoldsDoNoWork) {
+  AnalysisBody body = make_slender({150, 3, SlenderLoad::driven_across});
+  SingleEventEngine engine = make_engine(body, FactorRoute::in_place);
+  LoadWork work = engine.load_work();
+  EXPECT_FALSE(work.separated);
+  EXPECT_GT(work.supports, 0.0);
+  for (int k = 0; k < 2000 && !work.separated; ++k) {
+    ASSERT_FALSE(engine.apply(engine.next_event()).mechanism);
+    work = engine.load_work();
+  }
+  EXPECT_TRUE(work.separated);
+  EXPECT_EQ(work.forces, 0.0);
+  EXPECT_EQ(work.supports, 0.0);
+}
+
+TEST(Separation, RefinedDisplacementsOfSlenderBodiesBalance) {
+  const AnalysisBody body = make_slender({600, 2, SlenderLoad::force_across});
+  SingleEventEngine engine = make_engine(body, FactorRoute::in_place);
+  // Double precision alone leaves 1e-16 times stiffness times deflection: 1e-6 of the load.
+  const Equilibrium equilibrium = engine.check_equilibrium();
+  EXPECT_LT(equilibrium.residual, 1e-10);
+  EXPECT_NEAR(2.0 * equilibrium.stored_energy, engine.load_work().forces,
+              1e-10 * engine.load_work().forces);
+}
+
+}  // namespace
+}  // namespace perilink

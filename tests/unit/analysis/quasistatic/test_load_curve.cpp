@@ -1,0 +1,231 @@
+#include "analysis/quasistatic/load_curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace perilink {
+namespace {
+
+/// Rows of single events in a body whose stiffness falls at each while the load factor jumps about.
+/// \param driven  displacements of 0.3 at load factor 1 drive it, else a load of 3
+std::vector<StepRecord> make_path(int rows, bool driven) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::vector<StepRecord> records;
+  double compliance = 0.5;
+  for (int k = 0; k < rows; ++k) {
+    StepRecord record;
+    record.step = k + 1;
+    record.broken_bonds = k;
+    record.load_factor = 2.0 * std::exp(-2.0 * k / rows) * (0.5 + unit(random));
+    record.load = record.load_factor * (driven ? 0.3 / compliance : 3.0);
+    record.displacement = record.load_factor * (driven ? 0.3 : 3.0 * compliance);
+    record.strain_energy = 0.5 * record.load * record.displacement;
+    compliance *= 1.0 + 0.01 * unit(random);
+    records.push_back(record);
+  }
+  return records;
+}
+
+/// Energy that the events of a window dissipate: triangles between the origin and two rows.
+double dissipated(const std::vector<StepRecord>& records, std::size_t begin, std::size_t end) {
+  double sum = 0.0;
+  for (std::size_t k = begin; k < end; ++k) {
+    sum += 0.5 * (records[k].load * records[k + 1].displacement -
+                  records[k + 1].load * records[k].displacement);
+  }
+  return sum;
+}
+
+TEST(EventPath, AreTheRowsUnderForcesOrDrivenDisplacements) {
+  for (const bool driven : {false, true}) {
+    const std::vector<StepRecord> records = make_path(50, driven);
+    const std::vector<CurvePoint> path = event_path(records);
+    ASSERT_EQ(path.size(), records.size());
+    EXPECT_EQ(path[7].load, records[7].load);
+    EXPECT_EQ(path[7].displacement, records[7].displacement);
+  }
+}
+
+/// What a separated body leaves is no part of a path on which stiffnesses are read.
+TEST(EventPath, EndsBeforeARowThatResistsNothing) {
+  std::vector<StepRecord> records = make_path(50, true);
+  records[49].load = -1.5e-12;
+  records[49].strain_energy = 0.0;
+  EXPECT_EQ(event_path(records).size(), 49u);
+}
+
+TEST(EventPath, IsEmptyWhereRowsAreNoSingleEvents) {
+  std::vector<StepRecord> steps = make_path(50, true);
+  for (std::size_t k = 25; k < 50; ++k) steps[k].broken_bonds += 3;  // four in one load step
+  EXPECT_TRUE(event_path(steps).empty());
+  std::vector<StepRecord> waits = make_path(50, true);
+  for (StepRecord& record : waits) record.broken_bonds = 0;
+  EXPECT_TRUE(event_path(waits).empty());
+  EXPECT_TRUE(event_path({}).empty());
+}
+
+/// Forces work beside the reactions of driven displacements: load times displacement lacks that.
+TEST(EventPath, IsEmptyWhereTheAxesMissWork) {
+  std::vector<StepRecord> records = make_path(50, true);
+  for (StepRecord& record : records) record.strain_energy *= 1.01;
+  EXPECT_TRUE(event_path(records).empty());
+}
+
+TEST(Envelope, DissipatesWhatTheEventsDissipateInEveryWindow) {
+  for (const bool driven : {false, true}) {
+    const std::vector<StepRecord> records = make_path(1001, driven);
+    const std::vector<CurvePoint> path = event_path(records);
+    const std::vector<CurvePoint> curve = smooth_envelope(path, 37);  // 27 windows of 37 or 38
+    ASSERT_EQ(curve.size(), 27u);
+    for (std::size_t w = 0; w < 27; ++w) {
+      const std::size_t begin = w * 1000 / 27, end = (w + 1) * 1000 / 27;
+      const CurvePoint &p = path[begin], &q = path[end];
+      const double energy = dissipated(records, begin, end);
+      const double softer = q.displacement / q.load - p.displacement / p.load;
+      const double weaker = p.load / p.displacement - q.load / q.displacement;
+      // Differences of compliances lose two of sixteen digits.
+      EXPECT_NEAR(0.5 * std::pow(curve[w].load, 2) * softer, energy, 1e-11 * energy);
+      EXPECT_NEAR(0.5 * std::pow(curve[w].displacement, 2) * weaker, energy, 1e-11 * energy);
+    }
+  }
+}
+
+/// Under driven displacements as under forces: nothing is drawn that no row has reached.
+TEST(Envelope, LiesNowhereBeyondTheRowsOfItsWindow) {
+  for (const bool driven : {false, true}) {
+    const std::vector<CurvePoint> path = event_path(make_path(1001, driven));
+    const std::vector<CurvePoint> curve = smooth_envelope(path, 10);
+    ASSERT_EQ(curve.size(), 100u);
+    for (std::size_t w = 0; w < curve.size(); ++w) {
+      CurvePoint highest;
+      for (std::size_t k = 10 * w; k <= 10 * w + 10; ++k) {
+        highest.load = std::max(highest.load, path[k].load);
+        highest.displacement = std::max(highest.displacement, path[k].displacement);
+      }
+      EXPECT_LE(curve[w].load, highest.load);
+      EXPECT_LE(curve[w].displacement, highest.displacement);
+      EXPECT_GT(curve[w].load, 0.0);
+    }
+  }
+}
+
+/// Displacement over load factor is the same in all rows of a driven body but for its last digit.
+TEST(Envelope, MakesNoPointOfRoundOff) {
+  std::vector<CurvePoint> path;
+  for (int k = 0; k < 400; ++k) {
+    const double factor = 0.1 + 0.9 * std::abs(std::sin(1.7 * k));
+    path.push_back({factor * 0.3, factor * 0.3 * 70.0});
+  }
+  EXPECT_TRUE(smooth_envelope(path, 10).empty());
+  EXPECT_TRUE(smooth_envelope({}, 10).empty());
+  EXPECT_TRUE(smooth_envelope(std::vector<CurvePoint>{{1.0, 2.0}}, 10).empty());
+}
+
+TEST(Envelope, OfAConstantLoadIsThatLoad) {
+  std::vector<CurvePoint> path;
+  for (int k = 0; k <= 100; ++k) path.push_back({-1.0 - k, -3.0});  // compression
+  const std::vector<CurvePoint> curve = smooth_envelope(path, 10);
+  ASSERT_EQ(curve.size(), 10u);
+  for (const CurvePoint& point : curve) {
+    EXPECT_NEAR(point.load, -3.0, 1e-14);
+    EXPECT_LT(point.displacement, 0.0);
+  }
+  EXPECT_NEAR(smoothed_peak(path).value(), -3.0, 1e-14);
+}
+
+TEST(Envelope, PassesOverSingleTeeth) {
+  std::vector<CurvePoint> path;
+  for (int k = 0; k <= 200; ++k) {
+    const double load = k % 10 == 5 ? 6.0 : 3.0;
+    path.push_back({load * (1.0 + k), load});
+  }
+  // Two of ten events have one end on the tooth: load^2 = (8 * 3 * 3 + 2 * 3 * 6) / 10.
+  EXPECT_NEAR(smoothed_peak(path).value(), std::sqrt(10.8), 1e-12);
+  EXPECT_FALSE(smoothed_peak(std::span(path).first(20))) << "one window is no curve";
+}
+
+/// What is left of a body bears more, in as many events again.
+TEST(Envelope, ItsPeakIsThatBeforeTheBodyGaveWay) {
+  std::vector<CurvePoint> path;
+  for (int k = 0; k <= 40; ++k) path.push_back({1.0 + k, 3.0});
+  for (int k = 0; k <= 40; ++k) path.push_back({1000.0 + 10.0 * k, k == 0 ? 1.0 : 8.0});
+  EXPECT_NEAR(smoothed_peak(path).value(), 3.0, 1e-14);
+  path.resize(42);
+  EXPECT_NEAR(smoothed_peak(path).value(), 3.0, 1e-14) << "it stays weak";
+  path.erase(path.begin(), path.begin() + 30);
+  for (int k = 0; k <= 40; ++k) path.push_back({2000.0 + 10.0 * k, 8.0});
+  EXPECT_FALSE(smoothed_peak(path)) << "too few events before";
+}
+
+PeakWatch watch(const std::vector<CurvePoint>& rows, int successive = 1) {
+  PeakWatch peaks(successive);
+  for (const CurvePoint& row : rows) peaks.add(row);
+  return peaks;
+}
+
+TEST(PeakWatch, FindsTheLargestLoadWithItsSign) {
+  const PeakWatch peaks = watch({{1.0, -2.0}, {2.0, -5.0}, {3.0, -4.0}});
+  EXPECT_EQ(peaks.highest().load, -5.0);
+  EXPECT_EQ(peaks.highest().displacement, 2.0);
+  EXPECT_EQ(peaks.first().load, -5.0);
+  EXPECT_FALSE(peaks.gave_way());
+  EXPECT_FALSE(peaks.climbed_again());
+}
+
+TEST(PeakWatch, TellsTheFirstPeakFromOneAfterTheBodyGaveWay) {
+  const PeakWatch peaks = watch({{1.0, 4.0}, {1.5, 5.0}, {2.0, 2.4}, {9.0, 7.0}, {10.0, 1.0}});
+  EXPECT_TRUE(peaks.gave_way());
+  EXPECT_TRUE(peaks.climbed_again());
+  EXPECT_EQ(peaks.first().load, 5.0);
+  EXPECT_EQ(peaks.first().displacement, 1.5);
+  EXPECT_EQ(peaks.highest().load, 7.0);
+}
+
+TEST(PeakWatch, ABodyThatGivesWayAndStaysWeakHasOnePeak) {
+  const PeakWatch peaks = watch({{1.0, 5.0}, {2.0, 2.0}, {9.0, 4.9}});
+  EXPECT_TRUE(peaks.gave_way());
+  EXPECT_FALSE(peaks.climbed_again());
+  EXPECT_EQ(peaks.first().load, 5.0);
+  EXPECT_EQ(peaks.highest().load, 5.0);
+}
+
+/// A test whose displacement only grows sees nothing of teeth that snap back and come again.
+TEST(PeakWatch, PassesOverTeethThatSnapBack) {
+  const PeakWatch peaks =
+      watch({{1.0, 5.0}, {0.3, 1.4}, {0.2, 0.9}, {1.2, 5.2}, {0.4, 1.6}, {1.4, 5.4}});
+  EXPECT_FALSE(peaks.gave_way());
+  EXPECT_EQ(peaks.highest().load, 5.4);
+}
+
+/// The path snaps back and reaches the displacement of its peak again with a fifth of the load, and
+/// more than the peak in the same row.
+TEST(PeakWatch, SeesAFallThatSnapBackHides) {
+  const PeakWatch peaks = watch({{1.0, 5.0}, {0.5, 0.5}, {6.0, 6.0}});
+  EXPECT_TRUE(peaks.climbed_again());
+  EXPECT_EQ(peaks.first().load, 5.0);
+}
+
+TEST(PeakWatch, LoadsThatVibrateHaveToStayBelow) {
+  std::vector<CurvePoint> rows = {{1.0, 5.0}};
+  for (int k = 0; k < 9; ++k) rows.push_back({2.0 + k, 1.0});
+  rows.push_back({12.0, 4.0});
+  rows.push_back({13.0, 6.0});
+  EXPECT_FALSE(watch(rows, 10).gave_way());
+  rows.insert(rows.begin() + 10, {11.0, 1.0});
+  EXPECT_TRUE(watch(rows, 10).climbed_again());
+}
+
+TEST(PeakWatch, ABodyWithoutDamageHasNotGivenWay) {
+  PeakWatch peaks;
+  peaks.add({1.0, 5.0}, true);
+  peaks.add({2.0, 1.0}, true);
+  peaks.add({3.0, 6.0}, true);
+  EXPECT_FALSE(peaks.gave_way());
+}
+
+}  // namespace
+}  // namespace perilink

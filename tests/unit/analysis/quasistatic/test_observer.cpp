@@ -1,0 +1,45 @@
+#include "analysis/quasistatic/observer.hpp"
+
+#include <gtest/gtest.h>
+
+namespace perilink {
+namespace {
+
+/// The words of summary.json; scripts of users rely on them.
+TEST(Ending, HasAWordForEveryKind) {
+  EXPECT_EQ(to_string(Ending::completed), "completed");
+  EXPECT_EQ(to_string(Ending::collapsed), "collapsed");
+  EXPECT_EQ(to_string(Ending::nothing_breaks), "nothing_breaks");
+  EXPECT_EQ(to_string(Ending::interrupted), "interrupted");
+  EXPECT_EQ(to_string(Ending::failed), "failed");
+}
+
+/// An observer that only wants the rows needs no more than on_step.
+class Counter final : public StepObserver {
+ public:
+  void on_step(const StepRecord&, StateSource&) override { ++rows; }
+  int rows = 0;
+};
+
+class NoState final : public StateSource {
+ public:
+  StepState state() override {
+    ADD_FAILURE() << "nobody asked for the state";
+    return {network_, {}, {}};
+  }
+
+ private:
+  Network network_;
+};
+
+TEST(StepObserver, ByDefaultNeitherStopsNorAsksForTheState) {
+  Counter counter;
+  NoState source;
+  counter.on_step({}, source);
+  counter.on_end({}, source);
+  EXPECT_FALSE(counter.stop_requested());
+  EXPECT_EQ(counter.rows, 1);
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,105 @@
+#include "app/commands/plot_command.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "app/results/history_file.hpp"
+#include "base/error.hpp"
+#include "support/cracked_field.hpp"
+
+namespace perilink {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Plot : public ::testing::Test {
+ protected:
+  Plot()
+      : directory_(fs::path(testing::TempDir()) / ("perilink_plot_" + std::to_string(::getpid()))) {
+    fs::create_directories(directory_);
+    HistoryFile history(directory_.string());
+    for (int k = 0; k < 5; ++k) {
+      StepRecord record;
+      record.step = k;
+      record.load_factor = record.load = 5.0 - k;
+      record.displacement = 0.1 * (k + 1);
+      history.append(record);
+    }
+  }
+  ~Plot() override { fs::remove_all(directory_); }
+
+  void write_fields() const {
+    write_vtu((directory_ / "a.vtu").string(), test::make_cracked_field({}, true));
+    write_pvd((directory_ / "fields.pvd").string(), {{4.0, "a.vtu"}, {4.0, "a.vtu"}});
+  }
+  std::string text(const std::string& name) const {
+    std::ifstream file(directory_ / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  fs::path directory_;
+};
+
+TEST_F(Plot, DrawsCurveAndFields) {
+  write_fields();
+  std::ofstream(directory_ / "summary.json") << R"({"title": "Beam <1>", "units": "kip, in"})";
+  EXPECT_EQ(plot_results({directory_.string(), "", 0.0}), 0);
+  // The second file of the series has the same number of broken bonds.
+  for (const char* name : {"load_displacement.svg", "fields_4.svg", "fields_4_step_5.svg"}) {
+    pugi::xml_document document;
+    EXPECT_TRUE(document.load_file((directory_ / name).c_str())) << name;
+    EXPECT_NE(text(name).find("Beam &lt;1&gt;"), std::string::npos) << name;
+  }
+  EXPECT_NE(text("load_displacement.svg").find("displacement (in)"), std::string::npos);
+}
+
+/// The rows alone do not say whether the load vibrates, nor what cracked before the first of them.
+TEST_F(Plot, TakesTheFirstPeakFromTheSummary) {
+  const auto drawn = [&](const std::string& summary) {
+    std::ofstream(directory_ / "summary.json") << summary;
+    EXPECT_EQ(plot_results({directory_.string(), "", 0.0}), 0);
+    return text("load_displacement.svg");
+  };
+  EXPECT_NE(drawn(R"({"first_peak_load": 3, "first_peak_displacement": 0.3})")
+                .find(">first peak 3 at 0.3<"),
+            std::string::npos);
+  EXPECT_EQ(drawn(R"({"first_peak_load": 5, "first_peak_displacement": 0.1})").find("first peak"),
+            std::string::npos);
+  EXPECT_EQ(drawn(R"({"first_peak_load": null})").find("first peak"), std::string::npos);
+}
+
+TEST_F(Plot, WritesWhereItIsToldTo) {
+  const fs::path out = directory_ / "pictures" / "here";
+  EXPECT_EQ(plot_results({directory_.string(), out.string(), 0.0}), 0);
+  EXPECT_TRUE(fs::exists(out / "load_displacement.svg"));
+  EXPECT_FALSE(fs::exists(directory_ / "load_displacement.svg"));
+}
+
+TEST_F(Plot, WithoutASummaryTheDirectoryIsTheTitle) {
+  std::ofstream(directory_ / "summary.json") << "{ half a fi";
+  EXPECT_THROW(plot_results({directory_.string(), "", 0.0}), FileError);
+  fs::remove(directory_ / "summary.json");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(plot_results({directory_.string() + "/", "", 0.0}), 0);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("note: the run goes on or was killed"),
+            std::string::npos);
+  EXPECT_NE(text("load_displacement.svg").find(">" + directory_.filename().string() + "<"),
+            std::string::npos);
+}
+
+TEST_F(Plot, FaultsAreReported) {
+  EXPECT_THROW(plot_results({"/no/such/folder", "", 0.0}), FileError);
+  write_fields();
+  fs::remove(directory_ / "a.vtu");
+  EXPECT_THROW(plot_results({directory_.string(), "", 0.0}), FileError);
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,159 @@
+#include "app/model/body/mesh_input.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "app/model/from_case/configure.hpp"
+#include "app/model/model_regions.hpp"
+#include "base/error.hpp"
+#include "support/gmsh_texts.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink {
+namespace {
+
+using test::TemporaryDirectory;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* case_text = R"([body]
+mesh = "body.msh"
+horizon_ratio = 3
+surface = "none"
+
+[[regions]]
+name = "solid"
+group = "plate"
+
+[[regions]]
+name = "base"
+group = "lower"
+
+[[regions]]
+name = "right"
+x = [2, 2]
+y = [0, 2]
+
+[[materials]]
+region = "solid"
+youngs_modulus = 100
+fracture_energy = 1
+
+[[supports]]
+region = "base"
+fix = ["x", "y"]
+
+[[loads]]
+region = "right"
+force = [1, 0]
+)";
+
+/// A folder with the square mesh and a case that uses it.
+class MeshInput : public ::testing::Test {
+ protected:
+  MeshInput() { test::write_text(directory_ / "body.msh", test::square_mesh); }
+
+  CaseFile parse(const std::string& from = "", const std::string& to = "") const {
+    std::string text = case_text;
+    if (!from.empty()) text.replace(text.find(from), from.size(), to);
+    return parse_case(text, (directory_ / "case.toml").string());
+  }
+  std::string refusal(const std::string& from, const std::string& to) const {
+    try {
+      build_model(parse(from, to));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(MeshInput, GivesParticlesBondsAndGroups) {
+  const Model model = build_model(parse());
+  EXPECT_EQ(model.network.particles.size(), 5);
+  EXPECT_EQ(model.network.bonds.size(), 10);  // every pair
+  EXPECT_EQ(model.lattice.pattern, Pattern::irregular);
+  EXPECT_DOUBLE_EQ(model.horizon, 3.0 * model.lattice.spacing);
+  EXPECT_EQ(model.facets.size(), 4);
+  EXPECT_EQ(model.cells.size(), 4);
+  EXPECT_THAT(model.notes, IsEmpty());
+  EXPECT_EQ(model.unknowns.count, 6);
+}
+
+TEST_F(MeshInput, RegionsAreGroupsOrBoxes) {
+  const CaseFile input = parse();
+  const Model model = build_model(input);
+  EXPECT_THAT(particles_of_region(input, model, "base", "supports[1]"), ElementsAre(0, 1));
+  EXPECT_THAT(particles_of_region(input, model, "right", "loads[1]"), ElementsAre(1, 2));
+  EXPECT_EQ(group_named(model, "lower and left").facets.size(), 2u);
+}
+
+TEST_F(MeshInput, BoxesHoldMaterialsToo) {
+  std::vector<std::string> notes;
+  const CaseFile input = parse("group = \"plate\"", "x = [0, 1]\ny = [0, 2]");
+  const Body body = read_mesh_body(input, 2, notes);
+  EXPECT_EQ(body.cells.size(), 3);  // the centre of the right triangle is at 1.5
+  EXPECT_THAT(body.particles.material, Each(0));
+  EXPECT_THAT(notes, ElementsAre("1 of the 4 cells of the mesh have no material and are left out"));
+}
+
+TEST_F(MeshInput, RefusesWhatTheMeshLacks) {
+  EXPECT_THAT(refusal("group = \"lower\"", "group = \"lover\""),
+              AllOf(HasSubstr("regions[2].group: is \"lover\""), HasSubstr("did you mean `lower`?"),
+                    HasSubstr("Allowed: corner, lower, lower and left, plate")));
+  EXPECT_THAT(
+      refusal("group = \"plate\"", "group = \"lower\""),
+      AllOf(HasSubstr("materials[1]"), HasSubstr("a group of lines, which hold no material")));
+  EXPECT_THAT(refusal("horizon_ratio = 3", "horizon = 0.5"),
+              HasSubstr("body.horizon: the horizon 0.5 is smaller than the spacing"));
+  EXPECT_THAT(
+      refusal("mesh = \"body.msh\"", "mesh = \"body.msh\"\nproblem = \"three_dimensional\""),
+      HasSubstr("regions[3].z"));
+  EXPECT_THAT(refusal("body.msh", "nobody.msh"),
+              AllOf(HasSubstr("body.mesh: "), HasSubstr("nobody.msh: cannot be opened")));
+}
+
+TEST_F(MeshInput, SaysHowToMakeGroupsWhereThereAreNone) {
+  std::string text = test::square_mesh;
+  const std::pair<std::string, std::string> entities[] = {{"0 0 0 1 7", "0 0 0 0"},
+                                                          {"2 -3 4 2 1 2", "0 2 1 2"},
+                                                          {"0 1 4 2 1 4", "0 0 2 1 4"},
+                                                          {"0 1 5 2 11 12", "0 0 2 11 12"}};
+  for (const auto& [grouped, plain] : entities) {
+    text.replace(text.find(grouped), grouped.size(), plain);
+  }
+  test::write_text(directory_ / "body.msh", text);
+  EXPECT_THAT(refusal("", ""), HasSubstr("write Physical Surface(\"plate\") = {...};"));
+}
+
+TEST_F(MeshInput, CracksCutBonds) {
+  CaseFile input = parse();
+  input.cracks = {{{{1.0, -1.0, 0.0}, {1.0, 0.5, 0.0}}}};  // only the lower side is crossed
+  const Model model = build_model(input);
+  EXPECT_EQ(model.network.bonds.size(), 10 - 1);
+  EXPECT_THAT(model.network.cut_by_crack, ElementsAre(1));
+}
+
+TEST_F(MeshInput, IsFoundFromTheFolderOfTheResults) {
+  const CaseFile input = parse();
+  const auto results = directory_ / "results/plate";
+  std::filesystem::create_directories(results);
+  const CaseFile moved = seen_from(input, results);
+  EXPECT_EQ(*moved.body.mesh, "../../body.msh");
+  const CaseFile read = parse_case(write_case(moved), (results / "case.toml").string());
+  EXPECT_EQ(build_model(read).network.particles.size(), 5);
+
+  CaseFile absolute = input;
+  absolute.body.mesh = (directory_ / "body.msh").string();
+  EXPECT_EQ(seen_from(absolute, results).body.mesh, absolute.body.mesh);
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,131 @@
+#include "app/model/gauges.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/run/run_model.hpp"
+#include "support/strip_case.hpp"
+
+namespace perilink {
+namespace {
+
+using test::expect_refused;
+using test::strip_case;
+
+GaugeSection gauge_of(const std::string& name, std::optional<int> axis) {
+  GaugeSection gauge;
+  gauge.name = name;
+  gauge.axis = axis;
+  return gauge;
+}
+
+/// Points of the strip, the mean of a region, and stresses.
+CaseFile strip_with_gauges() {
+  CaseFile input = strip_case();
+  input.analysis.type = "elastic";
+  GaugeSection between = gauge_of("between", std::nullopt);
+  between.between = {{0.0, 20.0, 0.0}, {30.0, 60.0, 0.0}};
+  GaugeSection across = gauge_of("across", 0);
+  across.between = between.between;
+  GaugeSection at = gauge_of("point", 1);
+  at.at = {30.0, 60.0, 0.0};
+  GaugeSection mean = gauge_of("mean", 1);
+  mean.region = "upper end";
+  GaugeSection shear = gauge_of("shear", std::nullopt);
+  shear.at = {20.0, 40.0, 0.0};
+  shear.stress = {0, 1};
+  GaugeSection stress = gauge_of("stress", std::nullopt);
+  stress.region = "middle";
+  stress.stress = {1, 1};
+  input.gauges = {between, across, at, mean, shear, stress};
+  return input;
+}
+
+/// u = 0.003 x + 0.001 y, v = 0.002 x - 0.004 y.
+std::vector<double> linear_displacement(const Model& model) {
+  std::vector<double> displacement;
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    const std::span<const double> x = model.network.particles.position(i);
+    displacement.push_back(0.003 * x[0] + 0.001 * x[1]);
+    displacement.push_back(0.002 * x[0] - 0.004 * x[1]);
+    if (model.network.width() == 3) displacement.push_back(7.0);
+  }
+  return displacement;
+}
+
+void expect_values_of_linear_displacement(const CaseFile& input) {
+  const Model model = build_model(input);
+  const std::vector<double> secants(model.network.num_elements(), 1.0);
+  const std::vector<double> displacement = linear_displacement(model);
+  const std::vector<double> values =
+      gauge_values(model, {model.network, secants, displacement}, 2.0);
+  ASSERT_EQ(values.size(), 6u);
+  const double du = 0.003 * 30.0 + 0.001 * 40.0, dv = 0.002 * 30.0 - 0.004 * 40.0;
+  EXPECT_NEAR(values[0], 2.0 * (du * 0.6 + dv * 0.8), 1e-14);
+  EXPECT_NEAR(values[1], 2.0 * du, 1e-14);
+  EXPECT_NEAR(values[2], 2.0 * (0.002 * 30.0 - 0.004 * 60.0), 1e-14);
+  // Rows at 60, 70 and 80, of which the last has half cells; across the width x averages to 20.
+  const double mean_y = (60.0 + 70.0 + 0.5 * 80.0) / 2.5;
+  EXPECT_NEAR(values[3], 2.0 * (0.002 * 20.0 - 0.004 * mean_y), 1e-14);
+  const double e = 3000.0, nu = input.materials[0].poissons_ratio.value_or(1.0 / 3.0);
+  EXPECT_NEAR(values[4], 2.0 * e / (2.0 * (1.0 + nu)) * 0.003, 1e-11);
+  EXPECT_NEAR(values[5], 2.0 * e / (1.0 - nu * nu) * (-0.004 + nu * 0.003), 1e-11);
+}
+
+TEST(Gauges, MeasureLinearDisplacementsExactly) {
+  expect_values_of_linear_displacement(strip_with_gauges());
+}
+
+TEST(Gauges, LookPastTheRotationsOfMicropolarParticles) {
+  CaseFile input = strip_with_gauges();
+  input.body.model = "micropolar";
+  input.materials[0].poissons_ratio = 0.2;
+  expect_values_of_linear_displacement(input);
+}
+
+TEST(Gauges, KnowTheirPlaces) {
+  CaseFile input = strip_with_gauges();
+  EXPECT_EQ(names_of(build_model(input).gauges)[3], "mean");
+  input.gauges[2].at = {30.0, 91.0, 0.0};
+  expect_refused(input, "gauges[3].at", "is 11 from the nearest particle");
+  input = strip_with_gauges();
+  input.gauges[0].between[1] = {2.0, 21.0, 0.0};
+  expect_refused(input, "gauges[1].between", "the same nearest particle");
+  input = strip_with_gauges();
+  input.gauges[0].name = "load_factor";
+  expect_refused(input, "gauges[1].name", "a column that every history has");
+}
+
+/// Collects the gauges of all rows, as the history does.
+struct Collector final : StepObserver {
+  explicit Collector(const Model& watched) : model(watched) {}
+  void on_step(const StepRecord& record, StateSource& source) override {
+    rows.push_back(record);
+    gauges.push_back(gauge_values(model, source.state(), record.load_factor));
+  }
+  const Model& model;
+  std::vector<StepRecord> rows;
+  std::vector<std::vector<double>> gauges;
+};
+
+/// In a damage analysis the displacement of the history is the work-conjugate one: the mean of the
+/// region that a force is shared over.
+TEST(Gauges, FollowABodyThatBreaks) {
+  CaseFile input = strip_case();
+  GaugeSection mean = gauge_of("mean", 1);
+  mean.region = "upper end";
+  input.gauges = {mean};
+  input.stop.broken_bonds = 20;
+  const Model model = build_model(input);
+  Collector collector(model);
+  run_model(input, model, 1, collector);
+  ASSERT_GE(collector.rows.size(), 20u);
+  for (std::size_t k = 0; k < collector.rows.size(); ++k) {
+    const double expected = collector.rows[k].displacement;
+    EXPECT_NEAR(collector.gauges[k][0], expected, 1e-9 * expected);  // the bar of every history
+  }
+}
+
+}  // namespace
+}  // namespace perilink

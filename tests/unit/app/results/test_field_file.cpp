@@ -1,0 +1,119 @@
+#include "app/results/field_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace perilink {
+namespace {
+
+/// Unit square of four particles with its four sides as bonds, a tie to a bar and one bar segment.
+Network make_square() {
+  Network network;
+  network.particles.dim = 2;
+  network.particles.positions = {0, 0, 1, 0, 0, 1, 1, 1, 0.5, 0.5, 0.9, 0.5};
+  network.particles.volumes = {1, 1, 1, 1, 1, 1};
+  network.particles.material = {0, 0, 1, 0, no_index, no_index};
+  network.particles.kind.assign(4, ParticleKind::solid);
+  network.particles.kind.insert(network.particles.kind.end(), 2, ParticleKind::rebar);
+  const std::vector<std::pair<Index, Index>> ends = {{0, 1}, {0, 2}, {1, 3},
+                                                     {2, 3}, {3, 4}, {4, 5}};
+  for (const auto& [i, j] : ends) network.bonds.append(network.particles, i, j);
+  network.stiffness.assign(6, 2.0);
+  network.critical_stretch.assign(6, 1.0);
+  network.first_tie = 4;
+  network.first_segment = 5;
+  network.yield_strain = {1.0};
+  return network;
+}
+
+class FieldFile : public ::testing::Test {
+ protected:
+  FieldFile() {
+    secants_[3] = secants_[4] = 0.0;  // broken
+    record_.step = 5;
+    record_.broken_bonds = 2;
+    record_.load_factor = 0.5;
+    record_.load = 7.0;
+    grid_ = make_field_grid(network_, {network_, secants_, displacement_}, record_,
+                            std::vector<Index>{3, 4}, families_, 1.0);
+  }
+
+  Network network_ = make_square();
+  Csr families_ = bonds_of_particles(network_.bonds, 6);
+  std::vector<double> secants_ = std::vector<double>(6, 1.0);
+  std::vector<double> displacement_ = {0, 0, 0.2, 0, 0, 0, 0.2, 0, 0.1, 0, 0.18, 0};
+  StepRecord record_;
+  VtuGrid grid_;
+};
+
+TEST_F(FieldFile, CellsAreParticlesThenBrokenBondsThenBars) {
+  ASSERT_EQ(grid_.types.size(), 6u + 2u + 1u);
+  EXPECT_EQ(grid_.types[5], VtuCell::vertex);
+  EXPECT_EQ(grid_.types[6], VtuCell::line);
+  EXPECT_EQ(grid_.find_cell_data("element")->values,
+            (std::vector<double>{0, 0, 0, 0, 0, 0, 1, 1, 2}));
+  EXPECT_EQ(grid_.find_cell_data("broken_at")->values,
+            (std::vector<double>{0, 0, 0, 0, 0, 0, 1, 2, 0}));
+  const std::vector<Index> lines(grid_.connectivity.begin() + 6, grid_.connectivity.end());
+  EXPECT_EQ(lines, (std::vector<Index>{2, 3, 3, 4, 4, 5}));
+  EXPECT_EQ(grid_.offsets.back(), 12);
+}
+
+TEST_F(FieldFile, DisplacementsAndEnergiesAreThoseOfTheLoadFactor) {
+  const std::vector<double>& u = grid_.find_point_data("displacement")->values;
+  EXPECT_EQ(u.size(), 18u);
+  EXPECT_DOUBLE_EQ(u[3], 0.1);
+  EXPECT_EQ(u[5], 0.0);
+  // Only bond 0-1 of stiffness 2 is stretched at particle 0, by 0.1: half of 2 * 0.1^2 / 2.
+  EXPECT_NEAR(grid_.find_point_data("strain_energy_density")->values[0], 0.005, 1e-15);
+  // Stretch 0.1 along x and nothing across.
+  const std::vector<double>& strain = grid_.find_point_data("principal_strain")->values;
+  EXPECT_NEAR(strain[0], 0.1, 1e-14);
+  EXPECT_NEAR(strain[1], 0.0, 1e-14);
+  EXPECT_EQ(strain[2], 0.0);
+}
+
+TEST_F(FieldFile, ShowsTheRotationsOfMicropolarBodies) {
+  EXPECT_EQ(grid_.find_point_data("rotation"), nullptr);
+  network_.bending = {1, 1, 1, 1, 0, 0};
+  std::vector<double> motion;
+  for (int i = 0; i < 6; ++i) {
+    motion.insert(motion.end(), {displacement_[2 * i], displacement_[2 * i + 1], 0.1 * i});
+  }
+  const VtuGrid grid = make_field_grid(network_, {network_, secants_, motion}, record_,
+                                       std::vector<Index>{3, 4}, families_, 1.0);
+  EXPECT_EQ(grid.find_point_data("displacement")->values,
+            grid_.find_point_data("displacement")->values);
+  EXPECT_EQ(grid.find_point_data("principal_strain")->values,
+            grid_.find_point_data("principal_strain")->values);
+  const VtuArray* rotation = grid.find_point_data("rotation");
+  ASSERT_NE(rotation, nullptr);
+  EXPECT_EQ(rotation->components, 1);
+  for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(rotation->values[i], 0.5 * 0.1 * i);
+}
+
+TEST_F(FieldFile, SaysWhatTheParticlesAre) {
+  EXPECT_EQ(grid_.find_point_data("volume")->values, network_.particles.volumes);
+  EXPECT_EQ(grid_.points.size(), 18u);
+  EXPECT_EQ(grid_.points[9], 1.0);
+  EXPECT_EQ(grid_.points[11], 0.0);
+  EXPECT_EQ(grid_.find_point_data("kind")->values, (std::vector<double>{0, 0, 0, 0, 2, 2}));
+  EXPECT_EQ(grid_.find_point_data("region")->values, (std::vector<double>{0, 0, 1, 0, -1, -1}));
+  EXPECT_EQ(grid_.find_point_data("damage")->values[0], 0.0);
+  EXPECT_GT(grid_.find_point_data("damage")->values[2], 0.0);
+  EXPECT_EQ(grid_.field("broken_bonds", -1), 2.0);
+  EXPECT_EQ(grid_.field("load", -1), 7.0);
+  EXPECT_EQ(grid_.field("dimension", -1), 2.0);
+  EXPECT_EQ(grid_.field("spacing", -1), 1.0);
+}
+
+TEST_F(FieldFile, IsAGoodFile) {
+  const std::string path =
+      testing::TempDir() + "perilink_field_" + std::to_string(::getpid()) + ".vtu";
+  write_vtu(path, grid_);
+  EXPECT_EQ(read_vtu(path).connectivity, grid_.connectivity);
+  std::remove(path.c_str());
+}
+
+}  // namespace
+}  // namespace perilink

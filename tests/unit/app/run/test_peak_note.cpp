@@ -1,0 +1,56 @@
+#include "app/run/peak_note.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/strip_case.hpp"
+
+namespace perilink {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+DamageResult result_of(const std::vector<CurvePoint>& rows) {
+  DamageResult result;
+  for (const CurvePoint& row : rows) result.peaks.add(row);
+  return result;
+}
+
+TEST(PeakNote, SaysBothPeaksOfALoadThatClimbedAgain) {
+  const auto note = note_of_peaks(result_of({{0.1, 3320}, {0.2, 900}, {5.0, 11314}}).peaks);
+  ASSERT_TRUE(note);
+  EXPECT_THAT(*note, HasSubstr("reached 3320 at displacement 0.1 (first_peak_load)"));
+  EXPECT_THAT(*note, HasSubstr("climbed again, to 11314 at 5 (peak_load)"));
+}
+
+TEST(PeakNote, IsSilentWhereTheFirstPeakIsTheHighest) {
+  EXPECT_FALSE(note_of_peaks(result_of({{0.1, 3320}, {0.2, 900}, {5.0, 3319}}).peaks));
+  EXPECT_FALSE(note_of_peaks(result_of({{0.1, 3320}, {0.2, 1700}, {5.0, 11314}}).peaks))
+      << "it never fell below half";
+}
+
+/// The lower end of the strip is held; only bonds that broke after the body gave way count.
+TEST(PeakNote, CountsLaterBondsAtGrips) {
+  const Model model = build_model(test::strip_case());
+  const Bonds& bonds = model.network.bonds;
+  std::vector<Index> at_grip, elsewhere;
+  for (Index b = 0; b < bonds.size(); ++b) {
+    const double lower = std::min(model.network.particles.position(bonds.first[b])[1],
+                                  model.network.particles.position(bonds.second[b])[1]);
+    (lower <= 20.0 ? at_grip : elsewhere).push_back(b);
+  }
+  DamageResult result = result_of({{0.1, 3320}, {0.2, 900}, {5.0, 11314}});
+  result.broken_as_gave_way = 2;
+  const std::vector<Index> torn = {at_grip[0], elsewhere[0], at_grip[1], at_grip[2], elsewhere[1]};
+  EXPECT_THAT(note_of_peaks(result, model, torn).value(),
+              HasSubstr("2 of the 3 bonds that broke since then end at particles of [[supports]]"));
+  const std::vector<Index> sound = {at_grip[0], at_grip[1], elsewhere[0]};
+  EXPECT_THAT(note_of_peaks(result, model, sound).value(), Not(HasSubstr("supports")));
+  EXPECT_FALSE(note_of_peaks(result_of({{0.1, 3320}}), model, torn));
+}
+
+}  // namespace
+}  // namespace perilink

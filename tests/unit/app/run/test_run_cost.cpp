@@ -1,0 +1,47 @@
+#include "app/run/run_cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/strip_case.hpp"
+
+namespace perilink {
+namespace {
+
+/// Times are not tested: a draft has what is counted, and its estimate grows with the factor.
+TEST(RunCost, GrowsWithTheFactorAndTheMomentsOfBonds) {
+  const Model draft = draft_model(test::strip_case());
+  FactorStatistics small, large;
+  small.bytes = 1e6, large.bytes = 1e9;
+  small.flops = 1e8, large.flops = 1e12;
+  const ExpectedCost less = expected_cost(draft.network, small);
+  const ExpectedCost more = expected_cost(draft.network, large);
+  EXPECT_GT(more.broken_bond, less.broken_bond);
+  EXPECT_GT(more.factorization, less.factorization);
+  EXPECT_GE(more.memory, large.bytes);
+}
+
+TEST(RunCost, TheSetUpOfADraftLacksItsCalibration) {
+  Model draft = draft_model(test::strip_case());
+  ASSERT_TRUE(draft.network.calibration.has_value());
+  draft.network.calibration->seconds = 3.0;
+  const ExpectedSetUp calibrated(draft, 0.5);
+  EXPECT_DOUBLE_EQ(calibrated.calibration, 3.0);
+  EXPECT_DOUBLE_EQ(calibrated.seconds, 3.5);
+  draft.network.calibration.reset();
+  EXPECT_DOUBLE_EQ(ExpectedSetUp(draft, 0.5).seconds, 0.5);
+}
+
+/// A draft answers what does not depend on the calibration as the model does.
+TEST(RunCost, ADraftHasTheSizesOfTheModel) {
+  const Model draft = draft_model(test::strip_case());
+  const Model model = build_model(test::strip_case());
+  EXPECT_EQ(draft.network.bonds.size(), model.network.bonds.size());
+  EXPECT_EQ(draft.unknowns.count, model.unknowns.count);
+  EXPECT_EQ(draft.network.critical_stretch, model.network.critical_stretch);
+  EXPECT_EQ(draft.network.calibration->free_bonds, model.network.calibration->free_bonds);
+  EXPECT_EQ(draft.network.calibration->iterations, 0);
+  EXPECT_NE(draft.network.stiffness, model.network.stiffness);
+}
+
+}  // namespace
+}  // namespace perilink

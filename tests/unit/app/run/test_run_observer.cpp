@@ -1,0 +1,242 @@
+#include "app/run/run_observer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "app/run/run_model.hpp"
+#include "io/fields/vtu.hpp"
+#include "support/strip_case.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+
+/// A run that breaks the elements that a test names, one after another.
+class RunObserverTest : public testing::Test, protected StateSource {
+ protected:
+  RunObserverTest() : input_(test::strip_case()), model_(build_model(input_)) {
+    secants_.assign(static_cast<std::size_t>(model_.network.num_elements()), 1.0);
+    displacement_.assign(model_.loads.forces.size(), 0.0);
+  }
+  StepState state() override {
+    ++looks_;
+    return {model_.network, secants_, displacement_};
+  }
+  RunObserver make_observer() { return {input_, model_, work_.path(), true}; }
+
+  /// A row in the present state, at whose load `next` fails.
+  void row(RunObserver& observer, Index next) {
+    ++record_.step;
+    record_.element = next;
+    observer.on_step(record_, *this);
+  }
+  void fail(Index element) {
+    secants_[element] = 0.0;
+    ++record_.broken_bonds;
+  }
+  /// Rows of a run by events in which these elements fail, one per row.
+  void run(RunObserver& observer, const std::vector<Index>& elements) {
+    for (const Index element : elements) {
+      row(observer, element);
+      fail(element);
+    }
+    row(observer, 99);
+    observer.on_end(record_, *this);
+    observer.finish();
+  }
+  std::vector<std::string> series() const {
+    std::vector<std::string> files;
+    for (const PvdEntry& entry : read_pvd((work_ / "fields.pvd").string())) {
+      files.push_back(entry.file);
+    }
+    return files;
+  }
+  std::set<std::string> field_files() const {
+    std::set<std::string> files;
+    for (const auto& entry : fs::directory_iterator(work_.path())) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with("fields_")) files.insert(name);
+    }
+    return files;
+  }
+  /// Ends of the broken bonds of a field file, in its order.
+  std::vector<std::pair<Index, Index>> broken_bonds(const std::string& file) const {
+    const VtuGrid grid = read_vtu((work_ / file).string());
+    const std::vector<double>& broken_at = grid.find_cell_data("broken_at")->values;
+    std::vector<std::pair<Index, Index>> ends;
+    for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
+      if (broken_at[cell] == 0.0) continue;
+      EXPECT_EQ(broken_at[cell], static_cast<double>(ends.size() + 1));
+      const auto end = static_cast<std::size_t>(grid.offsets[cell]);
+      ends.emplace_back(grid.connectivity[end - 2], grid.connectivity[end - 1]);
+    }
+    return ends;
+  }
+  std::pair<Index, Index> ends_of(Index element) const {
+    return {model_.network.bonds.first[element], model_.network.bonds.second[element]};
+  }
+
+  test::TemporaryDirectory work_;
+  CaseFile input_;
+  Model model_;
+  std::vector<double> secants_;
+  std::vector<double> displacement_;
+  StepRecord record_;
+  int looks_ = 0;
+};
+
+TEST_F(RunObserverTest, FieldsAreWrittenAtTheCountsAskedForAndFirstAndLast) {
+  input_.output.fields_at = {2, 4, 50};
+  RunObserver observer = make_observer();
+  run(observer, {7, 3, 11, 5, 2});
+  EXPECT_THAT(series(), ElementsAre("fields_000000.vtu", "fields_000002.vtu", "fields_000004.vtu",
+                                    "fields_000005.vtu"));
+  const std::vector<std::string> listed = series();
+  EXPECT_EQ(field_files(), std::set<std::string>(listed.begin(), listed.end()));
+  EXPECT_GT(observer.seconds_writing(), 0.0);
+}
+
+TEST_F(RunObserverTest, FieldsAreWrittenAfterEverySoManyBreaks) {
+  input_.output.fields_at = {3};
+  input_.output.fields_every = 2;
+  RunObserver observer = make_observer();
+  run(observer, {7, 3, 11, 5});
+  EXPECT_THAT(series(), ElementsAre("fields_000000.vtu", "fields_000002.vtu", "fields_000003.vtu",
+                                    "fields_000004.vtu"));
+}
+
+TEST_F(RunObserverTest, BrokenBondsKeepTheOrderOfBreaking) {
+  RunObserver observer = make_observer();
+  run(observer, {70, 3, 110, 5});
+  EXPECT_THAT(broken_bonds("fields_000004.vtu"),
+              ElementsAre(ends_of(70), ends_of(3), ends_of(110), ends_of(5)));
+  EXPECT_TRUE(broken_bonds("fields_000000.vtu").empty());
+}
+
+TEST_F(RunObserverTest, EventsAreFollowedWithoutLookingAtTheBody) {
+  RunObserver observer = make_observer();
+  run(observer, {70, 3, 110, 5});
+  EXPECT_EQ(looks_, 2) << "the first and the last field file";
+}
+
+TEST_F(RunObserverTest, BreaksWithinALoadStepAreOrderedByNumber) {
+  input_.analysis.control = "steps";
+  RunObserver observer = make_observer();
+  row(observer, no_index);
+  for (const Index element : {70, 3}) fail(element);
+  row(observer, 3);
+  fail(20);
+  row(observer, 20);
+  observer.on_end(record_, *this);
+  EXPECT_THAT(broken_bonds("fields_000003.vtu"), ElementsAre(ends_of(3), ends_of(70), ends_of(20)));
+}
+
+TEST_F(RunObserverTest, ALoadStepThatPassesACountWritesTheNextOne) {
+  input_.analysis.control = "steps";
+  input_.output.fields_at = {2, 3, 5};
+  RunObserver observer = make_observer();
+  row(observer, no_index);
+  for (const Index element : {4, 9, 13, 20}) fail(element);
+  row(observer, 20);
+  row(observer, no_index);  // nothing broke
+  for (const Index element : {30, 31, 32}) fail(element);
+  row(observer, 32);
+  fail(40);
+  row(observer, 40);
+  EXPECT_THAT(series(), ElementsAre("fields_000000.vtu", "fields_000004.vtu", "fields_000007.vtu"));
+  observer.on_end(record_, *this);
+  EXPECT_EQ(series().back(), "fields_000008.vtu");
+}
+
+TEST_F(RunObserverTest, YieldingBreaksNothing) {
+  RebarSection bar;
+  bar.from = {22.0, 5.0, 0.0};
+  bar.to = {22.0, 75.0, 0.0};
+  bar.youngs_modulus = 29000.0;
+  bar.area = 3.0;
+  bar.yield_strength = 60.0;
+  input_.rebar.push_back(bar);
+  model_ = build_model(input_);
+  secants_.assign(static_cast<std::size_t>(model_.network.num_elements()), 1.0);
+  displacement_.assign(model_.loads.forces.size(), 0.0);
+  RunObserver observer = make_observer();
+  row(observer, 17);
+  fail(17);
+  row(observer, model_.network.first_segment + 2);
+  ++record_.yield_events;
+  row(observer, 8);
+  fail(8);
+  row(observer, 99);
+  observer.on_end(record_, *this);
+  EXPECT_THAT(broken_bonds("fields_000002.vtu"), ElementsAre(ends_of(17), ends_of(8)));
+}
+
+TEST_F(RunObserverTest, TellsWhatIsBrokenInTheOrderOfBreaking) {
+  RunObserver observer = make_observer();
+  EXPECT_TRUE(observer.broken().empty());
+  run(observer, {7, 3, 11});
+  EXPECT_THAT(observer.broken(), ElementsAre(7, 3, 11));
+}
+
+TEST_F(RunObserverTest, EveryRowGoesToTheHistory) {
+  RunObserver observer = make_observer();
+  run(observer, {7, 3, 11});
+  const std::vector<StepRecord> rows = read_history((work_ / "history.csv").string());
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[2].element, 11);
+  EXPECT_EQ(rows[3].broken_bonds, 3);
+}
+
+TEST_F(RunObserverTest, ARunWithoutRowsLeavesNoFields) {
+  RunObserver observer = make_observer();
+  observer.on_end(record_, *this);
+  observer.finish();
+  EXPECT_TRUE(field_files().empty());
+  EXPECT_FALSE(fs::exists(work_ / "fields.pvd"));
+  EXPECT_FALSE(observer.stop_requested());
+}
+
+/// Platens that both move press with the same force, the load of the row.
+TEST(RunObserverPlaces, HaveTheForcesOfTheHighestRow) {
+  CaseFile input = test::strip_case();
+  input.analysis.type = "elastic";
+  input.loads.clear();
+  input.supports[0].fix = {true, false, false};
+  DisplacementSection platen;
+  platen.region = "upper end";
+  platen.value[1] = -0.2;
+  input.displacements.push_back(platen);
+  platen.region = "lower end";
+  platen.value[1] = 0.1;
+  input.displacements.push_back(platen);
+  const Model model = build_model(input);
+  const test::TemporaryDirectory work;
+  RunObserver observer(input, model, work.path(), true);
+  const StepRecord last = run_model(input, model, 1, observer).result.last;
+  EXPECT_NEAR(last.displacement, 0.3, 1e-12);
+  ASSERT_EQ(observer.places().size(), 2u);
+  EXPECT_EQ(observer.places()[0].name, "upper end");
+  // Round-off of sums over some hundred bonds.
+  EXPECT_NEAR(observer.places()[0].force[1], -last.load, 1e-10 * last.load);
+  EXPECT_NEAR(observer.places()[1].force[1], last.load, 1e-10 * last.load);
+}
+
+TEST(RunObserverPlaces, OfLoadsAreTheirForcesAtTheLoadFactor) {
+  CaseFile input = test::free_strip_case();
+  input.analysis.type = "elastic";
+  const Model model = build_model(input);
+  const test::TemporaryDirectory work;
+  RunObserver observer(input, model, work.path(), true);
+  EXPECT_DOUBLE_EQ(run_model(input, model, 1, observer).result.peak_load, 12.0);
+  ASSERT_EQ(observer.places().size(), 2u);
+  EXPECT_EQ(observer.places()[0].force, (std::vector<double>{0.0, 12.0}));
+  EXPECT_EQ(observer.places()[1].force, (std::vector<double>{0.0, -12.0}));
+}
+
+}  // namespace
+}  // namespace perilink

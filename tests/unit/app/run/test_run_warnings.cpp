@@ -1,0 +1,116 @@
+#include "app/run/run_warnings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace perilink {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+ExplicitResult sound() {
+  ExplicitResult result;
+  result.peak_load = -100.0;
+  result.largest_surplus = 1e-5;
+  return result;
+}
+
+TEST(RunDoubts, AreNoneWhereEnergyAndForcesBalance) {
+  EXPECT_THAT(doubts_about(sound(), {104.0}), IsEmpty());
+}
+
+TEST(RunDoubts, NameEnergyThatIsTooMuch) {
+  ExplicitResult result = sound();
+  result.largest_surplus = 0.13;
+  EXPECT_THAT(doubts_about(result, {100.0}), ElementsAre(HasSubstr("up to 13 % of the work")));
+}
+
+TEST(RunDoubts, NameALoadThatTheSupportsDoNotFeel) {
+  EXPECT_THAT(doubts_about(sound(), {107.0}), ElementsAre(HasSubstr("differ by 7 %")));
+  EXPECT_THAT(doubts_about(sound(), {94.0}), ElementsAre(HasSubstr("differ by 6 %")));
+}
+
+/// 30 of its energy of 100 are motion.
+ExplicitResult moving() {
+  ExplicitResult result = sound();
+  result.last.energy = {30.0, 20.0, 5.0, 15.0, 20.0, 100.0, 10.0};
+  return result;
+}
+
+TEST(RunDoubts, NameWorkThatIsStillMotion) {
+  ExplicitResult result = moving();
+  EXPECT_THAT(doubts_about(result, {100.0}),
+              ElementsAre(HasSubstr("30 % of the work is kinetic energy at the end: the body, or "
+                                    "pieces of it, move freely")));
+  EXPECT_THAT(doubts_about(result, {100.0, false, 0.0, 1}),
+              ElementsAre(HasSubstr("a piece of the body is held by nothing")));
+  EXPECT_THAT(doubts_about(result, {100.0, false, 0.0, 2}),
+              ElementsAre(HasSubstr("2 pieces of the body are held by nothing")));
+  result.last.energy.kinetic = 7.0;  // of 77
+  EXPECT_THAT(doubts_about(result, {100.0}), IsEmpty());
+}
+
+TEST(RunDoubts, LeaveImpactsAndRunsThatWereCutShortAlone) {
+  ExplicitResult result = moving();
+  EXPECT_THAT(doubts_about(result, {100.0, true, 1.0}), IsEmpty());
+  result.ending = Ending::interrupted;
+  EXPECT_THAT(doubts_about(result, {100.0, false, 1.0}), IsEmpty());
+}
+
+TEST(RunDoubts, NameRunsThatEndBeforeAWaveIsBack) {
+  ExplicitResult result = sound();
+  result.last.time = 0.3;
+  EXPECT_THAT(doubts_about(result, {100.0, false, 0.29}), IsEmpty());
+  EXPECT_THAT(doubts_about(result, {100.0, false, 0.5}),
+              ElementsAre(HasSubstr("before a wave has gone along the body and back, which takes "
+                                    "0.5")));
+}
+
+TEST(RunDoubts, TakeTheFastestMaterialForWaves) {
+  CaseFile input;
+  input.materials.resize(2);
+  input.materials[0].youngs_modulus = 9.0;
+  input.materials[0].density = 1.0;
+  input.materials[1].youngs_modulus = 4.0;
+  input.materials[1].lattice.emplace().density = 1.0;
+  EXPECT_DOUBLE_EQ(run_facts(input, 6.0, 0.0).wave_time, 4.0);
+  EXPECT_FALSE(run_facts(input, 6.0, 0.0).impact);
+  input.velocities.emplace_back();
+  EXPECT_TRUE(run_facts(input, 6.0, 0.0).impact);
+}
+
+TEST(RunDoubts, LeaveSupportsOfSymmetryAlone) {
+  ExplicitResult result = sound();
+  EXPECT_THAT(doubts_about(result, {500.0}), IsEmpty());
+  result.peak_load = 0.0;
+  EXPECT_THAT(doubts_about(result, {0.0}), IsEmpty());
+  EXPECT_THAT(doubts_about(result, {50.0}), IsEmpty());
+}
+
+TEST(RunDoubts, AreNoneWhereEquilibriaAreExactButForRoundOff) {
+  DamageResult result;
+  result.energy_error = result.largest_residual = 1e-9;
+  EXPECT_THAT(doubts_about(result), IsEmpty());
+}
+
+TEST(RunDoubts, NameEnergiesAndForcesOutOfBalance) {
+  DamageResult result;
+  result.energy_error = 0.99;
+  EXPECT_THAT(doubts_about(result), ElementsAre(HasSubstr("up to 0.99 of the work")));
+  result.largest_residual = 3e-6;
+  EXPECT_THAT(doubts_about(result),
+              ElementsAre(HasSubstr("of the work"), HasSubstr("up to 3e-06 of the load")));
+}
+
+TEST(RunDoubts, NameWhatIsNotANumber) {
+  DamageResult result;
+  result.energy_error = NAN;
+  EXPECT_THAT(doubts_about(result), ElementsAre(HasSubstr("out of balance")));
+}
+
+}  // namespace
+}  // namespace perilink

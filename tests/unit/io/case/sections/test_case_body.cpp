@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "io/case/sections/case_sections.hpp"
+#include "material/elasticity.hpp"
+#include "support/case_texts.hpp"
+
+// The refusals themselves are data: tests/cli/malformed. Here stand the edges of what is allowed.
+
+namespace perilink {
+namespace {
+
+using testing::HasSubstr;
+
+std::string with_size(const std::string& lines) {
+  return message_of(replaced(small_case, "columns = 11\nhorizon_ratio = 3", lines));
+}
+
+TEST(CaseBody, AllowsTheEdgesOfSizes) {
+  EXPECT_EQ(with_size("columns = 2\nhorizon_ratio = 1"), "accepted");
+  EXPECT_EQ(with_size("columns = 100000\nhorizon_ratio = 1"), "accepted");
+  EXPECT_THAT(with_size("columns = 100001\nhorizon_ratio = 1"), HasSubstr("from 2 to 100000"));
+  EXPECT_EQ(with_size("spacing = 0.5\nhorizon = 0.5"), "accepted");
+  EXPECT_THAT(with_size("spacing = 0.5\nhorizon = 0.49999"), HasSubstr("less than the spacing"));
+  EXPECT_EQ(with_size("columns = 2\nhorizon_level = 0"), "accepted") << "the body refuses it later";
+  EXPECT_EQ(with_size("columns = 2\nhorizon_level = 8"), "accepted");
+}
+
+TEST(CaseBody, TakesAMeshInPlaceOfALattice) {
+  const CaseFile input = parse_case(mesh_case, "case.toml");
+  EXPECT_EQ(input.body.mesh, "meshes/plate \"a\".msh");
+  EXPECT_EQ(input.body.pattern, Pattern::irregular);
+  EXPECT_EQ(input.body.micromodulus, "continuum");
+  EXPECT_EQ(input.body.critical_stretch, "dissipated");
+  EXPECT_EQ(input.regions[0].group, "plate");
+  EXPECT_EQ(input.regions[1].group, "");
+  const std::string long_path = "mesh = \"" + std::string(3000, 'p') + "\"\nhorizon_ratio = 3";
+  EXPECT_EQ(with_size(long_path), "accepted");
+}
+
+TEST(CaseBody, AcceptsThePoissonsRatioOfItsBonds) {
+  for (const auto& [problem, word] : {std::pair(Problem::plane_stress, "plane_stress"),
+                                      std::pair(Problem::plane_strain, "plane_strain")}) {
+    const double ratio = bond_poissons_ratio(problem);
+    const auto text = [&, name = word](double given) {
+      return replaced(
+          replaced(small_case, "columns", std::string("problem = \"") + name + "\"\ncolumns"),
+          "fracture_energy", "poissons_ratio = " + std::to_string(given) + "\nfracture_energy");
+    };
+    EXPECT_EQ(message_of(text(ratio)), "accepted");
+    EXPECT_EQ(message_of(text(ratio - 0.9e-3)), "accepted");
+    EXPECT_THAT(message_of(text(ratio + 1.1e-3)), HasSubstr("bond-based"));
+    EXPECT_THAT(message_of(text(ratio - 1.1e-3)), HasSubstr("micropolar"));
+  }
+  const double ratio = bond_poissons_ratio(Problem::three_dimensional);
+  EXPECT_EQ(parse_case(full_case, "").materials[0].poissons_ratio, ratio);
+}
+
+TEST(CaseBody, AcceptsThePoissonsRatiosOfMicropolarBonds) {
+  for (const auto& [problem, word] : {std::pair(Problem::plane_stress, "plane_stress"),
+                                      std::pair(Problem::plane_strain, "plane_strain")}) {
+    const auto text = [&, name = word](double given) {
+      return replaced(
+          replaced(small_case, "columns",
+                   std::string("model = \"micropolar\"\nproblem = \"") + name + "\"\ncolumns"),
+          "fracture_energy", fmt::format("poissons_ratio = {}\nfracture_energy", given));
+    };
+    const double largest = bond_poissons_ratio(problem);
+    for (const double ratio : {-0.999, 0.0, 0.2, largest}) {
+      EXPECT_EQ(message_of(text(ratio)), "accepted") << ratio;
+    }
+    for (const double ratio : {-1.0, largest + 1e-6, 0.4}) {
+      EXPECT_THAT(message_of(text(ratio)), HasSubstr("have ratios above -1 and up to")) << ratio;
+    }
+  }
+}
+
+TEST(CaseBody, LinearElementsNeedNoHorizonAndHaveAnyRatio) {
+  const std::string elements =
+      replaced(std::string(small_case) + "[analysis]\ntype = \"elastic\"\n", "horizon_ratio = 3",
+               "method = \"linear_elements\"");
+  EXPECT_EQ(parse_case(elements, "").body.method, "linear_elements");
+  EXPECT_EQ(parse_case(small_case, "").body.method, "bonds");
+  for (const char* ratio : {"-0.999", "0", "0.4999"}) {
+    const std::string text = replaced(
+        elements, "youngs_modulus", "poissons_ratio = " + std::string(ratio) + "\nyoungs_modulus");
+    EXPECT_EQ(message_of(text), "accepted") << ratio;
+  }
+}
+
+}  // namespace
+}  // namespace perilink

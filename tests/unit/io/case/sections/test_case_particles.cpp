@@ -1,0 +1,122 @@
+#include "io/case/sections/case_particles.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "support/case_texts.hpp"
+
+namespace perilink {
+namespace {
+
+using testing::HasSubstr;
+
+const char* const particle_case = R"([body]
+model = "particles"
+pattern = "hexagonal"
+spacing = 0.1
+
+[[regions]]
+name = "block"
+x = [0, 1]
+y = [0, 2]
+
+[[regions]]
+name = "top"
+x = [0, 1]
+y = [1.8, 2]
+
+[[materials]]
+region = "block"
+youngs_modulus = 30
+poissons_ratio = 0.2
+density = 2.5
+tensile_strength = 0.003
+fracture_energy = 1e-5
+
+[[displacements]]
+region = "top"
+y = 0.01
+
+[analysis]
+type = "explicit"
+duration = 2
+)";
+
+void expect_refusal(const std::string& text, const std::string& key, const std::string& why) {
+  try {
+    parse_case(text, "");
+    FAIL() << "accepted: " << key;
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(key));
+    EXPECT_THAT(error.what(), HasSubstr(why));
+  }
+}
+
+TEST(CaseParticles, ReadTheirBodyAndMaterial) {
+  const CaseFile input = parse_case(particle_case, "");
+  EXPECT_TRUE(is_particles(input.body));
+  EXPECT_EQ(input.body.surface, Surface::none);
+  const MaterialSection& material = input.materials.front();
+  ASSERT_TRUE(material.lattice.has_value());
+  EXPECT_EQ(material.lattice->tensile_strength, 0.003);
+  EXPECT_EQ(material.lattice->compression_threshold, 1.0 / 3.0);
+  EXPECT_EQ(material.density, 2.5);
+  EXPECT_FALSE(is_particles(parse_case(small_case, "").body));
+}
+
+TEST(CaseParticles, WriteWhatTheyRead) {
+  for (const std::string& text :
+       {std::string(particle_case),
+        replaced(particle_case, "pattern = \"hexagonal\"\nspacing = 0.1", "mesh = \"l.msh\"")}) {
+    const std::string written = write_case(parse_case(text, ""));
+    EXPECT_EQ(write_case(parse_case(written, "")), written);
+    EXPECT_THAT(written, HasSubstr("model = \"particles\""));
+    EXPECT_THAT(written, HasSubstr("tensile_strength = 0.003"));
+    EXPECT_THAT(written, Not(HasSubstr("surface")));
+    EXPECT_THAT(written, Not(HasSubstr("internal_damping")));
+  }
+}
+
+TEST(CaseParticles, RefuseWhatBondsWithinAHorizonHave) {
+  for (const char* line : {"horizon = 0.3", "horizon_ratio = 3", "surface = \"none\"",
+                           "micromodulus = \"lattice\"", "critical_stretch = \"lattice\""}) {
+    const std::string key(line, std::string(line).find(' '));
+    expect_refusal(replaced(particle_case, "spacing", std::string(line) + "\nspacing"), key,
+                   "nearest neighbours");
+  }
+  expect_refusal(replaced(particle_case, "spacing", "rotation = 3\nspacing"), "rotation",
+                 "model is \"particles\"");
+}
+
+TEST(CaseParticles, RefuseWhatOnlyLatticesHave) {
+  for (const char* line :
+       {"internal_damping = 0.1", "yield_strength = 0.1", "boundary_factor = 0.2"}) {
+    const std::string key(line, std::string(line).find(' '));
+    expect_refusal(replaced(particle_case, "density", std::string(line) + "\ndensity"), key,
+                   "only bodies with model = \"lattice\"");
+  }
+  expect_refusal(replaced(particle_case, "density", "external_damping = 0.1\ndensity"),
+                 "external_damping", "analysis.damping_rate");
+  expect_refusal(replaced(particle_case, "poissons_ratio = 0.2", "poissons_ratio = 0.5"),
+                 "poissons_ratio", "state-based");
+  expect_refusal(replaced(particle_case, "density = 2.5\n", ""), "density", "missing");
+}
+
+TEST(CaseParticles, RefuseWhatTheyCannotBeCombinedWith) {
+  for (const char* type : {"damage", "relaxation"}) {
+    expect_refusal(replaced(particle_case, "type = \"explicit\"\nduration = 2",
+                            std::string("type = \"") + type + "\""),
+                   "body.model", type);
+  }
+  expect_refusal(std::string(particle_case) + "\n[[cracks]]\npoints = [[0, 0], [1, 1]]\n",
+                 "cracks[1]", "knows none");
+  expect_refusal(std::string(particle_case) + "\n[[symmetry]]\naxis = \"x\"\nat = 0\n",
+                 "symmetry[1]", "no mirror image");
+  expect_refusal(std::string(particle_case) + "strain = \"green\"\n", "analysis.strain",
+                 "small strains");
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,296 @@
+#include "io/mesh/gmsh_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "base/error.hpp"
+#include "support/gmsh_texts.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink {
+namespace {
+
+using test::square_mesh;
+using test::tetrahedra_mesh;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string message_of(const std::string& bytes, int dim = 2) {
+  try {
+    parse_gmsh(bytes, "body.msh", dim);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+/// The same mesh as gmsh's binary file: ints of four bytes, counts and tags of eight.
+class BinaryWriter {
+ public:
+  explicit BinaryWriter(const std::string& text) : in_(text) {}
+
+  std::string write() {
+    for (std::string header; in_ >> header;) {
+      if (header == "$MeshFormat") {
+        out_ += "$MeshFormat\n4.1 1 8\n";
+        append(std::int32_t{1});
+        std::string skipped;
+        in_ >> skipped >> skipped >> skipped;
+      } else if (header == "$PhysicalNames") {
+        out_ += header;
+        for (std::string line; std::getline(in_, line) && line != "$EndPhysicalNames";) {
+          out_ += line + "\n";
+        }
+        out_ += "$EndPhysicalNames\n";
+        continue;
+      } else {
+        out_ += header + "\n";
+        if (header == "$Entities") entities();
+        if (header == "$Nodes") nodes();
+        if (header == "$Elements") elements();
+      }
+      std::string end;
+      in_ >> end;
+      out_ += "\n" + end + "\n";
+    }
+    return out_;
+  }
+
+ private:
+  template <class Value>
+  void append(Value value) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    out_.append(bytes, sizeof value);
+  }
+  template <class Value>
+  Value copy() {
+    Value value{};
+    in_ >> value;
+    append(value);
+    return value;
+  }
+  std::int64_t size() { return copy<std::int64_t>(); }
+  std::int32_t integer() { return copy<std::int32_t>(); }
+
+  void entities() {
+    std::int64_t counts[4];
+    for (auto& count : counts) count = size();
+    for (int dim = 0; dim < 4; ++dim) {
+      for (std::int64_t i = 0; i < counts[dim]; ++i) {
+        integer();
+        for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) copy<double>();
+        for (int list = 0; list < (dim == 0 ? 1 : 2); ++list) {
+          const std::int64_t count = size();
+          for (std::int64_t k = 0; k < count; ++k) integer();
+        }
+      }
+    }
+  }
+  void nodes() {
+    const std::int64_t blocks = size();
+    for (int k = 0; k < 3; ++k) size();
+    for (std::int64_t b = 0; b < blocks; ++b) {
+      for (int k = 0; k < 3; ++k) integer();
+      const std::int64_t count = size();
+      for (std::int64_t k = 0; k < count; ++k) size();
+      for (std::int64_t k = 0; k < 3 * count; ++k) copy<double>();
+    }
+  }
+  void elements() {
+    const std::int64_t blocks = size();
+    for (int k = 0; k < 3; ++k) size();
+    for (std::int64_t b = 0; b < blocks; ++b) {
+      const int dim = integer();
+      for (int k = 0; k < 2; ++k) integer();
+      const std::int64_t count = size();
+      for (std::int64_t k = 0; k < count * (dim + 2); ++k) size();
+    }
+  }
+
+  std::istringstream in_;
+  std::string out_;
+};
+
+TEST(GmshFile, ReadsTrianglesEdgesAndGroups) {
+  const Mesh mesh = parse_gmsh(square_mesh, "body.msh", 2);
+  EXPECT_THAT(mesh.positions, ElementsAre(0, 0, 2, 0, 2, 2, 0, 2, 0.5, 1, 9, 9));
+  EXPECT_THAT(mesh.cells, ElementsAre(0, 1, 4, 1, 2, 4, 2, 4, 3, 3, 0, 4));
+  EXPECT_THAT(mesh.facets, ElementsAre(0, 1, 3, 0));
+  ASSERT_EQ(mesh.groups.size(), 4u);
+  EXPECT_EQ(mesh.groups[0].name, "corner");
+  EXPECT_EQ(mesh.groups[0].dim, 0);
+  EXPECT_THAT(mesh.groups[0].points, ElementsAre(0));
+  EXPECT_THAT(mesh.groups[0].elements, ElementsAre());
+  EXPECT_EQ(mesh.groups[1].name, "lower");
+  EXPECT_THAT(mesh.groups[1].elements, ElementsAre(0));
+  EXPECT_EQ(mesh.groups[2].name, "lower and left");
+  EXPECT_THAT(mesh.groups[2].elements, ElementsAre(0, 1));
+  EXPECT_THAT(mesh.groups[2].points, ElementsAre(0, 1, 3));
+  EXPECT_EQ(mesh.groups[3].name, "plate");
+  EXPECT_EQ(mesh.groups[3].dim, 2);
+  EXPECT_THAT(mesh.groups[3].elements, ElementsAre(0, 1, 2, 3));
+}
+
+TEST(GmshFile, ReadsTetrahedraAndTriangles) {
+  const Mesh mesh = parse_gmsh(tetrahedra_mesh, "body.msh", 3);
+  EXPECT_EQ(mesh.num_points(), 5);
+  EXPECT_THAT(mesh.cells, ElementsAre(0, 1, 2, 3, 1, 2, 3, 4));
+  EXPECT_THAT(mesh.facets, ElementsAre(1, 2, 3, 0, 1, 2));
+  ASSERT_EQ(mesh.groups.size(), 4u);
+  EXPECT_EQ(mesh.groups[1].name, "floor");
+  EXPECT_EQ(mesh.groups[3].name, "large");
+  EXPECT_THAT(mesh.groups[3].points, ElementsAre(1, 2, 3, 4));
+}
+
+TEST(GmshFile, BinaryAndTextSayTheSame) {
+  const struct {
+    const char* text;
+    int dim;
+  } meshes[] = {{square_mesh, 2}, {tetrahedra_mesh, 3}};
+  for (const auto& [text, dim] : meshes) {
+    const Mesh expected = parse_gmsh(text, "body.msh", dim);
+    const Mesh mesh = parse_gmsh(BinaryWriter(text).write(), "body.msh", dim);
+    EXPECT_EQ(mesh.positions, expected.positions);
+    EXPECT_EQ(mesh.cells, expected.cells);
+    EXPECT_EQ(mesh.facets, expected.facets);
+    ASSERT_EQ(mesh.groups.size(), expected.groups.size());
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+      EXPECT_EQ(mesh.groups[g].name, expected.groups[g].name);
+      EXPECT_EQ(mesh.groups[g].elements, expected.groups[g].elements);
+      EXPECT_EQ(mesh.groups[g].points, expected.groups[g].points);
+    }
+  }
+}
+
+TEST(GmshFile, CallsNamelessGroupsByTheirNumber) {
+  const Mesh mesh = parse_gmsh(replaced(square_mesh, "2 5 \"plate\"", "2 6 \"plate\""), "m", 2);
+  EXPECT_EQ(mesh.groups[3].name, "5");
+}
+
+TEST(GmshFile, PassesOverCommentsResultsAndWindowsLineEnds) {
+  std::string text = "$Comments\nby hand\n$EndComments\n" + std::string(square_mesh) +
+                     "$NodeData\n1\n\"T\"\n$EndNodeData\n";
+  std::string windows;
+  for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  EXPECT_EQ(message_of(text), "accepted");
+  EXPECT_EQ(parse_gmsh(windows, "m", 2).groups[3].name, "plate");
+}
+
+TEST(GmshFile, KeepsCellsOfNoGroupOnly) {
+  const std::string text = replaced(replaced(square_mesh, "0 1 5 2 11 12", "0 0 2 11 12"),
+                                    "2 -3 4 2 1 2", "0 2 1 2");
+  const Mesh mesh = parse_gmsh(text, "m", 2);
+  EXPECT_EQ(mesh.num_cells(), 4);
+  EXPECT_EQ(mesh.num_facets(), 1);  // of "left"
+}
+
+struct Fault {
+  const char* name;
+  const char* from;
+  const char* to;
+  const char* message;
+};
+
+void PrintTo(const Fault& fault, std::ostream* stream) { *stream << fault.name; }
+
+class GmshFileFault : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(GmshFileFault, IsRefusedWithFileAndReason) {
+  const std::string message =
+      message_of(replaced(square_mesh, GetParam().from, GetParam().to));
+  EXPECT_THAT(message, HasSubstr("body.msh"));
+  EXPECT_THAT(message, HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, GmshFileFault,
+    ::testing::Values(
+        Fault{"version2", "4.1 0 8", "2.2 0 8", "body.msh:2: is in version \"2.2\""},
+        Fault{"version4", "4.1 0 8", "4 0 8", "save it as version 4.1"},
+        Fault{"numbersOf4Bytes", "4.1 0 8", "4.1 0 4", "numbers of 4 bytes"},
+        Fault{"kind", "4.1 0 8", "4.1 3 8", "neither text nor binary"},
+        Fault{"otherFile", "$MeshFormat", "solid", "is no mesh of gmsh"},
+        Fault{"noFormat", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", "", "before $MeshFormat"},
+        Fault{"manyNodes", "0 1 0 1\n10", "0 1 0 9999999\n10", "announces 9999999 nodes"},
+        Fault{"manyElements", "2 21 2 4", "2 21 2 400000000000", "more than the rest of the file"},
+        Fault{"manyBlocks", "3 6 10 60", "123456789 6 10 60", "announces 123456789 blocks"},
+        Fault{"negativeCount", "3 6 10 60", "-3 6 10 60", "negative"},
+        Fault{"word", "2 0 0\n", "2 zero 0\n", "has \"zero\" where a number should be"},
+        Fault{"wordForTag", "4 10 20 50", "4 10 x 50", "has \"x\" where an integer should be"},
+        Fault{"tooLarge", "2 0 0\n", "1e400 0 0\n", "body.msh:27: has \"1e400\", a number that"},
+        Fault{"tooLargeBelowZero", "2 0 0\n", "-1e400 0 0\n", "double precision does not hold"},
+        Fault{"tooSmall", "2 0 0\n", "1e-400 0 0\n", "double precision does not hold"},
+        Fault{"notANumber", "2 0 0\n", "2 nan 0\n", "not finite"},
+        Fault{"hexadecimal", "2 0 0\n", "0x2 0 0\n", "has \"0x2\" where a number should be"},
+        Fault{"beyondAllBodies", "2 0 0\n", "2e200 0 0\n", "not finite"},
+        Fault{"infinite", "2 0 0\n", "2 inf 0\n", "not finite"},
+        Fault{"unknownNode", "4 10 20 50", "4 10 25 50", "node 25, which is not in the file"},
+        Fault{"nodeTwice", "20\n30\n40", "20\n20\n40", "two nodes with the tag 20"},
+        Fault{"quadrilaterals", "2 21 2 4", "2 21 3 4", "leave out Recombine"},
+        Fault{"secondOrder", "2 21 2 4", "2 21 9 4", "-order 1"},
+        Fault{"hexahedra", "2 21 2 4", "3 21 5 4", "hexahedra"},
+        Fault{"otherType", "2 21 2 4", "2 21 77 4", "gmsh's type 77"},
+        Fault{"typeOfOtherDimension", "2 21 2 4", "2 21 1 4",
+              "2 corners on an entity of dimension 2"},
+        Fault{"dimension", "2 21 2 4", "9 21 2 4", "dimension 9"},
+        Fault{"missingNode", "4 7 1 7", "5 7 1 7", "body.msh:"},
+        Fault{"noEnd", "$EndNodes", "$EndKnots", "\"$EndKnots\" where $EndNodes should be"},
+        Fault{"betweenSections", "$Entities", "Entities", "where a section $... should begin"},
+        Fault{"partitioned", "$Entities", "$PartitionedEntities", "is partitioned"},
+        Fault{"nameTwice", "\"plate\"", "\"lower\"", "two physical groups with the name \"lower\""},
+        Fault{"nameWithoutQuotes", "\"plate\"", "plate", "not between quotes"},
+        Fault{"groupOfNoDimension", "2 5 \"plate\"", "5 5 \"plate\"", "impossible dimension"},
+        Fault{"notPlane", "2 2 0\n", "2 2 0.1\n", "z goes from 0 to 0.1"},
+        Fault{"tetrahedra", "2 21 2 4\n4 10 20 50 \n5 20 30 50 \n6 30 50 40 \n7 40 10 50 ",
+              "3 21 4 1\n4 10 20 30 50", "holds tetrahedra"}),
+    [](const auto& fault) { return std::string(fault.param.name); });
+
+TEST(GmshFile, RefusesEveryTruncation) {
+  for (const std::string& whole :
+       {std::string(square_mesh), BinaryWriter(square_mesh).write()}) {
+    const std::size_t end = whole.rfind("$EndElements");
+    for (std::size_t size = 0; size < end + 12; ++size) {
+      EXPECT_NE(message_of(whole.substr(0, size)), "accepted") << size;
+    }
+  }
+}
+
+TEST(GmshFile, RefusesTheWrongDimension) {
+  EXPECT_THAT(message_of(square_mesh, 3), HasSubstr("no tetrahedra"));
+  EXPECT_THAT(message_of(tetrahedra_mesh, 2), HasSubstr("problem = \"three_dimensional\""));
+}
+
+TEST(GmshFile, RefusesMeshesWithoutNodesOrElements) {
+  EXPECT_THAT(message_of("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"), HasSubstr("holds no mesh"));
+  EXPECT_THAT(message_of(""), HasSubstr("is empty"));
+}
+
+TEST(GmshFile, RefusesTheOtherOrderOfBytes) {
+  std::string bytes = BinaryWriter(square_mesh).write();
+  std::swap(bytes[bytes.find("4.1 1 8\n") + 8], bytes[bytes.find("4.1 1 8\n") + 11]);
+  EXPECT_THAT(message_of(bytes), HasSubstr("another order of bytes"));
+}
+
+TEST(GmshFile, ReadsFromDiskAndNamesWhatItCannotRead) {
+  const test::TemporaryDirectory directory;
+  const std::string path = (directory.path() / "body.msh").string();
+  test::write_text(path, square_mesh);
+  EXPECT_EQ(read_gmsh_file(path, 2).num_cells(), 4);
+  EXPECT_THROW(read_gmsh_file(path + "x", 2), FileError);
+  EXPECT_THROW(read_gmsh_file(directory.path().string(), 2), FileError);
+}
+
+}  // namespace
+}  // namespace perilink

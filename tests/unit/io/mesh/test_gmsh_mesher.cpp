@@ -1,0 +1,98 @@
+#include "io/mesh/gmsh_mesher.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include "base/error.hpp"
+#include "io/mesh/gmsh_file.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string meshes = PERILINK_SOURCE_DIR "/meshes/";
+
+std::string refusal(const std::string& path, std::optional<double> size) {
+  try {
+    mesh_geometry(path, 2, size);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(GmshMesher, MeshesScriptsWithTheSizeAskedFor) {
+  if (!has_gmsh()) {
+    EXPECT_THAT(refusal(meshes + "disc.geo", {}), HasSubstr("was built without gmsh"));
+    return;
+  }
+  const Mesh own = mesh_geometry(meshes + "disc.geo", 2, {});
+  const Mesh fine = mesh_geometry(meshes + "disc.geo", 2, 0.075);
+  EXPECT_EQ(own.groups.size(), 3u);
+  // Equilateral triangles of this side that fill the disc; gmsh's are up to a fifth smaller.
+  const auto ideal = [](double side) {
+    return std::numbers::pi / (0.25 * std::sqrt(3.0) * side * side);
+  };
+  EXPECT_NEAR(own.num_cells() / ideal(0.15), 1.0, 0.2) << "the script's own size";
+  EXPECT_NEAR(fine.num_cells() / ideal(0.075), 1.0, 0.2);
+  EXPECT_EQ(mesh_geometry(meshes + "disc.geo", 2, 0.075).positions, fine.positions);
+}
+
+TEST(GmshMesher, SaysWhatIsWrong) {
+  if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
+  const test::TemporaryDirectory directory;
+  const std::string path = (directory / "body.geo").string();
+  EXPECT_THAT(refusal(path, {}), HasSubstr("body.geo: cannot be opened"));
+  test::write_text(path, "DefineConstant[ size = 0.1 ];\n");
+  EXPECT_THAT(refusal(path, 0.1), HasSubstr("has no constant `h`"));
+  test::write_text(path, "Plane Surface(1) = {7};\n");
+  EXPECT_THAT(refusal(path, {}), HasSubstr("body.geo"));
+  test::write_text(path, "// nothing\n");
+  EXPECT_THAT(refusal(path, {}), AllOf(HasSubstr("body.geo"), HasSubstr("holds no mesh")));
+}
+
+TEST(GmshMesher, RunsNoCommandsOfScriptsUnlessTrusted) {
+  if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
+  const test::TemporaryDirectory directory;
+  const std::string written = (directory / "written").string();
+  for (const std::string& command :
+       {"SystemCall \"touch " + written + "\";", "Printf(\"x\") > \"" + written + "\";"}) {
+    const std::string path = (directory / "body.geo").string();
+    test::write_text(path, "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 1};\n" + command);
+    EXPECT_THAT(refusal(path, {}), HasSubstr("--trust-geometry"));
+    EXPECT_FALSE(std::filesystem::exists(written)) << command;
+    EXPECT_GT(mesh_geometry(path, 2, {}, true).num_cells(), 0);
+    EXPECT_TRUE(std::filesystem::remove(written)) << "this test would see the file";
+  }
+}
+
+/// The meshes of the folder are those of their geometries.
+TEST(GmshMesher, ReadsTheMeshesOfTheFolder) {
+  const struct {
+    const char* name;
+    int dim;
+    std::size_t groups;
+  } files[] = {{"plate_with_hole", 2, 6},
+               {"full_plate_with_hole", 2, 6},
+               {"disc", 2, 3},
+               {"l_shape", 2, 7},
+               {"hollow_sphere", 3, 6}};
+  for (const auto& [name, dim, groups] : files) {
+    const Mesh mesh = read_gmsh_file(meshes + name + ".msh", dim);
+    EXPECT_EQ(mesh.groups.size(), groups) << name;
+    if (!has_gmsh()) continue;
+    const Mesh meshed = mesh_geometry(meshes + name + ".geo", dim, {});
+    // Another version of gmsh may place a few points elsewhere.
+    EXPECT_NEAR(meshed.num_cells(), mesh.num_cells(), 0.1 * mesh.num_cells()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace perilink
