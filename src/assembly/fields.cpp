@@ -96,13 +96,13 @@ std::vector<double> damage_index(const Network& network, const Csr& families,
   std::vector<double> damage(static_cast<std::size_t>(families.rows()), 0.0);
   for (Index i = 0; i < families.rows(); ++i) {
     double all = 0.0;
-    double broken = 0.0;
+    double lost = 0.0;
     for (const Index e : families.row(i)) {
       const double volume = network.particles.volumes[other_end(network.bonds, e, i)];
       all += volume;
-      if (!(secants[e] > 0.0)) broken += volume;
+      if (!network.law(e).endless()) lost += (1.0 - secants[e]) * volume;
     }
-    if (all > 0.0) damage[i] = broken / all;
+    if (all > 0.0) damage[i] = lost / all;
   }
   return damage;
 }

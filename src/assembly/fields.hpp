@@ -11,7 +11,8 @@
 
 namespace perilink {
 
-/// Damage index 1 - (intact bonds weighted by their volume) / (all bonds), per particle.
+/// Damage index: the part of the stiffness that bonds have lost, weighted by the volumes at their
+/// other ends, per particle [-]. Bars that yield are not damaged.
 std::vector<double> damage_index(const Network& network, const Csr& families,
                                  std::span<const double> secants);
 

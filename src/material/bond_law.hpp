@@ -1,57 +1,64 @@
 #pragma once
 
-#include <cmath>
-#include <limits>
+#include <utility>
+#include <vector>
 
 /// \file
-/// Laws of a bond as a falling series of secant stiffnesses ("teeth"). A bond on tooth k carries
-/// the force a_k s (per unit of its intact stiffness) up to the stretch s_k; there the next event
-/// of the bond comes and its secant falls to a_(k+1). The implicit mode asks for secant and limit;
-/// `force`, `energy` and `tangent` are the same law for every other use. Evaluation changes
-/// nothing: the tooth is the only state and the caller owns it.
+/// Laws of a bond as a falling series of secant stiffnesses ("teeth"). On tooth k a bond carries
+/// the force a_k s per unit of its intact stiffness and stores a_k s^2 / 2, up to the stretch s_k;
+/// there its next event comes and the secant falls to a_(k+1). The tooth is the only state, and the
+/// caller owns it.
+///
+/// Stretches of a law are given over the bond's own critical stretch, so that bonds of one law may
+/// differ in strength.
 
 namespace perilink {
 
 /// One secant of a law.
 struct Tooth {
   double secant;  ///< stiffness as a fraction of the intact one [-]
-  double limit;   ///< stretch of the next event [-]; infinity when there is none
+  double limit;   ///< stretch of the next event over the critical one; infinity: there is none
 };
 
-/// Breaks for good at the critical stretch, in tension only (zeroth-order micro-elastic damage,
-/// Gerstle, Sau & Silling 2005, Fig. 2 with s0 = s1).
-struct BrittleLaw {
-  double critical_stretch = std::numeric_limits<double>::infinity();
-
-  Tooth tooth(int k) const {
-    if (k == 0) return {1.0, critical_stretch};
-    return {0.0, std::numeric_limits<double>::infinity()};
-  }
+/// Stretches that lead to events.
+enum class Sense {
+  tension,  ///< elongation
+  both,     ///< elongation and shortening alike
 };
 
-/// Elastic and perfectly plastic bar as a saw-tooth about the plateau: with the ratio r of
-/// neighbouring teeth a_k = r^-k and an event at s_k = s_y sqrt(r) r^k, so the force moves between
-/// sqrt(r) and 1/sqrt(r) times the yield force and every tooth dissipates exactly the energy of the
-/// plateau that it stands for. Yields alike in tension and compression; unloads along the secant.
-struct PlateauLaw {
-  double yield_strain = std::numeric_limits<double>::infinity();
-  double ratio = 1.05;  ///< r > 1: ripple of about (r - 1) / 2 either side of the plateau
+class BondLaw {
+ public:
+  /// Breaks for good at the critical stretch, in tension (zeroth-order micro-elastic damage,
+  /// Gerstle, Sau & Silling 2005, Fig. 2 with s0 = s1).
+  static BondLaw brittle();
 
-  Tooth tooth(int k) const {
-    const double growth = std::pow(ratio, k);
-    return {1.0 / growth, yield_strain * std::sqrt(ratio) * growth};
-  }
+  /// Elastic and perfectly plastic from the critical stretch s_y on, as a saw-tooth about the
+  /// plateau: with the ratio r of neighbouring teeth a_k = r^-k and an event at s_k = s_y sqrt(r)
+  /// r^k, so the force moves between sqrt(r) and 1/sqrt(r) times the yield force and every tooth
+  /// dissipates exactly the energy of the plateau that it stands for. Yields alike in tension and
+  /// compression; unloads along the secant. Ripple of about (r - 1) / 2 either side.
+  /// \throws std::invalid_argument unless ratio > 1
+  static BondLaw plateau(double ratio = 1.05);
+
+  /// Given teeth, in tension; a bond that has passed the last one is broken.
+  /// \param teeth  the first secant is 1; secants fall and limits rise
+  /// \throws std::invalid_argument where they do not
+  static BondLaw saw_tooth(std::vector<Tooth> teeth);
+
+  Tooth tooth(int k) const;
+  Sense sense() const { return sense_; }
+  /// Whether there is always another tooth: the bond never breaks.
+  bool endless() const { return ratio_ > 0.0; }
+  /// Whether the first event breaks the bond.
+  bool is_brittle() const { return !endless() && teeth_.size() == 1; }
+
+ private:
+  BondLaw(Sense sense, std::vector<Tooth> teeth, double ratio)
+      : sense_(sense), teeth_(std::move(teeth)), ratio_(ratio) {}
+
+  Sense sense_;
+  std::vector<Tooth> teeth_;  ///< before the bond breaks
+  double ratio_;              ///< of neighbouring teeth of a plateau; 0: of other laws
 };
-
-/// Force of a bond per unit of its intact stiffness and length.
-inline double bond_force(const Tooth& tooth, double stretch) { return tooth.secant * stretch; }
-
-/// Energy of a bond per unit of its intact stiffness and length squared.
-inline double bond_energy(const Tooth& tooth, double stretch) {
-  return 0.5 * tooth.secant * stretch * stretch;
-}
-
-/// Derivative of the force with respect to the stretch.
-inline double bond_tangent(const Tooth& tooth, double /*stretch*/) { return tooth.secant; }
 
 }  // namespace perilink

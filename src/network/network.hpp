@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "discretization/bonds.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
+#include "material/bond_law.hpp"
 
 namespace perilink {
 
@@ -40,14 +42,18 @@ struct Network {
   /// both its ends. Nearest neighbours need not be mutual.
   std::vector<std::uint8_t> state_of;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
-  std::vector<double> critical_stretch;  ///< [-]; infinity: cannot break (all bar segments)
+  /// Laws of the elements, and the number of each element's; empty: all have the first one.
+  std::vector<BondLaw> laws = {BondLaw::brittle()};
+  std::vector<std::uint8_t> law_of;
+  /// Of each element [-]: where brittle bonds break, the yield strain of bars, what other laws count
+  /// their stretches by; infinity: stays elastic.
+  std::vector<double> critical_stretch;
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: none.
   std::vector<double> support_stiffness;
-  Index first_tie = 0;               ///< number of the first tie
-  Index first_segment = 0;           ///< number of the first bar segment
-  std::vector<double> yield_strain;  ///< per segment [-]; infinity: stays elastic
-  Facets facets;  ///< surface and interfaces, with the shares that the bonds balance
+  Index first_tie = 0;      ///< number of the first tie
+  Index first_segment = 0;  ///< number of the first bar segment
+  Facets facets;            ///< surface and interfaces, with the shares that the bonds balance
   std::optional<CalibrationReport> calibration;  ///< of calibrated bonds
 
   std::vector<Index> cut_by_crack;  ///< bonds that each pre-crack took out
@@ -70,6 +76,10 @@ struct Network {
     return state_of.empty() || (state_of[element] & end) != 0;
   }
   Index num_elements() const { return bonds.size(); }
+  const BondLaw& law(Index element) const { return laws[law_of.empty() ? 0 : law_of[element]]; }
+  /// Whether its law has events, or it stays elastic.
+  bool has_limit(Index element) const { return std::isfinite(critical_stretch[element]); }
+  bool can_break(Index element) const { return has_limit(element) && !law(element).endless(); }
   bool is_segment(Index element) const { return element >= first_segment; }
 };
 

@@ -49,8 +49,7 @@ class PairConstants {
       moduli.push_back(moduli_of(body, input, material));
     }
     const bool on_lattice = input.critical_stretch == Constants::lattice;
-    const BulkFamily family =
-        on_lattice ? bulk_family(body.lattice, input.horizon) : BulkFamily{};
+    const BulkFamily family = on_lattice ? bulk_family(body.lattice, input.horizon) : BulkFamily{};
     for (std::size_t a = 0; a < count_; ++a) {
       for (std::size_t b = 0; b < count_; ++b) {
         const double c = 0.5 * (moduli[a].micromodulus + moduli[b].micromodulus);
@@ -104,8 +103,8 @@ void add_bending(const PairConstants& constants, Network& network) {
     const Index j = network.bonds.second[b];
     const Index own = particles.material[i];
     const bool ghost = particles.kind[j] == ParticleKind::ghost;
-    const double d = constants.bending_modulus(own, ghost ? own : particles.material[j]) *
-                     (ghost ? 0.5 : 1.0);
+    const double d =
+        constants.bending_modulus(own, ghost ? own : particles.material[j]) * (ghost ? 0.5 : 1.0);
     const double length = network.bonds.lengths[b];
     network.bending.push_back(12.0 * d * particles.volumes[i] * particles.volumes[j] /
                               (length * length * length));
@@ -138,7 +137,7 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
               Network& network) {
   Particles& particles = network.particles;
   RebarMesh mesh = add_rebar(particles, input.bars, body.lattice.spacing, input.horizon,
-                                   body.lattice.cell_volume);
+                             body.lattice.cell_volume);
   if (!input.cracks.empty()) {
     const CutBonds cut = find_cut_bonds(particles, mesh.ties, input.cracks, body.lattice.spacing);
     keep_bonds(particles, mesh.ties, cut.keep);
@@ -162,9 +161,12 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
   for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
     const BarMaterial& bar = input.bar_materials[mesh.bar_of_segment[segment]];
     network.stiffness.push_back(bar.youngs_modulus * bar.area / mesh.segments.lengths[segment]);
-    network.critical_stretch.push_back(infinity);
-    network.yield_strain.push_back(bar.yield_strength / bar.youngs_modulus);
+    network.critical_stretch.push_back(bar.yield_strength / bar.youngs_modulus);
   }
+  if (mesh.segments.size() == 0) return;
+  network.law_of.assign(static_cast<std::size_t>(network.first_segment), 0);
+  network.law_of.resize(network.stiffness.size(), static_cast<std::uint8_t>(network.laws.size()));
+  network.laws.push_back(BondLaw::plateau());
 }
 
 }  // namespace
@@ -173,8 +175,8 @@ MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
                            const SolidMaterial& material) {
   const ElasticConstants elastic{material.youngs_modulus, material.poissons_ratio};
   // Calibration starts from the continuum: a lattice alone may not reach the Poisson's ratio.
-  const bool continuum = input.micromodulus == Constants::continuum ||
-                         body.lattice.surface == Surface::calibrated;
+  const bool continuum =
+      input.micromodulus == Constants::continuum || body.lattice.surface == Surface::calibrated;
   if (input.model == BondModel::micropolar) {
     if (continuum) {
       return continuum_micropolar(input.problem, elastic, input.horizon, input.thickness);
@@ -239,15 +241,18 @@ Network build_network(const Body& body, const NetworkInput& input) {
 
 void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
   keep_bonds(network.particles, network.bonds, keep);
-  for (std::vector<double>* values :
-       {&network.stiffness, &network.bending, &network.bending_ratio, &network.inflection,
-        &network.critical_stretch}) {
+  const auto keep_values = [&](auto& values) {
     std::size_t next = 0;
-    for (std::size_t e = 0; e < values->size(); ++e) {
-      if (keep[e]) (*values)[next++] = (*values)[e];
+    for (std::size_t e = 0; e < values.size(); ++e) {
+      if (keep[e]) values[next++] = values[e];
     }
-    values->resize(next);
+    values.resize(next);
+  };
+  for (std::vector<double>* values : {&network.stiffness, &network.bending, &network.bending_ratio,
+                                      &network.inflection, &network.critical_stretch}) {
+    keep_values(*values);
   }
+  keep_values(network.law_of);
 }
 
 std::vector<Index> find_loose_particles(const Network& network) {

@@ -154,7 +154,7 @@ class HeldSpan {
 std::vector<std::uint8_t> unbreakable_particles(const Network& network) {
   std::vector<std::uint8_t> unbreakable(static_cast<std::size_t>(network.particles.size()), 1);
   for (Index e = 0; e < network.num_elements(); ++e) {
-    if (std::isinf(network.critical_stretch[e])) continue;
+    if (!network.can_break(e)) continue;
     unbreakable[network.bonds.first[e]] = 0;
     unbreakable[network.bonds.second[e]] = 0;
   }

@@ -146,16 +146,21 @@ struct BlockCase {
   int columns = 6;
   double scatter = 0.1;  ///< relative scatter of the critical stretches; 0: exact ties by symmetry
   bool micropolar = false;  ///< Poisson's ratio 0.1, torsion 1.3
+  bool toothed = false;     ///< bonds lose their stiffness in three steps
 };
 
 inline std::string to_string(const BlockCase& block) {
   return (block.micropolar ? "micropolar_" : "") + block.lattice.name +
-         (block.driven ? "_driven" : "_pulled") + (block.bar ? "_bar" : "");
+         (block.driven ? "_driven" : "_pulled") + (block.bar ? "_bar" : "") +
+         (block.toothed ? "_toothed" : "");
 }
 
 inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
   return out << to_string(block);
 }
+
+/// A law between brittle bonds and bars that yield.
+inline BondLaw three_teeth() { return BondLaw::saw_tooth({{1.0, 1.0}, {0.6, 1.4}, {0.2, 3.0}}); }
 
 /// Block held at the left face and pulled at (or moved by 1 with) the right one. Nothing breaks at
 /// the particles of these faces, so that the block fails between them.
@@ -172,7 +177,11 @@ inline AnalysisBody make_block(const BlockCase& block) {
   AnalysisBody body = free_body(build_network(make_body(input), constants));
   std::mt19937 random(11);  // fixed: the same body in every run
   std::uniform_real_distribution<double> scatter(1.0 - block.scatter, 1.0 + block.scatter);
-  for (double& limit : body.network.critical_stretch) limit *= scatter(random);
+  for (Index e = 0; e < body.network.num_elements(); ++e) {
+    const double factor = scatter(random);
+    if (!body.network.is_segment(e)) body.network.critical_stretch[e] *= factor;
+  }
+  if (block.toothed) body.network.laws.front() = three_teeth();
 
   const Particles& particles = body.network.particles;
   // Cell-centred particles lie half a spacing inside the faces; ghosts carry no load.

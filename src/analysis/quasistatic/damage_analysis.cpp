@@ -187,19 +187,18 @@ void Run::note_peaks() {
 /// Lets the element fail. \return false when that separates the body
 bool Run::pass(const Event& event) {
   const EventOutcome outcome = engine_->apply(event);
-  const bool is_bar = network_.is_segment(event.element);
   if (outcome.mechanism) {
-    if (!is_bar) result_.broken_bonds = 1;  // beyond those of the last row
+    if (outcome.broke()) result_.broken_bonds = 1;  // beyond those of the last row
     end(Ending::collapsed, fmt::format("the body separated when element {} failed (pivot {:.1e})",
                                        event.element, outcome.pivot));
     return false;
   }
-  ++(is_bar ? yield_events_ : broken_bonds_);
+  ++(outcome.broke() ? broken_bonds_ : yield_events_);
   energy_.add_event(outcome);
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // of the body before the event
   compliance_ += outcome.compliance_growth;
   if (++events_ % check_interval() == 0 || outcome.pivot < 1e-3 || residual_may_be_large()) check();
-  if (is_bar && engine_->secants()[event.element] < exhausted_secant) {
+  if (network_.law(event.element).endless() && outcome.secant < exhausted_secant) {
     end(Ending::collapsed,
         fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
                     1.0 / exhausted_secant));

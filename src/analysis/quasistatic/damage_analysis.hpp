@@ -19,14 +19,14 @@ struct StopRules {
   std::optional<double> load_fraction;  ///< |load| below this fraction of its peak
   int load_fraction_rows = 10;  ///< successive rows that have to lie below: between two events of a
                                 ///< growing crack the load may dip deep and come back
-  std::optional<double> displacement;   ///< |displacement| at or above this [length]
+  std::optional<double> displacement;  ///< |displacement| at or above this [length]
 };
 
 struct DamageOptions {
   EngineOptions engine;
   std::vector<double> load_factors;  ///< control by steps when not empty, else by events
   StopRules stop;
-  int check_interval = 50;           ///< events between looks at the residual
+  int check_interval = 50;  ///< events between looks at the residual
 };
 
 /// Force on the body at a loaded or driven place.
@@ -37,16 +37,16 @@ struct PlaceForce {
 
 struct DamageResult {
   Ending ending = Ending::completed;
-  std::string reason;               ///< in words
+  std::string reason;  ///< in words
   StepRecord last;
-  Index broken_bonds = 0;           ///< with the one that separated the body, if it did
+  Index broken_bonds = 0;  ///< with the one that separated the body, if it did
   double peak_load = 0.0;
-  double peak_displacement = 0.0;   ///< displacement at the peak load
-  PeakWatch peaks;                  ///< the same, and what the load did after its first peak
-  Index broken_as_gave_way = 0;     ///< bonds broken when the body first gave way
-  std::vector<PlaceForce> places;   ///< at the peak, of several; filled in by who knows them
+  double peak_displacement = 0.0;  ///< displacement at the peak load
+  PeakWatch peaks;                 ///< the same, and what the load did after its first peak
+  Index broken_as_gave_way = 0;    ///< bonds broken when the body first gave way
+  std::vector<PlaceForce> places;  ///< at the peak, of several; filled in by who knows them
   std::optional<double> smoothed_peak_load;  ///< of paths of events that are long enough
-  double initial_stiffness = 0.0;   ///< load / displacement of the intact body
+  double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;
   /// Largest |work - stored - dissipated| / work of all rows, the stored energy summed over the
   /// elements wherever the residual was measured.

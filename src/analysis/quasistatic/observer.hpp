@@ -15,7 +15,7 @@ namespace perilink {
 struct StepRecord {
   Index step = 0;
   Index broken_bonds = 0;         ///< in this equilibrium
-  Index yield_events = 0;         ///< of bars, so far
+  Index yield_events = 0;         ///< after which elements went on: bars that yield, so far
   double load_factor = 0.0;
   double load = 0.0;              ///< load factor times the reference load [force]
   double displacement = 0.0;      ///< work-conjugate to `load`: twice the energy over it [length]

@@ -45,8 +45,9 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
   if (network.has_states()) return;  // particles crack, not bonds
   Index breakable = 0;
   double smallest = INFINITY, largest = 0.0;
-  for (const double limit : network.critical_stretch) {
-    if (!std::isfinite(limit)) continue;
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!network.can_break(e)) continue;
+    const double limit = network.critical_stretch[e];
     ++breakable;
     smallest = std::min(smallest, limit);
     largest = std::max(largest, limit);

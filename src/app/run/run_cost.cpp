@@ -32,9 +32,11 @@ constexpr double long_enough = 0.02;  // [s]
 constexpr double breaking = 2.0;
 
 bool can_break(const Network& network) {
-  const auto finite = [](double limit) { return std::isfinite(limit); };
-  return network.has_states() ||
-         std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite);
+  if (network.has_states()) return true;
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (network.can_break(e)) return true;
+  }
+  return false;
 }
 
 struct SilentBonds final : BondRunObserver {

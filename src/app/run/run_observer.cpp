@@ -128,7 +128,7 @@ void RunObserver::on_step(const StepRecord& record, StateSource& source) {
   }
   progress_.update(record);
   if (wants_fields(record.broken_bonds)) write_fields(record, source);
-  last_element_ = model_.network.is_segment(record.element) ? no_index : record.element;
+  last_element_ = record.element;
 }
 
 void RunObserver::on_end(const StepRecord& last, StateSource& source) {

@@ -108,9 +108,10 @@ TEST(BuildNetwork, BarsAddSegmentsAndTies) {
   const double c = moduli_of(body, input, input.materials[0]).micromodulus;
 
   ASSERT_EQ(network.num_elements() - network.first_segment, 7 + 8);
-  ASSERT_EQ(network.yield_strain.size(), 15U);
-  EXPECT_DOUBLE_EQ(network.yield_strain.front(), 0.4 / 200.0);
-  EXPECT_EQ(network.yield_strain.back(), infinity);
+  EXPECT_DOUBLE_EQ(network.critical_stretch[network.first_segment], 0.4 / 200.0);
+  EXPECT_TRUE(network.law(network.first_segment).endless());
+  EXPECT_TRUE(network.law(network.first_tie).is_brittle());
+  EXPECT_EQ(network.critical_stretch.back(), infinity);
   EXPECT_NEAR(network.stiffness[network.first_segment], 200.0 * 0.01 / 0.2, 1e-12);
   EXPECT_NEAR(network.stiffness.back(), 210.0 * 0.02 / 0.2, 1e-12);
   int breakable = 0;

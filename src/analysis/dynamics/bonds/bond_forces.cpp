@@ -2,25 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "analysis/dynamics/bonds/element_halves.hpp"
 #include "analysis/dynamics/bonds/stencil_bonds.hpp"
-#include "material/bond_law.hpp"
 
 namespace perilink {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// What can happen to the elements of a network.
 enum class Limits {
   none,
-  breaking,  ///< bonds break in tension
-  yielding,  ///< bars yield as well, either way
+  pulled,    ///< events come in tension only
+  strained,  ///< of some in compression as well
 };
 
 /// \tparam Half  TrussHalf, GreenHalf or FrameHalf
@@ -41,7 +38,8 @@ class Halves final : public ExplicitBonds {
   template <Limits Kind>
   BondLosses forces_of(Index begin, Index end, double time_step, const BondMotion& motion,
                        std::span<double> force);
-  void give_way(std::size_t half, const double* own, const double* own_speed,
+  double limit_of(Index element, int tooth) const;
+  void give_way(std::size_t half, double demand, const double* own, const double* own_speed,
                 const BondMotion& motion, double time_step, BondLosses& losses);
   void before(const double* now, const double* speed, double time_step, double* past) const;
 
@@ -52,7 +50,8 @@ class Halves final : public ExplicitBonds {
   std::vector<Index> element_;
   std::vector<double> limit_;   ///< of Half::demand(), which an intact bond exceeds where it fails
   std::vector<double> secant_;  ///< present, over the intact stiffness
-  std::vector<int> tooth_;      ///< of bar segments
+  std::vector<int> tooth_;
+  std::vector<std::uint8_t> both_;  ///< Sense::both
 };
 
 template <class Half>
@@ -71,8 +70,7 @@ Halves<Half>::Halves(const Network& network, const std::vector<Index>& elements)
   }
   for (std::size_t half = 0; half < limit_.size(); ++half) {
     if (std::isinf(limit_[half])) continue;
-    limits_ =
-        std::max(limits_, network.is_segment(element_[half]) ? Limits::yielding : Limits::breaking);
+    limits_ = std::max(limits_, both_[half] ? Limits::strained : Limits::pulled);
   }
 }
 
@@ -82,13 +80,16 @@ void Halves<Half>::add(const Network& network, Index element, bool first) {
   element_.push_back(element);
   secant_.push_back(1.0);
   tooth_.push_back(0);
-  const double length = network.bonds.lengths[element];
-  double limit = network.critical_stretch[element];
-  if (network.is_segment(element)) {
-    const double yield = network.yield_strain[element - network.first_segment];
-    limit = std::isinf(yield) ? infinity : PlateauLaw{yield}.tooth(0).limit;
-  }
-  limit_.push_back(Half::limit_of_demand(limit, length));
+  both_.push_back(network.law(element).sense() == Sense::both);
+  limit_.push_back(limit_of(element, 0));
+}
+
+/// That ends the tooth, in units of Half::demand().
+template <class Half>
+double Halves<Half>::limit_of(Index element, int tooth) const {
+  return Half::limit_of_demand(
+      network_.critical_stretch[element] * network_.law(element).tooth(tooth).limit,
+      network_.bonds.lengths[element]);
 }
 
 template <class Half>
@@ -97,28 +98,20 @@ void Halves<Half>::before(const double* now, const double* speed, double time_st
   for (int c = 0; c < width; ++c) past[c] = now[c] - time_step * speed[c];
 }
 
-/// A bond breaks for good, a bar falls to the tooth on which it holds.
+/// The element falls to the tooth on which it holds, or breaks.
 template <class Half>
-void Halves<Half>::give_way(std::size_t half, const double* own, const double* own_speed,
-                            const BondMotion& motion, double time_step, BondLosses& losses) {
+void Halves<Half>::give_way(std::size_t half, double demand, const double* own,
+                            const double* own_speed, const BondMotion& motion, double time_step,
+                            BondLosses& losses) {
   Half& bond = halves_[half];
   const std::size_t other = static_cast<std::size_t>(bond.other) * width;
   const double* far = motion.displacement.data() + other;
   const Index element = element_[half];
-  double next = 0.0;
-  if (network_.is_segment(element)) {
-    const PlateauLaw law{network_.yield_strain[element - network_.first_segment]};
-    const double length = network_.bonds.lengths[element];
-    Tooth tooth{};
-    do {
-      tooth = law.tooth(++tooth_[half]);
-      limit_[half] = Half::limit_of_demand(tooth.limit, length);
-    } while (bond.size(own, far) > limit_[half]);
-    next = tooth.secant;
-  } else {
-    limit_[half] = infinity;
-    losses.broken.push_back(element);
-  }
+  do {
+    limit_[half] = limit_of(element, ++tooth_[half]);
+  } while (demand > limit_[half]);
+  const double next = network_.law(element).tooth(tooth_[half]).secant;
+  if (next == 0.0) losses.broken.push_back(element);
   double past_own[width], past_far[width];
   before(own, own_speed, time_step, past_own);
   before(far, motion.velocity.data() + other, time_step, past_far);
@@ -143,12 +136,12 @@ BondLosses Halves<Half>::forces_of(Index begin, Index end, double time_step,
       const double* far = u + static_cast<std::size_t>(bond.other) * width;
       double demand = bond.add_force(own, far, sum);
       if constexpr (Kind == Limits::none) continue;
-      if constexpr (Kind == Limits::yielding) {
-        if (network_.is_segment(element_[half])) demand = bond.size(own, far);
+      if constexpr (Kind == Limits::strained) {
+        if (both_[half]) demand = bond.size(own, far);
       }
       if (demand <= limit_[half]) continue;
       bond.add_force(own, far, sum, -1.0);
-      give_way(half, own, motion.velocity.data() + slot, motion, time_step, losses);
+      give_way(half, demand, own, motion.velocity.data() + slot, motion, time_step, losses);
       bond.add_force(own, far, sum);
     }
     for (int c = 0; c < width; ++c) force[slot + c] = sum[c];
@@ -161,10 +154,10 @@ BondLosses Halves<Half>::forces(Index begin, Index end, double time_step, const 
                                 std::span<double> force) {
   switch (limits_) {
     case Limits::none: return forces_of<Limits::none>(begin, end, time_step, motion, force);
-    case Limits::breaking: return forces_of<Limits::breaking>(begin, end, time_step, motion, force);
-    case Limits::yielding: break;
+    case Limits::pulled: return forces_of<Limits::pulled>(begin, end, time_step, motion, force);
+    case Limits::strained: break;
   }
-  return forces_of<Limits::yielding>(begin, end, time_step, motion, force);
+  return forces_of<Limits::strained>(begin, end, time_step, motion, force);
 }
 
 template <class Half>

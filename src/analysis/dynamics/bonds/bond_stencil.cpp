@@ -164,7 +164,8 @@ std::vector<StencilLine> make_lines(const std::vector<Half>& halves, std::vector
 BondStencil find_stencil(const Network& network) {
   Kinds found;
   std::vector<int> kind(static_cast<std::size_t>(network.num_elements()), no_kind);
-  for (Index e = 0; e < network.first_segment; ++e) {
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!network.law(e).is_brittle()) continue;
     const bool was_full = found.is_full();
     kind[e] = found.find(network, e);
     const bool fills_up = found.is_full() && !was_full;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/types.hpp"
@@ -11,14 +12,14 @@
 
 namespace perilink {
 
-/// Finds the bond that is nearest to its critical stretch.
+/// Finds the element that is nearest to the limit of its law.
 class BreakSearch {
  public:
   virtual ~BreakSearch() = default;
 
   struct Hit {
     Index element = no_index;
-    double ratio = 0.0;  ///< stretch over critical stretch at load factor 1
+    double ratio = 0.0;  ///< stretch over its limit at load factor 1
   };
 
   /// Largest positive ratio; of those within `tolerance` of it the lowest element.
@@ -26,8 +27,12 @@ class BreakSearch {
   /// \throws SolverError where the ratio of a bond is not a finite number
   virtual Hit find(std::span<const double> displacement, double tolerance, int threads) = 0;
 
-  /// Takes a broken bond out of the search.
-  virtual void remove(Index element) = 0;
+  /// Every element whose ratio is at least `least`, in the order of their numbers.
+  virtual std::vector<Hit> list(std::span<const double> displacement, double least) const = 0;
+
+  /// The stretch at which the element has its next event; infinity: there is none, as when it is
+  /// broken. Elements that stay elastic from the start are not in the search: nothing happens.
+  virtual void set_limit(Index element, double limit) = 0;
 };
 
 /// The ratio of an element's measure to its limit. One that is not a number compares as nothing and
@@ -40,7 +45,7 @@ inline double finite_ratio(Index element, double ratio) {
                     "finite, and no figure that follows would mean anything");
 }
 
-/// The search for the bonds of a network: trusses or frames.
+/// The search for the elements of a network, intact: trusses or frames.
 std::unique_ptr<BreakSearch> make_break_search(const Network& network);
 
 }  // namespace perilink

@@ -20,12 +20,14 @@ struct Event {
 struct EventOutcome {
   bool mechanism = false;  ///< the element held the last load path, weak elastic supports not
                            ///< counted: nothing was changed
+  double secant = 0.0;     ///< on which the element goes on, over its intact stiffness; 0: it broke
+  bool broke() const { return secant == 0.0; }
   /// 1 - x' K^-1 x, of a micropolar bond the smallest of its modes; 0: cannot be told from zero
   double pivot = 1.0;
   /// Growth of f'u - R'd at load factor 1: k e^2 / pivot [force length]. The event dissipates
   /// lambda_k lambda_(k+1) / 2 times this along the path drawn through the events.
   double compliance_growth = 0.0;
-  double released = 0.0;   ///< energy that left the element, at load factor 1 [force length]
+  double released = 0.0;  ///< energy that left the element, at load factor 1 [force length]
 };
 
 /// Work products at load factor 1 [force length].
@@ -87,7 +89,6 @@ inline constexpr double doubtful_pivot = 1e-2;
 struct EngineOptions {
   FactorRoute route = FactorRoute::in_place;
   double residual_tolerance = 1e-10;
-  double plateau_ratio = 1.05;  ///< of PlateauLaw, for bars that yield
   int threads = 1;
 };
 

@@ -1,4 +1,4 @@
-// Events of micropolar bonds in the single-event engine: removals of rank three and six.
+// Events of micropolar bonds in the single-event engine: changes of rank three and six.
 
 #include <algorithm>
 #include <cmath>
@@ -54,13 +54,13 @@ std::vector<double> SingleEventEngine::refined_compliance(const Removal& removal
 }
 
 /// Decouples the modes; small pivots come from energies.
-void SingleEventEngine::look_closely(Removal& removal, Index element) {
+void SingleEventEngine::look_closely(Removal& removal, Index element, double kept) {
   const Removal modes = removal;
   decouple(removal, refined_compliance(modes));
   supports_alone_ = false;
   for (int m = removal.rank - 1; m >= 0; --m) {
     if (removal.pivot[m] > doubtful_pivot) continue;
-    removal.pivot[m] = pivot_by_energy(removal.x[m], element, 0.0);
+    removal.pivot[m] = pivot_by_energy(removal.x[m], element, kept);
   }
   // Energies may put two of them in another order by their last digits.
   for (int m = removal.rank - 1; m > 0; --m) {
@@ -70,7 +70,7 @@ void SingleEventEngine::look_closely(Removal& removal, Index element) {
 
 /// Decouples the modes of a removal; where a pivot is small, with a factor and a solution that can
 /// be trusted.
-void SingleEventEngine::measure_pivots(Removal& removal, Index element) {
+void SingleEventEngine::measure_pivots(Removal& removal, Index element, double kept) {
   const Removal modes = removal;
   must_rebuild_ = supports_alone_ = false;
   std::vector<double> compliance(static_cast<std::size_t>(modes.rank * modes.rank));
@@ -83,7 +83,7 @@ void SingleEventEngine::measure_pivots(Removal& removal, Index element) {
   double prepared = prepare();
   if (prepared > doubtful_pivot && !look_closer_) return;
   removal = modes;
-  look_closely(removal, element);
+  look_closely(removal, element, kept);
   look_closer_ = std::abs(prepared - removal.pivot[0]) > noisy_pivot;
   if (removal.pivot[0] > doubtful_pivot) return;
   const auto agree = [&](double tolerance) {
@@ -93,7 +93,7 @@ void SingleEventEngine::measure_pivots(Removal& removal, Index element) {
   factorize();
   prepared = prepare();
   removal = modes;
-  look_closely(removal, element);
+  look_closely(removal, element, kept);
   must_rebuild_ = removal.pivot[0] > 0.0 && !agree(usable_pivot);
 }
 
@@ -114,14 +114,13 @@ bool SingleEventEngine::hold_free_modes(Removal& removal, Index element, double 
     add_ground_spring(most_mobile_unknown(removal.x[0]));
     ++springs;
     removal = modes;
-    measure_pivots(removal, element);
+    measure_pivots(removal, element, 0.0);
   }
   return true;
 }
 
-void SingleEventEngine::commit_frame(const Removal& removal, Index element) {
-  secants_[element] = 0.0;
-  search_->remove(element);
+void SingleEventEngine::commit_frame(const Removal& removal, Index element, double secant) {
+  pass_limit(element, secant);
   if (must_rebuild_) return;  // done already
   factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
   scatter_solution();
@@ -129,30 +128,34 @@ void SingleEventEngine::commit_frame(const Removal& removal, Index element) {
   if (look_closer_) polish();
 }
 
-EventOutcome SingleEventEngine::break_frame(Index element) {
-  Removal removal = make_removal(network_, unknowns_, element, secants_[element]);
-  measure_pivots(removal, element);
+/// All parts of its stiffness fall alike.
+EventOutcome SingleEventEngine::weaken_frame(Index element, double secant) {
+  Removal removal = make_removal(network_, unknowns_, element, secants_[element] - secant);
+  measure_pivots(removal, element, secant);
   EventOutcome outcome;
+  outcome.secant = secant;
   const double energy = energy_of_all_modes(removal, solution_);
   outcome.released = 0.5 * energy;
   int springs = 0;
-  outcome.mechanism = !hold_free_modes(removal, element, least_loaded_share * energy, springs);
+  outcome.mechanism = outcome.broke()
+                          ? !hold_free_modes(removal, element, least_loaded_share * energy, springs)
+                          : removal.rank > 0 && removal.pivot[0] == 0.0;
   outcome.pivot = removal.pivot[0];
   if (outcome.mechanism) return outcome;
   for (int m = 0; m < removal.rank; ++m) {
     outcome.compliance_growth += std::pow(removal.deformation(m, solution_), 2) / removal.pivot[m];
   }
   outcome.mechanism = hangs_on_weak_supports(outcome.compliance_growth) ||
-                      (must_rebuild_ && !rebuild_without(element, 0.0));
+                      (must_rebuild_ && !rebuild_without(element, secant));
   if (outcome.mechanism) return outcome;
   follow(outcome);
-  commit_frame(removal, element);
+  commit_frame(removal, element, secant);
   return outcome;
 }
 
 int SingleEventEngine::cut_frame(Index element) {
   Removal removal = make_removal(network_, unknowns_, element, secants_[element]);
-  measure_pivots(removal, element);
+  measure_pivots(removal, element, 0.0);
   int springs = 0;
   // A force, as far as forces and moments compare: sqrt(k) times sqrt(k) times an extension.
   const double unloaded = std::pow(1e-6 * load_norm_, 2) / network_.stiffness[element];
@@ -161,8 +164,8 @@ int SingleEventEngine::cut_frame(Index element) {
   }
   if (must_rebuild_ && !rebuild_without(element, 0.0)) {
     throw SolverError("the body without the part that comes loose cannot be factorised");
-  };
-  commit_frame(removal, element);
+  }
+  commit_frame(removal, element, 0.0);
   return springs;
 }
 

@@ -24,21 +24,30 @@ std::unique_ptr<BreakSearch> make_break_search(const Network& network) {
 }
 
 FrameLimitSearch::FrameLimitSearch(const Network& network)
-    : dim_(network.dim()), torsion_(network.torsion) {
+    : network_(network), dim_(network.dim()), torsion_(network.torsion) {
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const double limit = network.critical_stretch[e];
-    if (std::isinf(limit)) continue;
+    if (!network.has_limit(e)) continue;
     const double length = network.bonds.lengths[e];
     const double share = network.ratio_of_bending(e);
-    Bond bond{
-        network.bonds.first[e] * network.width(), network.bonds.second[e] * network.width(), {},
-        network.inflection_of(e) * length,        (1.0 - network.inflection_of(e)) * length, share,
-        share * length * length / 12.0,           1.0 / (length * limit * length * limit)};
+    Bond bond{network.bonds.first[e] * network.width(),
+              network.bonds.second[e] * network.width(),
+              {},
+              network.inflection_of(e) * length,
+              (1.0 - network.inflection_of(e)) * length,
+              share,
+              share * length * length / 12.0,
+              inverse_of(e, network.critical_stretch[e] * network.law(e).tooth(0).limit),
+              network.law(e).sense() == Sense::both};
     for (int a = 0; a < dim_; ++a) bond.n[a] = network.bonds.direction(e)[a];
     elements_.push_back(e);
     bonds_.push_back(bond);
   }
   block_largest_.resize(num_search_blocks(elements_.size()));
+}
+
+double FrameLimitSearch::inverse_of(Index element, double limit) const {
+  const double length = network_.bonds.lengths[element];
+  return std::isinf(limit) ? 0.0 : 1.0 / (length * limit * length * limit);
 }
 
 template <int Dim>
@@ -74,7 +83,8 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const 
              bond.rotation_share * (bend_square + torsion_ * twist * twist);
   }
   square += extension * extension;
-  const bool stretched = extension > 0.0 && extension * extension > least_tension * square;
+  const bool stretched =
+      bond.both || (extension > 0.0 && extension * extension > least_tension * square);
   return square * (stretched ? bond.inverse : 0.0);  // not a number where the square is none
 }
 
@@ -102,10 +112,22 @@ FrameLimitSearch::Hit FrameLimitSearch::find(std::span<const double> displacemen
                    : find_in<2>(displacement.data(), tolerance, threads);
 }
 
-void FrameLimitSearch::remove(Index element) {
+std::vector<FrameLimitSearch::Hit> FrameLimitSearch::list(std::span<const double> displacement,
+                                                          double least) const {
+  std::vector<Hit> hits;
+  for (std::size_t k = 0; k < bonds_.size(); ++k) {
+    const double square = dim_ == 3 ? squared_ratio<3>(bonds_[k], displacement.data())
+                                    : squared_ratio<2>(bonds_[k], displacement.data());
+    const double ratio = finite_ratio(elements_[k], std::sqrt(square));
+    if (ratio >= least) hits.push_back({elements_[k], ratio});
+  }
+  return hits;
+}
+
+void FrameLimitSearch::set_limit(Index element, double limit) {
   const auto found = std::lower_bound(elements_.begin(), elements_.end(), element);
   if (found == elements_.end() || *found != element) return;
-  bonds_[found - elements_.begin()].inverse = 0.0;
+  bonds_[found - elements_.begin()].inverse = inverse_of(element, limit);
 }
 
 }  // namespace perilink

@@ -13,7 +13,7 @@ namespace perilink {
 ///          = s^2 + (kb/k) (g/xi)^2 + (kb/k) (|dtheta_bend|^2 + torsion dtheta_twist^2) / 12,
 ///
 /// s = e/xi its axial stretch, kb/k = Network::ratio_of_bending(). A bond breaks where s_eq reaches
-/// the critical stretch while it is in tension, s > 0. A bond with its own kb/k then holds k xi^2
+/// the critical stretch while it is in tension, s > 0 (bars that yield either way). A bond with its own kb/k then holds k xi^2
 /// s_c^2 / 2, whatever its direction across a crack, and the fracture energy needs the axial
 /// stiffness only; calibrated bonds, measured with the ratio of before the calibration, hold it in
 /// the mean (docs/theory/micropolar.md, section 5). s_eq grows in proportion to the load factor,
@@ -24,7 +24,8 @@ class FrameLimitSearch final : public BreakSearch {
   explicit FrameLimitSearch(const Network& network);
 
   Hit find(std::span<const double> displacement, double tolerance, int threads) override;
-  void remove(Index element) override;
+  std::vector<Hit> list(std::span<const double> displacement, double least) const override;
+  void set_limit(Index element, double limit) override;
 
  private:
   struct Bond {
@@ -33,13 +34,16 @@ class FrameLimitSearch final : public BreakSearch {
     double first_arm, second_arm;  ///< from the ends to the inflection [length]
     double bending_share;          ///< Network::ratio_of_bending()
     double rotation_share;         ///< kb xi^2 / (12 k)
-    double inverse;                ///< 1 / (xi s_c)^2; zero once broken
+    double inverse;                ///< 1 / (xi s)^2 of the limit s; zero without
+    bool both;                     ///< Sense::both
   };
   template <int Dim>
   double squared_ratio(const Bond& bond, const double* u) const;
+  double inverse_of(Index element, double limit) const;
   template <int Dim>
   Hit find_in(const double* u, double tolerance, int threads);
 
+  const Network& network_;
   int dim_;
   double torsion_;
   std::vector<Index> elements_;

@@ -11,30 +11,53 @@ namespace {
 /// Fewer blocks than this are searched faster by one thread.
 constexpr Index smallest_parallel_search = 400;
 
-}  // namespace
-
-LimitSearch::LimitSearch(const Network& network) : dim_(network.dim()) {
-  for (Index e = 0; e < network.num_elements(); ++e) {
-    const double limit = network.critical_stretch[e];
-    if (std::isinf(limit)) continue;
-    elements_.push_back(e);
-    first_.push_back(network.bonds.first[e] * dim_);
-    second_.push_back(network.bonds.second[e] * dim_);
-    const std::span<const double> n = network.bonds.direction(e);
-    for (int a = 0; a < dim_; ++a) {
-      gradient_[a].push_back(n[a] / (network.bonds.lengths[e] * limit));
-    }
+/// The larger ratio; within the tolerance the lower number.
+BreakSearch::Hit nearer(const BreakSearch::Hit& a, const BreakSearch::Hit& b, double tolerance) {
+  if (a.element == no_index || b.element == no_index) return a.element == no_index ? b : a;
+  if (std::abs(a.ratio - b.ratio) > tolerance * std::max(a.ratio, b.ratio)) {
+    return a.ratio > b.ratio ? a : b;
   }
-  block_largest_.resize(num_search_blocks(elements_.size()));
+  return a.element < b.element ? a : b;
 }
 
-template <int Dim>
-double LimitSearch::largest_between(const double* u, Index begin, Index end) const {
-  const Index* first = first_.data();
-  const Index* second = second_.data();
-  const double* gx = gradient_[0].data();
-  const double* gy = gradient_[1].data();
-  const double* gz = gradient_[2].data();
+}  // namespace
+
+LimitSearch::LimitSearch(const Network& network) : network_(network), dim_(network.dim()) {
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!network.has_limit(e)) continue;
+    add(e, network.law(e).sense() == Sense::both ? strained_ : pulled_);
+  }
+  for (Group* group : {&pulled_, &strained_}) {
+    group->block_largest.resize(num_search_blocks(group->elements.size()));
+  }
+}
+
+void LimitSearch::add(Index element, Group& group) {
+  group.elements.push_back(element);
+  group.first.push_back(network_.bonds.first[element] * dim_);
+  group.second.push_back(network_.bonds.second[element] * dim_);
+  for (int a = 0; a < dim_; ++a) group.gradient[a].push_back(0.0);
+  set_gradient(group, group.elements.size() - 1,
+               network_.critical_stretch[element] * network_.law(element).tooth(0).limit);
+}
+
+/// Zero without a limit.
+void LimitSearch::set_gradient(Group& group, std::size_t place, double limit) {
+  const Index element = group.elements[place];
+  const std::span<const double> n = network_.bonds.direction(element);
+  for (int a = 0; a < dim_; ++a) {
+    group.gradient[a][place] =
+        std::isinf(limit) ? 0.0 : n[a] / (network_.bonds.lengths[element] * limit);
+  }
+}
+
+template <int Dim, Sense sense>
+double LimitSearch::largest_between(const Group& group, const double* u, Index begin, Index end) {
+  const Index* first = group.first.data();
+  const Index* second = group.second.data();
+  const double* gx = group.gradient[0].data();
+  const double* gy = group.gradient[1].data();
+  const double* gz = group.gradient[2].data();
   double largest = 0.0, zero_times_all = 0.0;
 #pragma omp simd reduction(max : largest) reduction(+ : zero_times_all)
   for (Index k = begin; k < end; ++k) {
@@ -42,34 +65,67 @@ double LimitSearch::largest_between(const double* u, Index begin, Index end) con
     const Index j = second[k];
     double ratio = gx[k] * (u[j] - u[i]) + gy[k] * (u[j + 1] - u[i + 1]);
     if constexpr (Dim == 3) ratio += gz[k] * (u[j + 2] - u[i + 2]);
+    if constexpr (sense == Sense::both) ratio = std::abs(ratio);
     largest = ratio > largest ? ratio : largest;
     zero_times_all += 0.0 * ratio;
   }
   return largest_or_nan(largest, zero_times_all);
 }
 
-template <int Dim>
-LimitSearch::Hit LimitSearch::find_in(const double* u, double tolerance, int threads) {
-  const auto ratio_at = [&](Index k) {
-    double ratio = 0.0;
-    for (int a = 0; a < Dim; ++a) ratio += gradient_[a][k] * (u[second_[k] + a] - u[first_[k] + a]);
-    return ratio;
-  };
+template <int Dim, Sense sense>
+double LimitSearch::ratio_at(const Group& group, const double* u, Index place) {
+  double ratio = 0.0;
+  for (int a = 0; a < Dim; ++a) {
+    ratio += group.gradient[a][place] * (u[group.second[place] + a] - u[group.first[place] + a]);
+  }
+  return sense == Sense::both ? std::abs(ratio) : ratio;
+}
+
+template <int Dim, Sense sense>
+LimitSearch::Hit LimitSearch::find_in(Group& group, const double* u, double tolerance,
+                                      int threads) {
   return find_first_largest(
-      elements_, block_largest_, 1.0 - tolerance, threads, smallest_parallel_search,
-      [&](Index begin, Index end) { return largest_between<Dim>(u, begin, end); }, ratio_at);
+      group.elements, group.block_largest, 1.0 - tolerance, threads, smallest_parallel_search,
+      [&](Index begin, Index end) { return largest_between<Dim, sense>(group, u, begin, end); },
+      [&](Index place) { return ratio_at<Dim, sense>(group, u, place); });
+}
+
+template <int Dim>
+LimitSearch::Hit LimitSearch::find_in_all(const double* u, double tolerance, int threads) {
+  const Hit pulled = find_in<Dim, Sense::tension>(pulled_, u, tolerance, threads);
+  if (strained_.elements.empty()) return pulled;
+  const Hit strained = find_in<Dim, Sense::both>(strained_, u, tolerance, threads);
+  return nearer(pulled, strained, tolerance);
 }
 
 LimitSearch::Hit LimitSearch::find(std::span<const double> displacement, double tolerance,
                                    int threads) {
-  return dim_ == 3 ? find_in<3>(displacement.data(), tolerance, threads)
-                   : find_in<2>(displacement.data(), tolerance, threads);
+  return dim_ == 3 ? find_in_all<3>(displacement.data(), tolerance, threads)
+                   : find_in_all<2>(displacement.data(), tolerance, threads);
 }
 
-void LimitSearch::remove(Index element) {
-  const auto found = std::lower_bound(elements_.begin(), elements_.end(), element);
-  if (found == elements_.end() || *found != element) return;
-  for (int a = 0; a < dim_; ++a) gradient_[a][found - elements_.begin()] = 0.0;
+std::vector<LimitSearch::Hit> LimitSearch::list(std::span<const double> displacement,
+                                                double least) const {
+  const double* u = displacement.data();
+  std::vector<Hit> hits;
+  const auto add_all = [&](const Group& group, auto ratio) {
+    for (std::size_t k = 0; k < group.elements.size(); ++k) {
+      const double value = finite_ratio(group.elements[k], ratio(group, u, static_cast<Index>(k)));
+      if (value >= least) hits.push_back({group.elements[k], value});
+    }
+  };
+  add_all(pulled_, dim_ == 3 ? ratio_at<3, Sense::tension> : ratio_at<2, Sense::tension>);
+  add_all(strained_, dim_ == 3 ? ratio_at<3, Sense::both> : ratio_at<2, Sense::both>);
+  std::sort(hits.begin(), hits.end(),
+            [](const Hit& a, const Hit& b) { return a.element < b.element; });
+  return hits;
+}
+
+void LimitSearch::set_limit(Index element, double limit) {
+  if (!network_.has_limit(element)) return;
+  Group& group = network_.law(element).sense() == Sense::both ? strained_ : pulled_;
+  const auto found = std::lower_bound(group.elements.begin(), group.elements.end(), element);
+  set_gradient(group, static_cast<std::size_t>(found - group.elements.begin()), limit);
 }
 
 }  // namespace perilink

@@ -8,28 +8,41 @@
 
 namespace perilink {
 
-/// Search among bonds that only stretch. Holds only the bonds that can still break,
-/// in the order of their numbers, with everything that does not change folded into one vector per
-/// bond: ratio = g . (u_second - u_first), g = n / (xi s_c), so that a bond breaks at the load
-/// factor 1 / ratio. One pass costs about one nanosecond per bond.
+/// Search among elements that only stretch. Holds those that have events, in the order of their
+/// numbers, with everything that does not change folded into one vector per element: ratio = g .
+/// (u_second - u_first), g = n / (xi s), so that the event at the stretch s comes at the load
+/// factor 1 / ratio. One pass costs about one nanosecond per element.
 class LimitSearch final : public BreakSearch {
  public:
   explicit LimitSearch(const Network& network);
 
   Hit find(std::span<const double> displacement, double tolerance, int threads) override;
-  void remove(Index element) override;
+  std::vector<Hit> list(std::span<const double> displacement, double least) const override;
+  void set_limit(Index element, double limit) override;
 
  private:
+  /// Elements whose events come in tension, or those that have them in compression as well.
+  struct Group {
+    std::vector<Index> elements;
+    std::vector<Index> first, second;  ///< particle times dim
+    std::vector<double> gradient[3];   ///< g, one array per component
+    std::vector<double> block_largest;
+  };
+  void add(Index element, Group& group);
+  void set_gradient(Group& group, std::size_t place, double limit);
+  template <int Dim, Sense sense>
+  static double ratio_at(const Group& group, const double* displacement, Index place);
+  template <int Dim, Sense sense>
+  static double largest_between(const Group& group, const double* displacement, Index begin,
+                                Index end);
+  template <int Dim, Sense sense>
+  static Hit find_in(Group& group, const double* displacement, double tolerance, int threads);
   template <int Dim>
-  Hit find_in(const double* displacement, double tolerance, int threads);
-  template <int Dim>
-  double largest_between(const double* displacement, Index begin, Index end) const;
+  Hit find_in_all(const double* displacement, double tolerance, int threads);
 
+  const Network& network_;
   int dim_;
-  std::vector<Index> elements_;
-  std::vector<Index> first_, second_;  ///< particle times dim
-  std::vector<double> gradient_[3];    ///< g, one array per component
-  std::vector<double> block_largest_;
+  Group pulled_, strained_;  ///< by Sense: tension, both
 };
 
 }  // namespace perilink

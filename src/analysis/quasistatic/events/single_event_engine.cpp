@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "assembly/element_vector.hpp"
 #include "assembly/stiffness.hpp"
@@ -36,6 +37,7 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
       factor_(make_factor(options.route, options.threads)),
       search_(make_break_search(network)),
       secants_(static_cast<std::size_t>(network.num_elements()), 1.0),
+      teeth_(secants_.size(), 0),
       solution_(static_cast<std::size_t>(unknowns.count), 0.0),
       displacement_(unknowns.prescribed) {
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
@@ -58,11 +60,6 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
       driven_elements_.push_back(e);
     }
   }
-  for (std::size_t k = 0; k < network.yield_strain.size(); ++k) {
-    plateaus_.push_back({network.yield_strain[k], options.plateau_ratio});
-    if (std::isfinite(network.yield_strain[k])) yielding_.push_back(static_cast<Index>(k));
-  }
-  teeth_.assign(network.yield_strain.size(), 0);
   for (const double stiffness : network.stiffness) stiffness_sum_ += stiffness;
   for (const double stiffness : network.support_stiffness) stiffness_sum_ += stiffness;
   factor_->factorize(assemble_stiffness(network_, secants_, unknowns_),
@@ -90,9 +87,7 @@ void SingleEventEngine::choose_current_unknowns() {
     }
   };
   for (Index e = 0; e < network_.num_elements(); ++e) {
-    const bool yields =
-        network_.is_segment(e) && std::isfinite(network_.yield_strain[e - network_.first_segment]);
-    if (!yields && !std::isfinite(network_.critical_stretch[e])) continue;
+    if (!network_.has_limit(e)) continue;
     want(network_.bonds.first[e]);
     want(network_.bonds.second[e]);
   }
@@ -142,15 +137,7 @@ void SingleEventEngine::scatter_solution() {
 }
 
 Event SingleEventEngine::next_event() {
-  BreakSearch::Hit hit = search_->find(displacement_, tie_tolerance, options_.threads);
-  for (const Index k : yielding_) {
-    const Index element = network_.first_segment + k;
-    if (secants_[element] == 0.0) continue;  // cut
-    const Change change = make_change(element, 1.0);
-    const double strain = std::abs(change.extension) / network_.bonds.lengths[element];
-    const double ratio = finite_ratio(element, strain / plateaus_[k].tooth(teeth_[k]).limit);
-    if (ratio > hit.ratio * (1.0 + tie_tolerance)) hit = {element, ratio};
-  }
+  const BreakSearch::Hit hit = search_->find(displacement_, tie_tolerance, options_.threads);
   if (hit.element == no_index) return {};
   return {hit.element, 1.0 / hit.ratio};
 }
@@ -172,9 +159,24 @@ SingleEventEngine::Change SingleEventEngine::make_change(Index element,
   return change;
 }
 
-void SingleEventEngine::commit(const Change& change, Index element, double secant) {
+Tooth SingleEventEngine::next_tooth(Index element) const {
+  return network_.law(element).tooth(teeth_[element] + 1);
+}
+
+/// The element goes on with the secant, of its next tooth or zero.
+void SingleEventEngine::pass_limit(Index element, double secant) {
   secants_[element] = secant;
-  if (secant == 0.0) search_->remove(element);
+  if (secant == 0.0) {
+    search_->set_limit(element, std::numeric_limits<double>::infinity());
+    return;
+  }
+  const double limit = next_tooth(element).limit;
+  ++teeth_[element];
+  search_->set_limit(element, network_.critical_stretch[element] * limit);
+}
+
+void SingleEventEngine::commit(const Change& change, Index element, double secant) {
+  pass_limit(element, secant);
   if (must_rebuild_) return;       // done already
   if (change.x.size == 0) return;  // both ends prescribed: nothing unknown is held by this element
   factor_->commit_downdate(change.load_change, solution_);
@@ -195,15 +197,12 @@ void SingleEventEngine::follow(const EventOutcome& outcome) {
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
   const Index element = event.element;
-  if (is_frame(element)) return break_frame(element);
-  double next = 0.0;
-  if (network_.is_segment(element)) {
-    const Index k = element - network_.first_segment;
-    next = plateaus_[k].tooth(teeth_[k] + 1).secant;
-  }
+  const double next = next_tooth(element).secant;
+  if (is_frame(element)) return weaken_frame(element, next);
   const double lost = network_.stiffness[element] * (secants_[element] - next);
   Change change = make_change(element, lost);
   EventOutcome outcome;
+  outcome.secant = next;
   outcome.pivot = pivot_of(change, element, next);
   change = make_change(element, lost);  // looking closer may have sharpened the displacements
   outcome.released = 0.5 * change.extension * change.extension;
@@ -211,7 +210,6 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
   outcome.mechanism = outcome.pivot == 0.0 || hangs_on_weak_supports(outcome.compliance_growth) ||
                       (must_rebuild_ && !rebuild_without(element, next));
   if (outcome.mechanism) return outcome;
-  if (network_.is_segment(element)) ++teeth_[element - network_.first_segment];
   follow(outcome);
   commit(change, element, next);
   return outcome;

@@ -7,7 +7,6 @@
 #include "analysis/quasistatic/events/event_engine.hpp"
 #include "analysis/quasistatic/events/removal.hpp"
 #include "assembly/internal_force.hpp"
-#include "material/bond_law.hpp"
 
 namespace perilink {
 
@@ -41,6 +40,8 @@ class SingleEventEngine final : public EventEngine {
   };
   Change make_change(Index element, double stiffness_lost) const;
   void factorize();
+  Tooth next_tooth(Index element) const;
+  void pass_limit(Index element, double secant);
   void commit(const Change& change, Index element, double secant);
   void follow(const EventOutcome& outcome);
   void scatter_solution();
@@ -66,9 +67,9 @@ class SingleEventEngine final : public EventEngine {
   /// much.
   static constexpr double noisy_pivot = 1e-8;
   struct Refined {
-    double residual = 0.0;  ///< norm of the forces out of balance
-    double energy = 0.0;    ///< u'K u of the refined motion
-    double error = 0.0;     ///< of this: what the last correction and round-off leave in doubt
+    double residual = 0.0;      ///< norm of the forces out of balance
+    double energy = 0.0;        ///< u'K u of the refined motion
+    double error = 0.0;         ///< of this: what the last correction and round-off leave in doubt
     double factor_error = 0.0;  ///< of a solution by the factor, relative, in the norm of energy
   };
   Refined refine_finely(std::span<const double> load, std::vector<long double>& motion);
@@ -82,11 +83,11 @@ class SingleEventEngine final : public EventEngine {
 
   // Micropolar bonds: frame_events.cpp.
   std::vector<double> refined_compliance(const Removal& removal);
-  void measure_pivots(Removal& removal, Index element);
-  void look_closely(Removal& removal, Index element);
+  void measure_pivots(Removal& removal, Index element, double kept);
+  void look_closely(Removal& removal, Index element, double kept);
   bool hold_free_modes(Removal& removal, Index element, double unloaded, int& springs);
-  void commit_frame(const Removal& removal, Index element);
-  EventOutcome break_frame(Index element);
+  void commit_frame(const Removal& removal, Index element, double secant);
+  EventOutcome weaken_frame(Index element, double secant);
   int cut_frame(Index element);
   std::pair<double, double> driven_work_of(Index element) const;
 
@@ -98,9 +99,7 @@ class SingleEventEngine final : public EventEngine {
   std::unique_ptr<BreakSearch> search_;
 
   std::vector<double> secants_;
-  std::vector<int> teeth_;              ///< present tooth of each bar segment
-  std::vector<PlateauLaw> plateaus_;    ///< law of each bar segment
-  std::vector<Index> yielding_;         ///< segments that can yield
+  std::vector<int> teeth_;              ///< present tooth of each element
   std::vector<Index> driven_elements_;  ///< elements that end at a driven particle
   std::vector<std::size_t> loaded_slots_;
   bool partial_ = false;  ///< events keep only the displacements current that the search looks at

@@ -15,10 +15,12 @@ namespace {
 constexpr double nearly_equal = 1.1;
 
 bool bonds_can_break(const CaseFile& input, const Model& model) {
-  const std::vector<double>& limits = model.network.critical_stretch;
-  return input.analysis.type != "elastic" &&
-         std::any_of(limits.begin(), limits.end(),
-                     [](double limit) { return std::isfinite(limit); });
+  const Network& network = model.network;
+  if (input.analysis.type == "elastic") return false;
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (network.can_break(e)) return true;
+  }
+  return false;
 }
 
 /// Longest over shortest step of a lattice, each over that of the regular one.

@@ -228,10 +228,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
 void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
   if (input.analysis.type != "damage") return;
   auto finite = [](double value) { return std::isfinite(value); };
-  if (std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite) ||
-      std::any_of(network.yield_strain.begin(), network.yield_strain.end(), finite)) {
-    return;
-  }
+  if (std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite)) return;
   throw InputError(input.where("materials[1].fracture_energy"),
                    "is infinite in every material: nothing can break in a damage analysis",
                    "give a material a finite fracture energy, or set analysis.type = \"elastic\"");

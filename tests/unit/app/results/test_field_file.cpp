@@ -22,7 +22,8 @@ Network make_square() {
   network.critical_stretch.assign(6, 1.0);
   network.first_tie = 4;
   network.first_segment = 5;
-  network.yield_strain = {1.0};
+  network.laws.push_back(BondLaw::plateau());
+  network.law_of = {0, 0, 0, 0, 0, 1};
   return network;
 }
 

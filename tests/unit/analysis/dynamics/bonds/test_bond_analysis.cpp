@@ -139,7 +139,6 @@ TEST_P(BondRuns, KnowInWhichOrderBondsBroke) {
 TEST_P(BondRuns, ComeToRestInEquilibrium) {
   AnalysisBody body = make_block(GetParam());
   std::fill(body.network.critical_stretch.begin(), body.network.critical_stretch.end(), INFINITY);
-  std::fill(body.network.yield_strain.begin(), body.network.yield_strain.end(), INFINITY);
   ExplicitOptions options = slow_options(body, 40.0, body.reference.value);
   options.ramp = 0.3 * options.duration;
   const double rate = 2.0 * 2.0 * 3.14159 * 40.0 / options.duration;  // critical damping

@@ -49,7 +49,6 @@ constexpr double round_off = 1e-12;
 TEST_P(HalvesOfBlocks, ForcesAreThoseOfTheNetwork) {
   AnalysisBody body = make_block(GetParam());
   std::fill(body.network.critical_stretch.begin(), body.network.critical_stretch.end(), INFINITY);
-  std::fill(body.network.yield_strain.begin(), body.network.yield_strain.end(), INFINITY);
   const BondMotion motion = random_motion(body, 1.0, 3);
   const auto bonds = make_explicit_bonds(body.network);
   const Forces found = all_forces(body, *bonds, motion, 0.1);
@@ -125,14 +124,46 @@ INSTANTIATE_TEST_SUITE_P(
         BlockCase{{"space", Pattern::cubic, Surface::none}, false, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
 
+/// At once to the tooth on which they hold, with what they lose counted; compression does nothing.
+TEST(ExplicitBonds, FallToTheToothOnWhichTheyHold) {
+  const AnalysisBody body = make_block(
+      {{"plane", Pattern::rectangular, Surface::none}, false, false, 6, 0.0, false, true});
+  const Network& network = body.network;
+  const double critical =
+      *std::min_element(network.critical_stretch.begin(), network.critical_stretch.end());
+  const auto tooth_at = [](double stretch) {
+    return stretch > 3.0 ? 0.0 : stretch > 1.4 ? 0.2 : stretch > 1.0 ? 0.6 : 1.0;
+  };
+  for (const double strain : {0.9, 1.2, 2.0, 4.0, -4.0}) {
+    BondMotion motion;
+    motion.displacement = linear_field(network.particles, {{{strain * critical, 0, 0}, {}, {}}});
+    motion.velocity.assign(motion.displacement.size(), 0.0);
+    const auto bonds = make_explicit_bonds(network);
+    const Forces found = all_forces(body, *bonds, motion, 0.1);
+    const std::vector<double> secants = bonds->secants();
+    int broken = 0;
+    double lost = 0.0;
+    for (Index e = 0; e < network.num_elements(); ++e) {
+      const double n = network.bonds.direction(e)[0], stretch = strain * critical * n * n;
+      const double expected = tooth_at(stretch / network.critical_stretch[e]);
+      EXPECT_EQ(secants[e], expected) << strain << " " << e;
+      broken += expected == 0.0;
+      lost += 0.5 * network.stiffness[e] * (1.0 - expected) *
+              std::pow(stretch * network.bonds.lengths[e], 2);
+    }
+    EXPECT_EQ(found.losses.broken_halves(), 2 * broken);
+    EXPECT_NEAR(found.losses.fractured, lost, 1e-12 * lost);  // round-off of some 200 terms
+  }
+}
+
 /// A bar that is stretched to seven times its yield strain holds about its yield force, on either
 /// side of zero.
 TEST(ExplicitBonds, BarsYieldEitherWay) {
   AnalysisBody body = make_block({{"plane", Pattern::rectangular, Surface::none}, false, true});
   Network& network = body.network;
-  std::fill(network.critical_stretch.begin(), network.critical_stretch.end(), INFINITY);
   ASSERT_LT(network.first_segment, network.num_elements());
-  const double yield = network.yield_strain[0];
+  std::fill_n(network.critical_stretch.begin(), network.first_segment, INFINITY);
+  const double yield = network.critical_stretch[network.first_segment];
   for (const double strain : {7.0 * yield, -7.0 * yield}) {
     BondMotion motion;
     motion.displacement = linear_field(network.particles, {{{strain, 0, 0}, {}, {}}});

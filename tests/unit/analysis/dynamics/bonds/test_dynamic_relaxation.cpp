@@ -40,7 +40,6 @@ Outcome relax(const AnalysisBody& body, const RelaxationOptions& options) {
 
 AnalysisBody unbreakable(AnalysisBody body) {
   std::fill(body.network.critical_stretch.begin(), body.network.critical_stretch.end(), INFINITY);
-  std::fill(body.network.yield_strain.begin(), body.network.yield_strain.end(), INFINITY);
   return body;
 }
 

@@ -44,9 +44,36 @@ TEST_P(EveryDimension, FindsTheLargestRatioAgainAndAgain) {
     const LimitSearch::Hit hit = search.find(u, tie_tolerance, 1);
     ASSERT_EQ(hit.element, expected.element) << "seed " << seed;
     EXPECT_NEAR(hit.ratio, expected.ratio, round_off * expected.ratio);
-    search.remove(hit.element);
+    search.set_limit(hit.element, INFINITY);
     removed[hit.element] = 1;
   }
+}
+
+/// Also elements that have events in compression.
+TEST_P(EveryDimension, ListsAllThatReachARatio) {
+  Network network = make_network(GetParam(), 4);
+  network.laws.push_back(BondLaw::plateau(1.44));  // the first tooth ends at 1.2
+  network.law_of.assign(static_cast<std::size_t>(network.num_elements()), 0);
+  for (Index e = 0; e < network.num_elements(); e += 3) network.law_of[e] = 1;
+  LimitSearch search(network);
+  const auto u = random_vector(network.particles.positions.size(), 5);
+  search.set_limit(1, 1e-3 * network.critical_stretch[1]);
+  const auto ratio_of = [&](Index e) {
+    const double ratio = stretch(network, u, e) / network.critical_stretch[e];
+    return e % 3 == 0 ? std::abs(ratio) / 1.2 : e == 1 ? 1e3 * ratio : ratio;
+  };
+  const double least = 0.5 * search.find(u, tie_tolerance, 1).ratio;
+  const std::vector<LimitSearch::Hit> hits = search.list(u, least);
+  auto hit = hits.begin();
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (ratio_of(e) < least) continue;
+    ASSERT_NE(hit, hits.end());
+    EXPECT_EQ(hit->element, e);
+    EXPECT_NEAR(hit->ratio, ratio_of(e), round_off * ratio_of(e));
+    ++hit;
+  }
+  EXPECT_EQ(hit, hits.end());
+  EXPECT_GT(hits.size(), 0U);
 }
 
 TEST_P(EveryDimension, RemovedBondsNeverComeBack) {
@@ -62,7 +89,7 @@ TEST_P(EveryDimension, RemovedBondsNeverComeBack) {
     EXPECT_LE(hit.ratio, last * (1.0 + tie_tolerance));
     last = hit.ratio;
     removed[hit.element] = 1;
-    search.remove(hit.element);
+    search.set_limit(hit.element, INFINITY);
   }
   for (Index e = 0; e < network.num_elements(); ++e) {
     EXPECT_EQ(removed[e] != 0, stretch(network, u, e) > 0.0) << e;
@@ -104,7 +131,7 @@ TEST(LimitSearch, LeavesOutWhatCannotBreak) {
   const Index first = bonds_of_row(network, 0.0)[0];
   network.critical_stretch[first] = std::numeric_limits<double>::infinity();
   LimitSearch search(network);
-  search.remove(first);  // not in the table: nothing happens
+  search.set_limit(first, INFINITY);  // not in the table: nothing happens
   EXPECT_EQ(search.find(u, tie_tolerance, 1).element, bonds_of_row(network, 0.0)[1]);
 
   for (double& limit : network.critical_stretch) limit = std::numeric_limits<double>::infinity();

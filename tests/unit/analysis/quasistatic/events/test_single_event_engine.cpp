@@ -116,6 +116,31 @@ TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
   }
 }
 
+/// Two bonds of unit stiffness and length in series whose end is moved by lambda, with secants a of
+/// the first and 1 of the second: the first stretches by lambda / (1 + a). Its teeth end at 0.01,
+/// 0.014 and 0.03 (lambda = 0.02, 0.0224, 0.036) before the second reaches 0.01.
+TEST(SingleEventEngine, BondsLoseTheirStiffnessToothByTooth) {
+  AnalysisBody body = make_chains(2, 1, true, 1.0, 0.01);
+  body.network.laws.front() = three_teeth();
+  for (const FactorRoute route : routes) {
+    SingleEventEngine engine = make_engine(body, with_route(route));
+    const Index first = engine.next_event().element;
+    const double teeth[] = {1.0, 0.6, 0.2, 0.0}, factors[] = {0.02, 0.0224, 0.036};
+    for (int k = 0; k < 3; ++k) {
+      const Event event = engine.next_event();
+      EXPECT_EQ(event.element, first);
+      EXPECT_NEAR(event.load_factor, factors[k], 1e-15);
+      const EventOutcome outcome = engine.apply(event);
+      EXPECT_FALSE(outcome.mechanism);
+      EXPECT_EQ(outcome.secant, teeth[k + 1]);
+      EXPECT_EQ(outcome.broke(), k == 2);
+      EXPECT_NEAR(outcome.pivot, (1.0 + teeth[k + 1]) / (1.0 + teeth[k]), 1e-14);
+      EXPECT_EQ(engine.secants()[first], teeth[k + 1]);
+    }
+    EXPECT_TRUE(engine.load_work().separated);
+  }
+}
+
 TEST(SingleEventEngine, BarYieldsInCompressionToo) {
   AnalysisBody body = make_yielding_bar(0.01);
   for (double& value : body.unknowns.prescribed) value = -value;

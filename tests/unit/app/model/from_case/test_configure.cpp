@@ -189,14 +189,14 @@ TEST(Configure, BarsYieldAndTiesBreakUnlessTheCaseSaysOtherwise) {
   const Model model = build_model(input);
   const Network& network = model.network;
   ASSERT_EQ(network.num_elements() - network.first_segment, 7);
-  EXPECT_DOUBLE_EQ(network.yield_strain.front(), 58.0 / 29000.0);
+  EXPECT_DOUBLE_EQ(network.critical_stretch[network.first_segment], 58.0 / 29000.0);
   EXPECT_GT(network.first_segment, network.first_tie);
   EXPECT_TRUE(std::isfinite(network.critical_stretch[network.first_tie]));
 
   input.rebar[0].yields = false;
   input.rebar[0].ties_break = false;
   const Network perfect = build_model(input).network;
-  EXPECT_TRUE(std::isinf(perfect.yield_strain.front()));
+  EXPECT_TRUE(std::isinf(perfect.critical_stretch[perfect.first_segment]));
   for (Index tie = perfect.first_tie; tie < perfect.first_segment; ++tie) {
     EXPECT_TRUE(std::isinf(perfect.critical_stretch[tie]));
   }
