@@ -38,8 +38,7 @@ Rule rectangle_rule() {
   for (const GaussPoint& g : gauss()) {
     for (const GaussPoint& h : gauss()) {
       const double s = g.place, t = h.place;
-      rule.push_back(
-          {g.weight * h.weight, {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t}});
+      rule.push_back({g.weight * h.weight, {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t}});
     }
   }
   return rule;
@@ -52,8 +51,7 @@ Rule triangle_rule() {
   for (const double sign : {1.0, -1.0}) {
     const double a = (8.0 - std::sqrt(10.0) + sign * root) / 18.0;
     const double b = 1.0 - 2.0 * a;
-    const double weight =
-        (620.0 + sign * std::sqrt(213125.0 - 53320.0 * std::sqrt(10.0))) / 3720.0;
+    const double weight = (620.0 + sign * std::sqrt(213125.0 - 53320.0 * std::sqrt(10.0))) / 3720.0;
     rule.push_back({weight, {b, a, a}});
     rule.push_back({weight, {a, b, a}});
     rule.push_back({weight, {a, a, b}});

@@ -28,7 +28,7 @@ using BodyLoad = std::function<Vector3(std::span<const double> position)>;
 /// take t at those two.
 /// \return the integral of |t| [force]
 double add_surface_load(const Particles& particles, const Facets& facets,
-                      std::span<const Index> members, const SurfaceLoad& load, Loads& loads);
+                        std::span<const Index> members, const SurfaceLoad& load, Loads& loads);
 
 /// Adds b(x_i) V_i for the particles of a region: the rule of lattices.
 void add_lumped_body_load(const Particles& particles, std::span<const Index> members,

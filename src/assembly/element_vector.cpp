@@ -46,8 +46,7 @@ ElementVectors truss_vector(const Network& network, const Unknowns& unknowns, In
   result.count = 1;
   result.x[0] = element_vector(network, unknowns, element, stiffness);
   for (int a = 0; a < network.dim(); ++a) {
-    result.prescribed[0] +=
-        root * n[a] * (unknowns.prescribed[j + a] - unknowns.prescribed[i + a]);
+    result.prescribed[0] += root * n[a] * (unknowns.prescribed[j + a] - unknowns.prescribed[i + a]);
   }
   return result;
 }

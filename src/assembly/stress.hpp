@@ -19,9 +19,9 @@ using Stress = std::array<double, 6>;
 /// What stresses at particles are found from.
 struct StressInput {
   const Network& network;
-  const Csr& families;                        ///< bonds of each particle (bonds_of_particles)
+  const Csr& families;  ///< bonds of each particle (bonds_of_particles)
   Problem problem = Problem::plane_stress;
-  std::span<const HookeConstants> materials;   ///< that the particles' material numbers
+  std::span<const HookeConstants> materials;  ///< that the particles' material numbers
   /// Also those of the neighbours: for the edges of elements, which are too few.
   bool second_neighbors = false;
 };

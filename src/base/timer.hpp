@@ -8,9 +8,7 @@ namespace perilink {
 class Timer {
  public:
   /// Seconds since the start or the last restart.
-  double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   void restart() { start_ = Clock::now(); }
 
  private:

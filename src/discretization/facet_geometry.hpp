@@ -8,10 +8,10 @@ namespace perilink {
 
 /// Edge (2D) or triangle (3D) of a surface by its corners.
 struct FacetGeometry {
-  bool edge = true;          ///< of the corners only a and b count
-  Vector3 a{}, b{}, c{};     ///< [length]
-  Vector3 normal{};          ///< unit vector out of the body
-  double size = 0.0;         ///< longest side [length]
+  bool edge = true;       ///< of the corners only a and b count
+  Vector3 a{}, b{}, c{};  ///< [length]
+  Vector3 normal{};       ///< unit vector out of the body
+  double size = 0.0;      ///< longest side [length]
 };
 
 /// \param facet  with two corners, or three in space

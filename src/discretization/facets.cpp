@@ -79,8 +79,8 @@ Vector3 Facets::centre(Index facet, std::span<const double> positions) const {
   const std::span<const Index> ends = corners.row(facet);
   for (const Index i : ends) {
     for (int axis = 0; axis < dim; ++axis) {
-      mean[axis] += positions[static_cast<std::size_t>(i) * dim + axis] /
-                    static_cast<double>(ends.size());
+      mean[axis] +=
+          positions[static_cast<std::size_t>(i) * dim + axis] / static_cast<double>(ends.size());
     }
   }
   return mean;

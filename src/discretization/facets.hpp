@@ -15,15 +15,15 @@ namespace perilink {
 /// forces a uniform strain needs at the boundary (bond calibration).
 struct Facets {
   int dim = 2;
-  Csr corners;                       ///< particles at the corners of each facet
+  Csr corners;  ///< particles at the corners of each facet
   /// Of each corner, as corners.values; their sum is one per facet. Equal, until balance_shares()
   /// shifts them a little.
   std::vector<double> shares;
   /// Area times unit normal, shape (size, dim) [length^2]; in two dimensions the area is length
   /// times thickness.
   std::vector<double> area_vectors;
-  std::vector<Index> inside;         ///< material of the cell that the normal points out of
-  std::vector<Index> outside;        ///< of the cell beyond; no_index: the surface of the body
+  std::vector<Index> inside;   ///< material of the cell that the normal points out of
+  std::vector<Index> outside;  ///< of the cell beyond; no_index: the surface of the body
 
   Index size() const { return static_cast<Index>(inside.size()); }
   bool on_surface(Index facet) const { return outside[facet] == no_index; }

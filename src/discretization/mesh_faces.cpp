@@ -39,8 +39,8 @@ Corners face_corners(const Simplices& cells, Index cell, int face) {
   const std::span<const Index> all = cells.cell(cell);
   Corners corners{no_index, no_index, no_index};
   for (int corner = 0; corner < cells.dim; ++corner) {
-    corners[corner] = all[cells.dim == 2 ? faces_of_triangle[face][corner]
-                                         : faces_of_tetrahedron[face][corner]];
+    corners[corner] =
+        all[cells.dim == 2 ? faces_of_triangle[face][corner] : faces_of_tetrahedron[face][corner]];
   }
   return corners;
 }

@@ -15,8 +15,8 @@ Vector3 point_of(std::span<const double> positions, int dim, Index i);
 /// Edges (2D) or triangles (3D) between the cells of a mesh and on its surface, each once.
 struct CellFaces {
   int dim = 2;
-  std::vector<Index> corners;                ///< ascending, shape (size, dim)
-  std::vector<std::array<Index, 2>> cells;   ///< on both sides; second is no_index on the surface
+  std::vector<Index> corners;               ///< ascending, shape (size, dim)
+  std::vector<std::array<Index, 2>> cells;  ///< on both sides; second is no_index on the surface
 
   Index size() const { return static_cast<Index>(cells.size()); }
   std::span<const Index> face(Index f) const {

@@ -16,8 +16,7 @@ void require_ratio(double poissons_ratio, double largest) {
   // Round-off: at the limit itself the bending modulus is zero.
   if (poissons_ratio > -1.0 && poissons_ratio <= largest + 1e-12) return;
   throw std::invalid_argument("micropolar bonds have Poisson's ratios above -1 and up to " +
-                              std::to_string(largest) + ", not " +
-                              std::to_string(poissons_ratio));
+                              std::to_string(largest) + ", not " + std::to_string(poissons_ratio));
 }
 
 /// What is left for bending; at the limit of Poisson's ratio it is zero but for round-off, and
@@ -94,8 +93,8 @@ MicropolarModuli lattice_micropolar(Problem problem, std::span<const Vector3> of
     const double rest = 0.5 * E / (1.0 + nu) - 2.0 * c * cell_volume * biaxial / 15.0;
     return {c, above_round_off(rest, E) / (0.6 * cell_volume * reciprocal)};
   }
-  const double energy = problem == Problem::plane_stress ? E / (1.0 - nu)
-                                                         : E / ((1.0 + nu) * (1.0 - 2.0 * nu));
+  const double energy =
+      problem == Problem::plane_stress ? E / (1.0 - nu) : E / ((1.0 + nu) * (1.0 - 2.0 * nu));
   const double c = energy / (cell_volume * biaxial);
   const double rest = above_round_off(E / (1.0 + nu) - c * cell_volume * shear, E);
   if (rest == 0.0) return {c, 0.0};

@@ -45,8 +45,8 @@ struct Network {
   /// Laws of the elements, and the number of each element's; empty: all have the first one.
   std::vector<BondLaw> laws = {BondLaw::brittle()};
   std::vector<std::uint8_t> law_of;
-  /// Of each element [-]: where brittle bonds break, the yield strain of bars, what other laws count
-  /// their stretches by; infinity: stays elastic.
+  /// Per element [-]: the stretch at which brittle bonds break, the yield strain of bars, the unit
+  /// of stretch of other laws; infinity: stays elastic.
   std::vector<double> critical_stretch;
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: none.

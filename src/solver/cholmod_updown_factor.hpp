@@ -31,8 +31,8 @@ class CholmodUpdownFactor final : public Factor {
   void backward(std::span<double> solution);
 
   CholmodSession session_;
-  CholmodFactorPtr symbolic_;    ///< supernodal analysis, used again by refactorize
-  CholmodFactorPtr factor_;      ///< simplicial L D L'
+  CholmodFactorPtr symbolic_;  ///< supernodal analysis, used again by refactorize
+  CholmodFactorPtr factor_;    ///< simplicial L D L'
   int factorizations_ = 0;
   double flops_ = 0.0;
   std::vector<Index> position_;

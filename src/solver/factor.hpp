@@ -25,11 +25,11 @@ enum class FactorRoute {
 /// Size and cost of a factor.
 struct FactorStatistics {
   Index size = 0;
-  double entries = 0.0;        ///< stored numbers of L
-  double bytes = 0.0;          ///< memory of L
-  double flops = 0.0;          ///< of one factorisation
-  double event_bytes = 0.0;    ///< of L that the last downdate read (in place only)
-  int factorizations = 0;      ///< so far
+  double entries = 0.0;      ///< stored numbers of L
+  double bytes = 0.0;        ///< memory of L
+  double flops = 0.0;        ///< of one factorisation
+  double event_bytes = 0.0;  ///< of L that the last downdate read (in place only)
+  int factorizations = 0;    ///< so far
 };
 
 /// Cholesky factor of a symmetric positive definite matrix K that follows rank-one changes, and the

@@ -71,22 +71,22 @@ class InPlaceFactor final : public Factor {
   int factorizations_ = 0;
   double flops_ = 0.0;  ///< of one factorisation
 
-  std::vector<Index> position_;         ///< of each unknown in the factor's order
-  std::vector<Index> supernode_of_;     ///< of each column
-  std::vector<Index> parent_;           ///< of each supernode, no_index at roots
-  std::vector<Index> top_;              ///< supernodes above the independent subtrees, descending
+  std::vector<Index> position_;      ///< of each unknown in the factor's order
+  std::vector<Index> supernode_of_;  ///< of each column
+  std::vector<Index> parent_;        ///< of each supernode, no_index at roots
+  std::vector<Index> top_;           ///< supernodes above the independent subtrees, descending
   std::vector<std::pair<Index, Index>> subtrees_;  ///< [first, last] supernodes of each
-  Index longest_ = 0;                   ///< most rows of a supernode
+  Index longest_ = 0;                              ///< most rows of a supernode
 
-  std::vector<double> vector_;          ///< work vector in the factor's order
-  std::vector<double> local_;           ///< rows of a supernode, two parts per thread
-  SparseVector x_;                      ///< change prepared, in the factor's order
-  std::vector<Index> path_;             ///< supernodes of the path, ascending
-  std::vector<std::uint8_t> on_path_;   ///< per supernode
-  std::vector<std::uint8_t> wanted_;    ///< supernodes that backward passes compute; empty: all
-  std::vector<double> p_;               ///< L^-1 x along the path, in the factor's order
-  std::vector<double> beta_;            ///< per column of the path
-  std::vector<double> w_;               ///< x less its eliminations, along the path
+  std::vector<double> vector_;         ///< work vector in the factor's order
+  std::vector<double> local_;          ///< rows of a supernode, two parts per thread
+  SparseVector x_;                     ///< change prepared, in the factor's order
+  std::vector<Index> path_;            ///< supernodes of the path, ascending
+  std::vector<std::uint8_t> on_path_;  ///< per supernode
+  std::vector<std::uint8_t> wanted_;   ///< supernodes that backward passes compute; empty: all
+  std::vector<double> p_;              ///< L^-1 x along the path, in the factor's order
+  std::vector<double> beta_;           ///< per column of the path
+  std::vector<double> w_;              ///< x less its eliminations, along the path
   double pivot_ = 0.0;
 };
 

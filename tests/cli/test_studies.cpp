@@ -163,10 +163,10 @@ region = "upper end"
 x = 0
 y = 1
 )");
-  const ProcessEnd end =
-      converge("case = \"parts.toml\"\n[vary]\nspacing = [10, 5]\n"
-               "[[error]]\nquantity = \"peak_load\"\nreference = \"finest\"\n"
-               "[[error]]\nquantity = \"first_peak_load\"\nreference = \"finest\"\n");
+  const ProcessEnd end = converge(
+      "case = \"parts.toml\"\n[vary]\nspacing = [10, 5]\n"
+      "[[error]]\nquantity = \"peak_load\"\nreference = \"finest\"\n"
+      "[[error]]\nquantity = \"first_peak_load\"\nreference = \"finest\"\n");
   ASSERT_EQ(end.exit_status, 0) << end.err;
   EXPECT_THAT(end.out, HasSubstr("10: note: the load reached"));
   const auto table = rows(file("results/study/table.csv"));
@@ -194,8 +194,7 @@ TEST_F(Study, AMemberThatFailsDoesNotStopTheOthers) {
 }
 
 TEST_F(Study, WhereAllMembersFailTheStatusAndTheFirstReasonSaySo) {
-  const ProcessEnd end =
-      converge("case = \"bar.toml\"\n[vary]\nspacing = [2e-7, 1e-7]\n" + energy);
+  const ProcessEnd end = converge("case = \"bar.toml\"\n[vary]\nspacing = [2e-7, 1e-7]\n" + energy);
   EXPECT_EQ(end.exit_status, 2);
   EXPECT_THAT(end.err, HasSubstr("every member of the study failed"));
   EXPECT_THAT(end.err, HasSubstr("body.spacing: gives about"));
@@ -248,8 +247,7 @@ TEST_F(Study, AStudyThatTheCaseCannotHaveIsRefusedOnceBeforeWorkBegins) {
   const ProcessEnd end = converge("case = \"bar.toml\"\n[vary]\nspacing = [2, 1]\n" + energy,
                                   {"--out", "r"});  // the horizon is 0.6
   EXPECT_EQ(end.exit_status, 2);
-  EXPECT_THAT(end.err,
-              HasSubstr("study.toml: vary: leaves no member that the case accepts\n"));
+  EXPECT_THAT(end.err, HasSubstr("study.toml: vary: leaves no member that the case accepts\n"));
   EXPECT_THAT(end.err, HasSubstr("body.horizon: is 0.6"));
   EXPECT_FALSE(fs::exists(work() / "r"));
 }

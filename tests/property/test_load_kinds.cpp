@@ -80,8 +80,7 @@ class LoadKind : public testing::TestWithParam<std::string> {};
 
 TEST_P(LoadKind, FirstRowIsTheElasticAnswerAndEnergyBalances) {
   const Model model = block(GetParam());
-  const ElasticResult elastic =
-      run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
+  const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
   Recorder recorder;
   DamageOptions options;
   options.stop.broken_bonds = 60;
@@ -184,12 +183,14 @@ poissons_ratio = 0.1
 fracture_energy = "infinite"
 [analysis]
 type = "elastic"
-)" + loading, "test"));
+)" + loading,
+                                "test"));
 }
 
 TEST(DrivenRotation, ABodyTurnedAsAWholeStaysWithoutStress) {
-  const Model model = column("[[displacements]]\nregion = \"rim\"\nx = \"-0.1*y\"\n"
-                             "y = \"0.1*x\"\nrotation = 0.1\n");
+  const Model model = column(
+      "[[displacements]]\nregion = \"rim\"\nx = \"-0.1*y\"\n"
+      "y = \"0.1*x\"\nrotation = 0.1\n");
   const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
   EXPECT_NEAR(elastic.strain_energy, 0.0, 1e-25);  // the square of round-off, stiffness 10
   for (Index i = 0; i < model.network.particles.size(); ++i) {
@@ -209,9 +210,8 @@ TEST(DrivenRotation, NeedsTheMomentThatMakesIt) {
   const Index corner = turned.network.particles.size() - 1;
   const double angle = by_moment.displacement[3 * corner + 2];
   ASSERT_GT(angle, 0.0);
-  const Model moved = column(held + fmt::format(
-                                        "[[displacements]]\nregion = \"corner\"\nrotation = {}\n",
-                                        angle));
+  const Model moved =
+      column(held + fmt::format("[[displacements]]\nregion = \"corner\"\nrotation = {}\n", angle));
   const ElasticResult by_angle =
       run_elastic_analysis(moved.network, moved.unknowns, moved.loads, 1);
   EXPECT_TRUE(moved.reference.driven);

@@ -16,8 +16,8 @@ namespace {
 
 struct SymmetricBody {
   std::string name;
-  std::string body;    ///< keys of [body]
-  std::string nu;      ///< Poisson's ratio, as in the case
+  std::string body;  ///< keys of [body]
+  std::string nu;    ///< Poisson's ratio, as in the case
   int dim = 2;
 };
 
@@ -55,7 +55,8 @@ TEST_P(Symmetry, PlanesHoldUniformTension) {
     for (int a = 0; a < tested.dim; ++a) {
       const double exact = (a == 1 ? 0.1 : -0.1 * nu) * x[a];
       ASSERT_NEAR(elastic.displacement[static_cast<std::size_t>(i) * width + a], exact, bar)
-          << "particle " << i << " along " << "xyz"[a];
+          << "particle " << i << " along "
+          << "xyz"[a];
     }
   }
 }

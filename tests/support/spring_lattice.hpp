@@ -21,9 +21,7 @@ struct SpringLattice {
   std::vector<Index> groups;
   std::vector<SparseVector> springs;  ///< x of every spring: K = sum x x' + ground
 
-  Eigen::MatrixXd dense() const {
-    return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
-  }
+  Eigen::MatrixXd dense() const { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
 };
 
 inline SpringLattice make_spring_lattice(int columns, int rows, double radius,
@@ -46,8 +44,7 @@ inline SpringLattice make_spring_lattice(int columns, int rows, double radius,
       SparseVector x;
       x.size = 4;
       x.rows = {2 * i, 2 * i + 1, 2 * j, 2 * j + 1};
-      x.values = {-root * dx / length, -root * dy / length, root * dx / length,
-                  root * dy / length};
+      x.values = {-root * dx / length, -root * dy / length, root * dx / length, root * dy / length};
       for (int a = 0; a < 4; ++a) {
         for (int b = 0; b <= a; ++b) {
           entries.emplace_back(x.rows[a], x.rows[b], x.values[a] * x.values[b]);

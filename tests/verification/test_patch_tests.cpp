@@ -98,10 +98,14 @@ TEST(PatchLoads, TractionsOnTheGroupsOfAMeshAreThoseOfTheStress) {
 TEST(PatchLoads, PressureAllAroundIsAnIsotropicStress) {
   for (const char* name : {"hexagonal_3", "disc", "plate_with_hole"}) {
     expect_loads(body_named(name), "[[tractions]]\nregion = \"surface\"\npressure = 1\n",
-                 [](const Model&) { return Gradient{{-1, 0}, {0, -1}}; });
+                 [](const Model&) {
+                   return Gradient{{-1, 0}, {0, -1}};
+                 });
   }
   expect_loads(body_named("cylinder"), "[[tractions]]\nregion = \"surface\"\npressure = 1\n",
-               [](const Model&) { return Gradient{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}; });
+               [](const Model&) {
+                 return Gradient{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+               });
 }
 
 }  // namespace

@@ -42,13 +42,13 @@ double read_bandwidth() {
 }
 
 struct RouteTime {
-  double search = 0.0;        ///< seconds per event in next_event
-  double apply = 0.0;         ///< seconds per event in apply
+  double search = 0.0;  ///< seconds per event in next_event
+  double apply = 0.0;   ///< seconds per event in apply
   double total() const { return search + apply; }
-  double factorization = 0.0; ///< seconds of one numerical factorisation
-  double solve = 0.0;         ///< seconds of one full solve
-  double bytes = 0.0;         ///< of L
-  double event_bytes = 0.0;   ///< of L that the last event read
+  double factorization = 0.0;   ///< seconds of one numerical factorisation
+  double solve = 0.0;           ///< seconds of one full solve
+  double bytes = 0.0;           ///< of L
+  double event_bytes = 0.0;     ///< of L that the last event read
   std::vector<Index> elements;  ///< that broke
 };
 
@@ -57,8 +57,7 @@ RouteTime time_events(const Model& model, FactorRoute route, int events, int thr
   EngineOptions options;
   options.route = route;
   options.threads = threads;
-  const auto engine =
-      make_event_engine(model.network, model.unknowns, model.loads, options);
+  const auto engine = make_event_engine(model.network, model.unknowns, model.loads, options);
   std::vector<double> search, apply;
   RouteTime result;
   for (int k = 0; k < events; ++k) {
@@ -86,8 +85,7 @@ RouteTime time_events(const Model& model, FactorRoute route, int events, int thr
 void time_factorization(const Model& model, int repeats, RouteTime& result) {
   const std::vector<double> intact(static_cast<std::size_t>(model.network.num_elements()), 1.0);
   const SparseMatrix matrix = assemble_stiffness(model.network, intact, model.unknowns);
-  const auto load =
-      assemble_right_hand_side(model.network, intact, model.unknowns, model.loads);
+  const auto load = assemble_right_hand_side(model.network, intact, model.unknowns, model.loads);
   std::vector<double> solution(load.size());
   const auto factor = make_factor(FactorRoute::refactorize, 1);
   factor->factorize(matrix, particle_of_unknown(model.unknowns));

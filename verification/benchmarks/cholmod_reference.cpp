@@ -36,9 +36,9 @@ CholmodReference time_cholmod(const Model& model, std::span<const Index> element
 
   std::vector<double> downdate, solve;
   for (const Index element : elements) {
-    PermutedColumn column(element_vector(model.network, model.unknowns, element,
-                                         model.network.stiffness[element]),
-                          position, model.unknowns.count);
+    PermutedColumn column(
+        element_vector(model.network, model.unknowns, element, model.network.stiffness[element]),
+        position, model.unknowns.count);
     timer.restart();
     if (!cholmod_updown(false, column.get(), factor.get(), session.get())) {
       throw SolverError("cholmod_updown failed");

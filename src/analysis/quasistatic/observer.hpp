@@ -14,19 +14,19 @@ namespace perilink {
 /// rows.
 struct StepRecord {
   Index step = 0;
-  Index broken_bonds = 0;         ///< in this equilibrium
-  Index yield_events = 0;         ///< after which elements went on: bars that yield, so far
+  Index broken_bonds = 0;  ///< in this equilibrium
+  Index yield_events = 0;  ///< after which elements went on: bars that yield, so far
   double load_factor = 0.0;
-  double load = 0.0;              ///< load factor times the reference load [force]
-  double displacement = 0.0;      ///< work-conjugate to `load`: twice the energy over it [length]
-  double strain_energy = 0.0;     ///< [force length]
-  double dissipated_energy = 0.0; ///< sum of lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2
-  double external_work = 0.0;     ///< trapezoids under the path of loads and displacements
-  double released_energy = 0.0;   ///< sum of the elements' energies at the moment they failed
-  double residual = 0.0;          ///< |f - K u| / |f| when last measured
+  double load = 0.0;               ///< load factor times the reference load [force]
+  double displacement = 0.0;       ///< work-conjugate to `load`: twice the energy over it [length]
+  double strain_energy = 0.0;      ///< [force length]
+  double dissipated_energy = 0.0;  ///< sum of lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2
+  double external_work = 0.0;      ///< trapezoids under the path of loads and displacements
+  double released_energy = 0.0;    ///< sum of the elements' energies at the moment they failed
+  double residual = 0.0;           ///< |f - K u| / |f| when last measured
   int factorizations = 0;
-  Index element = no_index;       ///< that fails at this load
-  double seconds = 0.0;           ///< wall time of this step; goes to timing.csv only
+  Index element = no_index;  ///< that fails at this load
+  double seconds = 0.0;      ///< wall time of this step; goes to timing.csv only
 };
 
 /// State that observers may look at, valid during the call only.
@@ -38,11 +38,11 @@ struct StepState {
 
 /// How a run ended.
 enum class Ending {
-  completed,     ///< all steps done, or a stop rule met
-  collapsed,     ///< the specimen separated
-  nothing_breaks,///< no bond can break under this load
-  interrupted,   ///< by a signal
-  failed,        ///< the solver could not continue
+  completed,       ///< all steps done, or a stop rule met
+  collapsed,       ///< the specimen separated
+  nothing_breaks,  ///< no bond can break under this load
+  interrupted,     ///< by a signal
+  failed,          ///< the solver could not continue
 };
 std::string to_string(Ending ending);
 

@@ -5,7 +5,6 @@
 
 #include "app/model/model.hpp"
 
-
 namespace perilink {
 
 /// The physical group of the mesh with a name; build_model() has seen that it exists.

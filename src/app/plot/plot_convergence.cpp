@@ -46,17 +46,10 @@ void draw_mark(Svg& svg, std::size_t line, SvgPoint at) {
     svg.path(path, fill);
   };
   switch (line % 4) {
-    case 0:
-      svg.circle(at, 4.0, fill);
-      break;
-    case 1:
-      polygon({{-3.6, -3.6}, {3.6, -3.6}, {3.6, 3.6}, {-3.6, 3.6}});
-      break;
-    case 2:
-      polygon({{0.0, -4.8}, {4.4, 3.4}, {-4.4, 3.4}});
-      break;
-    default:
-      polygon({{0.0, -5.0}, {5.0, 0.0}, {0.0, 5.0}, {-5.0, 0.0}});
+    case 0: svg.circle(at, 4.0, fill); break;
+    case 1: polygon({{-3.6, -3.6}, {3.6, -3.6}, {3.6, 3.6}, {-3.6, 3.6}}); break;
+    case 2: polygon({{0.0, -4.8}, {4.4, 3.4}, {-4.4, 3.4}}); break;
+    default: polygon({{0.0, -5.0}, {5.0, 0.0}, {0.0, 5.0}, {-5.0, 0.0}});
   }
 }
 

@@ -49,9 +49,9 @@ bool ProgressBar::is_due() {
 
 void ProgressBar::draw(const std::string& state, std::optional<double> done) {
   const double now = since_start_.seconds();
-  const std::string left =
-      done && *done > 0.0 ? fmt::format(", {} left", format_duration(now / *done - now))
-                          : fmt::format(", {} so far", format_duration(now));
+  const std::string left = done && *done > 0.0
+                               ? fmt::format(", {} left", format_duration(now / *done - now))
+                               : fmt::format(", {} so far", format_duration(now));
   if (!terminal_) {
     show(fmt::format("{}{}\n", state, left));
     return;
@@ -88,9 +88,9 @@ std::optional<double> Progress::fraction(const StepRecord& record) const {
 
 void Progress::update(const StepRecord& record) {
   if (!bar_.is_due()) return;
-  bar_.draw(fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds,
-                        record.load_factor),
-            fraction(record));
+  bar_.draw(
+      fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds, record.load_factor),
+      fraction(record));
 }
 
 void Progress::finish() { bar_.finish(); }

@@ -13,9 +13,9 @@ namespace perilink {
 
 /// Wall seconds of the phases of a run.
 struct PhaseSeconds {
-  double set_up = 0.0;    ///< reading, particles, bonds, constants
-  double analysis = 0.0;  ///< assembly, factorisation, events
-  double output = 0.0;    ///< field files
+  double set_up = 0.0;                         ///< reading, particles, bonds, constants
+  double analysis = 0.0;                       ///< assembly, factorisation, events
+  double output = 0.0;                         ///< field files
   std::optional<ElasticSeconds> elastic = {};  ///< parts of `analysis` where it is elastic
 };
 

@@ -66,8 +66,8 @@ Index remove_bonds_across_gaps(const Particles& particles, Bonds& bonds, std::sp
   remaining.dim = bonds.dim;
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
-    const bool both_solid = particles.kind[i] == ParticleKind::solid &&
-                            particles.kind[j] == ParticleKind::solid;
+    const bool both_solid =
+        particles.kind[i] == ParticleKind::solid && particles.kind[j] == ParticleKind::solid;
     if (both_solid &&
         !stays_inside(outline, particles.position(i), particles.position(j), tolerance)) {
       continue;

@@ -33,7 +33,7 @@ struct BodySurface {
 };
 
 BodySurface surface_of(const Particles& particles, const Bonds& bonds, const Facets& facets,
-                   double spacing) {
+                       double spacing) {
   BodySurface surface;
   surface.touch = round_off * spacing;
   const int dim = particles.dim;

@@ -59,8 +59,7 @@ Lattice conforming_lattice(const LatticeInput& input, const Box& bounds, double 
   lattice.spacing = lattice.step[0];
   const double rows =
       input.pattern == Pattern::hexagonal ? 0.5 * std::numbers::sqrt3 * lattice.spacing : spacing;
-  lattice.step[1] =
-      even_step(bounds, 1, rows, even_number && input.pattern == Pattern::hexagonal);
+  lattice.step[1] = even_step(bounds, 1, rows, even_number && input.pattern == Pattern::hexagonal);
   lattice.cell_volume = lattice.step[0] * lattice.step[1];
   if (lattice.dim == 3) {
     lattice.step[2] = even_step(bounds, 2, spacing);

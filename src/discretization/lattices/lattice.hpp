@@ -24,8 +24,8 @@ enum class Pattern {
 
 /// What is done about the missing bonds at a surface.
 enum class Surface {
-  none,   ///< conforming lattice: particles on the boundary, nothing corrected
-  ghost,  ///< Peri2D: cell-centred particles and a ghost layer bonded at half stiffness
+  none,        ///< conforming lattice: particles on the boundary, nothing corrected
+  ghost,       ///< Peri2D: cell-centred particles and a ghost layer bonded at half stiffness
   energy,      ///< bonds scaled so that each particle stores the energy of the continuum
   calibrated,  ///< bonds that pass the linear patch test, boundary included
 };

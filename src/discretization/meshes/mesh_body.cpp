@@ -150,8 +150,8 @@ struct Numbering {
 };
 
 [[noreturn]] void refuse_loose_facet(const Mesh& mesh, const MeshGroup& group, Index element) {
-  Vector3 x = point_of(mesh.positions, mesh.dim,
-                       mesh.facets[static_cast<std::size_t>(element) * mesh.dim]);
+  Vector3 x =
+      point_of(mesh.positions, mesh.dim, mesh.facets[static_cast<std::size_t>(element) * mesh.dim]);
   throw std::invalid_argument(
       fmt::format("an element of the group \"{}\" with a corner at ({:.6g}) is no side of a cell",
                   group.name, fmt::join(x.begin(), x.begin() + mesh.dim, ", ")));
@@ -285,8 +285,8 @@ Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double th
   body.lattice.pattern = Pattern::irregular;
   body.lattice.dim = mesh.dim;
   body.lattice.spacing = mean_edge_length(body);
-  body.lattice.cell_volume = std::accumulate(volumes.begin(), volumes.end(), 0.0) /
-                             static_cast<double>(volumes.size());
+  body.lattice.cell_volume =
+      std::accumulate(volumes.begin(), volumes.end(), 0.0) / static_cast<double>(volumes.size());
   return body;
 }
 

@@ -23,10 +23,10 @@ enum class VtuCell : std::uint8_t { vertex = 1, line = 3, triangle = 5, tetrahed
 
 /// An unstructured grid.
 struct VtuGrid {
-  std::vector<double> points;               ///< shape (n, 3) [length]
-  std::vector<VtuCell> types;               ///< per cell
-  std::vector<std::int32_t> connectivity;   ///< point numbers, cell after cell
-  std::vector<std::int32_t> offsets;        ///< end of each cell in connectivity
+  std::vector<double> points;              ///< shape (n, 3) [length]
+  std::vector<VtuCell> types;              ///< per cell
+  std::vector<std::int32_t> connectivity;  ///< point numbers, cell after cell
+  std::vector<std::int32_t> offsets;       ///< end of each cell in connectivity
   std::vector<VtuArray> point_data;
   std::vector<VtuArray> cell_data;
   std::vector<std::pair<std::string, double>> field_data;  ///< single numbers: load factor, step

@@ -25,9 +25,9 @@ class GmshCursor {
   /// A number written as text, also in binary files.
   std::int64_t text_integer();
 
-  int integer();           ///< gmsh's int
-  std::int64_t size();     ///< gmsh's size_t, at most 2^63 - 1
-  double number();         ///< finite
+  int integer();        ///< gmsh's int
+  std::int64_t size();  ///< gmsh's size_t, at most 2^63 - 1
+  double number();      ///< finite
   /// A number of things to come. It is refused where the rest of the file cannot hold them, so that
   /// memory may be reserved for it.
   /// \param values_each  numbers of each of the things, at least; none counts as one

@@ -107,8 +107,9 @@ int nodes_of_type(const GmshCursor& file, int type) {
     case 2: return 3;
     case 4: return 4;
     case 3:
-      file.refuse("has quadrilaterals", "mesh with triangles: leave out Recombine Surface and "
-                                        "Mesh.RecombineAll");
+      file.refuse("has quadrilaterals",
+                  "mesh with triangles: leave out Recombine Surface and "
+                  "Mesh.RecombineAll");
     case 5:
     case 6:
     case 7:

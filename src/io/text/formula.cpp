@@ -64,8 +64,8 @@ Formula::Formula(const Expression& expression, int dim) : number_(expression.num
     // muParser names places as "position 4", counted from zero, in some messages and not in others.
     const std::size_t place = message.find(" found at position");
     if (place != std::string::npos) message.resize(place);
-    const std::size_t at = std::min(static_cast<std::size_t>(std::max(error.GetPos(), 0)),
-                                    expression.formula.size());
+    const std::size_t at =
+        std::min(static_cast<std::size_t>(std::max(error.GetPos(), 0)), expression.formula.size());
     throw std::invalid_argument(fmt::format("{} at character {}", message, at + 1));
   }
 }

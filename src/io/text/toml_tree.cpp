@@ -162,21 +162,15 @@ std::string quoted(const std::string& text) {
 std::string describe(const TomlValue& value) {
   using Kind = TomlValue::Kind;
   switch (value.kind) {
-    case Kind::boolean:
-      return value.boolean ? "the boolean true" : "the boolean false";
-    case Kind::integer:
-      return fmt::format("the integer {}", value.integer);
-    case Kind::number:
-      return fmt::format("the number {}", value.number);
-    case Kind::text:
-      return fmt::format("the text {}", quoted(value.text));
-    case Kind::date:
-      return "a date or time";
+    case Kind::boolean: return value.boolean ? "the boolean true" : "the boolean false";
+    case Kind::integer: return fmt::format("the integer {}", value.integer);
+    case Kind::number: return fmt::format("the number {}", value.number);
+    case Kind::text: return fmt::format("the text {}", quoted(value.text));
+    case Kind::date: return "a date or time";
     case Kind::array:
       return fmt::format("an array of {} value{}", value.items.size(),
                          value.items.size() == 1 ? "" : "s");
-    case Kind::table:
-      break;
+    case Kind::table: break;
   }
   return "a table";
 }

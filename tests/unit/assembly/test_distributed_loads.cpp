@@ -126,7 +126,9 @@ TEST_P(DistributedOnLattices, GiveExactResultantsOfLinearTractions) {
   Loads loads = no_loads(body.particles, dim);
   add_surface_load(
       body.particles, body.facets, right,
-      [](std::span<const double> x, const Vector3&) { return Vector3{1.0 - 3.0 * x[1], 0, 0}; },
+      [](std::span<const double> x, const Vector3&) {
+        return Vector3{1.0 - 3.0 * x[1], 0, 0};
+      },
       loads);
   double force = 0.0, moment = 0.0;
   for (Index i = 0; i < body.particles.size(); ++i) {
@@ -148,7 +150,11 @@ TEST(DistributedLoads, OverTheVolumeOfALatticeAreValuesTimesVolumes) {
   Loads loads = no_loads(particles, 3);
   const std::vector<Index> members = {1, 2};
   add_lumped_body_load(
-      particles, members, [](std::span<const double> x) { return Vector3{x[0], 2.0, 0.0}; }, loads);
+      particles, members,
+      [](std::span<const double> x) {
+        return Vector3{x[0], 2.0, 0.0};
+      },
+      loads);
   EXPECT_EQ(loads.forces, (std::vector<double>{0, 0, 0, 0.25, 0.5, 0, 0.5, 0.5, 0}));
 }
 

@@ -140,8 +140,7 @@ TEST(StiffnessOfElasticSupports, IsOnTheDiagonalOfWhatIsFree) {
   network.support_stiffness[3] = 2.0;
   network.support_stiffness[4] = 4.0;  // at a held displacement: no unknown feels it
   network.support_stiffness[5] = 8.0;
-  const Eigen::MatrixXd added =
-      dense(assemble_stiffness(network, secants, unknowns)) - without;
+  const Eigen::MatrixXd added = dense(assemble_stiffness(network, secants, unknowns)) - without;
   for (Index row = 0; row < unknowns.count; ++row) {
     for (Index col = 0; col < unknowns.count; ++col) {
       const double expected = row != col ? 0.0 : row == 3 ? 2.0 : row == 4 ? 8.0 : 0.0;

@@ -57,8 +57,8 @@ TEST_P(StressOfQuadraticFields, IsExactEverywhere) {
   const Particles& particles = network.particles;
   const Csr families = bonds_of_particles(network.bonds, particles.size());
   const std::vector<double> displacement = quadratic_displacement(particles);
-  for (const Problem problem : {Problem::plane_stress, Problem::plane_strain,
-                                Problem::three_dimensional}) {
+  for (const Problem problem :
+       {Problem::plane_stress, Problem::plane_strain, Problem::three_dimensional}) {
     if (dimension_of(problem) != particles.dim) continue;
     const std::vector<HookeConstants> materials = {hooke_constants(problem, 30.0, 0.2)};
     const std::vector<double> stresses =
@@ -122,8 +122,7 @@ TEST(StressAt, SecondNeighborsAreTheNeighborsOfNeighbors) {
   const std::vector<double> displacement = quadratic_displacement(network.particles);
   const std::vector<HookeConstants> materials = {hooke_constants(Problem::plane_stress, 30.0, 0.2)};
   const Index middle = 24;
-  const Stress exact =
-      exact_stress(network.particles, Problem::plane_stress, materials[0], middle);
+  const Stress exact = exact_stress(network.particles, Problem::plane_stress, materials[0], middle);
   StressInput input{network, families, Problem::plane_stress, materials, true};
   const Stress stress = stress_at(input, displacement, middle);
   for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(stress[c], exact[c], 1e-11);

@@ -45,8 +45,8 @@ double cubic_work(const Facets& facets, const std::vector<double>& positions) {
       const double x = positions[2 * facets.corners.values[c]];
       const double y = positions[2 * facets.corners.values[c] + 1];
       const auto area = facets.area_vector(f);
-      work += facets.shares[c] *
-              (-2.0 * y * (-y * area[0] + x * area[1]) + (x * x + y * y) * area[0]);
+      work +=
+          facets.shares[c] * (-2.0 * y * (-y * area[0] + x * area[1]) + (x * x + y * y) * area[0]);
     }
   }
   return work;

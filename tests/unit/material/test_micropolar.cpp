@@ -64,9 +64,8 @@ double energy_density(const std::vector<Vector3>& offsets, double volume,
 double hooke(Problem problem, const ElasticConstants& elastic, const Strain& strain) {
   const double E = elastic.youngs_modulus, nu = elastic.poissons_ratio;
   const double mu = 0.5 * E / (1.0 + nu);
-  const double lambda = problem == Problem::plane_stress
-                            ? E * nu / (1.0 - nu * nu)
-                            : E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+  const double lambda = problem == Problem::plane_stress ? E * nu / (1.0 - nu * nu)
+                                                         : E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
   double trace = 0.0, square = 0.0;
   for (int row = 0; row < 3; ++row) {
     trace += strain[row][row];
@@ -88,8 +87,8 @@ TEST(ContinuumMicropolar, GivesTheConstantsOfThePaper) {
 TEST(ContinuumMicropolar, TheWayBackGivesTheElasticConstants) {
   for (const Problem problem : problems) {
     for (const double nu : {-0.9, -0.3, 0.0, 0.1, 0.2, 0.25}) {
-      const ElasticConstants back = elastic_constants(
-          problem, continuum_micropolar(problem, {30.0, nu}, 0.4, 0.7), 0.4, 0.7);
+      const ElasticConstants back =
+          elastic_constants(problem, continuum_micropolar(problem, {30.0, nu}, 0.4, 0.7), 0.4, 0.7);
       EXPECT_NEAR(back.youngs_modulus, 30.0, 1e-12 * 30.0) << nu;
       EXPECT_NEAR(back.poissons_ratio, nu, 1e-13) << nu;
     }
@@ -141,8 +140,8 @@ TEST(LatticeMicropolar, SquareLatticesAreExactAlongTheirAxes) {
   const ElasticConstants elastic{30.0, 0.2};
   const auto offsets = square(3.0);
   const MicropolarModuli moduli = lattice_micropolar(Problem::plane_stress, offsets, 2.0, elastic);
-  for (const Strain& strain : {Strain{{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}},
-                               Strain{{{1, 0, 0}, {0, -0.2, 0}, {0, 0, 0}}}}) {
+  for (const Strain& strain :
+       {Strain{{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, Strain{{{1, 0, 0}, {0, -0.2, 0}, {0, 0, 0}}}}) {
     const double expected = hooke(Problem::plane_stress, elastic, strain);
     EXPECT_NEAR(energy_density(offsets, 2.0, moduli, strain), expected, 1e-13 * expected);
   }
@@ -159,11 +158,10 @@ TEST(LatticeMicropolar, CubicLatticesHaveTheBulkModulusAndTheVoigtMeanOfTheShear
   // Five independent shears of equal norm; their mean energy is the Voigt mean.
   const double h = std::sqrt(0.5), s = std::sqrt(1.0 / 6.0);
   double mean = 0.0, expected = 0.0;
-  for (const Strain& shear : {Strain{{{0, h, 0}, {h, 0, 0}, {0, 0, 0}}},
-                              Strain{{{0, 0, h}, {0, 0, 0}, {h, 0, 0}}},
-                              Strain{{{0, 0, 0}, {0, 0, h}, {0, h, 0}}},
-                              Strain{{{h, 0, 0}, {0, -h, 0}, {0, 0, 0}}},
-                              Strain{{{s, 0, 0}, {0, s, 0}, {0, 0, -2 * s}}}}) {
+  for (const Strain& shear :
+       {Strain{{{0, h, 0}, {h, 0, 0}, {0, 0, 0}}}, Strain{{{0, 0, h}, {0, 0, 0}, {h, 0, 0}}},
+        Strain{{{0, 0, 0}, {0, 0, h}, {0, h, 0}}}, Strain{{{h, 0, 0}, {0, -h, 0}, {0, 0, 0}}},
+        Strain{{{s, 0, 0}, {0, s, 0}, {0, 0, -2 * s}}}}) {
     mean += energy_density(offsets, 0.5, moduli, shear) / 5.0;
     expected += hooke(Problem::three_dimensional, elastic, shear) / 5.0;
   }

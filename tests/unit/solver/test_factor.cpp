@@ -32,9 +32,7 @@ Eigen::VectorXd dense_vector(const SparseVector& x, Index size) {
 
 class EveryRoute : public testing::TestWithParam<std::pair<FactorRoute, int>> {
  protected:
-  std::unique_ptr<Factor> make() const {
-    return make_factor(GetParam().first, GetParam().second);
-  }
+  std::unique_ptr<Factor> make() const { return make_factor(GetParam().first, GetParam().second); }
 };
 
 TEST_P(EveryRoute, SolvesLikeADenseFactor) {
@@ -214,14 +212,15 @@ TEST_P(EveryRoute, DowndatesOfSeveralVectorsFollowTheLoad) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Routes, EveryRoute,
-    testing::Values(std::pair{FactorRoute::in_place, 1}, std::pair{FactorRoute::in_place, 2},
-                    std::pair{FactorRoute::cholmod_updown, 1},
-                    std::pair{FactorRoute::refactorize, 1}),
-    [](const auto& parameter) {
-      return to_string(parameter.param.first) + std::to_string(parameter.param.second);
-    });
+INSTANTIATE_TEST_SUITE_P(Routes, EveryRoute,
+                         testing::Values(std::pair{FactorRoute::in_place, 1},
+                                         std::pair{FactorRoute::in_place, 2},
+                                         std::pair{FactorRoute::cholmod_updown, 1},
+                                         std::pair{FactorRoute::refactorize, 1}),
+                         [](const auto& parameter) {
+                           return to_string(parameter.param.first) +
+                                  std::to_string(parameter.param.second);
+                         });
 
 }  // namespace
 }  // namespace perilink

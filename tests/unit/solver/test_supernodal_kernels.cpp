@@ -95,8 +95,8 @@ TEST_P(Width, ChangeGivesTheFactorOfTheChangedMatrixAndSolvesWithTheOldOne) {
   const Eigen::VectorXd solved =
       node.lower().transpose().triangularView<Eigen::UnitUpper>().solve(local);
 
-  supernodal::backward_and_change(node.block.data(), node.rows, node.columns, p.data(),
-                                  beta.data(), local.data(), w.data());
+  supernodal::backward_and_change(node.block.data(), node.rows, node.columns, p.data(), beta.data(),
+                                  local.data(), w.data());
 
   EXPECT_LT((local - solved).norm(), 1e-13 * solved.norm());
   EXPECT_LT((w - x).norm(), 1e-13 * x.norm());

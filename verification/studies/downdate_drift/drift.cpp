@@ -46,8 +46,7 @@ std::vector<double> fresh_solution(const Model& model, const Unknowns& unknowns,
   std::vector<double> solution(load.size());
   factor->solve(load, solution);
   // One step of refinement makes the yardstick better than what it measures.
-  const InternalForce internal =
-      internal_force(model.network, secants, expand(unknowns, solution));
+  const InternalForce internal = internal_force(model.network, secants, expand(unknowns, solution));
   std::vector<double> residual;
   for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
     if (unknowns.number[slot] == no_index) continue;
@@ -65,8 +64,7 @@ std::vector<Drift> measure_drift(const Model& model, int downdates, int interval
   const auto factor = make_factor(FactorRoute::in_place, 1);
   factor->factorize(assemble_stiffness(model.network, secants, model.unknowns),
                     particle_of_unknown(model.unknowns));
-  const auto load =
-      assemble_right_hand_side(model.network, secants, model.unknowns, model.loads);
+  const auto load = assemble_right_hand_side(model.network, secants, model.unknowns, model.loads);
   std::vector<double> solution(load.size()), again(load.size());
   factor->follow_load(load, solution);
   std::mt19937_64 random(12345);
@@ -75,8 +73,8 @@ std::vector<Drift> measure_drift(const Model& model, int downdates, int interval
   auto measure = [&] {
     const auto fresh = fresh_solution(model, model.unknowns, secants);
     factor->solve(load, again);
-    table.push_back({done, residual_of(model, secants, solution),
-                     relative_error(solution, fresh), relative_error(again, fresh)});
+    table.push_back({done, residual_of(model, secants, solution), relative_error(solution, fresh),
+                     relative_error(again, fresh)});
   };
   measure();
   while (done < downdates) {
@@ -126,8 +124,7 @@ Detachment measure_detachment(const Model& model, double x, double y, double rad
   for (std::size_t slot = 0; slot < held.size(); ++slot) {
     held[slot] = model.unknowns.number[slot] == no_index || inside[slot / 2];
   }
-  const Unknowns rest =
-      number_unknowns(2, held, std::vector<double>(held.size(), 0.0));
+  const Unknowns rest = number_unknowns(2, held, std::vector<double>(held.size(), 0.0));
   const auto expected = expand(rest, fresh_solution(model, rest, secants));
   double difference = 0.0, size = 0.0;
   for (std::size_t slot = 0; slot < held.size(); ++slot) {

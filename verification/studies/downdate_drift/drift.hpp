@@ -9,9 +9,9 @@ namespace perilink::verification {
 /// Accuracy after so many downdates.
 struct Drift {
   int downdates = 0;
-  double residual = 0.0;       ///< |f - K u| / |f|, u moved along by every downdate
-  double error = 0.0;          ///< |u - fresh| / |fresh|, fresh: factorised anew
-  double factor_error = 0.0;   ///< |K^-1 f - fresh| / |fresh| with the downdated factor
+  double residual = 0.0;      ///< |f - K u| / |f|, u moved along by every downdate
+  double error = 0.0;         ///< |u - fresh| / |fresh|, fresh: factorised anew
+  double factor_error = 0.0;  ///< |K^-1 f - fresh| / |fresh| with the downdated factor
 };
 
 /// Removes bonds of the model drawn at random (fixed seed; a bond whose pivot is below 1/100 stays,
@@ -21,10 +21,10 @@ std::vector<Drift> measure_drift(const Model& model, int downdates, int interval
 
 /// What cutting a part out of the body does to the rest.
 struct Detachment {
-  int particles = 0;     ///< in the part
-  int bonds = 0;         ///< that held it
-  int springs = 0;       ///< ground springs that the engine added
-  double error = 0.0;    ///< of the rest, against a fresh factor without the part
+  int particles = 0;   ///< in the part
+  int bonds = 0;       ///< that held it
+  int springs = 0;     ///< ground springs that the engine added
+  double error = 0.0;  ///< of the rest, against a fresh factor without the part
 };
 
 /// Cuts out all particles within `radius` spacings of the one nearest to the point.

@@ -20,8 +20,7 @@ Agreement compare_routes(const Model& model, FactorRoute other, Index events, In
   agreement.factorizations = ours.result.factor.factorizations;
   agreement.seconds = ours.seconds;
   agreement.other_seconds = reference.seconds;
-  agreement.compared =
-      static_cast<Index>(std::min(ours.rows.size(), reference.rows.size()));
+  agreement.compared = static_cast<Index>(std::min(ours.rows.size(), reference.rows.size()));
   for (Index k = 0; k < agreement.compared; ++k) {
     if (ours.rows[k].element != reference.rows[k].element) ++agreement.mismatches;
     const double expected = reference.rows[k].load_factor;

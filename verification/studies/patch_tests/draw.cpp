@@ -34,9 +34,10 @@ void draw_panel(Svg& svg, const LogAxis& x, const std::vector<PatchResult>& resu
                 bool micropolar) {
   double y = top;
   svg.text({x.pixel_low, top - 22}, micropolar ? "micropolar" : "bond-based", "start", text_style);
-  const auto count = static_cast<double>(
-      std::count_if(results.begin(), results.end(),
-                    [&](const PatchResult& r) { return r.body.micropolar == micropolar; }));
+  const auto count =
+      static_cast<double>(std::count_if(results.begin(), results.end(), [&](const PatchResult& r) {
+        return r.body.micropolar == micropolar;
+      }));
   const double bottom = top + row_height * count;
   for (const double tick : {1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1.0, 1e3}) {
     svg.line({x.map(tick), top - 6}, {x.map(tick), bottom}, "stroke=\"#e0e0e0\"");

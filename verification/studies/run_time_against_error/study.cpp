@@ -54,9 +54,8 @@ void keep(Comparison& comparison, const StudySeries& series, StudyMember member)
 /// The plate meshed with cells of one size by the program gmsh. \return the key that names the mesh
 TomlValue make_mesh(const fs::path& work, double size) {
   const std::string mesh = (work / fmt::format("plate_{}.msh", size)).string();
-  const std::string command =
-      fmt::format("gmsh -v 1 -2 -format msh41 -setnumber h {} '{}' -o '{}'", size,
-                  (here / "plate_with_hole.geo").string(), mesh);
+  const std::string command = fmt::format("gmsh -v 1 -2 -format msh41 -setnumber h {} '{}' -o '{}'",
+                                          size, (here / "plate_with_hole.geo").string(), mesh);
   if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
   return body_key("mesh", mesh);
 }

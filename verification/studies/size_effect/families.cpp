@@ -108,8 +108,8 @@ std::vector<std::vector<LayerStiffness>> family_stiffness(const FamilyInput& inp
     column.insert(column.end(), {row * body.lattice.step[0], 0.0, 0.0});
     column.resize(column.size() + dim - 3);
   }
-  const Csr within = find_neighbors(particles.positions, column, particles.dim,
-                                    1.0 + horizon_tolerance);
+  const Csr within =
+      find_neighbors(particles.positions, column, particles.dim, 1.0 + horizon_tolerance);
   std::vector<std::vector<LayerStiffness>> result;
   for (Index row = 0; row < within.rows(); ++row) {
     const std::span<const double> center(column.data() + row * dim, dim);

@@ -8,8 +8,8 @@
 namespace perilink::verification {
 
 std::array<double, 4> differences(const FamilyRow& row) {
-  return {row.found.e1 - row.exact.e1, row.found.e2 - row.exact.e2,
-          row.found.nu12 - row.exact.nu12, row.found.nu2 - row.exact.nu2};
+  return {row.found.e1 - row.exact.e1, row.found.e2 - row.exact.e2, row.found.nu12 - row.exact.nu12,
+          row.found.nu2 - row.exact.nu2};
 }
 
 std::array<double, 4> largest_differences(const std::vector<FamilyRow>& rows) {
@@ -31,9 +31,9 @@ std::vector<FamilyRow> compare_families(const FamilyInput& input) {
     const MicropolarModuli moduli = continuum_micropolar(input.problem, {1.0, ratio}, 1.0, 1.0);
     for (std::size_t r = 0; r < input.rows.size(); ++r) {
       const double depth = static_cast<double>(input.rows[r]) / input.horizon_ratio;
-      rows.push_back({ratio, depth, layer_moduli(input.problem, stiffness[r][n]),
-                      layer_moduli(input.problem,
-                                   layer_stiffness(input.problem, moduli, 1.0, depth))});
+      rows.push_back(
+          {ratio, depth, layer_moduli(input.problem, stiffness[r][n]),
+           layer_moduli(input.problem, layer_stiffness(input.problem, moduli, 1.0, depth))});
     }
   }
   return rows;
@@ -49,9 +49,8 @@ BarRow compare_bar(int width, int horizon_ratio, double poissons_ratio, bool cal
                      .e2;
   row.exact = layer_moduli(problem, plate_stiffness(problem, moduli, 1.0, width)).e2;
   row.calibrated =
-      calibrated
-          ? apparent_modulus({width, horizon_ratio, poissons_ratio, Surface::calibrated})
-          : std::nan("");
+      calibrated ? apparent_modulus({width, horizon_ratio, poissons_ratio, Surface::calibrated})
+                 : std::nan("");
   return row;
 }
 

@@ -42,8 +42,8 @@ std::vector<FamilyRow> run_series(const Series& series, CsvWriter& table, bool& 
     rows = compare_families({series.problem, ratio, rows_of(ratio), series.poissons_ratios});
     const auto largest = largest_differences(rows);
     const double dimension = dimension_as_number(series.problem);
-    table.write_row({dimension, static_cast<double>(ratio), largest[0], largest[1], largest[2],
-                     largest[3]});
+    table.write_row(
+        {dimension, static_cast<double>(ratio), largest[0], largest[1], largest[2], largest[3]});
     fmt::print(
         "{:.0f}D, horizon {:3d} spacings: E1/E {:.1e}  E2/E {:.1e}  nu12 {:.1e}  nu2 {:.1e}\n",
         dimension, ratio, largest[0], largest[1], largest[2], largest[3]);
@@ -92,9 +92,10 @@ bool run_bars(const std::string& directory) {
     for (const int width : {1, 2, 3, 4, 6}) {
       if (ratio == 12 && width == 6) continue;  // gigabytes
       const BarRow row = compare_bar(width, ratio, 0.2, ratio == 3);
-      fmt::print("width {}, horizon {:2d} spacings: {:.4f}, bound {:.4f}, closed form {:.4f}, "
-                 "calibrated {:.10f}\n",
-                 width, ratio, row.uncorrected, row.families, row.exact, row.calibrated);
+      fmt::print(
+          "width {}, horizon {:2d} spacings: {:.4f}, bound {:.4f}, closed form {:.4f}, "
+          "calibrated {:.10f}\n",
+          width, ratio, row.uncorrected, row.families, row.exact, row.calibrated);
       std::fflush(stdout);
       table.write_row({static_cast<double>(width), static_cast<double>(ratio), row.uncorrected,
                        row.families, row.exact, row.calibrated});

@@ -104,8 +104,8 @@ class StateParticles final : public ExplicitBonds {
   bool breakable_ = false;
   std::vector<std::size_t> offsets_{0};
   std::vector<StateHalf<Dim>> halves_;
-  std::vector<double> sum_;           ///< of weakened extensions of each particle's neighbours
-  std::vector<double> extension_;     ///< of each half, of the breakable
+  std::vector<double> sum_;             ///< of weakened extensions of each particle's neighbours
+  std::vector<double> extension_;       ///< of each half, of the breakable
   std::vector<SignedFactors> factors_;  ///< the same
   std::vector<double> damage_, next_;
   std::vector<double> band_;  ///< width of the crack band [length]

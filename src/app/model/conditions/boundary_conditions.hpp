@@ -2,7 +2,6 @@
 
 #include "app/model/model.hpp"
 
-
 namespace perilink {
 
 /// Puts the supports, driven displacements and loads of a case on the particles of the model and

@@ -2,7 +2,6 @@
 
 #include "app/model/model.hpp"
 
-
 namespace perilink {
 
 /// All loads of a case on the particles of its model.

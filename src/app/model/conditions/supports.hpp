@@ -5,7 +5,6 @@
 
 #include "app/model/model.hpp"
 
-
 namespace perilink {
 
 /// Displacements and rotations that are prescribed.

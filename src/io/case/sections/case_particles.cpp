@@ -34,9 +34,9 @@ void refuse_horizon_keys(const CaseTable& table) {
 
 void read_particle_material(const CaseTable& table, const BodySection& body,
                             MaterialSection& material) {
-  for (const char* key : {"boundary_factor", "internal_damping", "external_damping",
-                          "fundamental_period", "yield_strength", "ultimate_strength",
-                          "ultimate_plastic_strain", "crushing_energy"}) {
+  for (const char* key :
+       {"boundary_factor", "internal_damping", "external_damping", "fundamental_period",
+        "yield_strength", "ultimate_strength", "ultimate_plastic_strain", "crushing_energy"}) {
     if (!table.has(key)) continue;
     table.refuse(key, "is given, but only bodies with model = \"lattice\" have it",
                  std::string(key).ends_with("damping")

@@ -124,9 +124,8 @@ CaseFile parse_case(const std::string& text, const std::string& path,
         return read_material(table, input.body, index);
       });
   const auto in_body = [&input](auto reader) {
-    return [&input, reader](const CaseTable& table, std::size_t) {
-      return reader(table, input.body);
-    };
+    return
+        [&input, reader](const CaseTable& table, std::size_t) { return reader(table, input.body); };
   };
   input.supports = document.list("supports", in_body(read_support));
   input.displacements = document.list("displacements", in_body(read_displacement));

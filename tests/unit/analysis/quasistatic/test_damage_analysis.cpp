@@ -172,8 +172,8 @@ TEST(DamageAnalysis, AnObserverThatFailsLeavesWhatWasFound) {
     }
   } observer;
   const AnalysisBody body = make_driven_chains();
-  const DamageResult result = run_damage_analysis(body.network, body.unknowns, body.loads,
-                                                  body.reference, {}, observer);
+  const DamageResult result =
+      run_damage_analysis(body.network, body.unknowns, body.loads, body.reference, {}, observer);
   EXPECT_EQ(result.ending, Ending::failed);
   EXPECT_EQ(result.reason, "no room");
   EXPECT_EQ(result.last.step, 2);

@@ -111,8 +111,7 @@ TEST(Cracks, PlanesCutInSpace) {
   const Bonds bonds = make_bonds(particles, 1.0);
   // Rows between, then along a layer; seen from above the corners run counter-clockwise.
   for (const double z : {0.5, 0.0}) {
-    const std::vector<Crack> cracks = {
-        {{{-4, -4, z}, {0.5, -4, z}, {0.5, 4, z}, {-4, 4, z}}}};
+    const std::vector<Crack> cracks = {{{{-4, -4, z}, {0.5, -4, z}, {0.5, 4, z}, {-4, 4, z}}}};
     const CutBonds cut = find_cut_bonds(particles, bonds, cracks, 1.0);
     EXPECT_EQ(cut.count[0], 4 * 7);
     EXPECT_TRUE(is_cut(particles, bonds, cut, {-1, 2, 0}, {-1, 2, z > 0.0 ? 1.0 : -1.0}));

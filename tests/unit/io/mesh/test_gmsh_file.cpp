@@ -189,8 +189,8 @@ TEST(GmshFile, PassesOverCommentsResultsAndWindowsLineEnds) {
 }
 
 TEST(GmshFile, KeepsCellsOfNoGroupOnly) {
-  const std::string text = replaced(replaced(square_mesh, "0 1 5 2 11 12", "0 0 2 11 12"),
-                                    "2 -3 4 2 1 2", "0 2 1 2");
+  const std::string text =
+      replaced(replaced(square_mesh, "0 1 5 2 11 12", "0 0 2 11 12"), "2 -3 4 2 1 2", "0 2 1 2");
   const Mesh mesh = parse_gmsh(text, "m", 2);
   EXPECT_EQ(mesh.num_cells(), 4);
   EXPECT_EQ(mesh.num_facets(), 1);  // of "left"
@@ -208,8 +208,7 @@ void PrintTo(const Fault& fault, std::ostream* stream) { *stream << fault.name; 
 class GmshFileFault : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(GmshFileFault, IsRefusedWithFileAndReason) {
-  const std::string message =
-      message_of(replaced(square_mesh, GetParam().from, GetParam().to));
+  const std::string message = message_of(replaced(square_mesh, GetParam().from, GetParam().to));
   EXPECT_THAT(message, HasSubstr("body.msh"));
   EXPECT_THAT(message, HasSubstr(GetParam().message));
 }
@@ -258,8 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& fault) { return std::string(fault.param.name); });
 
 TEST(GmshFile, RefusesEveryTruncation) {
-  for (const std::string& whole :
-       {std::string(square_mesh), BinaryWriter(square_mesh).write()}) {
+  for (const std::string& whole : {std::string(square_mesh), BinaryWriter(square_mesh).write()}) {
     const std::size_t end = whole.rfind("$EndElements");
     for (std::size_t size = 0; size < end + 12; ++size) {
       EXPECT_NE(message_of(whole.substr(0, size)), "accepted") << size;

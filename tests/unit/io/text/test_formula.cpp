@@ -37,12 +37,12 @@ TEST(Formula, FollowsTheRulesOfAlgebra) {
 TEST(Formula, KnowsFunctionsAndConstants) {
   EXPECT_EQ(value("pi"), std::numbers::pi);
   EXPECT_EQ(value("e"), std::numbers::e);
-  EXPECT_DOUBLE_EQ(value("sin(pi*x/3) + exp(y) + sqrt(z) + ln(z)"),
-                   std::sin(std::numbers::pi * 2.0 / 3.0) + std::exp(3.0) + std::sqrt(5.0) +
-                       std::log(5.0));
-  for (const char* name : {"sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
-                           "asinh", "acosh", "atanh", "sqrt", "exp", "ln", "log10", "log2", "abs",
-                           "sign", "rint"}) {
+  EXPECT_DOUBLE_EQ(
+      value("sin(pi*x/3) + exp(y) + sqrt(z) + ln(z)"),
+      std::sin(std::numbers::pi * 2.0 / 3.0) + std::exp(3.0) + std::sqrt(5.0) + std::log(5.0));
+  for (const char* name :
+       {"sin",   "cos",   "tan",  "asin", "acos", "atan",  "sinh", "cosh", "tanh", "asinh",
+        "acosh", "atanh", "sqrt", "exp",  "ln",   "log10", "log2", "abs",  "sign", "rint"}) {
     EXPECT_EQ(refusal(std::string(name) + "(x)"), "accepted") << name;
   }
   EXPECT_DOUBLE_EQ(value("atan2(y, x) + log10(x) + log2(x)"),
@@ -80,9 +80,7 @@ TEST(Formula, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(refusal("x y"), "accepted");
 }
 
-TEST(Formula, MayLeaveTheNumbers) {
-  EXPECT_TRUE(std::isinf(value("1/x", {0.0, 0.0, 0.0})));
-}
+TEST(Formula, MayLeaveTheNumbers) { EXPECT_TRUE(std::isinf(value("1/x", {0.0, 0.0, 0.0}))); }
 
 TEST(Expression, IsZeroOnlyWhereANumberSaysSo) {
   EXPECT_TRUE(Expression(0.0).is_zero());

@@ -39,9 +39,7 @@ TEST(InputText, IsReadNoFurtherThanTheLimit) {
   EXPECT_THROW(refuse_large_input(read_input_text(path), path), InputError);
 }
 
-TEST(InputText, DevicesAreNotWaitedFor) {
-  EXPECT_THROW(read_input_text("/dev/zero"), FileError);
-}
+TEST(InputText, DevicesAreNotWaitedFor) { EXPECT_THROW(read_input_text("/dev/zero"), FileError); }
 
 }  // namespace
 }  // namespace perilink

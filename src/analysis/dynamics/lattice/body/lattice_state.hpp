@@ -102,8 +102,8 @@ struct ExplicitState {
   std::vector<double> share_compression;  ///< the same of own bonds that shorten
   std::vector<double> damage;             ///< tensile, of particles
   std::vector<double> next_damage;        ///< at the end of the step
-  Index step = 0;                 ///< the present one
-  std::vector<Index> cracked_in;  ///< step in which damage of a particle began
+  Index step = 0;                         ///< the present one
+  std::vector<Index> cracked_in;          ///< step in which damage of a particle began
   std::vector<double> crack_band;         ///< width [length]; zero where no crack began
   std::vector<double> crack_at;  ///< first principal stress at which a particle is looked at
   std::vector<double> grow_at;   ///< strain that drives damage by the rules of the papers, the same

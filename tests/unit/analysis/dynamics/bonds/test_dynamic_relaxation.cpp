@@ -167,8 +167,8 @@ TEST(DynamicRelaxation, ObserversStopItAndTheirExceptionsPass) {
       Ending::interrupted);
   Recorder breaking;
   breaking.breaks = true;
-  const RelaxationResult failed = run_dynamic_relaxation(body.network, body.unknowns, body.loads,
-                                                         body.reference, {}, breaking);
+  const RelaxationResult failed =
+      run_dynamic_relaxation(body.network, body.unknowns, body.loads, body.reference, {}, breaking);
   EXPECT_EQ(failed.ending, Ending::failed);
   EXPECT_EQ(failed.reason, "the disk is full");
 }

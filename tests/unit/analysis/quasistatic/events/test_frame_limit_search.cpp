@@ -97,8 +97,7 @@ TEST(FrameLimitSearch, BondsBreakInTensionOnly) {
   EXPECT_EQ(search.find(std::vector<double>{0, 0, 0.1, 1e-17, 0.2, -0.1}, 0.0, 1).element,
             no_index);
   // s = 1e-3, g / xi = 0.2 - (0.1 - 0.1) / 2 = 0.2, dtheta = -0.2.
-  const BreakSearch::Hit hit =
-      search.find(std::vector<double>{0, 0, 0.1, 1e-3, 0.2, -0.1}, 0.0, 1);
+  const BreakSearch::Hit hit = search.find(std::vector<double>{0, 0, 0.1, 1e-3, 0.2, -0.1}, 0.0, 1);
   EXPECT_EQ(hit.element, 0);
   EXPECT_NEAR(hit.ratio, 1e3 * std::sqrt(1e-6 + 1.5 * 0.04 + 1.5 * 0.04 / 12.0), 1e-10);
 }

@@ -50,8 +50,8 @@ TEST_P(MicropolarRemoval, DecoupledModesAreTheSameRemovalAndDoNotInteract) {
     const Eigen::MatrixXd lost = before * before.transpose();
     EXPECT_LT((after * after.transpose() - lost).cwiseAbs().maxCoeff(),
               1e-13 * network.stiffness[e]);
-    const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(removal.rank, removal.rank) -
-                                 after.transpose() * inverse * after;
+    const Eigen::MatrixXd rest =
+        Eigen::MatrixXd::Identity(removal.rank, removal.rank) - after.transpose() * inverse * after;
     double energy_before = 0.0, energy_after = 0.0, product = 0.0;
     for (int m = 0; m < removal.rank; ++m) {
       EXPECT_NEAR(rest(m, m), removal.pivot[m], 1e-13);

@@ -200,11 +200,11 @@ TEST(CaseLattice, RefusesMaterials) {
                     {"materials[1].tensile_strength", "is unbreakable"}},
                    {"density", "boundary_factor = 1\ndensity", {"is unbreakable"}}});
   const char* in_space = "tensile_strength = 0.1\nfracture_energy = 1";
-  expect_refusals(space_case(),
-                  {{"fracture_energy = \"infinite\"",
-                    in_space,
-                    {"materials[1].fracture_energy",
-                     "the rules of 2018 have no damage in space"}}});
+  expect_refusals(
+      space_case(),
+      {{"fracture_energy = \"infinite\"",
+        in_space,
+        {"materials[1].fracture_energy", "the rules of 2018 have no damage in space"}}});
   expect_refusals(small_case, {{"fracture_energy",
                                 "tensile_strength = 1\nfracture_energy",
                                 {"materials[1].tensile_strength", "model = \"lattice\""}}});

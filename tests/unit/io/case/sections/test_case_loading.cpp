@@ -13,10 +13,10 @@ const std::string base = small_case;
 std::string with(const std::string& table) { return base + "\n" + table; }
 
 TEST(CaseLoading, ReadsTractionsAndPressures) {
-  const CaseFile input = parse_case(
-      with("[[tractions]]\nregion = \"block\"\ntraction = [\"1 - y^2/4\", 2]\n"
-           "[[tractions]]\nregion = \"surface\"\npressure = -3\n"),
-      "case.toml");
+  const CaseFile input =
+      parse_case(with("[[tractions]]\nregion = \"block\"\ntraction = [\"1 - y^2/4\", 2]\n"
+                      "[[tractions]]\nregion = \"surface\"\npressure = -3\n"),
+                 "case.toml");
   ASSERT_EQ(input.tractions.size(), 2u);
   EXPECT_EQ((*input.tractions[0].traction)[0].formula, "1 - y^2/4");
   EXPECT_EQ((*input.tractions[0].traction)[1].number, 2.0);
@@ -26,21 +26,21 @@ TEST(CaseLoading, ReadsTractionsAndPressures) {
 }
 
 TEST(CaseLoading, ReadsFormulasOfDisplacementsAndBodyForces) {
-  const CaseFile input = parse_case(
-      with("[[displacements]]\nregion = \"surface\"\nx = \"0.1*x*y\"\n"
-           "[[loads]]\nregion = \"body\"\nbody_force = [0, \"sin(pi*x)\"]\n"),
-      "case.toml");
+  const CaseFile input =
+      parse_case(with("[[displacements]]\nregion = \"surface\"\nx = \"0.1*x*y\"\n"
+                      "[[loads]]\nregion = \"body\"\nbody_force = [0, \"sin(pi*x)\"]\n"),
+                 "case.toml");
   EXPECT_EQ(input.displacements[0].value[0]->formula, "0.1*x*y");
   EXPECT_FALSE(input.displacements[0].value[1]);
   EXPECT_EQ((*input.loads[1].body_force)[1].formula, "sin(pi*x)");
 }
 
 TEST(CaseLoading, WritesFormulasThatReadBack) {
-  const std::string text =
-      with("[[tractions]]\nregion = \"block\"\ntraction = [\"1 - y^2/4\", 2]\n"
-           "[[tractions]]\nregion = \"surface\"\npressure = \"x\"\n"
-           "[[displacements]]\nregion = \"surface\"\nx = \"0.1*x*y\"\n"
-           "[[loads]]\nregion = \"body\"\nbody_force = [0, \"sin(pi*x)\"]\n");
+  const std::string text = with(
+      "[[tractions]]\nregion = \"block\"\ntraction = [\"1 - y^2/4\", 2]\n"
+      "[[tractions]]\nregion = \"surface\"\npressure = \"x\"\n"
+      "[[displacements]]\nregion = \"surface\"\nx = \"0.1*x*y\"\n"
+      "[[loads]]\nregion = \"body\"\nbody_force = [0, \"sin(pi*x)\"]\n");
   const std::string written = write_case(parse_case(text, ""));
   const CaseFile again = parse_case(written, "");
   EXPECT_EQ(write_case(again), written);
@@ -99,11 +99,11 @@ TEST(CaseLoading, KeepsTheNamesThatEveryCaseHas) {
 const char* const micropolar_body = "columns = 11\nmodel = \"micropolar\"";
 
 TEST(CaseLoading, ReadsPointLoadsSymmetryAndSprings) {
-  const std::string text =
-      with("[[point_loads]]\nat = [0.5, 2]\nforce = [0, -3]\n"
-           "[[symmetry]]\naxis = \"x\"\nat = 0.0\n[[symmetry]]\naxis = \"y\"\nregion = \"block\"\n"
-           "[[springs]]\nregion = \"surface\"\nstiffness = [0, 4]\n"
-           "[[springs]]\nregion = \"block\"\ntotal = [1, 2]\n");
+  const std::string text = with(
+      "[[point_loads]]\nat = [0.5, 2]\nforce = [0, -3]\n"
+      "[[symmetry]]\naxis = \"x\"\nat = 0.0\n[[symmetry]]\naxis = \"y\"\nregion = \"block\"\n"
+      "[[springs]]\nregion = \"surface\"\nstiffness = [0, 4]\n"
+      "[[springs]]\nregion = \"block\"\ntotal = [1, 2]\n");
   for (const CaseFile& input :
        {parse_case(text, ""), parse_case(write_case(parse_case(text, "")), "")}) {
     ASSERT_EQ(input.point_loads.size(), 1u);

@@ -65,10 +65,10 @@ TEST(CaseWriter, WritesMicropolarBodies) {
 }
 
 TEST(CaseWriter, WritesBodiesOfLinearElements) {
-  const CaseFile input = parse_case(
-      replaced(std::string(small_case) + "[analysis]\ntype = \"elastic\"\n", "horizon_ratio = 3",
-               "method = \"linear_elements\""),
-      "");
+  const CaseFile input =
+      parse_case(replaced(std::string(small_case) + "[analysis]\ntype = \"elastic\"\n",
+                          "horizon_ratio = 3", "method = \"linear_elements\""),
+                 "");
   const std::string written = write_case(input);
   EXPECT_EQ(parse_case(written, "").body.method, "linear_elements");
   EXPECT_EQ(write_case(parse_case(written, "")), written);
