@@ -37,7 +37,7 @@ void add_lumped_body_load(const Particles& particles, std::span<const Index> mem
 /// Adds the integral of N_i b over the cells of a mesh for the particles of a region, N linear;
 /// exact for b up to the third order on triangles and the second on tetrahedra.
 /// \param is_member  size particles: nonzero for those that take their share
-/// \param thickness  of two-dimensional bodies [length]; 1 in three dimensions
+/// \param thickness  two-dimensional bodies only [length]; 1 in three dimensions
 void add_cell_body_load(const Particles& particles, const Simplices& cells, double thickness,
                         std::span<const std::uint8_t> is_member, const BodyLoad& load,
                         Loads& loads);

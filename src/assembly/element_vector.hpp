@@ -26,7 +26,7 @@ struct ElementVectors {
 
 /// One vector per mode that has stiffness: one of a truss; three of a micropolar bond in two
 /// dimensions and six in three (network/frame.hpp), the axial one first.
-/// \param fraction  of the intact stiffness that is meant
+/// \param fraction  part of the intact stiffness that is meant
 ElementVectors element_vectors(const Network& network, const Unknowns& unknowns, Index element,
                                double fraction);
 

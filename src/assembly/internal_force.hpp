@@ -17,7 +17,7 @@ struct ForcesAndEnergy {
 };
 using InternalForce = ForcesAndEnergy<double>;
 
-/// \param displacement  of all particles, rotations included; shape (particles, width)
+/// \param displacement  all particles, rotations included; shape (particles, width)
 InternalForce internal_force(const Network& network, std::span<const double> secants,
                              std::span<const double> displacement);
 
@@ -31,8 +31,8 @@ void internal_force(const Network& network, std::span<const double> secants,
                     std::span<const long double> displacement,
                     ForcesAndEnergy<long double>& result);
 
-/// Of every particle of a truss, the sum of the extensions of its bonds, each times its secant
-/// [length]; of a state-based lattice particle L_0 theta.
+/// Per particle of a truss: the sum of the extensions of its bonds, each times its secant [length];
+/// for a particle of a state-based lattice this is L_0 theta.
 std::vector<double> extension_sums(const Network& network, std::span<const double> secants,
                                    std::span<const double> displacement);
 

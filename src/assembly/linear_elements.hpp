@@ -19,8 +19,8 @@ namespace perilink {
 struct LinearElements {
   Simplices cells;
   std::vector<double> volumes;  ///< per cell [length^3]
-  std::vector<double>
-      gradients;               ///< of the shape functions, shape (cells, dim + 1, dim) [1/length]
+  /// Gradients of the shape functions, shape (cells, dim + 1, dim) [1/length].
+  std::vector<double> gradients;
   std::vector<double> lambda;  ///< Lame's first constant per cell; in plane stress that for which
                                ///< stress = lambda trace(strain) + 2 mu strain holds in the plane
                                ///< [force/length^2]
@@ -31,7 +31,7 @@ struct LinearElements {
 };
 
 /// \param positions  shape (particles, dim) [length]
-/// \param thickness  of two-dimensional bodies [length]
+/// \param thickness  two-dimensional bodies only [length]
 /// \param materials  that `cells.material` numbers
 /// \throws std::invalid_argument for a cell that is turned inside out or has no volume
 LinearElements make_linear_elements(Simplices cells, std::span<const double> positions,

@@ -115,7 +115,7 @@ class StateStiffness {
   }
 
   /// Blocks of rows of the coupled particles and columns of particle i.
-  /// \param place  of each particle among the coupled ones; no_index all over between calls
+  /// \param place  per particle: place among the coupled ones; no_index all over between calls
   void sum_blocks(Index i, std::vector<Index>& place, std::vector<Block>& blocks) const {
     const Bonds& bonds = network_.bonds;
     const std::span<const Index> coupled = coupled_.row(i);

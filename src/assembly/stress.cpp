@@ -51,7 +51,8 @@ Eigen::Vector<double, Terms> terms_at(const Eigen::Vector<double, Dim>& x) {
   return terms;
 }
 
-/// Fits the displacements around a particle. \param size  length that scales the positions
+/// Fits the displacements around a particle.
+/// \param size  length that scales the positions
 /// \return whether the neighbours settle the polynomial
 template <int Dim, int Terms>
 bool fit_gradient(const Particles& particles, std::span<const double> displacement, Index particle,

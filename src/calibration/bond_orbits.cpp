@@ -36,10 +36,10 @@ class Symmetry {
   }
 
   const LatticeBox& box_;
-  std::vector<Steps> steps_;  // of each particle from the lower corner
+  std::vector<Steps> steps_;  // per particle, from the lower corner
   Steps bond_limit_{};        // largest depth that counts
   Steps place_limit_{};
-  std::array<int, 3> kind_ = {0, 1, 2};  // of axis; those of one kind may be exchanged
+  std::array<int, 3> kind_ = {0, 1, 2};  // per axis; axes of one kind may be exchanged
   bool trivial_ = false;
 };
 

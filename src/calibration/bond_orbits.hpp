@@ -22,8 +22,8 @@ namespace perilink {
 /// A body in space: a box filled with one lattice.
 struct LatticeBox {
   Vector3 lower{};               ///< [length]
-  Vector3 step{};                ///< of the lattice [length]
-  std::array<Index, 3> count{};  ///< of steps
+  Vector3 step{};                ///< one step of the lattice along each axis [length]
+  std::array<Index, 3> count{};  ///< steps along each axis
 };
 
 /// The box that a body fills, none where it is something else.
@@ -51,7 +51,7 @@ BondOrbits find_orbits(const LatticeBox& box, const Particles& particles, const 
 
 /// The bonds that end at the representatives.
 struct OrbitSample {
-  std::vector<Index> numbers;  ///< of the bonds in the body
+  std::vector<Index> numbers;  ///< their numbers in the body
   Bonds bonds;
   BondStiffness stiffness;
   std::vector<std::uint8_t> free;
@@ -63,7 +63,7 @@ OrbitSample sample_orbits(const BondOrbits& orbits, const Particles& particles, 
 
 /// Gives all bonds of a class the stiffness that the sample found for it.
 /// \param sampled    stiffness of the bonds of the sample
-/// \param stiffness  of the body, unchanged where the sample lacks a class
+/// \param stiffness  for the whole body, unchanged where the sample lacks a class
 /// \return whether it has all
 bool spread(const OrbitSample& sample, const BondStiffness& sampled, const BondOrbits& orbits,
             BondStiffness& stiffness);

@@ -27,15 +27,15 @@ constexpr double worth_dropping = 0.1;
 /// more.
 constexpr double settling_tolerance = 0.01;
 
-/// Of conjugate gradients in one search. Those that end need less, up to 4000 in solids with edges;
-/// those of nearly contradictory equations would go on for minutes.
+/// Iterations of conjugate gradients in one search. Searches that end need less, up to 4000 in
+/// solids with edges; those of nearly contradictory equations would go on for minutes.
 constexpr int most_iterations = 8000;
 
-/// Of what is left of the equations of forces and moments. Multipliers of bodies that can be in
-/// balance are up to 1e3.
+/// Price of what is left of the equations of forces and moments. Multipliers of bodies that can be
+/// in balance are up to 1e3.
 constexpr double price = 1e5, no_price = std::numeric_limits<double>::infinity();
 
-/// Of irregular clouds in space, whose equations often contradict each other. Multipliers are
+/// For irregular clouds in space, whose equations often contradict each other. Multipliers are
 /// about 1 to 1e3 where they do not.
 constexpr double proximity = 1e-8;
 
@@ -87,12 +87,12 @@ class Calibration {
   double tolerance_;
   CalibrationObserver on_search_;
   int searches_ = 0;
-  bool energies_;  // of dilatation take part
+  bool energies_;  // equations of the energies of dilatation take part
   bool soft_moments_ = false;
   CalibrationEquations equations_;
   CalibrationEquations::State settled_;  // where the exact forces began
   CalibrationReport report_;
-  KeptPreconditioner kept_;  // of the force equations
+  KeptPreconditioner kept_;  // for the force equations
 };
 
 /// One search, whose answer becomes the present state.

@@ -53,15 +53,15 @@ struct CalibrationReport {
   double residual_after = 0.0;   ///< ... and at the end
   double moment_after = 0.0;  ///< largest moment out of balance of bonds that carry moments, over
                               ///< 1/2 sum k xi^2
-  double sum_after = 0.0;     ///< of the largest force or moment of each particle
+  double sum_after = 0.0;     ///< largest force or moment of each particle, summed
   Index worst_particle = no_index;
   /// Particles with a force or moment of more than 1e-7 out of balance at the end.
   Index unmet = 0;
-  double smallest_weight = 1.0;  ///< of axial stiffness, end over start
+  double smallest_weight = 1.0;  ///< axial stiffness, end over start
   double largest_weight = 1.0;
   Index at_least_weight = 0;  ///< number of bonds there
   Index dropped = 0;          ///< bonds that may carry nothing: their stiffness is zero
-  int iterations = 0;         ///< of conjugate gradients
+  int iterations = 0;         ///< conjugate gradients, in all
   double seconds = 0.0;       ///< wall time, with that of the families of a lattice
 };
 

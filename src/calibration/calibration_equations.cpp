@@ -254,7 +254,7 @@ std::vector<double> CalibrationEquations::out_of_balance() const {
                                input_.particles.size());
 }
 
-/// Of forces and moments; that of the dilatation is left to the caller.
+/// Right sides of forces and moments; that of the dilatation is left to the caller.
 void CalibrationEquations::set_right_sides(PointEquations& equations) const {
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   const std::size_t known = static_cast<std::size_t>(forces_.count());
@@ -309,7 +309,7 @@ void CalibrationEquations::report_balance(CalibrationReport& report) const {
   report.unmet = 0;
   report.worst_particle = no_index;
   for (const Index i : particle_of_) {
-    double force = 0.0, moment = 0.0;  // of this particle
+    double force = 0.0, moment = 0.0;  // largest on this particle
     for (std::size_t r = 0; r < rows; ++r) {
       double size = std::abs(rest[i * rows + r]) / modulus_[i];
       if (!std::isfinite(size)) size = std::numeric_limits<double>::infinity();

@@ -21,7 +21,7 @@ class CalibrationEquations {
 
   /// \param least_weight  floor of the axial stiffness, relative to the start
   /// \param stiffness     that the calibration starts from
-  /// \param orbits        of the bonds, that change alike; only their representatives are asked for
+  /// \param orbits        bonds that change alike; only their representatives are asked for
   ///                      balance. None: all particles are
   CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,
                        const BondStiffness& stiffness, const BondOrbits* orbits = nullptr);
@@ -66,7 +66,7 @@ class CalibrationEquations {
 
  private:
   enum class Kind { axial, couple, share };
-  /// Of the axial stiffness; small: of bonds that stay after others fell to zero.
+  /// Lower bound of the axial stiffness; small: for bonds that stay after others fell to zero.
   enum class Floor : std::uint8_t { least_weight, none, small };
 
   /// A quantity in the equations: its value is present + scale (weight - 1).
@@ -116,13 +116,13 @@ class CalibrationEquations {
   Facets facets_;                   // with the shares at present
   State start_;                     // zero for bonds that were dropped
   const State given_;               // all of them
-  std::vector<Index> point_of_;     // of each particle, no_index where no free bond ends
-  std::vector<Index> particle_of_;  // of each point
+  std::vector<Index> point_of_;     // per particle, no_index where no free bond ends
+  std::vector<Index> particle_of_;  // per point
   double moments_ridge_ = 0.0;      // 0: exact
   std::vector<Index> free_bonds_;
-  std::vector<Index> kept_;               // of these: not dropped
-  std::vector<Floor> floor_;              // of each bond
-  std::vector<std::uint8_t> on_surface_;  // of each particle: at a facet
+  std::vector<Index> kept_;               // the free bonds that were not dropped
+  std::vector<Floor> floor_;              // per bond
+  std::vector<std::uint8_t> on_surface_;  // per particle: at a facet
   std::vector<double> modulus_;           // 1/2 sum k xi^2 of each particle at the start
   std::vector<double> length_;            // mean xi of each particle
 };

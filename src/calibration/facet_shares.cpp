@@ -78,7 +78,7 @@ class Part {
   void balance() {
     const RigidMotions motions = make_motions();
     Eigen::VectorXd defect, size;
-    std::vector<Eigen::MatrixXd> gradients;  // of the work with the corners' shares, per facet
+    std::vector<Eigen::MatrixXd> gradients;  // per facet: of the work with the corners' shares
     Eigen::MatrixXd gram;
     for (const Index f : members_) {
       gradients.push_back(works(motions, f));
@@ -97,8 +97,8 @@ class Part {
       gram.noalias() += work * work.transpose();
     }
     if (defect.size() == 0 || defect.cwiseAbs().maxCoeff() <= balanced * size.maxCoeff()) return;
-    const Eigen::VectorXd multiplier =
-        gram.completeOrthogonalDecomposition().solve(-defect);  // 6 of the 56 products in 3D repeat
+    // 6 of the 56 products in 3D repeat.
+    const Eigen::VectorXd multiplier = gram.completeOrthogonalDecomposition().solve(-defect);
     for (std::size_t k = 0; k < members_.size(); ++k) {
       const Eigen::VectorXd change = gradients[k].transpose() * multiplier;
       const Index begin = facets_.corners.offsets[members_[k]];

@@ -17,9 +17,9 @@ namespace perilink {
 /// in two dimensions and 50 in three. So must the boundary forces. For polynomials up to the first
 /// degree equal shares do it; where facets differ in size they miss those of the second and third
 /// degree by the square of the spacing, and no weights at all would pass the patch test.
-/// \param positions  of the particles, shape (particles, dim) [length]
+/// \param positions  where the particles are, shape (particles, dim) [length]
 /// \param part_of    part of the body that each particle belongs to, from zero: each must balance
-/// \param modulus    of each material, to weigh facets between materials [force/length^2]
+/// \param modulus    per material, to weigh facets between materials [force/length^2]
 void balance_shares(Facets& facets, std::span<const double> positions,
                     std::span<const Index> part_of, std::span<const double> modulus);
 

@@ -59,7 +59,7 @@ void make_isotropic(int dim, std::span<const Vector3> offsets, double volume,
   equations.rows = rows.count();
   equations.positions.assign(static_cast<std::size_t>(dim), 0.0);
   std::vector<double> row(static_cast<std::size_t>(rows.count()));
-  std::vector<std::size_t> offset_of;  // of each variable: one of a pair of opposite neighbours
+  std::vector<std::size_t> offset_of;  // per variable: one of a pair of opposite neighbours
   double modulus = 0.0;
   for (const bool shear : {false, true}) {
     if (shear && !bending) break;

@@ -8,7 +8,7 @@ namespace perilink {
 
 /// Edge (2D) or triangle (3D) of a surface by its corners.
 struct FacetGeometry {
-  bool edge = true;       ///< of the corners only a and b count
+  bool edge = true;       ///< whether only the corners a and b count
   Vector3 a{}, b{}, c{};  ///< [length]
   Vector3 normal{};       ///< unit vector out of the body
   double size = 0.0;      ///< longest side [length]

@@ -16,14 +16,14 @@ namespace perilink {
 struct Facets {
   int dim = 2;
   Csr corners;  ///< particles at the corners of each facet
-  /// Of each corner, as corners.values; their sum is one per facet. Equal, until balance_shares()
+  /// Per corner, as corners.values; their sum is one per facet. Equal, until balance_shares()
   /// shifts them a little.
   std::vector<double> shares;
   /// Area times unit normal, shape (size, dim) [length^2]; in two dimensions the area is length
   /// times thickness.
   std::vector<double> area_vectors;
   std::vector<Index> inside;   ///< material of the cell that the normal points out of
-  std::vector<Index> outside;  ///< of the cell beyond; no_index: the surface of the body
+  std::vector<Index> outside;  ///< material of the cell beyond; no_index: the surface of the body
 
   Index size() const { return static_cast<Index>(inside.size()); }
   bool on_surface(Index facet) const { return outside[facet] == no_index; }
@@ -40,7 +40,7 @@ struct Facets {
 /// Surface and material interfaces of a mesh, in the order of their corners. At an interface the
 /// inside is the material of the lower number.
 /// \param positions  shape (particles, dim) [length]
-/// \param thickness  of two-dimensional bodies [length]
+/// \param thickness  two-dimensional bodies only [length]
 /// \throws std::invalid_argument where more than two cells share a facet
 Facets facets_of(const Simplices& cells, std::span<const double> positions, double thickness);
 

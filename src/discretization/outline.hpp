@@ -13,7 +13,7 @@ namespace perilink {
 /// Union of axis-parallel boxes on the grid of all their faces (coordinate compression).
 struct Outline {
   int dim = 2;
-  Box bounds;                               ///< of the union
+  Box bounds;                               ///< box around the union
   std::array<std::vector<double>, 3> cuts;  ///< coordinates of the grid planes [length]
   std::vector<std::uint8_t> occupied;       ///< cells of the grid, x fastest
 

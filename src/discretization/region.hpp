@@ -21,7 +21,7 @@ struct Box {
 struct Round {
   Vector3 center{};
   double radius = 0.0;
-  std::optional<int> axis;  ///< of a cylinder, along which the center's coordinate does not count
+  std::optional<int> axis;  ///< axis of a cylinder; the center's coordinate along it does not count
 
   /// Distance of a point from the circle, the sphere or the cylinder's side, negative within.
   double distance(std::span<const double> point) const;
@@ -32,7 +32,7 @@ struct Region {
   std::string name;
   Box box;  ///< around `round`, where the region has one
   std::optional<Round> round;
-  std::string group;  ///< of the mesh; empty: the shape counts
+  std::string group;  ///< group of the mesh; empty: the shape counts
 
   /// Whether a point lies in the shape or within `tolerance` [length] of it; negative: deeper in
   /// the shape than that. Not for groups.

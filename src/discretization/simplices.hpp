@@ -11,7 +11,7 @@ namespace perilink {
 struct Simplices {
   int dim = 2;
   std::vector<Index> vertices;  ///< shape (size, dim + 1), positively oriented
-  std::vector<Index> material;  ///< of each cell
+  std::vector<Index> material;  ///< per cell
 
   Index size() const { return static_cast<Index>(material.size()); }
   std::span<const Index> cell(Index number) const {

@@ -12,7 +12,7 @@ namespace perilink {
 /// [length^3]. The volumes add up to that of the body, whatever its shape and whether or not its
 /// cells are Delaunay's.
 /// \param cells      their vertices are the particles
-/// \param thickness  of two-dimensional bodies [length]
+/// \param thickness  two-dimensional bodies only [length]
 std::vector<double> voronoi_volumes(const Particles& particles, const Simplices& cells,
                                     double thickness);
 

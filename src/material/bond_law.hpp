@@ -58,7 +58,7 @@ class BondLaw {
 
   Sense sense_;
   std::vector<Tooth> teeth_;  ///< before the bond breaks
-  double ratio_;              ///< of neighbouring teeth of a plateau; 0: of other laws
+  double ratio_;              ///< ratio of neighbouring teeth of a plateau; 0: another law
 };
 
 }  // namespace perilink

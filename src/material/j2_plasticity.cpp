@@ -6,7 +6,7 @@
 namespace perilink {
 namespace {
 
-constexpr int most_iterations = 200;  // of which Newton needs a few; bisection would end by then
+constexpr int most_iterations = 200;  // Newton needs a few; bisection would end by then
 
 double product(const SymmetricTensor& a, const SymmetricTensor& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);

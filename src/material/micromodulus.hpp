@@ -21,7 +21,7 @@ double continuum_micromodulus(Problem problem, double youngs_modulus, double hor
 /// What the sums over a lattice give.
 struct LatticeModuli {
   double micromodulus_per_modulus;  ///< c / E [1/length^4]
-  double poissons_ratio;            ///< of the lattice, not exactly bond_poissons_ratio()
+  double poissons_ratio;            ///< that of the lattice, not exactly bond_poissons_ratio()
 };
 
 /// Micromodulus that gives a particle inside the lattice the strain energy of the continuum, with

@@ -11,11 +11,10 @@ namespace perilink {
 struct FamilyBond {
   Vector3 direction{};  ///< unit vector
   double length = 0.0;  ///< L [length]
-  bool far = false;     ///< of the second neighbours
+  bool far = false;     ///< to one of the second neighbours
 };
 
-/// Elastic constants of a state-based particle with neighbours anywhere: the force state of bond j
-/// is
+/// Elastic constants of a state-based particle with neighbours anywhere. The force state of bond j:
 ///   F_j = (own + [j is far] far) S_j + state sum_m L_m S_m.
 struct ParticleModuli {
   double own = 0.0;    ///< a [force]

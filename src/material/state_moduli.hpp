@@ -17,7 +17,7 @@ struct StateModuli {
 /// Six bonds per particle (Nikravesh & Gerstle 2018, Eqs. 19 and 20).
 /// \param problem    plane_stress or plane_strain
 /// \param spacing    L_0 [length]
-/// \param thickness  of the body [length]
+/// \param thickness  two-dimensional bodies only [length]
 /// \throws std::invalid_argument in three dimensions or for a ratio outside (-1, 1/2)
 StateModuli hexagonal_moduli(Problem problem, double youngs_modulus, double poissons_ratio,
                              double spacing, double thickness);

@@ -18,7 +18,7 @@ namespace perilink {
 std::vector<double> own_bending_ratios(const Network& network);
 
 /// Critical stretches from the families of a lattice, the mean over all directions of a crack.
-/// \param cell_volume  of a particle inside [length^3]
+/// \param cell_volume  volume of a particle inside [length^3]
 void set_critical_stretches(const NetworkInput& input, const LatticeFamilies& families,
                             double cell_volume, Network& network);
 

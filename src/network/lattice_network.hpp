@@ -11,12 +11,12 @@ namespace perilink {
 /// A lattice of state-based particles for statics.
 struct LatticeNetwork {
   Network network;
-  std::vector<Index> slots;  ///< of its particles in the lattice, ascending
+  std::vector<Index> slots;  ///< where its particles are in the lattice, ascending
   Index left_out = 0;        ///< particles that bonds hold in fewer than dim directions
 };
 
 /// Solid particles at slots of a lattice, of material 0.
-/// \param volumes  of every slot [length^3]
+/// \param volumes  per slot [length^3]
 Particles lattice_particles(const LatticeRows& lattice, std::span<const Index> slots,
                             std::span<const double> volumes);
 
@@ -27,7 +27,7 @@ Particles lattice_particles(const LatticeRows& lattice, std::span<const Index> s
 /// hung on them. All others have material 0; nothing breaks.
 /// \param own_modulus  coefficient a of own bond k [force]
 /// \param sum_modulus  b, coefficient of the sum of the stretches [force]
-/// \param volumes      of every slot [length^3]
+/// \param volumes      per slot [length^3]
 LatticeNetwork lattice_network(const LatticeRows& lattice, std::span<const double> own_modulus,
                                double sum_modulus, std::span<const double> volumes);
 

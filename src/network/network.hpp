@@ -33,8 +33,8 @@ struct Network {
   /// Where micropolar bonds bent by a transverse force have their inflection, from the first end
   /// over the length [-], per element; empty: in the middle.
   std::vector<double> inflection;
-  /// Of state-based particles: beside its bonds a particle stores c s^2 / 2, s the sum of the
-  /// extensions of its neighbours' bonds, c = b / 2 [force/length] (b / (2 L_0) of a lattice), per
+  /// State-based particles only: beside its bonds a particle stores c s^2 / 2, s the sum of the
+  /// extensions of its neighbours' bonds, c = b / 2 [force/length] (b / (2 L_0) in a lattice), per
   /// particle; negative where Poisson's ratio is below that of the bonds alone. Empty: bonds only.
   /// Trusses alone have it.
   std::vector<double> state_stiffness;
@@ -54,7 +54,7 @@ struct Network {
   Index first_tie = 0;      ///< number of the first tie
   Index first_segment = 0;  ///< number of the first bar segment
   Facets facets;            ///< surface and interfaces, with the shares that the bonds balance
-  std::optional<CalibrationReport> calibration;  ///< of calibrated bonds
+  std::optional<CalibrationReport> calibration;  ///< where bonds were calibrated
 
   std::vector<Index> cut_by_crack;  ///< bonds that each pre-crack took out
 

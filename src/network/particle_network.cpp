@@ -16,7 +16,7 @@ namespace {
 /// Second neighbours are farther than this times the farthest one: in the face-centred lattice
 /// those at sqrt(2) spacings, the farthest, but not those at one.
 constexpr double far_from = 0.85;
-constexpr double tie = 1e-6;  ///< of distances
+constexpr double tie = 1e-6;  ///< distances this close, relatively, count as equal
 /// Candidates per neighbour: some are lost to slits, some families need more than the nearest.
 constexpr int spare = 4;
 
@@ -45,7 +45,7 @@ Bonds find_candidates(const Body& body, int count) {
 
 /// The neighbours of a particle among its candidates, and their constants.
 struct Family {
-  std::vector<Index> elements;  ///< of the candidates
+  std::vector<Index> elements;  ///< those chosen among the candidates
   std::vector<FamilyBond> bonds;
   ParticleFit fit;
   bool enlarged = false;  ///< beyond the nearest, which left some strain free

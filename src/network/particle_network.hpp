@@ -37,7 +37,7 @@ inline constexpr int neighbors_in_plane = 6, neighbors_in_space = 18;
 /// Nothing breaks by a stretch: all critical ones are infinite.
 /// \param body       with cells
 /// \param materials  by Particles::material
-/// \param thickness  of two-dimensional bodies [length]
+/// \param thickness  two-dimensional bodies only [length]
 ParticleNetwork make_particle_network(const Body& body, Problem problem,
                                       std::span<const IsotropicMaterial> materials,
                                       double thickness);

@@ -36,8 +36,8 @@ struct LoadResultant {
 LoadResultant load_resultant(const Network& network, const Loads& loads);
 
 /// Holds exactly the rigid-body modes of a free fragment (three unknowns in 2D, six in 3D) by
-/// marking them in `held`; prefers displacements to rotations and particles
-/// whose bonds cannot break.
+/// marking them in `held`; prefers displacements to rotations, and particles whose bonds cannot
+/// break.
 void pin_rigid_modes(const Network& network, const Fragment& fragment,
                      std::vector<std::uint8_t>& held);
 

@@ -27,8 +27,8 @@ struct FactorStatistics {
   Index size = 0;
   double entries = 0.0;      ///< stored numbers of L
   double bytes = 0.0;        ///< memory of L
-  double flops = 0.0;        ///< of one factorisation
-  double event_bytes = 0.0;  ///< of L that the last downdate read (in place only)
+  double flops = 0.0;        ///< for one factorisation
+  double event_bytes = 0.0;  ///< part of L that the last downdate read (in place only)
   int factorizations = 0;    ///< so far
 };
 
@@ -64,7 +64,7 @@ class Factor {
   virtual double prepare_downdate(const SparseVector& x) = 0;
 
   /// Carries out the removal prepared last: K <- K - x x', f <- f + load_change x.
-  /// \param solution  of the load that is followed: before the removal on entry, after it on return
+  /// \param solution  under the load followed: before the removal on entry, after it on return
   virtual void commit_downdate(double load_change, std::span<double> solution) = 0;
 
   /// x_a' K^-1 x_b of a few vectors that share a path (those of one bond), row after row in

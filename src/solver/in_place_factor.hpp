@@ -69,11 +69,11 @@ class InPlaceFactor final : public Factor {
   CholmodFactorPtr factor_;
   Index size_ = 0;
   int factorizations_ = 0;
-  double flops_ = 0.0;  ///< of one factorisation
+  double flops_ = 0.0;  ///< for one factorisation
 
-  std::vector<Index> position_;      ///< of each unknown in the factor's order
-  std::vector<Index> supernode_of_;  ///< of each column
-  std::vector<Index> parent_;        ///< of each supernode, no_index at roots
+  std::vector<Index> position_;      ///< per unknown: its place in the factor's order
+  std::vector<Index> supernode_of_;  ///< per column
+  std::vector<Index> parent_;        ///< per supernode, no_index at roots
   std::vector<Index> top_;           ///< supernodes above the independent subtrees, descending
   std::vector<std::pair<Index, Index>> subtrees_;  ///< [first, last] supernodes of each
   Index longest_ = 0;                              ///< most rows of a supernode

@@ -33,8 +33,8 @@ TEST_P(StateLattices, ForcesAreTheDerivativeOfTheEnergy) {
   const std::vector<double> forces = internal_force(network_, secants_, u).forces;
   double largest = 0.0;
   for (const double force : forces) largest = std::max(largest, std::abs(force));
-  const double h =
-      1e-3;  // the energy is quadratic: central differences are exact but for round-off
+  // The energy is quadratic: central differences are exact but for round-off.
+  const double h = 1e-3;
   for (std::size_t slot = 0; slot < u.size(); slot += 5) {
     const double middle = u[slot];
     u[slot] = middle + h;

@@ -49,7 +49,7 @@ TEST_P(Symmetry, PlanesHoldUniformTension) {
   const ElasticResult elastic = run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
   const double nu = tested.nu == "0.3333333333333333" ? 1.0 / 3.0 : std::stod(tested.nu);
   const int width = model.network.width();
-  const double bar = 1e-8;  // of the patch tests of calibrated bonds
+  const double bar = 1e-8;  // that of the patch tests of calibrated bonds
   for (Index i = 0; i < model.network.particles.size(); ++i) {
     const std::span<const double> x = model.network.particles.position(i);
     for (int a = 0; a < tested.dim; ++a) {

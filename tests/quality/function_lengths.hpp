@@ -15,8 +15,8 @@ namespace perilink::quality {
 
 struct FunctionExtent {
   std::string header;  ///< text before the body, white space squeezed
-  int first_line = 0;  ///< of the header, one-based
-  int last_line = 0;   ///< of the closing brace
+  int first_line = 0;  ///< where the header begins, one-based
+  int last_line = 0;   ///< where the closing brace is
 
   int length() const { return last_line - first_line + 1; }
 };

@@ -67,7 +67,7 @@ TEST(Sizes, EveryHeaderIsGuardedByPragmaOnce) {
 struct Snippet {
   const char* name;
   const char* text;
-  std::vector<int> lengths;  // of the functions in it, in order
+  std::vector<int> lengths;  // lengths of its functions, in order
 };
 
 /// Without this CTest lists the snippets by their bytes.

@@ -1,4 +1,5 @@
-// Nothing that the project publishes depends on, or speaks of, the machine it was written on.
+// Texts of the project: they speak of no machine, their lines are not too long, and their comments
+// begin with words that stand by themselves.
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,38 @@ std::ptrdiff_t column_limit() {
     if (std::regex_match(line, found, entry)) return std::stol(found[1]);
   }
   throw std::runtime_error(".clang-format says no ColumnLimit");
+}
+
+/// Where the comment of a line begins: "//", "///" or "///<" outside texts; npos: nowhere.
+std::size_t comment_of(const std::string& line) {
+  bool in_text = false;
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+    if (line[k] == '"' && (k == 0 || line[k - 1] != '\\')) in_text = !in_text;
+    if (!in_text && line[k] == '/' && line[k + 1] == '/') return k;
+  }
+  return std::string::npos;
+}
+
+/// Such a comment makes sense only together with the name beside which it stands.
+TEST(Text, NoCommentBeginsWithOf) {
+  const std::regex sentence(R"(//[/<]* +(Of|\\param +\w+ +of)\b.*)");
+  const std::regex fragment(R"(//[/<]* +of\b.*)");
+  for (const char* folder : {"src", "tests", "verification"}) {
+    for (const auto& file : cpp_files(folder)) {
+      std::string before;
+      int number = 0;
+      for (const std::string& line : read_lines(file)) {
+        ++number;
+        const std::size_t start = comment_of(line);
+        const std::string comment = start == std::string::npos ? "" : line.substr(start);
+        const bool goes_on = !before.empty() && line.find_first_not_of(' ') == start;
+        EXPECT_FALSE(std::regex_match(comment, sentence) ||
+                     (!goes_on && std::regex_match(comment, fragment)))
+            << shown(file) << ":" << number << ": " << comment;
+        before = comment;
+      }
+    }
+  }
 }
 
 TEST(Text, LinesOfSourcesEndAtTheColumnLimit) {

@@ -55,7 +55,7 @@ inline ExplicitModel state_block(const StateLatticeCase& lattice, double half) {
                              material, 1.0);
 }
 
-/// Of every particle, in how many steps along bonds one that lacks bonds is reached, up to three.
+/// Per particle: the number of steps along bonds to one that lacks bonds, up to three.
 inline std::vector<int> depths(const Network& network) {
   const Csr families = bonds_of_particles(network.bonds, network.particles.size());
   const std::size_t full = network.dim() == 2 ? 6 : 18;

@@ -86,7 +86,7 @@ class CrackOfABeam : public testing::TestWithParam<Surface> {};
 /// length is uncertain, and no break elsewhere.
 TEST_P(CrackOfABeam, GrowsFromTheNotchAndNowhereElse) {
   const CrackRun run = run_specimen(make_specimen(Shape::notched_beam, 4.0, GetParam()), 1);
-  EXPECT_GT(run.path.extent, 0.6 * 64.0);  // of the ligament
+  EXPECT_GT(run.path.extent, 0.6 * 64.0);  // part of the ligament
   EXPECT_EQ(run.stray.elsewhere, 0);
   EXPECT_NEAR(run.result.last.released_energy / run.path.energy, run.plane_ratio,
               run.plane_ratio * 4.0 / run.path.extent);

@@ -37,7 +37,7 @@ TEST(SizeEffect, ClosedFormsAreTheIntegralsOverDirections) {
   }
 }
 
-/// Of every family on the surface exactly half is left.
+/// Exactly half of every family on the surface is left.
 TEST(SizeEffect, HalfOfTheModulusIsLeftAtTheSurface) {
   for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
     const MicropolarModuli moduli = continuum_micropolar(problem, {1.0, 0.2}, 1.0, 1.0);

@@ -157,7 +157,7 @@ TEST(Splm2018, TheDiscSplits) {
 
 CohesiveDisc paper_disc() { return continuum_of(disc_test("consistent", 30.0, 0.005)); }
 
-/// Of a disc pressed at two points the diameter is under the tension P / (pi R t).
+/// A disc pressed at two points has the tension P / (pi R t) all along the diameter between them.
 TEST(CohesiveDisc, CracksAtTheLoadOfTheElasticFormulaBetweenNarrowPlatens) {
   CohesiveDisc disc = paper_disc();
   disc.half_platen = 0.04 * disc.radius;

@@ -47,8 +47,8 @@ struct RouteTime {
   double total() const { return search + apply; }
   double factorization = 0.0;   ///< seconds of one numerical factorisation
   double solve = 0.0;           ///< seconds of one full solve
-  double bytes = 0.0;           ///< of L
-  double event_bytes = 0.0;     ///< of L that the last event read
+  double bytes = 0.0;           ///< size of L
+  double event_bytes = 0.0;     ///< part of L that the last event read
   std::vector<Index> elements;  ///< that broke
 };
 

@@ -25,7 +25,7 @@ namespace {
 constexpr double concrete = 25e9, density = 2323.0, spacing = 0.01;
 constexpr double updates = 6e7;  ///< particle-steps of one measurement
 constexpr double fewest_steps = 200.0;
-constexpr int repeats = 3;  ///< of which the shortest counts: the machine may be shared
+constexpr int repeats = 3;  ///< the shortest counts: the machine may be shared
 
 enum class Damage { unbreakable, possible, everywhere };
 

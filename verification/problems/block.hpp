@@ -15,7 +15,7 @@
 namespace perilink::verification {
 
 inline constexpr double block_fracture_energy = 0.001;             ///< [kip/in]
-inline constexpr double block_weak_fracture_energy = 0.00095;      ///< of the weak patch [kip/in]
+inline constexpr double block_weak_fracture_energy = 0.00095;      ///< in the weak patch [kip/in]
 inline constexpr Box block_weak_patch{{35, 85, 0}, {65, 115, 0}};  ///< [in]
 
 /// What the cases of the block do not share.
@@ -23,7 +23,7 @@ struct BlockLattice {
   std::string title;
   std::string layout;   ///< lines of [body]: pattern, number of columns or spacing, horizon
   std::string surface;  ///< "calibrated", "ghost" or "none"
-  double inset = 0.0;   ///< of the regions of the caps from the ends of the block [in]
+  double inset = 0.0;   ///< distance of the caps' regions from the ends of the block [in]
 };
 
 /// The case file of the block.

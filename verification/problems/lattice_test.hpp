@@ -18,7 +18,7 @@ struct LatticeTest {
   double spacing = 0.0;                   ///< zero: the case's [length]
   Vector3 offset{};                       ///< from the case's lattice point [length]
   double time_step = 0.0;                 ///< zero: nine tenths of the critical one [time]
-  double speed = 1.0;                     ///< of the loading over the case's
+  double speed = 1.0;                     ///< factor on the case's speed of loading
   bool only_to_peak = false;              ///< ends where the force has fallen to half of its peak
   std::function<void(CaseFile&)> change;  ///< whatever else differs from the case; may be empty
 };
@@ -26,7 +26,7 @@ struct LatticeTest {
 struct LatticeTestRun {
   Index particles = 0;
   double peak_force = 0.0;         ///< between the ends of the body [force]
-  double peak_displacement = 0.0;  ///< of one driven end [length]
+  double peak_displacement = 0.0;  ///< displacement of one driven end [length]
   ExplicitResult result;
   std::vector<Vector3> cracked;  ///< particles with more damage than 0.9 [length]
   double seconds = 0.0;

@@ -32,7 +32,7 @@ class BoxPreconditioner {
   double fastest(const std::vector<double>& mass) const;
 
  private:
-  using Motion = std::array<double, 6>;  ///< of a particle or a box, as many as it has
+  using Motion = std::array<double, 6>;  ///< components of a particle or a box, as many as it has
 
   void number_boxes(const Particles& particles);
   void set_arms(const Particles& particles);
@@ -51,7 +51,8 @@ class BoxPreconditioner {
   std::vector<double> diagonal_;
   Eigen::MatrixXd coarse_;
   Eigen::LDLT<Eigen::MatrixXd> inverse_;
-  std::vector<std::pair<Index, Motion>> on_boxes_;  ///< of one square
+  /// Boxes that one square of the energy involves.
+  std::vector<std::pair<Index, Motion>> on_boxes_;
 };
 
 }  // namespace perilink

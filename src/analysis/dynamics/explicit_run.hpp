@@ -18,7 +18,7 @@ struct ExplicitOptions {
   double ramp = 0.0;       ///< time in which the load factor rises from zero to one [time]
   double time_step = 0.0;  ///< zero: `safety` times the critical one [time]
   double safety = 0.9;
-  int rows = 500;  ///< of the history
+  int rows = 500;  ///< about how many the history gets
   /// Displacement of the driven particles at load factor 1 [length]; where nothing is driven
   /// (`driven` is false) the load there [force].
   double reference = 1.0;
@@ -49,12 +49,12 @@ struct ExplicitRecord {
   Index step = 0;
   double time = 0.0;  ///< [time]
   double load_factor = 0.0;
-  double load = 0.0;              ///< of the driven particles, inertia included [force]
+  double load = 0.0;              ///< force on the driven particles, inertia included [force]
   double support_reaction = 0.0;  ///< along the load [force]
-  double displacement = 0.0;      ///< of the driven particles [length]
-  Index cracked_particles = 0;    ///< of a lattice
-  Index yielded_particles = 0;    ///< of a lattice
-  Index broken_bonds = 0;         ///< of a network of bonds
+  double displacement = 0.0;      ///< at the driven particles [length]
+  Index cracked_particles = 0;    ///< lattices only
+  Index yielded_particles = 0;    ///< lattices only
+  Index broken_bonds = 0;         ///< networks of bonds only
   EnergyBalance energy;
 };
 
@@ -66,8 +66,8 @@ struct ExplicitResult {
   double time_step = 0.0;           ///< [time]
   double critical_time_step = 0.0;  ///< [time]
   double peak_load = 0.0;           ///< largest support reaction in magnitude [force]
-  double peak_displacement = 0.0;   ///< of the driven particles at that moment [length]
-  double largest_surplus = 0.0;     ///< over the external work at the end [-]
+  double peak_displacement = 0.0;  ///< displacement of the driven particles at that moment [length]
+  double largest_surplus = 0.0;    ///< over the external work at the end [-]
   ExplicitRecord last;
 };
 

@@ -19,7 +19,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int most_iterations = 2000;
-constexpr double round_off = 1e-16;  ///< of forces, which very slender bodies multiply
+constexpr double round_off = 1e-16;  ///< relative, in forces; very slender bodies multiply it
 /// Energy that the residual could still set free, over that of the vibration: a tenth of the error
 /// of the square of the frequency, or more.
 constexpr double tolerance = 1e-8;

@@ -38,9 +38,10 @@ enum class MassScaling {
 /// the right sides is at most max (p_i + p_j) times the mass form, hence omega^2 <= max over bonds
 /// of p_i + p_j.
 ///
-/// Of Green strains the tangent of a bond grows with its stretch: the bound is that of all bonds
-/// about to break, to the first order in their stretch, at any rotation; unbreakable bonds count as
-/// they are at rest, and their stretch costs three halves of itself of the critical step.
+/// With Green strains the tangent of a bond grows with its stretch. The bound then is that of all
+/// bonds about to break, to the first order in their stretch, at any rotation. Unbreakable bonds
+/// count as they are at rest; a stretch s of theirs lowers the critical step by the fraction
+/// 3 s / 2.
 /// \param density  by material [mass/length^3], positive
 /// \throws std::invalid_argument where a density is missing or not positive
 Inertia lumped_inertia(const Network& network, std::span<const double> density,

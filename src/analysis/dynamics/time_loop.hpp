@@ -57,7 +57,7 @@ class ExplicitLoop {
     });
   }
 
-  /// \param displacement  of the driven particles at this step [length]
+  /// \param displacement  at the driven particles in this step [length]
   void note_reaction(double supports, double displacement) {
     if (!(std::abs(supports) > std::abs(result_.peak_load))) return;  // nor for what is no number
     result_.peak_load = supports;
@@ -89,7 +89,7 @@ class ExplicitLoop {
   Index steps_ = 0, between_rows_ = 1;
   double initial_ = 0.0, supplied_ = 0.0, largest_surplus_ = 0.0;  ///< energies
   bool done_ = false, overflowed_ = false;
-  std::string failure_;  ///< of an observer
+  std::string failure_;  ///< what an observer failed with
   ExplicitResult result_;
 };
 

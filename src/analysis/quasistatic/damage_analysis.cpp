@@ -104,7 +104,7 @@ class Run {
   Index broken_bonds_ = 0;
   Index yield_events_ = 0;
   StepRecord row_;
-  std::vector<StepRecord> rows_;  ///< of control by events
+  std::vector<StepRecord> rows_;  ///< history under control by events
   DamageResult result_;
 };
 
@@ -195,7 +195,7 @@ bool Run::pass(const Event& event) {
   }
   ++(outcome.broke() ? broken_bonds_ : yield_events_);
   energy_.add_event(outcome);
-  stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // of the body before the event
+  stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // the old value no longer holds
   compliance_ += outcome.compliance_growth;
   if (++events_ % check_interval() == 0 || outcome.pivot < 1e-3 || residual_may_be_large()) check();
   if (network_.law(event.element).endless() && outcome.secant < exhausted_secant) {
@@ -251,9 +251,9 @@ DamageResult Run::by_events() {
 }
 
 /// At prescribed load factors: the worst element fails, and the next, until none exceeds its limit.
-/// Of the stop rules only the number of broken bonds and the signal are looked at within a step;
-/// the others ask for equilibrium at its end. A run that ends within a step reports the last
-/// equilibrium at the load that it can bear.
+/// Within a step only two stop rules are looked at, the number of broken bonds and the signal; the
+/// others ask for equilibrium at the end of the step. A run that ends within a step reports the
+/// last equilibrium at the load that it can bear.
 DamageResult Run::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {

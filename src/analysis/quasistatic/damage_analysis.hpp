@@ -45,7 +45,7 @@ struct DamageResult {
   PeakWatch peaks;                 ///< the same, and what the load did after its first peak
   Index broken_as_gave_way = 0;    ///< bonds broken when the body first gave way
   std::vector<PlaceForce> places;  ///< at the peak, of several; filled in by who knows them
-  std::optional<double> smoothed_peak_load;  ///< of paths of events that are long enough
+  std::optional<double> smoothed_peak_load;  ///< where the path of events is long enough
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;
   /// Largest |work - stored - dissipated| / work of all rows, the stored energy summed over the

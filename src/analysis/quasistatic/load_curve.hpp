@@ -25,9 +25,9 @@ std::vector<CurvePoint> event_path(std::span<const StepRecord> records);
 
 /// Smooth curve through the saw-teeth of an event path that dissipates as much energy: a point for
 /// every `window` events or somewhat more. The event from (u, P) to (u', P') dissipates
-/// (P u' − P' u) / 2. With the sum D of a window and dC the growth of u / P in it,
-/// the point has load² = 2 D / dC and displacement² = 2 D / (fall of P / u): means of the loads and
-/// displacements of the window, beyond none of them. Windows with a growth of round-off have none.
+/// (P u' − P' u) / 2. With the sum D of a window and dC the growth of u / P in it, the point has
+/// load² = 2 D / dC and displacement² = 2 D / (fall of P / u): means of the loads and displacements
+/// of the window, beyond none of them. Windows in which u / P grows by round-off only have none.
 std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::size_t window);
 
 /// Number of events per window that leaves about 120 points, at least 10.

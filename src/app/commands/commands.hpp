@@ -25,7 +25,7 @@ int converge(const RunOptions& options);
 /// perilink compare
 struct CompareOptions {
   std::string first, second;             ///< directories of the results
-  std::optional<std::string> directory;  ///< of the comparison
+  std::optional<std::string> directory;  ///< where the comparison goes
   bool quiet = false;
   bool force = false;
 };

@@ -6,8 +6,8 @@ namespace perilink {
 
 /// perilink plot
 struct PlotOptions {
-  std::string directory;  ///< of the results
-  std::string out;        ///< of the pictures; empty: the same
+  std::string directory;  ///< folder of the results
+  std::string out;        ///< folder of the pictures; empty: that of the results
   double scale = 0.0;     ///< factor on the displacements; 0: automatic
 };
 

@@ -14,7 +14,8 @@ struct ComparedQuantity {
   std::string unit;  ///< empty: none, or not known
   double a = std::numeric_limits<double>::quiet_NaN();
   double b = std::numeric_limits<double>::quiet_NaN();
-  double between = std::numeric_limits<double>::quiet_NaN();  ///< of what belongs to both
+  /// Value of a quantity that belongs to both.
+  double between = std::numeric_limits<double>::quiet_NaN();
 
   /// 100 (b − a) / |a|, 0 where both are zero; not a number where a is none beside b.
   double difference_percent() const;

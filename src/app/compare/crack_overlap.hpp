@@ -18,7 +18,7 @@ inline constexpr double cracked_damage = 0.3;
 
 /// Where two bodies are cracked. Shares are not-a-number where their denominator is zero.
 struct CrackOverlap {
-  double volume_a = 0.0, volume_b = 0.0;  ///< of cracked particles [length^3]
+  double volume_a = 0.0, volume_b = 0.0;  ///< volumes of cracked particles [length^3]
   double near_a = 0.0;   ///< share of volume_a within the tolerance of a cracked particle of b
   double near_b = 0.0;   ///< share of volume_b within the tolerance of a cracked particle of a
   double overlap = 0.0;  ///< cracked in both over cracked in either, by volume

@@ -64,7 +64,7 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
   for (Gauge::Term& term : gauge.terms) term.weight /= whole;
 }
 
-/// Of the six components of a Stress.
+/// Number of a component among the six of a Stress.
 std::size_t number_of(const std::array<int, 2>& axes) {
   if (axes[0] == axes[1]) return axes[0];
   return axes[0] == 1 ? 4 : axes[1] == 1 ? 3 : 5;

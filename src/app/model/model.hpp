@@ -28,7 +28,7 @@ struct Gauge {
   };
   std::string name;
   std::vector<Term> terms;
-  Vector3 direction{};                       ///< of the displacement that is measured
+  Vector3 direction{};                       ///< in which the displacement is measured
   std::optional<std::array<int, 2>> stress;  ///< axes of the component instead of a displacement
 };
 
@@ -36,14 +36,14 @@ struct Gauge {
 struct Model {
   Problem problem = Problem::plane_stress;
   Lattice lattice;
-  Facets facets;              ///< of the body; corners are particles of the network
-  Simplices cells;            ///< of a mesh
-  std::vector<Group> groups;  ///< of a mesh
+  Facets facets;              ///< faces of the body; corners are particles of the network
+  Simplices cells;            ///< meshes only
+  std::vector<Group> groups;  ///< meshes only
   double horizon = 0.0;       ///< [length]
   /// crack_cost() of each material, where critical_stretch = "dissipated" [-].
   std::vector<double> crack_cost;
-  /// Where elements are linear: their particles, and as bonds the edges of the cells, which stand
-  /// for them in all questions of what holds what; their stiffness means nothing.
+  /// With method = "linear_elements": the particles, and the edges of the cells as bonds. Those are
+  /// used only for connectivity; their stiffness means nothing.
   Network network;
   std::optional<LinearElements> elements;         ///< with method = "linear_elements"
   std::optional<ParticleFitReport> particle_fit;  ///< with model = "particles"

@@ -22,7 +22,8 @@ struct CurveFrame {
   SvgPoint at(CurvePoint point) const { return {x.map(point.displacement), y.map(point.load)}; }
 };
 
-/// Frame around all points and the origin. \param top  of the frame on the page [px]
+/// Frame around all points and the origin.
+/// \param top  upper edge of the frame on the page [px]
 CurveFrame make_curve_frame(std::span<const CurvePoint> points, double top);
 
 /// The curve from the origin through the points, without those that fall on the pixel of another.

@@ -19,7 +19,7 @@ constexpr double figure_height = 560.0;
 constexpr double frame_bottom = figure_height - 72.0;
 constexpr double legend_left = frame_right + 24.0;
 constexpr double legend_row = 22.0;
-constexpr double letter_width = 7.0;  ///< of the legend's letters, about
+constexpr double letter_width = 7.0;  ///< about the width of a letter in the legend
 
 /// Colours that the colour-blind tell apart (Okabe & Ito 2008), without yellow, which is too pale.
 constexpr std::array<const char*, 7> colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -117,7 +117,7 @@ void draw_legend(Svg& svg, const ConvergencePlot& plot) {
 /// upper corner.
 void draw_triangles(Svg& svg, const Axes& axes, const std::vector<SlopeTriangle>& triangles) {
   constexpr double width = 70.0;  // [px]
-  constexpr double foot = 18.0;   // of the lowest corner above the axis [px]
+  constexpr double foot = 18.0;   // distance of the lowest corner above the axis [px]
   const double pixels_x = (frame_right - frame_left) / std::log(axes.x.high / axes.x.low);
   const double pixels_y = (frame_bottom - frame_top) / std::log(axes.y.high / axes.y.low);
   const auto fall = [&](const SlopeTriangle& triangle) {

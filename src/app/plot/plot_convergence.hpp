@@ -22,7 +22,7 @@ struct ConvergenceLine {
 /// A triangle that shows what slope an order of convergence has.
 struct SlopeTriangle {
   std::string label;
-  double slope = -1.0;  ///< of log(error) over log(cost), negative
+  double slope = -1.0;  ///< d log(error) / d log(cost), negative
 };
 
 /// Labels and lines of a log-log picture.

@@ -42,7 +42,8 @@ struct Area {
 struct PeakLabel {
   std::string text;
   SvgPoint peak, at;
-  bool left_half = true;  ///< of the picture; the text runs to the right then
+  /// The peak is in the left half of the picture; the text runs to the right then.
+  bool left_half = true;
 
   Area area() const {
     // Letters are about 0.56 of their size wide.

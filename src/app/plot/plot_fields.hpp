@@ -14,7 +14,7 @@ struct FieldsCaption {
   Index broken_bonds = 0;
   double load_factor = 0.0;
   double load = 0.0;
-  std::optional<double> time = std::nullopt;  ///< of explicit analyses, which count no bonds
+  std::optional<double> time = std::nullopt;  ///< in explicit analyses, which count no bonds
 };
 
 /// The deformed body: particles coloured by damage, or by the von Mises stress where the file has

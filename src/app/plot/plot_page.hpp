@@ -15,9 +15,9 @@ namespace perilink {
 /// Rectangle of the page on which the deformed body is drawn.
 struct BodyPage {
   double left = 0.0, right = 0.0, top = 0.0, bottom = 0.0;  ///< [px]
-  double width = 0.0, height = 0.0;                         ///< of the page [px]
+  double width = 0.0, height = 0.0;                         ///< whole page [px]
   double pixels = 1.0;                                      ///< per unit of length
-  Vector3 low{};                                            ///< of the view, at (left, bottom)
+  Vector3 low{};  ///< corner of the view, at (left, bottom)
 
   SvgPoint at(const Vector3& seen) const {
     return {left + (seen[0] - low[0]) * pixels, bottom - (seen[1] - low[1]) * pixels};

@@ -23,7 +23,7 @@ enum class FieldElement { particle = 0, broken_bond = 1, rebar_segment = 2, cell
 ///   file    step, broken_bonds, load_factor, load, dimension, spacing
 /// \param broken_elements_in_order  bonds and ties that broke, first one first
 /// \param families                  bonds of each particle (bonds_of_particles)
-/// \param spacing                   of the particles [length]
+/// \param spacing                   between particles [length]
 VtuGrid make_field_grid(const Network& network, const StepState& state, const StepRecord& record,
                         std::span<const Index> broken_elements_in_order, const Csr& families,
                         double spacing);

@@ -36,7 +36,7 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model);
 /// relaxation those of all rows.
 class BondRunFiles final : public BondRunObserver {
  public:
-  /// \param steps  of the run, for the progress
+  /// \param steps  in the whole run, for the progress
   BondRunFiles(const CaseFile& input, const Model& model, Index steps,
                std::filesystem::path directory, bool quiet);
 
@@ -65,7 +65,7 @@ class BondRunFiles final : public BondRunObserver {
   Index rows_ = 0;
   Index loose_pieces_ = 0;  ///< at the end
   PeakWatch peaks_;
-  std::size_t next_time_ = 0;  ///< of the case's output.fields_times
+  std::size_t next_time_ = 0;  ///< next entry of the case's output.fields_times
   std::vector<PvdEntry> series_;
   double seconds_writing_ = 0.0;
 };

@@ -41,7 +41,7 @@ class ExplicitRunObserver final : public ExplicitObserver {
   ProgressBar bar_;
   Index rows_ = 0;
   PeakWatch peaks_{vibrating_rows};
-  std::size_t next_time_ = 0;  ///< of the case's output.fields_times
+  std::size_t next_time_ = 0;  ///< next entry of the case's output.fields_times
   std::vector<PvdEntry> series_;
   double seconds_writing_ = 0.0;
 };

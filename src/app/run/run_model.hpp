@@ -10,8 +10,8 @@ namespace perilink {
 
 /// What a case's analysis left.
 struct ModelRun {
-  DamageResult result;                   ///< of an elastic case: one row at load factor 1
-  std::optional<ElasticResult> elastic;  ///< of an elastic case
+  DamageResult result;                   ///< elastic cases: one row at load factor 1
+  std::optional<ElasticResult> elastic;  ///< elastic cases only
 };
 
 /// build_model(), while people at a terminal see how the calibration of the bonds comes along.

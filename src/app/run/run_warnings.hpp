@@ -16,10 +16,11 @@ struct RunFacts {
   bool impact = false;     ///< moved by velocities: motion is what the run is about
   /// In which a wave goes along the body and back [time].
   double wave_time = 0.0;
-  Index loose_pieces = 0;  ///< of the body, that nothing holds at the end
+  Index loose_pieces = 0;  ///< pieces of the body that nothing holds at the end
 };
 
-/// The longest side of the box around a body [length]. \param position  of a particle along an axis
+/// The longest side of the box around a body [length].
+/// \param position  takes a particle and an axis: its coordinate [length]
 template <class Position>
 double longest_side(int dim, Index particles, Position position) {
   double longest = 0.0;
@@ -34,7 +35,7 @@ double longest_side(int dim, Index particles, Position position) {
   return longest;
 }
 
-/// \param length  of the longest side of the body [length]
+/// \param length  longest side of the body [length]
 RunFacts run_facts(const CaseFile& input, double length, double peak_load);
 
 /// What makes the numbers of an explicit run doubtful, a sentence each: energy that is missing or

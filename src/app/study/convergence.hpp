@@ -14,15 +14,14 @@ namespace perilink {
 /// sqrt(sum V |u - u*|^2 / sum V |u*|^2) over the solid particles.
 /// \param displacement          u, shape (particles, dim) [length]
 /// \param exact                 u*, the same shape
-/// \param without_rigid_motion  takes the rigid motion that fits u - u* best, in the same norm, out
-/// of
-///                              it first: for bodies whose supports are not those of the closed
-///                              form
+/// \param without_rigid_motion  first takes out the rigid motion that fits u - u* best in the same
+///                              norm: for bodies whose supports are not those of the closed form
 double relative_l2_error(const Particles& particles, std::span<const double> displacement,
                          std::span<const double> exact, bool without_rigid_motion);
 
 /// Takes the translation and infinitesimal rotation that fit a field best, weighted with the
-/// volumes of the solid particles, out of it. \param field  shape (particles, dim)
+/// volumes of the solid particles, out of it.
+/// \param field  shape (particles, dim)
 void remove_rigid_motion(const Particles& particles, std::span<double> field);
 
 /// p in error = C spacing^p through two points; not-a-number where an error is not positive or the
@@ -36,8 +35,9 @@ struct Extrapolation {
   double order = 0.0;
 };
 
-/// Richardson's extrapolation from three spacings (Roache 1994, also for ratios that differ): value
-/// = limit + C spacing^order through the three points. \param spacings  coarse to fine, descending
+/// Richardson's extrapolation from three spacings (Roache 1994, also for ratios that differ):
+/// value = limit + C spacing^order through the three points.
+/// \param spacings  coarse to fine, descending
 /// \return nothing where the values do not approach a limit: oscillating, or an order below 0.1 or
 ///         above 10
 std::optional<Extrapolation> extrapolate(const std::array<double, 3>& spacings,

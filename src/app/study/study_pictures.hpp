@@ -11,8 +11,8 @@ namespace perilink {
 enum class Cost { unknowns, seconds };
 
 /// The picture of one error of a study, one line per series; errors over unknowns come with
-/// triangles of orders 1 and 2. Members come as compare_members leaves them. \param error  number
-/// of the error in the study
+/// triangles of orders 1 and 2. Members come as compare_members leaves them.
+/// \param error  its number in the study
 ConvergencePlot study_picture(const StudyFile& study, std::span<const StudySeries> series,
                               std::span<const StudyMember> members, std::size_t error, Cost cost,
                               int dim);

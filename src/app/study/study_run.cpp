@@ -175,7 +175,7 @@ double reference_of(const ErrorSection& error, std::size_t number,
   return limit ? limit->limit : no_number;
 }
 
-/// \param members  of one series, coarse to fine, none of which failed
+/// \param members  one series, coarse to fine, none of which failed
 void compare_series(const StudyFile& study, const std::vector<StudyMember*>& members) {
   if (members.empty()) return;
   const std::vector<const StudyMember*> all(members.begin(), members.end());

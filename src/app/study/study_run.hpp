@@ -15,14 +15,14 @@ namespace perilink {
 /// One combination of a study's options, refined step by step.
 struct StudySeries {
   std::string name;             ///< "calibrated, horizon ratio 3"
-  std::vector<TomlValue> keys;  ///< of [body]
+  std::vector<TomlValue> keys;  ///< entries of [body]
 };
 
 /// Wall seconds of one run of a member.
 struct MemberSeconds {
   double set_up = 0.0;       ///< reading, particles, bonds, constants
-  double calibration = 0.0;  ///< of bonds near surfaces
-  double assembly = 0.0, factorization = 0.0, solve = 0.0;  ///< of an elastic analysis
+  double calibration = 0.0;  ///< calibration of bonds near surfaces
+  double assembly = 0.0, factorization = 0.0, solve = 0.0;  ///< elastic analyses only
   double analysis = 0.0;                                    ///< these three, or all events
 
   double total() const { return set_up + calibration + analysis; }
@@ -42,7 +42,7 @@ struct StudyMember {
   std::vector<double> values;  ///< per error: the quantity, or the error of a field
   std::vector<double> errors;  ///< per error, relative; not-a-number without a reference
   std::vector<double> orders;  ///< per error, against the next coarser member; not-a-number without
-  MemberSeconds seconds;       ///< of the fastest repeat
+  MemberSeconds seconds;       ///< from the fastest repeat
 
   bool failed() const { return !failure.empty(); }
 };

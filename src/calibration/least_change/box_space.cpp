@@ -141,7 +141,7 @@ void BoxSpace::find_fields(const PointEquations& equations, const std::vector<do
 
 /// Those of one box, as rows.
 /// \param inside  variables that act on no other box
-/// \param blocks  of the points
+/// \param blocks  per point
 MatrixXd BoxSpace::soft_fields(Index box, const std::vector<Index>& inside,
                                const PointEquations& equations, const std::vector<double>& active,
                                const std::vector<double>& blocks) const {
@@ -307,7 +307,7 @@ void BoxSpace::refactorize(const PointEquations& equations, const std::vector<do
   factorize(blocks);
 }
 
-/// \param blocks  of the coarse system, by pairs_
+/// \param blocks  those of the coarse system, by pairs_
 void BoxSpace::factorize(const std::vector<MatrixXd>& blocks) {
   SparseMatrix coarse(num_fields(), num_fields());
   Index size = 0;

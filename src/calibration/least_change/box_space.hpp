@@ -19,7 +19,7 @@ namespace perilink {
 /// (docs/theory/calibration.md).
 class BoxSpace {
  public:
-  /// \param active    of each variable: its part in the system, from 0 to 1
+  /// \param active    per variable: its part in the system, from 0 to 1
   /// \param diagonal  added to that of the system, shape (points, rows)
   BoxSpace(const PointEquations& equations, const std::vector<double>& active,
            const std::vector<double>& diagonal);
@@ -52,13 +52,13 @@ class BoxSpace {
   int rows_;
   int threads_;                                 // as many as BLAS has room for
   std::vector<std::vector<Index>> boxes_;       // points of each
-  std::vector<Index> box_of_, place_;           // of each point, and where it is in its box
-  std::vector<Index> first_, second_;           // of the variables
+  std::vector<Index> box_of_, place_;           // per point: its box, and its place there
+  std::vector<Index> first_, second_;           // points that variables join
   std::vector<std::pair<Key, Index>> order_;    // variables, by boxes
   std::vector<std::size_t> groups_;             // where those of the same boxes begin in order_
-  std::vector<std::pair<Index, Index>> pairs_;  // of boxes that variables join, ascending
-  std::vector<Eigen::MatrixXd> fields_;         // of each box, shape (fields, points * rows)
-  std::vector<Index> first_field_;              // of each box, and the number of all
+  std::vector<std::pair<Index, Index>> pairs_;  // pairs of boxes that variables join, ascending
+  std::vector<Eigen::MatrixXd> fields_;         // per box, shape (fields, points * rows)
+  std::vector<Index> first_field_;              // per box, and at the end the number of all
   std::unique_ptr<Factor> factor_;
 };
 

@@ -15,8 +15,8 @@ class EquationsFactor {
   /// The pattern, which does not depend on the weights.
   explicit EquationsFactor(const PointEquations& equations);
 
-  /// Of the same equations, again where their weights have changed.
-  /// \param active    of each variable: its part in the system, from 0 to 1
+  /// Factorises for the same equations, again where their weights have changed.
+  /// \param active    per variable: its part in the system, from 0 to 1
   /// \param diagonal  added to that of the system, shape (points, rows)
   void factorize(const PointEquations& equations, const std::vector<double>& active,
                  const std::vector<double>& diagonal);

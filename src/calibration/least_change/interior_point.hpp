@@ -28,7 +28,7 @@ class InteriorPoint {
  public:
   using Vector = std::vector<double>;  // shape (points, rows)
 
-  /// \param proximity  of the multipliers; 0: that of the system
+  /// \param proximity  factor on the multipliers; 0: that of the system
   InteriorPoint(const PointEquations& equations, Normal& normal, double proximity)
       : equations_(equations),
         normal_(normal),

@@ -29,21 +29,22 @@ struct PointEquations {
   int odd = 0;
   std::vector<Index> first, second;  ///< points of each variable
   Index one_ended = std::numeric_limits<Index>::max();
-  std::vector<Index> group;  ///< of each point: the point at which the last row of its variables
-                             ///< counts, summed over the group; empty: at the point itself
-  /// Of each variable: the unknown that it shares with others; where nothing is asked at an end,
-  /// its point is no_index. Empty: every variable is an unknown of its own.
+  /// Per point: the point at which the last row of its variables counts, summed over the group;
+  /// empty: at the point itself.
+  std::vector<Index> group;
+  /// Per variable: the unknown that it shares with others; where nothing is asked at an end, its
+  /// point is no_index. Empty: every variable is an unknown of its own.
   std::vector<Index> unknown;
   std::vector<double> coefficients;  ///< a_v, shape (variables, rows)
   std::vector<double> lower;         ///< least weight of each variable
   std::vector<double> upper;         ///< largest weight of each variable
   std::vector<double> right;         ///< r_p, shape (points, rows)
-  std::vector<double> scale;  ///< of the equations, shape (points, rows): times r they are of
-                              ///< order one; 0 switches an equation off
-  std::vector<double> ridge;  ///< of each row, empty: none. 0: equations hold exactly; > 0: their
-                              ///< squared residuals are charged 1 / ridge against the squared
-                              ///< changes of the weights
-  std::vector<double> positions;  ///< of the points, shape (points, dim) [length]
+  /// Per equation, shape (points, rows): times r they are of order one; 0 switches an equation off.
+  std::vector<double> scale;
+  /// Per row, empty: none. 0: equations hold exactly; > 0: their squared residuals are charged
+  /// 1 / ridge against the squared changes of the weights.
+  std::vector<double> ridge;
+  std::vector<double> positions;  ///< where the points are, shape (points, dim) [length]
 
   Index num_variables() const { return static_cast<Index>(first.size()); }
   int own_rows() const { return group.empty() ? rows : rows - 1; }
@@ -55,8 +56,8 @@ struct PointEquations {
 
 /// What speeds up the conjugate gradients.
 enum class Preconditioner {
-  blocks,              ///< of the single points: for few points
-  factor,              ///< of all equations: bodies and boundaries in the plane
+  blocks,              ///< those of the single points: for few points
+  factor,              ///< that of all equations: bodies and boundaries in the plane
   blocks_then_boxes,   ///< and the soft fields of boxes where blocks take many iterations: solids
   blocks_then_factor,  ///< the factor where they do: solids with few variables
 };
@@ -69,12 +70,13 @@ enum class Method {
 
 /// How to solve them.
 struct LeastChangeOptions {
-  double tolerance =
-      1e-12;               ///< of the norm of the scaled residual, per root of the number of points
-  int iterations = 20000;  ///< of conjugate gradients after which no step begins
-  double price = std::numeric_limits<double>::infinity();  ///< of what is left of exact equations
-  double proximity = 0.0;  ///< of the interior-point method: part of the multipliers by which
-                           ///< equations may be left at first (interior_point.hpp)
+  /// For the norm of the scaled residual, per root of the number of points.
+  double tolerance = 1e-12;
+  int iterations = 20000;  ///< conjugate gradients after which no step begins
+  double price = std::numeric_limits<double>::infinity();  ///< on what is left of exact equations
+  /// Interior-point method only: part of the multipliers by which equations may be left at first
+  /// (interior_point.hpp).
+  double proximity = 0.0;
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
 };
@@ -98,10 +100,10 @@ struct LeastChange {
   double residual = 0.0;         ///< largest scaled residual of an equation
   Index worst_point = no_index;  ///< where it is
   Index at_lower = 0;            ///< number of weights at their lower bound
-  int iterations = 0;            ///< of conjugate gradients
-  bool converged =
-      false;  ///< false: no weights within the bounds satisfy all equations, or too few
-              ///< iterations; what can be met is met
+  int iterations = 0;            ///< conjugate gradients, in all
+  /// False: no weights within the bounds satisfy all equations, or too few iterations; what can be
+  /// met is met.
+  bool converged = false;
 };
 
 /// Minimises sum (w_v - 1)^2 subject to the equations and the bounds. The bounded problem is

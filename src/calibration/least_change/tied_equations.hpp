@@ -22,7 +22,7 @@ struct TiedEquations {
   PointEquations equations;       ///< right sides, scale and ridge; bounds of the unknowns
   Matrix matrix;                  ///< scaled, shape (points * rows, unknowns)
   std::vector<double> root;       ///< sqrt(n) of each unknown
-  std::vector<Index> unknown_of;  ///< of each variable
+  std::vector<Index> unknown_of;  ///< per variable
 
   /// Weights of the variables from the unknowns.
   std::vector<double> weights(std::span<const double> unknowns) const;
@@ -61,7 +61,7 @@ class TiedNormalEquations {
   const TiedEquations& tied_;
   TiedEquations::Matrix transposed_;
   Eigen::VectorXd shift_;     // added to the diagonal
-  std::vector<Index> point_;  // of each row
+  std::vector<Index> point_;  // per row
   std::unique_ptr<Factor> factor_;
   int last_iterations_ = 0;
 };

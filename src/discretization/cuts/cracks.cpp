@@ -16,9 +16,9 @@ constexpr double plane_tolerance = 1e-6;
 /// A straight piece of a line, or a polygon.
 struct Piece {
   std::vector<Vector3> corners;
-  Vector3 normal{};                   ///< unit vector to the positive side
-  std::vector<Vector3> side_normals;  ///< of the polygon, in its plane and out of it; of a line's
-                                      ///< piece beyond its two ends
+  Vector3 normal{};  ///< unit vector to the positive side
+  /// Outward normals of a polygon's sides, in its plane; of a line's piece beyond its two ends.
+  std::vector<Vector3> side_normals;
   Index crack = 0;
 };
 

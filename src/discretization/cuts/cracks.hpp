@@ -21,8 +21,8 @@ inline constexpr double on_crack_tolerance = 1e-6;
 
 /// Bonds that cracks cross.
 struct CutBonds {
-  std::vector<std::uint8_t> keep;  ///< of each bond: 0 where a crack crosses it
-  std::vector<Index> count;        ///< of each crack; a bond that crosses two counts for both
+  std::vector<std::uint8_t> keep;  ///< per bond: 0 where a crack crosses it
+  std::vector<Index> count;        ///< per crack; a bond that crosses two counts for both
 };
 
 /// Refuses what is no crack.
@@ -34,7 +34,7 @@ void check_crack(const Crack& crack, int dim);
 /// to its positive side, so that a crack along a row of particles cuts too: to the left of the line
 /// in the direction of its points, or where the corners are seen to run counter-clockwise; where
 /// pieces meet, to the side of their mean normal.
-/// \param spacing  of the particles [length]
+/// \param spacing  between particles [length]
 /// \throws std::invalid_argument  as check_crack()
 CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,
                         std::span<const Crack> cracks, double spacing);

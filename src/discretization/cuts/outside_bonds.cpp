@@ -61,7 +61,7 @@ BodySurface surface_of(const Particles& particles, const Bonds& bonds, const Fac
 
 /// Where a bond meets a facet.
 struct Meeting {
-  double fraction;  // of the bond's length
+  double fraction;  // over the bond's length
   Index facet;
 };
 
@@ -127,8 +127,8 @@ class Passage {
     return above;
   }
 
-  /// Distance from the surface, positive outside. Of facets equally near the one that the point
-  /// stands most directly above says which side it is.
+  /// Distance from the surface, positive outside. Where several facets are equally near, the one
+  /// that the point stands most directly above tells the side.
   double distance(const Vector3& point) const {
     double least = std::numeric_limits<double>::infinity(), height = 0.0;
     for (const Index f : near_) {

@@ -21,8 +21,8 @@ Index keep_bonds(const Particles& particles, Bonds& bonds, std::span<const std::
 /// Takes out the bonds of a mesh body that leave it: those that are farther than allowed_excursion
 /// from the body somewhere on their way, and those that cross a void, however narrow, whose flanks
 /// face each other. Bonds far from the surface cost nothing but a look at their particles.
-/// \param facets   of the body, all of its surface
-/// \param spacing  of the body's lattice, mean edge of the mesh [length]
+/// \param facets   all of the body's surface
+/// \param spacing  between particles, mean edge of the mesh [length]
 /// \return number of bonds taken out
 Index remove_bonds_outside(const Particles& particles, Bonds& bonds, const Facets& facets,
                            double spacing);

@@ -54,10 +54,10 @@ struct LatticeInput {
   Surface surface = Surface::none;
   double spacing = 0.0;         ///< wanted; a conforming lattice adapts it to the body [length]
   double horizon = 0.0;         ///< margin of the ghost layer [length]
-  double thickness = 1.0;       ///< of two-dimensional bodies [length]
+  double thickness = 1.0;       ///< two-dimensional bodies only [length]
   std::vector<Box> solid;       ///< the body is the union of these boxes
-  std::vector<Index> material;  ///< of each box; where boxes overlap the last one counts
-  double boundary_tolerance = 1e-6;  ///< of "inside a box", in spacings
+  std::vector<Index> material;  ///< per box; where boxes overlap the last one counts
+  double boundary_tolerance = 1e-6;  ///< for "inside a box", in spacings
 };
 
 /// A named part of a mesh (physical group).
@@ -69,11 +69,12 @@ struct Group {
 
 /// Particles and the lattice or the mesh that they belong to.
 struct Body {
-  Lattice lattice;  ///< of a mesh: pattern irregular, step zero, spacing and cell volume means
+  /// With a mesh: pattern irregular, step zero, spacing and cell volume are means.
+  Lattice lattice;
   Particles particles;
   Facets facets;              ///< surface and faces between materials; empty with ghosts
-  Simplices cells;            ///< of a mesh; a lattice has none
-  std::vector<Group> groups;  ///< of a mesh
+  Simplices cells;            ///< meshes only
+  std::vector<Group> groups;  ///< meshes only
 };
 
 /// Fills a body with particles: `conforming` puts particles on the boundary and gives each the

@@ -90,7 +90,7 @@ class Grid {
 
   const Lattice& lattice_;
   std::array<Index, 3> steps_;
-  std::vector<Index> materials_;  // of the cells, x fastest
+  std::vector<Index> materials_;  // per cell, x fastest
   std::vector<Index> particles_;  // at the points, x fastest
 };
 

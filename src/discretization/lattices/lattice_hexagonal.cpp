@@ -119,7 +119,7 @@ class HexagonalCells {
   Index rows_;
   std::vector<double> volumes_;
   std::vector<std::array<HalfColumn, 3>> triangles_;
-  std::vector<Index> materials_;  // of the triangles
+  std::vector<Index> materials_;  // per triangle
 };
 
 }  // namespace

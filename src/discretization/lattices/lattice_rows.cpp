@@ -86,7 +86,7 @@ class RowBuilder {
     int lower = 0, upper = -1;  ///< slots
     Index begin = 0;            ///< slot of `lower`
     Index number = no_index;    ///< among the rows with particles
-    std::vector<int> columns;   ///< of its particles, ascending
+    std::vector<int> columns;   ///< columns of its particles, ascending
     bool empty() const { return columns.empty(); }
     Index slot(int column) const { return begin + (column - lower); }
     void cover(int from, int to) {

@@ -31,7 +31,7 @@ struct LatticeRow {
 struct LatticeRows {
   int dim = 2;
   double spacing = 0.0;        ///< to nearest neighbours [length]
-  double cell_volume = 0.0;    ///< of an interior particle [length^3]
+  double cell_volume = 0.0;    ///< volume of an interior particle [length^3]
   std::vector<OwnBond> bonds;  ///< three (hexagonal) or nine (face-centred cubic)
   std::vector<LatticeRow> rows;
   std::vector<Index> shift_out;  ///< slot of own bond k's partner, shape (rows, own bonds)
@@ -64,9 +64,9 @@ void for_each_particle(const LatticeRows& lattice, const Visit& visit) {
 /// How a lattice lies and what is cut from it.
 struct LatticeCut {
   double spacing = 0.0;
-  double rotation = 0.0;     ///< of the rows against the x axis, about z [rad]
+  double rotation = 0.0;     ///< angle between rows and x axis, about z [rad]
   Vector3 origin{};          ///< a lattice point
-  double thickness = 1.0;    ///< of a body in the plane [length]
+  double thickness = 1.0;    ///< two-dimensional bodies only [length]
   Vector3 lower{}, upper{};  ///< box around the body
   /// Whether a lattice point belongs to the body; asked for points of the box only.
   std::function<bool(const Vector3&)> inside;

@@ -14,7 +14,7 @@ namespace perilink {
 /// Conforming mesh of a lattice body: two triangles in each cell of a rectangular lattice, with
 /// diagonals that alternate like the colours of a chessboard; the triangles of a hexagonal lattice,
 /// halved along vertical sides; six tetrahedra around the same diagonal of each cube (Kuhn 1960).
-/// \param input  of which the body was made
+/// \param input  what the body was made of
 /// \throws std::invalid_argument for a body with ghosts and for the face-centred pattern, whose
 ///         tetrahedra do not fill a body with faces along the axes
 Simplices triangulate(const LatticeInput& input, const Body& body);

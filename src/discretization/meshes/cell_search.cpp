@@ -14,7 +14,7 @@ namespace {
 
 /// Heights below this part of the longest edge are round-off of the coordinates.
 constexpr double flattest_cell = 1e-10;
-constexpr double most_steps = 2000;  ///< of the grid along an axis
+constexpr double most_steps = 2000;  ///< most cells of the grid along an axis
 
 struct Corners {
   int count = 0;

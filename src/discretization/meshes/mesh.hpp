@@ -12,7 +12,7 @@ namespace perilink {
 /// A physical group: elements of one dimension under one name.
 struct MeshGroup {
   std::string name;
-  int dim = 2;                  ///< of its elements: 0 points, 1 lines, 2 triangles, 3 tetrahedra
+  int dim = 2;                  ///< 0: its elements are points, 1 lines, 2 triangles, 3 tetrahedra
   std::vector<Index> elements;  ///< numbers of its cells or facets; of lower dimensions none
   std::vector<Index> points;    ///< corners of its elements, ascending, each once
 };
@@ -25,7 +25,7 @@ struct Mesh {
   std::vector<Index> cells;       ///< corners, shape (cells, dim + 1)
   std::vector<Index> facets;      ///< edges or triangles of the groups, shape (facets, dim)
   std::vector<MeshGroup> groups;
-  std::vector<std::int64_t> cell_tags;  ///< of the cells in their file; empty: 1, 2, 3, ...
+  std::vector<std::int64_t> cell_tags;  ///< numbers of the cells in their file; empty: 1, 2, 3, ...
 
   Index num_points() const { return static_cast<Index>(positions.size()) / dim; }
   Index num_cells() const { return static_cast<Index>(cells.size()) / (dim + 1); }

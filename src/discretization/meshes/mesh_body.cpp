@@ -143,9 +143,9 @@ double mean_edge_length(const Body& body) {
 
 /// What connects the numbers of the mesh with those of the body.
 struct Numbering {
-  std::vector<Index> particle;       ///< of every point
-  std::vector<Index> cell;           ///< of every cell
-  std::vector<Index> surface_facet;  ///< of every face
+  std::vector<Index> particle;       ///< per point
+  std::vector<Index> cell;           ///< per cell
+  std::vector<Index> surface_facet;  ///< per face
   bool whole = true;                 ///< every cell has a material
 };
 

@@ -10,7 +10,7 @@ namespace perilink {
 
 /// Material of every cell of a mesh: of the last region that holds the cell (its group's cells, or
 /// the cells whose centre lies in the box); no_index where none does.
-/// \param material  of each region
+/// \param material  per region
 std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> regions,
                                       std::span<const Index> material);
 
@@ -23,8 +23,8 @@ std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> 
 ///   of a group of cells, among its cells' sides.
 /// - Lattice: irregular, spacing = mean length of the edges, cell volume = mean volume of a
 ///   particle.
-/// \param material   of each cell; cells with no_index are left out
-/// \param thickness  of two-dimensional bodies [length]
+/// \param material   per cell; cells with no_index are left out
+/// \param thickness  two-dimensional bodies only [length]
 /// \throws std::invalid_argument where nothing is left, a cell has no volume, cells overlap, parts
 ///         touch without being joined, or a group's facet is no side of a cell
 Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness);

@@ -157,7 +157,7 @@ class CellTree {
     visit(2 * node + 2, middle, end, box, act);
   }
 
-  std::vector<Box> boxes_;  ///< of the cells
+  std::vector<Box> boxes_;  ///< per cell
   std::vector<Index> order_;
   std::vector<Box> nodes_;  ///< halves of node n: 2 n + 1 and 2 n + 2
 };

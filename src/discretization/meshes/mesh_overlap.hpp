@@ -19,7 +19,7 @@ namespace perilink {
 /// surface are compared with all others, and those within are not.
 /// \param cells      positively oriented
 /// \param positions  shape (particles, dim) [length]
-/// \param faces      of the cells
+/// \param faces      sides of the cells
 /// \return the first two cells that overlap, ascending
 std::optional<std::array<Index, 2>> find_overlap(const Simplices& cells,
                                                  std::span<const double> positions,

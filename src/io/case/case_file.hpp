@@ -24,13 +24,13 @@ struct TomlValue;
 
 /// [body]
 struct BodySection {
-  std::optional<std::string> mesh;       ///< file, from the folder of the case; irregular pattern
-  std::optional<double> mesh_size;       ///< of the cells where `mesh` is a geometry [length]
+  std::optional<std::string> mesh;  ///< file, from the folder of the case; irregular pattern
+  std::optional<double> mesh_size;  ///< wanted for the cells where `mesh` is a geometry [length]
   std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
   std::string method = "bonds";          ///< bonds | linear_elements
   std::string model = "bond_based";      ///< bond_based | micropolar | lattice | particles
   double torsion = 1.0;                  ///< torsional over bending modulus of micropolar bonds, 3D
-  double thickness = 1.0;                ///< of two-dimensional bodies
+  double thickness = 1.0;                ///< two-dimensional bodies only [length]
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
   Surface surface = Surface::calibrated;
   std::optional<int> columns;  ///< particles across the body in x: this, spacing or mesh
@@ -41,7 +41,7 @@ struct BodySection {
   std::string micromodulus = "lattice";  ///< lattice | continuum, of a mesh always continuum
   /// dissipated | lattice (not of a mesh) | continuum: what a crack's fracture energy counts.
   std::string critical_stretch = "dissipated";
-  double rotation = 0.0;  ///< of the rows of model = lattice against x, about z [degrees]
+  double rotation = 0.0;  ///< angle of the rows of model = lattice against x, about z [degrees]
   Vector3 offset{};       ///< one of its lattice points [length]
   std::string variant = "consistent";  ///< its rules: consistent | 2018 | 2017
 };
@@ -75,11 +75,12 @@ struct MaterialSection {
   std::vector<std::string> regions;
   std::vector<std::string> holes;  ///< regions cut out of those, of bodies with model = lattice
   double youngs_modulus = 0.0;
-  std::optional<double> poissons_ratio;  ///< of micropolar bonds; of others only to be refused with
-                                         ///< an explanation, or confirmed
-  double fracture_energy = 0.0;          ///< infinity: unbreakable ("infinite" in the file)
-  std::optional<double> density;         ///< of bonds in explicit analyses [mass/length^3]
-  std::optional<LatticeMaterialSection> lattice;  ///< of state-based particles
+  /// Micropolar bonds have one; with others it is given only to be refused with an explanation, or
+  /// confirmed.
+  std::optional<double> poissons_ratio;
+  double fracture_energy = 0.0;   ///< infinity: unbreakable ("infinite" in the file)
+  std::optional<double> density;  ///< bonds in explicit analyses [mass/length^3]
+  std::optional<LatticeMaterialSection> lattice;  ///< state-based particles only
 };
 
 /// [[supports]]: displacements and rotations held at zero.
@@ -133,7 +134,8 @@ struct SpringSection {
 
 /// [[cracks]]: there before the analysis begins.
 struct CrackSection {
-  std::vector<Vector3> points;  ///< of a line (2D), corners of a plane convex polygon (3D) [length]
+  /// Corners of a line (2D) or of a plane convex polygon (3D) [length].
+  std::vector<Vector3> points;
 };
 
 /// [[rebar]]
@@ -154,7 +156,7 @@ struct GaugeSection {
   std::vector<Vector3> between;  ///< two points: displacement of the second relative to the first
   std::optional<Vector3> at;
   std::string region;  ///< mean over its particles
-  /// Of the displacement; between two points else that from one to the other.
+  /// Axis of the displacement; absent between two points: the direction from one to the other.
   std::optional<int> axis;
   std::optional<std::array<int, 2>> stress;  ///< axes of a component of the stress, ascending
 };
@@ -163,25 +165,25 @@ struct GaugeSection {
 struct AnalysisSection {
   std::string type = "damage";              ///< damage | elastic | explicit | relaxation
   std::string control = "events";           ///< events | steps
-  std::vector<double> load_factors;         ///< of control = steps and type = relaxation
+  std::vector<double> load_factors;         ///< for control = steps and type = relaxation
   std::string rigid_body_modes = "refuse";  ///< refuse | pin
   std::string factor = "in_place";          ///< in_place | cholmod_updown | refactorize
-  double duration = 0.0;                    ///< of type = explicit and below [time]
+  double duration = 0.0;                    ///< [time]; this and the rest: explicit or relaxation
   double ramp_time = 0.0;                   ///< in which the load factor rises to one [time]
   std::optional<double> time_step;          ///< [time]
-  double safety = 0.9;                      ///< of the critical time step, without time_step
-  int rows = 500;                           ///< of the history, about
-  double damping_rate = 0.0;                ///< of bonds [1/time]
-  std::string masses = "volume";            ///< of bonds: volume | uniform
-  std::string strain = "small";             ///< of bonds that move: small | green
-  double tolerance = 1e-6;                  ///< of type = relaxation: relative residual force
-  int iterations = 1000000;                 ///< of type = relaxation: most of a load step
+  double safety = 0.9;        ///< part of the critical time step that is taken without time_step
+  int rows = 500;             ///< rows of the history, about
+  double damping_rate = 0.0;  ///< for bonds [1/time]
+  std::string masses = "volume";  ///< for bonds: volume | uniform
+  std::string strain = "small";   ///< for bonds that move: small | green
+  double tolerance = 1e-6;        ///< for type = relaxation: relative residual force
+  int iterations = 1000000;       ///< for type = relaxation: limit in a load step
 };
 
 /// [stop]: the run ends at the first rule met (always at collapse).
 struct StopSection {
   std::optional<int> broken_bonds;
-  std::optional<double> load_fraction;  ///< of the peak load factor
+  std::optional<double> load_fraction;  ///< over the peak load factor
   std::optional<double> displacement;
 };
 
@@ -189,7 +191,7 @@ struct StopSection {
 struct OutputSection {
   std::vector<int> fields_at;        ///< numbers of broken bonds at which fields are written
   std::optional<int> fields_every;   ///< and after every so many
-  std::vector<double> fields_times;  ///< of type = explicit: times of fields [time]
+  std::vector<double> fields_times;  ///< for type = explicit: times of fields [time]
 };
 
 /// A whole case.

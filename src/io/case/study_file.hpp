@@ -19,8 +19,8 @@ namespace perilink {
 /// [vary]: the case is run for every combination. An empty list leaves the case's own value.
 struct VarySection {
   std::string refinement;         ///< key of [body] that refines: spacing, columns, mesh, mesh_size
-  SourceLocation where;           ///< of that key
-  std::vector<TomlValue> values;  ///< of that key, numbers, integers or texts
+  SourceLocation where;           ///< where that key stands
+  std::vector<TomlValue> values;  ///< values that it takes: numbers, integers or texts
   std::vector<double> horizon_ratio;
   std::vector<std::string> surface;
   std::vector<std::string> method;  ///< bonds | linear_elements
@@ -36,7 +36,7 @@ enum class Reference {
 /// [error]: exactly one of displacement, gauge and quantity.
 struct ErrorSection {
   SourceLocation where;
-  std::string name;                      ///< of columns and pictures
+  std::string name;                      ///< as columns and pictures give it
   std::vector<Expression> displacement;  ///< closed form, one formula of x, y, z for each axis
   bool remove_rigid_motion = false;      ///< from the difference to the closed form
   std::string gauge;                     ///< column of the history
@@ -52,7 +52,7 @@ struct StudyFile {
   std::string path;
   std::string title;
   std::string case_path;  ///< as the program opens it
-  int repeats = 1;        ///< of every member; the shortest time counts
+  int repeats = 1;        ///< runs of every member; the shortest time counts
   VarySection vary;
   std::vector<ErrorSection> errors;
   bool trust_geometry = false;  ///< from the command line, as in CaseFile

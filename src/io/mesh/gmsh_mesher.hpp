@@ -12,8 +12,7 @@ namespace perilink {
 bool has_gmsh();
 
 /// Meshes a geometry with gmsh's library.
-/// \param size  of the cells: of a script the value of its constant `h`, else of every cell
-///     [length]
+/// \param size  wanted for all cells [length]; a script gets it as the value of its constant `h`
 /// \param trusted  scripts may run commands and write files (gmsh_script.hpp)
 /// \throws FileError   where the geometry cannot be read
 /// \throws InputError  where gmsh is missing or cannot mesh it, or a script has no constant `h` to

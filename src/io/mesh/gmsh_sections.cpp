@@ -10,8 +10,8 @@
 namespace perilink {
 namespace {
 
-/// Of one entity. Every element is entered in each of them, so a damaged file could ask for any
-/// amount of memory.
+/// Most groups that one entity may belong to. Every element is entered in each of them, so a
+/// damaged file could ask for any amount of memory.
 constexpr std::size_t most_physical_groups = 1000;
 
 constexpr const char* save_as_41 =

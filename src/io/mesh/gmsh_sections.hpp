@@ -16,14 +16,14 @@ using GmshKey = std::pair<int, int>;
 struct GmshBlock {
   GmshKey entity;
   int type = 0;                     ///< gmsh's number: 1 line, 2 triangle, 4 tetrahedron, 15 point
-  std::vector<std::int64_t> tags;   ///< of the elements
+  std::vector<std::int64_t> tags;   ///< tags that the elements have
   std::vector<std::int64_t> nodes;  ///< their tags, element after element
 };
 
 /// What a .msh 4.1 file says of a mesh, as it says it.
 struct GmshSections {
-  std::map<GmshKey, std::string> names;               ///< of physical groups
-  std::map<GmshKey, std::vector<int>> physical_tags;  ///< of entities
+  std::map<GmshKey, std::string> names;               ///< by physical group
+  std::map<GmshKey, std::vector<int>> physical_tags;  ///< by entity
   std::vector<std::int64_t> node_tags;
   std::vector<double> coordinates;  ///< [length], shape (nodes, 3)
   std::vector<GmshBlock> blocks;

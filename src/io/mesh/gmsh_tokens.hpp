@@ -8,7 +8,7 @@ namespace perilink {
 /// A piece of a script of gmsh as gmsh's own lexer cuts it.
 struct GmshToken {
   enum class Kind { word, number, text, sign } kind = Kind::sign;
-  std::string text;  ///< of texts without their quotes
+  std::string text;  ///< without quotes where it is a text
   int line = 0;
 
   bool is(const char* word) const { return kind != Kind::text && text == word; }

@@ -6,9 +6,8 @@ namespace perilink {
 
 /// Makes a document safe for toml++ 3.3, or refuses it:
 /// - Brackets, headers or dotted keys that nest deeper than any case can are refused. The parser
-/// and
-///   the destructors of its tables recurse once per level, so a file of a few hundred kilobytes of
-///   `a.a.a.` could otherwise exhaust the stack.
+///   and the destructors of its tables recurse once per level, so a file of a few hundred kilobytes
+///   of `a.a.a.` could otherwise exhaust the stack.
 /// - The parser asks of characters beyond ASCII whether they are blanks, and its answer for many of
 ///   them is undefined behaviour. They become escapes (\u00fc) within strings and question marks
 ///   within comments; TOML allows them nowhere else.

@@ -18,11 +18,11 @@ struct TomlValue {
   int line = 0;  ///< one-based
   bool boolean = false;
   std::int64_t integer = 0;
-  double number = 0.0;  ///< of integers too
+  double number = 0.0;  ///< set for integers too
   std::string text;
-  std::string key;                 ///< of an entry of a table
-  std::vector<TomlValue> items;    ///< of an array
-  std::vector<TomlValue> entries;  ///< of a table, in the file's order
+  std::string key;                 ///< name of an entry of a table
+  std::vector<TomlValue> items;    ///< values in an array
+  std::vector<TomlValue> entries;  ///< entries in a table, in the file's order
 
   /// Value of a key of a table, or nullptr.
   const TomlValue* find(const std::string& name) const;

@@ -68,7 +68,7 @@ TEST(PrincipalStrains, OfALinearFieldAreExactWhateverBondsAreBroken) {
     const auto secants = random_secants(network.num_elements(), 3);
     const auto strains = principal_strains(network, families_of(network), secants, displacement);
     double trace = 0.0;
-    double squares = 0.0;  // of the symmetric part
+    double squares = 0.0;  // for the symmetric part
     for (int row = 0; row < dim; ++row) {
       trace += gradient[row][row];
       for (int col = 0; col < dim; ++col) {

@@ -112,7 +112,8 @@ TEST_P(Elements, RigidMotionCostsNothing) {
                                        : std::vector<double>{0, -1, 0.5, 1, 0, -2, -0.5, 2, 0};
   const InternalForce internal =
       internal_force(elements_of(GetParam(), body), linear_field(body, turn));
-  for (const double force : internal.forces) EXPECT_NEAR(force, 0.0, 1e-12);  // of terms near 200
+  // Round-off of terms near 200.
+  for (const double force : internal.forces) EXPECT_NEAR(force, 0.0, 1e-12);
   EXPECT_NEAR(internal.energy, 0.0, 1e-12);
 }
 

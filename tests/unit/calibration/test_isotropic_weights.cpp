@@ -13,7 +13,7 @@ struct Case {
   Pattern pattern;
   double ratio;
   bool bending;
-  double stretch = 1.0;  // of the rows' distance
+  double stretch = 1.0;  // factor on the rows' distance
 };
 
 class Isotropic : public testing::TestWithParam<Case> {};

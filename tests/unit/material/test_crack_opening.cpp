@@ -90,7 +90,7 @@ TEST(CrackOpening, HalvesOfABondCarryTheSameForceAndShareTheStretch) {
   for (const double w : {0.0, 0.3, 0.9, 1.0}) {
     // Evenly damaged, all that a particle stores is weakened by 1 - w, its sum by the root of that.
     EXPECT_NEAR(half_bond_weight(w, w) * half_bond_weight(w, w), 1.0 - w, 1e-15);
-    // Of an intact half the weight is its share of the stretch, as of any other.
+    // The weight of an intact half is its share of the stretch, as for any other.
     EXPECT_EQ(half_bond_weight(0.0, w), half_bond_share(0.0, w));
   }
   EXPECT_EQ(two_spring_factor(0.0, 0.0), 1.0);

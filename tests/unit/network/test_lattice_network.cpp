@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double youngs_modulus = 25e9;  // of elastic_concrete()
+constexpr double youngs_modulus = 25e9;  // that of elastic_concrete()
 
 class LatticeNetworkOf : public testing::TestWithParam<StateLatticeCase> {
  protected:

@@ -29,8 +29,8 @@ struct CrackedRow {
 struct CrackPath {
   std::vector<CrackedRow> rows;  ///< ascending
   double extent = 0.0;           ///< on the axis of growth [length]
-  double length = 0.0;  ///< of the polygon through the means of rows over one horizon [length]
-  double energy = 0.0;  ///< of its area with the specimen's fracture energies [force length]
+  double length = 0.0;  ///< along the polygon through the means of rows over one horizon [length]
+  double energy = 0.0;  ///< its area times the specimen's fracture energies [force length]
 };
 
 /// Damage of the particle beside a plane crack through a body without ends, normal to the axis
@@ -43,11 +43,11 @@ CrackPath find_crack(const Specimen& specimen, const Model& model,
 
 /// Bonds that broke somewhere else.
 struct StrayBreaks {
-  Index elsewhere =
-      0;  ///< with their middle further than a horizon and a spacing from the crack ...
+  /// With their middle further than a horizon and a spacing from the crack ...
+  Index elsewhere = 0;
   Index at_notch = 0;  ///< ... or not so far from a corner of the notch; these do not count above
   double farthest = 0.0;          ///< distance of a broken bond's middle from the crack [length]
-  std::array<double, 2> place{};  ///< of that one [length]
+  std::array<double, 2> place{};  ///< middle of that bond [length]
 };
 
 StrayBreaks find_stray_breaks(const Specimen& specimen, const CrackPath& path, const Model& model,

@@ -23,12 +23,12 @@ struct CrackRun {
   CrackPath path;
   StrayBreaks stray;
   double first_load = 0.0;   ///< at which the first bond breaks [force]
-  double smooth_peak = 0.0;  ///< of the load that is smoothed over one horizon of growth [force]
-  std::optional<double>
-      reference_load;         ///< of the block E s_c A, at which uniform stress breaks the first
-                              ///< bond; of the cracked beam that of Griffith [force]
-  double plane_ratio = 0.0;   ///< plane_crack_energy_ratio()
-  double growth_ratio = 0.0;  ///< slope of dissipated over crack energy, least squares
+  double smooth_peak = 0.0;  ///< largest load, smoothed over one horizon of growth [force]
+  /// Block: E s_c A, at which uniform stress breaks the first bond; cracked beam: Griffith's
+  /// [force].
+  std::optional<double> reference_load;
+  double plane_ratio = 0.0;         ///< plane_crack_energy_ratio()
+  double growth_ratio = 0.0;        ///< slope of dissipated over crack energy, least squares
   std::vector<GrowthPoint> growth;  ///< at equal numbers of broken bonds
   PlotBody body;                    ///< at the end
   double seconds = 0.0;

@@ -33,7 +33,7 @@ struct Specimen {
   double fracture_energy = 0.0;       ///< [force/length]
   std::optional<Box> weak;            ///< where it is less ...
   double weak_fracture_energy = 0.0;  ///< ... namely this [force/length]
-  std::vector<std::array<double, 2>> corners;  ///< of the notch, at its end [length]
+  std::vector<std::array<double, 2>> corners;  ///< corners of the notch at its end [length]
   std::optional<double> griffith_load;         ///< at which the crack would begin to grow [force]
 };
 

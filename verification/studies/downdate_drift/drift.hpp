@@ -24,7 +24,7 @@ struct Detachment {
   int particles = 0;   ///< in the part
   int bonds = 0;       ///< that held it
   int springs = 0;     ///< ground springs that the engine added
-  double error = 0.0;  ///< of the rest, against a fresh factor without the part
+  double error = 0.0;  ///< in what remains, against a fresh factor without the part
 };
 
 /// Cuts out all particles within `radius` spacings of the one nearest to the point.

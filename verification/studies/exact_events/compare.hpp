@@ -7,15 +7,15 @@ namespace perilink::verification {
 /// How far two routes agree event by event.
 struct Agreement {
   Index unknowns = 0;
-  Index events = 0;                     ///< of the in-place run
-  std::string ending;                   ///< of the in-place run
+  Index events = 0;                     ///< in the in-place run
+  std::string ending;                   ///< how the in-place run ended
   Index compared = 0;                   ///< events that the other route ran
   Index mismatches = 0;                 ///< other element at the same event
   double load_factor_difference = 0.0;  ///< largest relative one of the events compared
-  double energy_error = 0.0;  ///< of the in-place run: |work - stored - dissipated| / work
+  double energy_error = 0.0;  ///< in the in-place run: |work - stored - dissipated| / work
   double largest_residual = 0.0;
   int factorizations = 0;
-  double seconds = 0.0;  ///< of the in-place run
+  double seconds = 0.0;  ///< what the in-place run took
   double other_seconds = 0.0;
 };
 

@@ -29,7 +29,7 @@ struct Outcome {
   double dissipated = 0.0;           ///< [force length]
   double seconds = 0.0;
   Index steps = 0;
-  double surplus = 0.0;  ///< of energy, over the work
+  double surplus = 0.0;  ///< energy that appeared, over the work
 };
 
 Outcome run_implicit(const Specimen& specimen);

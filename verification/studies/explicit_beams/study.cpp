@@ -11,7 +11,7 @@
 namespace perilink::verification {
 namespace {
 
-/// Of the relaxation that is compared with the implicit solution.
+/// For the relaxation that is compared with the implicit solution.
 constexpr double tolerance = 1e-6;
 
 constexpr const char* scaled_fibres = "fibres, axial calibration";

@@ -28,8 +28,8 @@ double run_until_a_thousandth_of_peak(const Model& model, const BlockRun& whole)
 
 bool run_study(const std::string& surface) {
   // 30 in of the 100 in run through the weak patch, whose G_F is 5 % lower.
-  const double area_energy =
-      70.0 * block_fracture_energy + 30.0 * block_weak_fracture_energy;  // [kip in], 1 in thick
+  // [kip in], 1 in thick.
+  const double area_energy = 70.0 * block_fracture_energy + 30.0 * block_weak_fracture_energy;
   std::string table =
       "columns,spacing,broken_bonds,ending,peak_load,dissipated_over_GF,released_over_GF,"
       "mean_height,height_deviation,energy_error,energy_error_at_the_end,largest_residual\n";

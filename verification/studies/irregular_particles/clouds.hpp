@@ -16,7 +16,8 @@ struct Cloud {
   double width = 1.0, length = 1.0;  ///< width and depth [m]
   double thickness = 1.0;            ///< in the plane [m]
   Problem problem = Problem::plane_stress;
-  double spacing = 0.1;  ///< of the lattice, hexagonal or cubic, that the particles leave [m]
+  /// Spacing of the lattice, hexagonal or cubic, that the particles leave [m].
+  double spacing = 0.1;
   double scatter = 0.0;  ///< by at most this many spacings along each axis
   bool square = false;   ///< instead of hexagonal
 };

@@ -13,9 +13,9 @@ namespace perilink::verification {
 /// A body with E = 1. Lattices fill a box of 1.5 by 1 (by 1), meshes lie in the folder `meshes`.
 struct PatchBody {
   std::string name;
-  std::string keys;  ///< of [body]
+  std::string keys;  ///< lines of [body]
   int dim = 2;
-  std::string group = {};   ///< of meshes: the solid
+  std::string group = {};   ///< meshes only: the solid
   bool micropolar = false;  ///< with Poisson's ratio 0.2
 };
 

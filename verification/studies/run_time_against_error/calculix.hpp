@@ -11,7 +11,7 @@ namespace perilink::verification {
 
 /// Cells of a CalculiX mesh whose nodes are the particles of a model.
 struct CalculixMesh {
-  std::string type;              ///< of the elements: CPS3, CPS4, C3D4, C3D8
+  std::string type;              ///< element type: CPS3, CPS4, C3D4, C3D8
   std::size_t width = 3;         ///< nodes of a cell
   std::vector<Index> particles;  ///< shape (cells, width)
 };

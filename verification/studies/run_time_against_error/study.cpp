@@ -28,7 +28,7 @@ const fs::path here = PERILINK_STUDY_DIR;
 
 /// A study with everything that has been run of it.
 struct Comparison {
-  std::string name;  ///< of the files: cantilever
+  std::string name;  ///< begins the files' names: cantilever
   StudyFile study;
   std::vector<StudySeries> series;
   std::vector<StudyMember> members;

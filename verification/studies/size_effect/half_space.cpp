@@ -19,7 +19,7 @@ LayerStiffness half_space(double c, double d, double x) {
   const double b0 = 0.5 + x - x2 / 2;
   const double b1 = (1 + x3) / 6 + x2 * (1 - x) / 2;
   const double b2 = (1 + x5) / 10 + (x2 - x5) / 6;
-  const double a_across = a0 - 2 * a1 + a2, b_across = b0 - 2 * b1 + b2;  // of (1 - u^2)^2
+  const double a_across = a0 - 2 * a1 + a2, b_across = b0 - 2 * b1 + b2;  // factor of (1 - u^2)^2
   return {2 * pi * (c / 2 * a2 + 6 * d * (b1 - b2)),
           2 * pi * (c / 4 * (a1 - a2) - 3 * d * (b1 - b2)),
           2 * pi * (3 * c / 16 * a_across + 6 * d * ((b0 - b1) / 2 - 3.0 / 8 * b_across)),

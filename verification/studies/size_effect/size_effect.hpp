@@ -34,10 +34,11 @@ std::vector<FamilyRow> compare_families(const FamilyInput& input);
 struct BarRow {
   int width = 0;  ///< [horizons]
   int horizon_ratio = 0;
-  double uncorrected = 0.0;  ///< of the program, surface = "none"
+  double uncorrected = 0.0;  ///< from the program, surface = "none"
   double families = 0.0;     ///< bound on it: the same bonds in a uniform strain
   double exact = 0.0;        ///< mean of the closed form over the width
-  double calibrated = 0.0;  ///< of the program, surface = "calibrated"; not a number: not asked for
+  /// From the program, surface = "calibrated"; not a number: not asked for.
+  double calibrated = 0.0;
 };
 
 /// The bar must be softer than the bound, by no more than this share: strains across it are not

@@ -169,7 +169,7 @@ class Crack {
   /// \returns whether there is an equilibrium near the last one
   bool load(double platen) {
     constexpr int most = 100;
-    constexpr double smallest = 1e-15;  // of openings of a micrometre [m]
+    constexpr double smallest = 1e-15;  // round-off; openings are about a micrometre [m]
     for (int iteration = 0; iteration < most; ++iteration) {
       const VectorXd pull = pulls(platen);
       std::vector<Index> active;
@@ -240,7 +240,7 @@ class Crack {
 }  // namespace
 
 SplittingLoad splitting_load(const CohesiveDisc& disc, int cells) {
-  constexpr int steps = 1000;  // of the platens up to the first crack
+  constexpr int steps = 1000;  // platen steps up to the first crack
   Crack crack(disc, Quarter(disc, cells));
   const double first = crack.first_displacement();
   SplittingLoad found;

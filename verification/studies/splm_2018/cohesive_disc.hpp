@@ -21,7 +21,7 @@ struct CohesiveDisc {
 struct SplittingLoad {
   double first_crack = 0.0;   ///< force at which the diameter first has the strength [force]
   double peak = 0.0;          ///< first maximum of the force while the platens approach [force]
-  double displacement = 0.0;  ///< of either platen at the peak [length]
+  double displacement = 0.0;  ///< displacement of either platen at the peak [length]
   double opening = 0.0;       ///< largest of the crack at the peak [length]
   double error = 0.0;         ///< largest difference between tension and law along the open crack
                               ///< at the peak, over the strength

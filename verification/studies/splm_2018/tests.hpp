@@ -14,7 +14,7 @@ namespace perilink::verification {
 
 inline constexpr double tension_strength = 2.62e6;     ///< f_t [N/m^2]
 inline constexpr double fracture_energy = 91.7;        ///< area under the law of the opening [N/m]
-inline constexpr double block_section = 0.15 * 0.15;   ///< of the block [m^2]
+inline constexpr double block_section = 0.15 * 0.15;   ///< area of the block [m^2]
 inline constexpr double printed_block_step = 6.55e-7;  ///< at the spacing 0.01 m [s]
 inline constexpr double printed_disc_step = 3.27e-7;   ///< at 0.005 m [s]
 

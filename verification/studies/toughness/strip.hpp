@@ -24,7 +24,7 @@ struct Strip {
   int skipped = 6;                     ///< periods that the crack grows before it counts
   int counted = 24;
   int front = 1;                               ///< periods along the front, in space
-  std::array<double, 2> stretch = {1.0, 1.0};  ///< of the steps of the lattice
+  std::array<double, 2> stretch = {1.0, 1.0};  ///< factors on the steps of the lattice
 };
 
 /// Energies per area of crack, over the sum of bonds averaged over its directions (B-9).

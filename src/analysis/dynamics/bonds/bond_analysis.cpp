@@ -17,8 +17,8 @@ struct BlockSums {
   double fractured = 0.0;
   double damping = 0.0;
   double external_work = 0.0;
-  double stored = 0.0, kinetic = 0.0;   // of the last row
-  double driven = 0.0, supports = 0.0;  // of the last step
+  double stored = 0.0, kinetic = 0.0;   // in the last row
+  double driven = 0.0, supports = 0.0;  // in the last step
   double loaded = 0.0;                  // reference forces times displacements
 };
 
@@ -209,7 +209,7 @@ class BondRun {
   BreakOrder broken_;
   ExplicitLoop loop_;
   double dt_;
-  double motion_end_;  ///< of constant velocities; zero: none
+  double motion_end_;  ///< when constant velocities end [time]; zero: there are none
   double rate_;
   BondMotion motion_;
   std::vector<double> force_;      ///< K u

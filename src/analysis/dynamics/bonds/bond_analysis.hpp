@@ -39,7 +39,7 @@ int main_component(const Unknowns& unknowns, const Loads& loads);
 /// What a network with states is made of.
 struct StateBody {
   Problem problem = Problem::plane_stress;
-  double thickness = 1.0;  ///< of a body in the plane [length]
+  double thickness = 1.0;  ///< two-dimensional bodies only [length]
   std::vector<StateMaterial> materials;
 };
 

@@ -17,7 +17,7 @@ namespace {
 enum class Limits {
   none,
   pulled,    ///< events come in tension only
-  strained,  ///< of some in compression as well
+  strained,  ///< events of some elements come in compression as well
 };
 
 /// \tparam Half  TrussHalf, GreenHalf or FrameHalf
@@ -48,7 +48,7 @@ class Halves final : public ExplicitBonds {
   std::vector<std::size_t> offsets_;
   std::vector<Half> halves_;
   std::vector<Index> element_;
-  std::vector<double> limit_;   ///< of Half::demand(), which an intact bond exceeds where it fails
+  std::vector<double> limit_;   ///< an intact bond fails where Half::demand() exceeds this
   std::vector<double> secant_;  ///< present, over the intact stiffness
   std::vector<int> tooth_;
   std::vector<std::uint8_t> both_;  ///< Sense::both

@@ -53,9 +53,10 @@ class ExplicitBonds {
   virtual BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
                             std::span<double> force) = 0;
 
-  /// u_(n-1)' K u_n / 2 of these particles' halves [force length]: with the kinetic energy half a
-  /// step ago what Euler–Cromer keeps exactly. Of Green strains the like with g_(n-1) g_n, which it
-  /// keeps but for a part of the kinetic energy as small as the stretches.
+  /// u_(n-1)' K u_n / 2 of these particles' halves [force length]. Euler–Cromer keeps the sum of
+  /// this and the kinetic energy half a step ago exactly. With Green strains g_(n-1) g_n takes the
+  /// place of the displacements, and the sum is kept but for a part of the kinetic energy as small
+  /// as the stretches.
   virtual double stored(Index begin, Index end, double time_step,
                         const BondMotion& motion) const = 0;
 

@@ -41,7 +41,7 @@ struct BondStencil {
   std::vector<BondKind> kinds;                     ///< empty: no bond is on the stencil
   std::vector<std::vector<StencilLine>> patterns;  ///< lines of a group, as many groups have them
   std::vector<Group> groups;                       ///< particles lanes * g and the next
-  std::vector<Index> element;  ///< of each slot (group, line, side, lane); no_index: none
+  std::vector<Index> element;  ///< per slot (group, line, side, lane); no_index: none
   std::vector<Index> rest;     ///< elements off the stencil, ascending
 };
 

@@ -24,8 +24,8 @@ constexpr double largest_growth = 1e12;
 struct BlockSums {
   double push = 0.0, size = 0.0;       // squares r'M^-1 r and u'M u
   double residual = 0.0, held = 0.0;   // squares of residual forces, of loads and reactions
-  double stiffness = 0.0, mass = 0.0;  // of the motion since the load step began
-  double last_stiffness = 0.0, last_mass = 0.0;  // of the last step
+  double stiffness = 0.0, mass = 0.0;  // over the motion since the load step began
+  double last_stiffness = 0.0, last_mass = 0.0;  // over the last step
   double driven = 0.0, supports = 0.0, loaded = 0.0;
   double fractured = 0.0;
 };
@@ -294,14 +294,14 @@ class Relaxation {
   BondMotion motion_;
   std::vector<double> force_, before_;       ///< internal forces now and an iteration ago
   std::vector<double> first_, first_force_;  ///< where the damping began to be measured
-  std::vector<double> weight_;               ///< of squares of forces and moments
+  std::vector<double> weight_;  ///< factors of squares of forces and moments, per component
   std::vector<BlockSums> sums_;
   std::size_t step_ = 0;
   Index iteration_ = 0;
   double factor_ = 0.0, first_rest_ = 0.0, fractured_ = 0.0;
   double largest_residual_ = 0.0, largest_error_ = 0.0;
   double keep_ = 1.0, lose_ = 1.0;
-  double square_ = 0.0;  ///< of the frequency that is damped, as last known
+  double square_ = 0.0;  ///< square of the damped frequency, as last known
   bool at_rest_ = false, done_ = false, starts_ = true, restart_ = true;
   BlockSums sums_of_row_;
   ExplicitRecord record_;

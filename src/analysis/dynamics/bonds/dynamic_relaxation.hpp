@@ -10,7 +10,7 @@ namespace perilink {
 /// How a body is brought to rest.
 struct RelaxationOptions {
   std::vector<double> load_factors = {1.0};  ///< one load step each
-  double tolerance = 1e-6;                   ///< of RelaxationResult::residual and error
+  double tolerance = 1e-6;                   ///< for RelaxationResult::residual and error
   Index most_iterations = 1000000;           ///< in a load step
   double safety = 0.95;                      ///< step over the critical one of the masses
   Strain strain = Strain::small;
@@ -21,7 +21,7 @@ struct RelaxationOptions {
 struct RelaxationResult {
   Ending ending = Ending::completed;
   std::string reason;
-  Index iterations = 0;  ///< of all load steps
+  Index iterations = 0;  ///< over all load steps
   /// Norm of the residual force over that of loads and reactions, the largest of the load steps
   /// that came to rest, or where the run ended otherwise.
   double residual = 0.0;
@@ -29,7 +29,7 @@ struct RelaxationResult {
   /// residual force over the stiffness of the slowest vibration. Likewise the largest.
   double error = 0.0;
   double peak_load = 0.0;            ///< largest support reaction in magnitude [force]
-  ExplicitRecord last;               ///< of the last load step that came to rest
+  ExplicitRecord last;               ///< end of the last load step that came to rest
   std::vector<double> displacement;  ///< where it ended, shape (particles, width)
 };
 

@@ -118,8 +118,8 @@ struct FrameHalf {
   double n[Dim];                   ///< unit vector from the first end to the second
   double first_arm, second_arm;    ///< from the ends to the inflection [length]
   double k, kb, rotational;        ///< axial, transverse; of relative rotations [force length]
-  double twisting;                 ///< of relative rotations about n; in space
-  double shear_share, bend_share;  ///< of squares in the equivalent stretch
+  double twisting;                 ///< stiffness against relative rotations about n; in space
+  double shear_share, bend_share;  ///< factors of squares in the equivalent stretch
   double twist_share;
   Index other;
   bool first;  ///< the own end is the first one

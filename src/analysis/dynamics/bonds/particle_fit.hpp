@@ -18,7 +18,7 @@ class ParticleStrains {
  public:
   /// Appends a particle.
   /// \param halves   its bonds: direction, element, and whether they lead to neighbours (mine)
-  /// \param lengths  of elements [length]
+  /// \param lengths  per element [length]
   template <class Half>
   void add(std::span<const Half> halves, std::span<const double> lengths) {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Index>(halves.size()), entries);
@@ -48,7 +48,7 @@ class ParticleStrains {
     offsets_.push_back(inverse_.size());
   }
 
-  /// \param extension  of the k-th bond of the particle [length]
+  /// \param extension  takes k: that of the k-th bond of the particle [length]
   template <class Half, class Extension>
   SymmetricTensor fit(Index particle, std::span<const Half> halves,
                       const Extension& extension) const {
@@ -75,7 +75,7 @@ class ParticleStrains {
           ? std::array<std::array<int, 2>, 6>{{{0, 0}, {1, 1}, {0, 1}, {}, {}, {}}}
           : std::array<std::array<int, 2>, 6>{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
-  std::vector<double> inverse_;  ///< of each bond of each particle, shape (bonds, entries)
+  std::vector<double> inverse_;  ///< per bond of each particle, shape (bonds, entries)
   std::vector<std::size_t> offsets_{0};
   std::vector<double> largest_;
 };

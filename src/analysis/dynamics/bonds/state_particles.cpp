@@ -21,7 +21,7 @@ namespace {
 template <int Dim>
 struct StateHalf {
   std::array<double, Dim> direction;  ///< outwards
-  double stiffness = 0.0;             ///< of the whole bond [force/length]
+  double stiffness = 0.0;             ///< stiffness of the whole bond [force/length]
   Index other = 0;
   Index element = 0;
   bool mine = false;    ///< counts in the sum of this end
@@ -100,12 +100,13 @@ class StateParticles final : public ExplicitBonds {
 
   const Network& network_;
   std::vector<StateMaterial> materials_;
-  std::vector<HookeConstants> hooke_;  ///< of each material
+  std::vector<HookeConstants> hooke_;  ///< per material
   bool breakable_ = false;
   std::vector<std::size_t> offsets_{0};
   std::vector<StateHalf<Dim>> halves_;
-  std::vector<double> sum_;             ///< of weakened extensions of each particle's neighbours
-  std::vector<double> extension_;       ///< of each half, of the breakable
+  /// Per particle: sum of the weakened extensions of its neighbours' bonds.
+  std::vector<double> sum_;
+  std::vector<double> extension_;       ///< per half, where bonds can break
   std::vector<SignedFactors> factors_;  ///< the same
   std::vector<double> damage_, next_;
   std::vector<double> band_;  ///< width of the crack band [length]

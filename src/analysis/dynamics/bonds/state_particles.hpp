@@ -26,7 +26,7 @@ struct StateMaterial {
 /// \throws std::invalid_argument where a particle's band of a crack is so wide that its stress
 /// would fall faster than it unloads: particles too far apart for the softening
 /// \param materials  by Particles::material
-/// \param thickness  of two-dimensional bodies [length]
+/// \param thickness  two-dimensional bodies only [length]
 void check_bands(const Particles& particles, std::span<const StateMaterial> materials,
                  double thickness);
 
@@ -42,7 +42,7 @@ void check_bands(const Particles& particles, std::span<const StateMaterial> mate
 /// scattered bonds is not. Damage follows the opening of a crack in a band as wide as a square
 /// (cube) of the particle's volume. It weakens bonds from the next step on.
 /// \param materials  by Particles::material
-/// \param thickness  of two-dimensional bodies [length]
+/// \param thickness  two-dimensional bodies only [length]
 /// \throws std::invalid_argument as check_bands() does
 std::unique_ptr<ExplicitBonds> make_explicit_particles(const Network& network, Problem problem,
                                                        std::span<const StateMaterial> materials,

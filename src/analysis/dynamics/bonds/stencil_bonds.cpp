@@ -25,9 +25,9 @@ struct Line {
   std::ptrdiff_t out, in;
 };
 
-/// Of a kind what losses need.
+/// What losses need to know about a kind of bonds.
 struct KindConstants {
-  double stiffness;  ///< of the demand, k limit^2 / (V_i V_j) [force/length^5]
+  double stiffness;  ///< factor of the demand, k limit^2 / (V_i V_j) [force/length^5]
   bool breaks;
 };
 
@@ -75,7 +75,7 @@ class StencilBonds final : public ExplicitBonds {
   Index particles_, elements_;
   std::vector<double> volume_;
   std::vector<std::vector<Line<Dim>>> patterns_;
-  std::vector<std::vector<KindConstants>> kinds_;  ///< of the lines of each pattern
+  std::vector<std::vector<KindConstants>> kinds_;  ///< per pattern, one for each of its lines
   std::vector<BondStencil::Group> groups_;
   std::vector<Index> element_;
   std::vector<std::uint8_t> intact_;   ///< a bit of each slot; none where there is no bond
@@ -221,7 +221,7 @@ double StencilBonds<Dim>::demand(const Half& half, const double* u) const {
   return sum;
 }
 
-/// Of the half, between the displacements a step ago and now.
+/// Energy of the half, between the displacements a step ago and now.
 template <int Dim>
 double StencilBonds<Dim>::energy(const Half& half, double time_step,
                                  const BondMotion& motion) const {

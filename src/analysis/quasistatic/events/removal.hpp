@@ -29,7 +29,7 @@ struct Removal {
   double deformation(int mode, std::span<const double> solution) const;
 };
 
-/// \param fraction  of the intact stiffness that goes
+/// \param fraction  part of the intact stiffness that goes
 Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
                      double fraction);
 

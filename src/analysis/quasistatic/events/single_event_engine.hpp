@@ -67,10 +67,11 @@ class SingleEventEngine final : public EventEngine {
   /// much.
   static constexpr double noisy_pivot = 1e-8;
   struct Refined {
-    double residual = 0.0;      ///< norm of the forces out of balance
-    double energy = 0.0;        ///< u'K u of the refined motion
-    double error = 0.0;         ///< of this: what the last correction and round-off leave in doubt
-    double factor_error = 0.0;  ///< of a solution by the factor, relative, in the norm of energy
+    double residual = 0.0;  ///< norm of the forces out of balance
+    double energy = 0.0;    ///< u'K u of the refined motion
+    double error = 0.0;     ///< uncertainty of the energy after the last correction, with round-off
+    /// Relative error of a solution by the factor, in the norm of energy.
+    double factor_error = 0.0;
   };
   Refined refine_finely(std::span<const double> load, std::vector<long double>& motion);
   std::pair<std::vector<long double>, double> motion_of(const SparseVector& x);
@@ -105,7 +106,7 @@ class SingleEventEngine final : public EventEngine {
   bool partial_ = false;  ///< events keep only the displacements current that the search looks at
   bool stale_ = false;    ///< the other displacements are those of an earlier event
   double force_work_ = 0.0;           ///< f'u, followed through the events while partial_
-  double driven_spring_work_ = 0.0;   ///< of elastic supports at driven displacements
+  double driven_spring_work_ = 0.0;   ///< work of elastic supports at driven displacements
   std::vector<std::size_t> slot_of_;  ///< particle * width + component of every unknown
   std::vector<double> solution_;      ///< per unknown
   std::vector<double> displacement_;
@@ -114,7 +115,7 @@ class SingleEventEngine final : public EventEngine {
   std::vector<double> ground_load_;
   InternalForce internal_;
   ForcesAndEnergy<long double> fine_;
-  double stiffness_sum_ = 0.0;        ///< of all elements and supports
+  double stiffness_sum_ = 0.0;        ///< sum over all elements and supports
   bool must_rebuild_ = false;         ///< the pivot is known better than the factor can follow
   bool look_closer_ = false;          ///< pivots that are not small may be noise too
   bool supports_alone_ = false;       ///< elastic supports hold most of the motion looked at last

@@ -11,11 +11,11 @@ std::string horizon_key(const BodySection& body);
 /// What a horizon is held against before a bond is made.
 struct HorizonReach {
   double horizon = 0.0;    ///< [length]
-  double spacing = 0.0;    ///< of particles, mean edge of a mesh [length]
+  double spacing = 0.0;    ///< spacing of particles, mean edge of a mesh [length]
   double particles = 0.0;  ///< about
-  Vector3 extents{};       ///< of the body along each axis [length]
+  Vector3 extents{};       ///< size of the body along each axis [length]
   int dim = 2;
-  double memory = 0.0;  ///< of the machine [bytes]
+  double memory = 0.0;  ///< what the machine has [bytes]
 };
 
 /// The same of the particles of a body on this machine.

@@ -19,7 +19,8 @@ namespace perilink {
 namespace {
 
 constexpr double most_particles = 3e7;
-constexpr double farthest_offset = 1e6;  ///< of the lattice point from the body [spacings]
+/// Largest distance of the lattice point from the body [spacings].
+constexpr double farthest_offset = 1e6;
 
 LatticeRules rules_of(const CaseFile& input) {
   if (input.body.variant == "2017") return LatticeRules::mean_2017;

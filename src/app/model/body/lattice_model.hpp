@@ -23,7 +23,7 @@ ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape,
 CrackOpeningLaw softening_of(const MaterialSection& material);
 
 /// A model with particles and groups only, for what is said of places: supports, loads, gauges.
-/// \param slots  of its particles in the lattice
+/// \param slots  where its particles are in the lattice
 /// \throws InputError where a region is a group of the mesh without area (2D) or volume (3D)
 Model lattice_places(const CaseFile& input, const LatticeShape& shape, const ExplicitModel& body,
                      std::span<const Index> slots);

@@ -36,7 +36,7 @@ class LatticeShape {
   std::span<const Region* const> holes() const { return holes_; }
 
   /// Whether points lie in a region of the case; `body` is not one of them.
-  /// \param key  of the case that asks, for the message
+  /// \param key  that asks in the case, for the message
   /// \throws InputError where the region is a group of the mesh without area (2D) or volume (3D)
   PointTest test_of(const Region& region, const std::string& key) const;
 
@@ -48,7 +48,7 @@ class LatticeShape {
   double tolerance_ = 0.0;
   std::vector<const Region*> solid_, holes_;
   Mesh mesh_;
-  std::optional<CellSearch> cells_;  ///< of the mesh with the material
+  std::optional<CellSearch> cells_;  ///< search in the mesh with the material
 };
 
 }  // namespace perilink

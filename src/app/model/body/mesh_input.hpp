@@ -13,7 +13,7 @@ namespace perilink {
 /// The mesh that a case names.
 struct MeshInput {
   Mesh mesh;
-  std::vector<Index> material;  ///< of every cell; no_index where no material covers it
+  std::vector<Index> material;  ///< per cell; no_index where no material covers it
 };
 
 /// Reads the mesh that a case names.
@@ -21,7 +21,7 @@ struct MeshInput {
 MeshInput read_mesh_input(const CaseFile& input, int dim);
 
 /// The physical group of a region, which must consist of cells.
-/// \param key       of the case that asks, for the message
+/// \param key       that asks in the case, for the message
 /// \param contents  that the region is to hold, for the same
 /// \throws InputError  where it consists of what has no area (2D) or volume (3D)
 const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const Region& region,

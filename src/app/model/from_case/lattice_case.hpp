@@ -20,7 +20,7 @@ struct ExplicitCase {
   double fundamental_period = 0.0;
   Index steps = 0;
   Index bonds = 0;
-  std::vector<Gauge> gauges;       ///< of particles in the order of their slots
+  std::vector<Gauge> gauges;       ///< their particles are numbered in the order of their slots
   std::vector<std::string> notes;  ///< what the user should know: what holes take, point loads
                                    ///< that had to move
 };

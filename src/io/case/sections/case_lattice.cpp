@@ -23,7 +23,7 @@ constexpr std::array material_keys = {
     "tensile_strength",  "critical_opening",      "knee_stress_ratio", "knee_opening_ratio",
     "compression_ratio", "compression_threshold", "boundary_factor",   "internal_damping",
     "external_damping",  "fundamental_period"};
-/// Of these, what an unbreakable material has no use for.
+/// The keys among these that an unbreakable material has no use for.
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
                                        "compression_threshold", "boundary_factor"};

@@ -24,7 +24,7 @@ void refuse_lattice_keys(const CaseTable& table, const BodySection& body);
 /// Poisson's ratio, fracture_energy and what other bodies' materials lack.
 void read_lattice_material(const CaseTable& table, const BodySection& body,
                            MaterialSection& material);
-/// Of these what particles anywhere have, too: elastic constants, density and softening.
+/// Reads those keys that irregular particles have, too: elastic constants, density and softening.
 void read_state_material(const CaseTable& table, const BodySection& body,
                          MaterialSection& material);
 void write_softening(TomlWriter& out, const LatticeMaterialSection& section);

@@ -57,7 +57,7 @@ TEST(DamageAnalysis, CollapsesExactlyWhenTheLastLoadPathGoes) {
   EXPECT_EQ(first.broken_bonds, 0);
   EXPECT_NEAR(first.load_factor, 0.015, 1e-16);
   EXPECT_NEAR(first.load, 0.03, 1e-16);
-  EXPECT_NEAR(first.displacement, 0.015 * 2.0 / 3.0, 1e-16);  // of both loaded particles
+  EXPECT_NEAR(first.displacement, 0.015 * 2.0 / 3.0, 1e-16);  // over both loaded particles
   EXPECT_NEAR(first.external_work, 0.5 * 0.03 * 0.01, 1e-18);
   EXPECT_EQ(first.dissipated_energy, 0.0);
   const StepRecord& second = recorder.rows[1];

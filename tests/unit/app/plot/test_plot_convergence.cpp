@@ -46,8 +46,8 @@ TEST(PlotConvergence, EqualFactorsAreEqualDistances) {
   ConvergencePlot plot = sample();
   plot.lines.resize(1);
   const std::string text = draw_convergence(plot).str();
-  const std::vector<double> x =
-      attributes(text, "cx");  // the line's three marks, then the legend's
+  // The line's three marks, then the legend's.
+  const std::vector<double> x = attributes(text, "cx");
   const std::vector<double> y = attributes(text, "cy");
   ASSERT_EQ(x.size(), 4u);
   EXPECT_NEAR(x[1] - x[0], x[2] - x[1], 0.02);  // on the grid of 1/100 px

@@ -50,7 +50,7 @@ TEST(RunDoubts, NameWorkThatIsStillMotion) {
               ElementsAre(HasSubstr("a piece of the body is held by nothing")));
   EXPECT_THAT(doubts_about(result, {100.0, false, 0.0, 2}),
               ElementsAre(HasSubstr("2 pieces of the body are held by nothing")));
-  result.last.energy.kinetic = 7.0;  // of 77
+  result.last.energy.kinetic = 7.0;  // 77 in all
   EXPECT_THAT(doubts_about(result, {100.0}), IsEmpty());
 }
 

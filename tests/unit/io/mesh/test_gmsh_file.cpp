@@ -193,7 +193,7 @@ TEST(GmshFile, KeepsCellsOfNoGroupOnly) {
       replaced(replaced(square_mesh, "0 1 5 2 11 12", "0 0 2 11 12"), "2 -3 4 2 1 2", "0 2 1 2");
   const Mesh mesh = parse_gmsh(text, "m", 2);
   EXPECT_EQ(mesh.num_cells(), 4);
-  EXPECT_EQ(mesh.num_facets(), 1);  // of "left"
+  EXPECT_EQ(mesh.num_facets(), 1);  // the one of "left"
 }
 
 struct Fault {

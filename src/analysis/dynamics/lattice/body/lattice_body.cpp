@@ -46,7 +46,8 @@ void set_masses(ExplicitModel& model) {
   model.inverse_mass.assign(lattice.slots, 0.0);
   model.volume.assign(lattice.slots, lattice.cell_volume);
   const std::vector<double> share = tributary_shares(lattice);
-  const double least = 1.0 / (lattice.dim == 2 ? 6.0 : 18.0);  // of a particle without a triangle
+  // Share of a particle without a triangle.
+  const double least = 1.0 / (lattice.dim == 2 ? 6.0 : 18.0);
   for (const Index slot : lattice.particle_slot) {
     double inertia = 1.0;
     if (model.rules == LatticeRules::consistent) {

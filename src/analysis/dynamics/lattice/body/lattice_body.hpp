@@ -36,12 +36,13 @@ struct LatticeMaterial {
   /// Yield stress over plastic strain. Consistent rules: failure_strain follows from
   /// crushing_energy; the papers' rules have their own softening.
   YieldCurve yielding;
-  double crushing_energy = 0.0;     ///< dissipated by softening per area; infinite: none
-                                    ///< [force/length]
-  double boundary_factor = 1.0;     ///< beta_1: on the stress of particles that lack bonds [-]
-  double internal_damping = 0.0;    ///< ratio at the frequency of a particle's own vibration
-  double external_damping = 0.0;    ///< ratio at the fundamental frequency of the body
-  double fundamental_period = 0.0;  ///< of the body [time]; needed for external damping
+  double crushing_energy = 0.0;   ///< dissipated by softening per area; infinite: none
+                                  ///< [force/length]
+  double boundary_factor = 1.0;   ///< beta_1: on the stress of particles that lack bonds [-]
+  double internal_damping = 0.0;  ///< ratio at the frequency of a particle's own vibration
+  double external_damping = 0.0;  ///< ratio at the fundamental frequency of the body
+  /// Longest period of the body [time]; needed for external damping.
+  double fundamental_period = 0.0;
 };
 
 /// A component of a particle's motion that is prescribed: amplitude times the load factor.
@@ -64,12 +65,12 @@ struct ExplicitModel {
   LatticeRules rules = LatticeRules::consistent;
   LatticeRows lattice;
   LatticeMaterial material;
-  double thickness = 1.0;  ///< of a body in the plane [length]
+  double thickness = 1.0;  ///< two-dimensional bodies only [length]
   StateModuli moduli;
-  std::vector<double> mass;          ///< of each slot; one where it is empty [mass]
+  std::vector<double> mass;          ///< per slot; one where it is empty [mass]
   std::vector<double> inverse_mass;  ///< zero where a slot is empty
   std::vector<double> volume;        ///< over which a particle's stress is taken [length^3]
-  std::vector<std::vector<PrescribedMotion>> prescribed;  ///< of each row, by slot
+  std::vector<std::vector<PrescribedMotion>> prescribed;  ///< per row, by slot
   std::vector<std::vector<AppliedForce>> applied;         ///< the same; empty: no forces
   int load_component = 1;  ///< along which the reaction of supports is summed: that of the largest
                            ///< amplitude
@@ -102,7 +103,7 @@ void prescribe(ExplicitModel& model, const std::vector<PrescribedMotion>& motion
 
 /// Width of the crack band of a particle [length]: its volume over the area of a crack along rows
 /// (in space: along densest planes) of the lattice, which a crack at an angle crosses in steps.
-/// \param normal  of the crack, unit vector
+/// \param normal  unit vector normal to the crack
 double band_width(const ExplicitModel& model, const Vector3& normal);
 
 /// Square of the highest frequency that the body can have, from above, exact far from surfaces

@@ -13,7 +13,7 @@ void apply_forces(ExplicitModel& model, const std::vector<AppliedForce>& forces)
 
 /// Adds what the forces on one component of a row add to its new velocities.
 /// \param time   step times load factor
-/// \param speed  of every slot of the row
+/// \param speed  per slot of the row
 void push(const ExplicitModel& model, Index row, int component, double time, double* speed);
 
 /// Forces on one component of a row at load factor 1 times its velocities before and after a step.

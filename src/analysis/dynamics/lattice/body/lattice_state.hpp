@@ -19,7 +19,7 @@ inline constexpr double never = 1e200;
 struct RowSums {
   double stored = 0.0;  ///< between the last step and this (half_step_energy) [force length]; of
                         ///< steps that are looked at
-  double external_work = 0.0;  ///< of the prescribed motions
+  double external_work = 0.0;  ///< work of the prescribed motions
   double internal_damping = 0.0;
   double external_damping = 0.0;
   double fractured = 0.0;  ///< stored energy lost while damage grew at rest
@@ -29,7 +29,7 @@ struct RowSums {
 /// Force on the prescribed particles of a row in one step.
 struct RowReactions {
   double driven = 0.0;    ///< sum of reaction times amplitude [force length]
-  double supports = 0.0;  ///< of supports along the load [force]
+  double supports = 0.0;  ///< sum over supports along the load [force]
 };
 
 /// What a row needs beyond the elastic work: bits of ExplicitState::duty, which change with its
@@ -39,7 +39,7 @@ struct RowDuty {
   static constexpr std::uint8_t weakened = 2;  ///< own bonds have factors
 };
 struct RowNews {
-  static constexpr std::uint8_t damage_grew = 1, flowed = 2;  ///< of its particles, in this step
+  static constexpr std::uint8_t damage_grew = 1, flowed = 2;  ///< by its particles, in this step
   static constexpr std::uint8_t cracked = 4;                  ///< particles have damage
 };
 
@@ -47,17 +47,17 @@ struct RowNews {
 /// of a bond less `mean` is its elastic stretch; each particle's half differs from that by `half`,
 /// added by the owner, subtracted by the partner.
 struct LatticeFlow {
-  std::vector<double> stretch;  ///< of each particle's own halves, shape (2 own bonds, slots)
-  std::vector<double> mean;     ///< of the two halves of own bonds, shape (own bonds, slots)
+  std::vector<double> stretch;  ///< plastic, per own half of a particle, shape (2 own bonds, slots)
+  std::vector<double> mean;     ///< mean of the two halves of own bonds, shape (own bonds, slots)
   std::vector<double> half;     ///< (partner's - owner's) / 2, same shape
   std::vector<double> sum;      ///< what `half` adds to the sum of stretches of a particle
-  std::vector<double> change;   ///< of each row: largest change of a plastic stretch in a step
-  std::vector<double> locked;   ///< of each row: energy of `half` in its own bonds [force length]
+  std::vector<double> change;   ///< per row: largest change of a plastic stretch in a step
+  std::vector<double> locked;   ///< per row: energy of `half` in its own bonds [force length]
   std::vector<double> yield;    ///< present yield stress of particles [force/length^2]
   std::vector<double> visit;    ///< von Mises stress at which a particle has to be looked at
   std::vector<double> normal;   ///< Young's modulus times plastic strain out of the plane
-  std::vector<double>
-      strain;  ///< plastic, as a SymmetricTensor, shape (6, slots); consistent rules
+  /// Plastic, as a SymmetricTensor, shape (6, slots); consistent rules.
+  std::vector<double> strain;
   std::vector<double> equivalent;     ///< plastic strain of particles; consistent rules
   std::vector<std::uint8_t> crushed;  ///< particles that carry no compression either
 };
@@ -74,7 +74,7 @@ struct StepNumbers {
   std::vector<double> partners;   ///< the same of the partner
   std::vector<double> force;      ///< present directions of own bonds until bond_forces, then the
                                   ///< forces on the owner [force], (own bonds, dim, slots)
-  std::vector<double> sum;        ///< of weighted stretches over all bonds, times length
+  std::vector<double> sum;        ///< weighted stretches summed over all bonds, times length
 
   /// Zeros beyond the end of a row, where bonds that do not exist lead and a longer row at the same
   /// place has left its numbers.
@@ -109,13 +109,13 @@ struct ExplicitState {
   std::vector<double> grow_at;   ///< strain that drives damage by the rules of the papers, the same
   std::vector<double> wait;      ///< path of the row before which no crack can begin at a particle
   LatticeFlow flow;
-  std::vector<RowSums> sums;  ///< of each row
+  std::vector<RowSums> sums;  ///< per row
   std::vector<RowReactions> reactions;
-  std::vector<double> fastest;     ///< of each row: largest change of an elastic stretch in a step
-  std::vector<double> slack;       ///< of each row: change of stretches that alters nothing yet
-  std::vector<double> path;        ///< of each row: sum of all changes of stretches near it
-  std::vector<std::uint8_t> duty;  ///< of each row, see RowDuty
-  std::vector<std::uint8_t> news;  ///< of each row, see RowNews
+  std::vector<double> fastest;          ///< per row: largest change of an elastic stretch in a step
+  std::vector<double> slack;            ///< per row: change of stretches that alters nothing yet
+  std::vector<double> path;             ///< per row: sum of all changes of stretches near it
+  std::vector<std::uint8_t> duty;       ///< per row, see RowDuty
+  std::vector<std::uint8_t> news;       ///< per row, see RowNews
   std::vector<std::uint8_t> near_news;  ///< what grew or flowed in the row or next to it
 };
 

@@ -9,7 +9,7 @@ namespace perilink {
 /// Where the rows of a lattice lie in arrays that hold numbers of bonds or particles for a part of
 /// a step only. Within a row slots follow one another as everywhere else.
 struct RowPlaces {
-  Index slots = 0;               ///< of one part of an array
+  Index slots = 0;               ///< number of slots in one part of an array
   std::vector<Index> first;      ///< slot of each row's first particle
   std::vector<Index> shift_out;  ///< to own bond k's partner, shape (rows, own bonds)
   std::vector<Index> shift_in;   ///< minus slot whose own bond k ends here, same shape
@@ -23,7 +23,7 @@ RowPlaces lattice_places(const LatticeRows& lattice);
 
 /// How the rows of a sweep follow one another.
 struct PassingRows {
-  Index blocks = 1;  ///< of rows, as equal as can be
+  Index blocks = 1;  ///< blocks of rows, as equal as can be
   Index alive = 1;   ///< rows of a block whose numbers are needed at the same time
   Index edge = 0;  ///< rows on either side of an edge between blocks that keep their numbers until
                    ///< all blocks are done

@@ -8,8 +8,8 @@
 
 namespace perilink {
 
-/// Of the two factors of a bond the one that its stretch asks for. Both are read, so that loops
-/// need no branches.
+/// The factor of a bond that belongs to the sign of its stretch. Both are read, so that loops need
+/// no branches.
 inline double by_sign(double stretch, double in_tension, double in_compression) {
   return stretch >= 0.0 ? in_tension : in_compression;
 }

@@ -9,8 +9,8 @@
 namespace perilink {
 namespace {
 
-constexpr int most_iterations = 30;  // of which a few are needed
-constexpr double round_off = 1e-14;  ///< of the yield stress: where the returns end
+constexpr int most_iterations = 30;  // a few are needed
+constexpr double round_off = 1e-14;  ///< where the returns end, relative to the yield stress
 
 /// The yield curve and its slope without branches: hardening up to a strain, then softening.
 struct Curve {

@@ -9,8 +9,10 @@
 namespace perilink {
 namespace {
 
-constexpr double most_flow = 0.01;           ///< of a stretch in a step (2018, below Eq. 29)
-constexpr double softening_per_step = 0.99;  ///< of the yield stress (2018, below Eq. 24)
+/// Largest plastic change of a stretch in a step (2018, below Eq. 29).
+constexpr double most_flow = 0.01;
+/// Largest fall of the yield stress in a step, as a factor (2018, below Eq. 24).
+constexpr double softening_per_step = 0.99;
 
 /// One value for each particle of a row.
 struct Scratch {

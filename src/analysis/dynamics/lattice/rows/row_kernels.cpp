@@ -16,7 +16,7 @@ using namespace row_loops;
 
 /// What a row of bonds may be.
 enum class Level {
-  elastic,   ///< of a body that never changes
+  elastic,   ///< the body never changes
   watched,   ///< intact, but damage and flow look at its stretches
   flowed,    ///< with plastic parts
   weakened,  ///< with factors of damage, and plastic parts where the body flows

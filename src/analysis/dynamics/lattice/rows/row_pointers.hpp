@@ -55,7 +55,7 @@ inline bool is_weighted(const ExplicitModel& model, const ExplicitState& state, 
 /// Weights of own bonds in the sums of their two ends (half_bond_weight).
 struct WeightPointers {
   std::array<const double*, group> present, share_tension, share_compression;
-  const double *root_tension, *root_compression;  ///< of the owner
+  const double *root_tension, *root_compression;  ///< those of the owner
   Index shift[group];                             ///< from there to the partner
 
   WeightPointers(const LatticeRows& lattice, const ExplicitState& state, Index r, int first) {

@@ -139,7 +139,8 @@ TEST(LatticeDamage, LeavesABandTheStressOfTheBodyAroundIt) {
     std::vector<double> damages(state.damage.size(), 0.0);
     for (const Index slot : lattice.particle_slot) {
       const double y = lattice.positions[lattice.at(1, slot)];
-      const double more = 0.5 * height * damage / (1.0 - damage);  // of a half of the row
+      // Extra opening of half of the row.
+      const double more = 0.5 * height * damage / (1.0 - damage);
       const bool in_row = std::abs(y) < 1e-6;
       damages[slot] = in_row ? damage : 0.0;
       state.displacement[lattice.at(1, slot)] =
@@ -154,7 +155,8 @@ TEST(LatticeDamage, LeavesABandTheStressOfTheBodyAroundIt) {
       if (std::hypot(lattice.positions[slot], lattice.positions[lattice.at(1, slot)]) > 0.03) {
         continue;  // sums of particles at faces lack bonds
       }
-      EXPECT_NEAR(force[lattice.at(1, slot)], 0.0, 1e-5 * bond);  // of the strain in the band
+      // The bar is relative to a bond under the strain in the band.
+      EXPECT_NEAR(force[lattice.at(1, slot)], 0.0, 1e-5 * bond);
       EXPECT_NEAR(first_stress(model, state, slot),
                   first_stress(model, state, middle_slot(lattice)), 1e-5 * bond / height);
       ++inner;

@@ -137,7 +137,7 @@ TEST(FrameLimitSearch, RefusesWhatIsNotFinite) {
   }
 }
 
-/// Of bonds that symmetry makes equal the lowest breaks, whatever round-off says.
+/// Among bonds that symmetry makes equal the lowest breaks, whatever round-off says.
 TEST(FrameLimitSearch, TiesGoToTheLowestElement) {
   Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   network.bonds.append(network.particles, 0, 1);

@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(All, LatticeStatics, testing::ValuesIn(state_lattice_ca
                          testing::PrintToStringParamName());
 
 constexpr double height = 0.3;
-const double speed = std::sqrt(25e9 / 2323.0);  // of waves along a bar of elastic_concrete()
+const double speed = std::sqrt(25e9 / 2323.0);  // waves along a bar of elastic_concrete()
 
 enum class Ends { one, both, none };
 

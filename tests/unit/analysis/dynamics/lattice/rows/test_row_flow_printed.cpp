@@ -140,7 +140,7 @@ TEST(PrintedFlow, IsThatOfOneParticleAtATime) {
           const Index at = lattice.at(j, slot);
           const double change = rows.flow.stretch[at] - state.flow.stretch[at];
           flowed += change != 0.0 ? 1 : 0;
-          EXPECT_NEAR(change, printed.step[j], 1e-14);  // of stretches of up to 0.02
+          EXPECT_NEAR(change, printed.step[j], 1e-14);  // round-off; stretches are up to 0.02
         }
       });
       change(model, changes, state);  // damage and flow of this step

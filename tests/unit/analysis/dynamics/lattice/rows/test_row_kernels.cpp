@@ -222,7 +222,7 @@ TEST(ExplicitKernels, FactorsOfOneChangeNothing) {
   }
 }
 
-/// Of bonds that are weaker and whose halves have flowed differently: each half with its own force.
+/// Bonds that are weaker and whose halves have flowed differently: each half has its own force.
 TEST(ExplicitKernels, HalvesThatFlowedWeighWithTheFactorOfTheirBond) {
   LatticeMaterial material = elastic_concrete();
   material.breakable = material.yields = true;

@@ -14,7 +14,7 @@ namespace {
 struct Record {
   Index rows, reach;
   std::array<std::vector<int>, 4> time;
-  std::vector<int> early;  ///< of each row: works that came before what they need
+  std::vector<int> early;  ///< per row: works that came before what they need
 
   explicit Record(Index count, Index far) : rows(count), reach(far), early(count, 0) {
     for (auto& stage : time) stage.assign(rows, 0);
