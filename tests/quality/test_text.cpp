@@ -93,6 +93,12 @@ TEST(Text, NoCommentBeginsWithOf) {
   }
 }
 
+/// Characters of UTF-8: they begin with every byte but those of the form 10xxxxxx.
+std::ptrdiff_t columns(const std::string& line) {
+  return std::count_if(line.begin(), line.end(),
+                       [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; });
+}
+
 TEST(Text, LinesOfSourcesEndAtTheColumnLimit) {
   const std::ptrdiff_t limit = column_limit();
   for (const char* folder : {"src", "tests", "verification"}) {
@@ -100,13 +106,53 @@ TEST(Text, LinesOfSourcesEndAtTheColumnLimit) {
       int number = 0;
       for (const std::string& line : read_lines(file)) {
         ++number;
-        // Characters of UTF-8 begin with every byte but those of the form 10xxxxxx.
-        const auto columns = std::count_if(line.begin(), line.end(), [](char byte) {
-          return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
-        });
-        EXPECT_LE(columns, limit) << shown(file) << ":" << number;
+        EXPECT_LE(columns(line), limit) << shown(file) << ":" << number;
       }
     }
+  }
+}
+
+/// Walks through the lines of a Markdown file and knows which of them can be wrapped: not tables,
+/// code, formulas that stand alone, pictures and headings, nor a line of one word.
+class MarkdownLines {
+ public:
+  bool can_wrap(const std::string& line) {
+    static const std::regex fence("^ *(```|~~~).*"), one_word(" *[^ ]*");
+    static const std::regex stays("^( {4}|\\||!\\[|#|<).*");
+    if (std::regex_match(line, fence)) {
+      in_code_ = !in_code_;
+      return false;
+    }
+    if (in_code_) return false;
+    const std::size_t first = line.find("$$");
+    if (first != std::string::npos) {
+      // One that opens a formula and leaves it open, or closes it.
+      if (line.find("$$", first + 2) == std::string::npos) in_formula_ = !in_formula_;
+      return false;
+    }
+    return !in_formula_ && !std::regex_match(line, stays) && !std::regex_match(line, one_word);
+  }
+
+  /// Whether code or a formula has begun and not ended.
+  bool is_open() const { return in_code_ || in_formula_; }
+
+ private:
+  bool in_code_ = false;
+  bool in_formula_ = false;
+};
+
+TEST(Text, MarkdownWrapsAtTheColumnLimit) {
+  const std::ptrdiff_t limit = column_limit();
+  for (const auto& file : tracked_files()) {
+    if (file.extension() != ".md") continue;
+    MarkdownLines lines;
+    int number = 0;
+    for (const std::string& line : read_lines(file)) {
+      ++number;
+      EXPECT_TRUE(!lines.can_wrap(line) || columns(line) <= limit)
+          << shown(file) << ":" << number << ": " << line;
+    }
+    EXPECT_FALSE(lines.is_open()) << shown(file) << " leaves code or a formula open";
   }
 }
 
