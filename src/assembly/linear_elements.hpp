@@ -32,7 +32,7 @@ struct LinearElements {
 
 /// \param positions  shape (particles, dim) [length]
 /// \param thickness  two-dimensional bodies only [length]
-/// \param materials  that `cells.material` numbers
+/// \param materials  by the numbers in `cells.material`
 /// \throws std::invalid_argument for a cell that is turned inside out or has no volume
 LinearElements make_linear_elements(Simplices cells, std::span<const double> positions,
                                     double thickness, Problem problem,

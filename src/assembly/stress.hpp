@@ -21,8 +21,8 @@ struct StressInput {
   const Network& network;
   const Csr& families;  ///< bonds of each particle (bonds_of_particles)
   Problem problem = Problem::plane_stress;
-  std::span<const HookeConstants> materials;  ///< that the particles' material numbers
-  /// Also those of the neighbours: for the edges of elements, which are too few.
+  std::span<const HookeConstants> materials;  ///< by Particles::material
+  /// Whether neighbours of neighbours count, too: edges of linear elements alone are too few.
   bool second_neighbors = false;
 };
 

@@ -42,9 +42,9 @@ struct BondOrbits {
   Index of_bond(Index bond) const { return std::min(views[bond][0], views[bond][1]); }
 };
 
-/// Depths under the faces count up to twice the reach of the bonds (in steps), of particles, all of
-/// whose bonds have to lie alike, three times: that is as far as the strip of free bonds goes.
-/// Along axes that are too short for it only mirrored places are alike.
+/// Depths under the faces tell bonds apart up to twice the reach of the bonds (in steps), and
+/// particles, all of whose bonds have to lie alike, up to three times: as far as the strip of free
+/// bonds goes. Along axes that are too short for this only mirrored places are alike.
 /// \param free  bonds whose stiffness may change
 BondOrbits find_orbits(const LatticeBox& box, const Particles& particles, const Bonds& bonds,
                        std::span<const std::uint8_t> free);

@@ -29,8 +29,8 @@ struct CalibrationInput {
   /// clouds).
   std::vector<std::uint8_t> free;
   bool all_free() const { return free.empty(); }
-  /// That the particles fill with one lattice: bonds that lie alike are made alike, if the material
-  /// is the same all over.
+  /// The box that the particles fill with one lattice; where the material is the same all over,
+  /// bonds that lie alike are then made alike.
   std::optional<LatticeBox> box = std::nullopt;
 };
 
@@ -59,7 +59,7 @@ struct CalibrationReport {
   Index unmet = 0;
   double smallest_weight = 1.0;  ///< axial stiffness, end over start
   double largest_weight = 1.0;
-  Index at_least_weight = 0;  ///< number of bonds there
+  Index at_least_weight = 0;  ///< number of bonds at the least weight
   Index dropped = 0;          ///< bonds that may carry nothing: their stiffness is zero
   int iterations = 0;         ///< conjugate gradients, in all
   double seconds = 0.0;       ///< wall time, with that of the families of a lattice
@@ -70,8 +70,8 @@ struct CalibrationReport {
 /// docs/theory/calibration.md. Shifts the shares of facets where no stiffness could do it, and the
 /// inflection of bonds that carry moments. Where the bounds stand in the way (a corner of a cube:
 /// bonds along its diagonal pull out of all three faces at once) the bonds there may fall to zero.
-/// What cannot be balanced either stays as near to it as least squares, prices or the soft
-/// equations lead; the report says how near.
+/// Where even this balances nothing, what is left is made small by least squares, prices or soft
+/// equations; the report says how small.
 CalibrationReport calibrate_bonds(const CalibrationInput& input, const CalibrationOptions& options,
                                   Facets& facets, BondStiffness& stiffness);
 

@@ -4,10 +4,10 @@
 
 namespace perilink {
 
-/// The report of a calibration that has not been done: how many bonds it may change, and what it
-/// will take on a quiet core, roughly [s], by rates of bodies whose search finds its end
+/// Estimate of a calibration that has not been done, as its report: how many bonds it may change
+/// and roughly how many seconds it takes on an idle core, by rates of bodies whose search converges
 /// (contradictory equations take longer).
-/// \param moments  bonds carry them
+/// \param moments  whether bonds carry moments
 CalibrationReport expected_calibration(const CalibrationInput& input, bool moments);
 
 }  // namespace perilink

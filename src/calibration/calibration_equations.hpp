@@ -20,7 +20,7 @@ class CalibrationEquations {
   static constexpr double met = 1e-7;
 
   /// \param least_weight  floor of the axial stiffness, relative to the start
-  /// \param stiffness     that the calibration starts from
+  /// \param stiffness     start of the calibration
   /// \param orbits        bonds that change alike; only their representatives are asked for
   ///                      balance. None: all particles are
   CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,
@@ -45,8 +45,8 @@ class CalibrationEquations {
   /// Takes the floor from the bonds of particles that are out of balance by more than the limit.
   /// \return whether there was a floor to take
   bool allow_zero(double limit);
-  /// Takes what has fallen to zero out of the equations. Where weights must be exactly zero no
-  /// multiplier brings them there, only nearer and nearer.
+  /// Takes bonds that have fallen to zero out of the equations: no finite multiplier makes a weight
+  /// exactly zero, it only brings it nearer.
   void drop_vanishing();
   /// Whether a particle has lost more than half of its bonds.
   bool hollow() const;
@@ -104,7 +104,7 @@ class CalibrationEquations {
   bool shares_vary() const { return input_.all_free(); }
   bool carries_moments() const { return forces_.bending; }
 
-  /// Squares of soft moments weigh its inverse against those of the changes.
+  /// The inverse of this weights the squares of soft moments against those of the changes.
   static constexpr double soft_ridge = 1e-4;
 
   const CalibrationInput& input_;

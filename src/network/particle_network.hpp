@@ -23,10 +23,10 @@ struct ParticleNetwork {
   ParticleFitReport report;
 };
 
-/// Neighbours that a particle has: those no farther than its sixth (in the plane) or eighteenth
-/// nearest one (Eq. 3.50) of those to which the way does not leave the body, and as many more as it
-/// takes that no strain leaves all their bonds as they are. Distances that differ by a millionth
-/// are equal: regular arrangements keep their symmetry.
+/// Neighbours of a particle (Eq. 3.50): all that are no farther than its sixth (in the plane) or
+/// eighteenth nearest one, not counting those that can be reached only by leaving the body, and as
+/// many more as are needed for every strain to stretch some bond. Distances that differ by a
+/// millionth are equal: regular arrangements keep their symmetry.
 inline constexpr int neighbors_in_plane = 6, neighbors_in_space = 18;
 
 /// Particles with the volumes of their Voronoi cells and the constants of fit_particle_moduli().

@@ -21,7 +21,7 @@ namespace perilink::test {
 /// What a process left.
 struct ProcessEnd {
   int exit_status = -1;  ///< -1 when a signal ended it
-  int signal = 0;        ///< that ended it
+  int signal = 0;        ///< ended it; 0: none
   std::string out;
   std::string err;
 };

@@ -49,7 +49,7 @@ struct RouteTime {
   double solve = 0.0;           ///< seconds of one full solve
   double bytes = 0.0;           ///< size of L
   double event_bytes = 0.0;     ///< part of L that the last event read
-  std::vector<Index> elements;  ///< that broke
+  std::vector<Index> elements;  ///< those that broke
 };
 
 /// Median over the events of one route of a whole event: search, pivot, downdate, displacement.

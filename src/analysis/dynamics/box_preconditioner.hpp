@@ -17,10 +17,10 @@ struct EnergyPart {
   std::array<double, 6> b{};  ///< as many as its motion q has components
 };
 
-/// About the inverse of the intact stiffness, K x with the prescribed components held, without a
-/// factor of it: the inverse of every particle's own block, plus that of the body whose boxes of
-/// particles move rigidly (a small dense matrix). Conjugate gradients then take as many iterations
-/// as a box has particles across, however large the body is.
+/// Approximates the inverse of the intact stiffness, prescribed components held, without
+/// factorising it: the inverse of every particle's own block, plus the inverse for a body whose
+/// boxes of particles move rigidly (a small dense matrix). Conjugate gradients then take as many
+/// iterations as a box has particles across, however large the body is.
 class BoxPreconditioner {
  public:
   /// \param unknowns  have to outlive this

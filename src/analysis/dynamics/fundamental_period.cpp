@@ -101,7 +101,7 @@ bool Vibration::append(Direction direction) {
   if (!(whole > 0.0)) return false;
   constexpr double least_part = 1e-10;    // less is round-off
   for (int pass = 0; pass < 2; ++pass) {  // once leaves too much round-off
-    make_orthogonal(direction.u, free_);  // which has no force
+    make_orthogonal(direction.u, free_);  // no force acts along free motions
     for (const Direction& other : basis_) {
       const double part = product(other.u, direction.u);
       direction.u -= part * other.u;

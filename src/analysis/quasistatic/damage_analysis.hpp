@@ -44,7 +44,7 @@ struct DamageResult {
   double peak_displacement = 0.0;  ///< displacement at the peak load
   PeakWatch peaks;                 ///< the same, and what the load did after its first peak
   Index broken_as_gave_way = 0;    ///< bonds broken when the body first gave way
-  std::vector<PlaceForce> places;  ///< at the peak, of several; filled in by who knows them
+  std::vector<PlaceForce> places;  ///< forces at the peak, where several; the caller fills it
   std::optional<double> smoothed_peak_load;  ///< where the path of events is long enough
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;

@@ -25,7 +25,7 @@ struct StepRecord {
   double released_energy = 0.0;    ///< sum of the elements' energies at the moment they failed
   double residual = 0.0;           ///< |f - K u| / |f| when last measured
   int factorizations = 0;
-  Index element = no_index;  ///< that fails at this load
+  Index element = no_index;  ///< fails at this load
   double seconds = 0.0;      ///< wall time of this step; goes to timing.csv only
 };
 

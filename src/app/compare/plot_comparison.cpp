@@ -15,7 +15,7 @@ namespace {
 constexpr double frame_top = 92.0;
 constexpr double legend_top = 52.0;
 constexpr double legend_row = 21.0;
-constexpr std::size_t legend_letters = 98;  ///< that fit beside a line of the legend
+constexpr std::size_t legend_letters = 98;  ///< as many fit beside a line of the legend
 
 /// Colours that the colour-blind tell apart (Okabe & Ito 2008); the second line is dashed, for
 /// prints without colour and where the curves coincide.

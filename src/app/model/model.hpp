@@ -28,7 +28,7 @@ struct Gauge {
   };
   std::string name;
   std::vector<Term> terms;
-  Vector3 direction{};                       ///< in which the displacement is measured
+  Vector3 direction{};                       ///< direction of the displacement that is measured
   std::optional<std::array<int, 2>> stress;  ///< axes of the component instead of a displacement
 };
 

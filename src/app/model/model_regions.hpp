@@ -12,13 +12,13 @@ const Group& group_named(const Model& model, const std::string& name);
 
 /// Solid particles and bar nodes inside a region, ascending; of a physical group its particles.
 /// "surface" are the corners of all facets of the surface, "body" is everything.
-/// \param key  that asks in the case, for the message
+/// \param key  place in the case, for messages
 /// \throws InputError when there is none
 std::vector<Index> particles_of_region(const CaseFile& input, const Model& model,
                                        const std::string& region, const std::string& key);
 
 /// Facets of the surface whose centres lie in a region, ascending; of a physical group its facets.
-/// \param key  that asks in the case, for the message
+/// \param key  place in the case, for messages
 /// \throws InputError when there is none
 std::vector<Index> facets_of_region(const CaseFile& input, const Model& model,
                                     const std::string& region, const std::string& key);

@@ -16,7 +16,7 @@ struct ConvergenceLine {
   };
   std::string name;
   std::vector<Point> points;    ///< those that are not positive are left out
-  std::optional<double> order;  ///< that the legend gives
+  std::optional<double> order;  ///< number in the legend; none: left out
 };
 
 /// A triangle that shows what slope an order of convergence has.

@@ -19,7 +19,7 @@ inline constexpr std::size_t events_for_envelope = 200;
 std::size_t peak_row(std::span<const StepRecord> records);
 
 /// Load over displacement with the peak marked; a path of more than 200 events with its envelope.
-/// \param first_peak  that of the run's summary; marked where the peak is another
+/// \param first_peak  from the run's summary; marked where the peak is another
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
                            const std::optional<CurvePoint>& first_peak = {});
 

@@ -47,7 +47,7 @@ class RunObserver final : public StepObserver {
   Csr families_;               ///< made with the first field file
   std::vector<Index> broken_;  ///< in the order of breaking
   std::vector<std::uint8_t> is_broken_;
-  Index last_element_ = no_index;  ///< that failed at the end of the last row
+  Index last_element_ = no_index;  ///< failed at the end of the last row
   std::set<Index> written_;        ///< numbers of broken bonds that have a field file
   std::vector<PvdEntry> series_;
   double highest_ = 0.0;  ///< |load| so far

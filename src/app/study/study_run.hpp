@@ -36,7 +36,7 @@ struct StudyMember {
   bool bad_input = false;  ///< the failure is one of the input
   std::string note;        ///< on its peaks; empty: none
   std::string method, surface;
-  double spacing = 0.0;  ///< that the lattice or mesh has [length]
+  double spacing = 0.0;  ///< as the lattice or mesh has it [length]
   double horizon = 0.0;  ///< [length]
   Index particles = 0, bonds = 0, unknowns = 0;
   std::vector<double> values;  ///< per error: the quantity, or the error of a field

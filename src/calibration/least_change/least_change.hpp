@@ -84,7 +84,8 @@ struct LeastChangeOptions {
 class BoxSpace;
 class EquationsFactor;
 
-/// Made for one problem and good for the next with the same points and about these coefficients.
+/// Preconditioners that were made for one problem and serve the next one, too, where points are the
+/// same and coefficients similar.
 struct KeptPreconditioner {
   std::unique_ptr<BoxSpace> boxes;
   std::unique_ptr<EquationsFactor> factor;
@@ -118,7 +119,8 @@ struct LeastChange {
 /// \throws std::invalid_argument for numbers of rows, odd ones and groups that are not built in
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);
 
-/// The same. What speeds it up is made, or made anew where it serves badly, and kept for the next.
+/// The same with a preconditioner that is kept for the next problem and renewed where it serves
+/// badly.
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
                          KeptPreconditioner& kept);
 

@@ -57,8 +57,7 @@ class NormalEquations {
   bool has_price(std::size_t k) const {
     return std::isfinite(price()) && equations_.ridge_of(k % Rows) == 0.0;
   }
-  /// Part of equation k that is given up at the multiplier y, which is above the price then, by as
-  /// much.
+  /// Part of equation k that is given up: as much as its multiplier y exceeds the price.
   double given_up(std::size_t k, double y) const {
     if (!has_price(k) || std::abs(y) <= price()) return 0.0;
     return y > 0.0 ? y - price() : y + price();
@@ -89,7 +88,7 @@ class NormalEquations {
   /// that fall with the square of their length: a factor of the equations allows a smaller one.
   static constexpr double least_proximity = 1e-10;
   static constexpr double factor_proximity = 1e-18;
-  /// As many iterations take about the time of a factor.
+  /// Iterations that take about as long as a factor.
   static constexpr int worth_of_factor = 15;
   /// A factor is made anew when the last solution needed more iterations than this.
   static constexpr int stale_iterations = 40;
@@ -105,7 +104,7 @@ class NormalEquations {
   }
   int iterate(const Vector& residual, double reduction, int most, Vector& direction);
   void precondition(const Vector& residual, Vector& result) const;
-  /// Blocks without help, that may get some.
+  /// Whether blocks work alone so far, although they may get help.
   bool alone() const {
     return !by_factor_ && !with_boxes_ && options_.preconditioner != Preconditioner::blocks;
   }

@@ -30,9 +30,9 @@ struct TiedEquations {
 
 TiedEquations tie(const PointEquations& equations);
 
-/// What NormalEquations are to other problems. The matrices are small but full, and symmetry makes
-/// some rows depend on others: a factor, renewed when it serves badly, preconditions the conjugate
-/// gradients.
+/// The counterpart of NormalEquations for tied variables. The matrices are small but full, and
+/// symmetry makes some rows depend on others: a factor, renewed when it serves badly, preconditions
+/// the conjugate gradients.
 class TiedNormalEquations {
  public:
   using Vector = std::vector<double>;  // shape (points, rows)

@@ -168,8 +168,8 @@ struct AnalysisSection {
   std::vector<double> load_factors;         ///< for control = steps and type = relaxation
   std::string rigid_body_modes = "refuse";  ///< refuse | pin
   std::string factor = "in_place";          ///< in_place | cholmod_updown | refactorize
-  double duration = 0.0;                    ///< [time]; this and the rest: explicit or relaxation
-  double ramp_time = 0.0;                   ///< in which the load factor rises to one [time]
+  double duration = 0.0;                    ///< [time]; from here on: type = explicit
+  double ramp_time = 0.0;                   ///< until the load factor is one [time]
   std::optional<double> time_step;          ///< [time]
   double safety = 0.9;        ///< part of the critical time step that is taken without time_step
   int rows = 500;             ///< rows of the history, about

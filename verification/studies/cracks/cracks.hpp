@@ -22,7 +22,7 @@ struct CrackRun {
   DamageResult result;
   CrackPath path;
   StrayBreaks stray;
-  double first_load = 0.0;   ///< at which the first bond breaks [force]
+  double first_load = 0.0;   ///< the first bond breaks at it [force]
   double smooth_peak = 0.0;  ///< largest load, smoothed over one horizon of growth [force]
   /// Block: E s_c A, at which uniform stress breaks the first bond; cracked beam: Griffith's
   /// [force].

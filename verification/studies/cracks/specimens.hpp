@@ -34,7 +34,7 @@ struct Specimen {
   std::optional<Box> weak;            ///< where it is less ...
   double weak_fracture_energy = 0.0;  ///< ... namely this [force/length]
   std::vector<std::array<double, 2>> corners;  ///< corners of the notch at its end [length]
-  std::optional<double> griffith_load;         ///< at which the crack would begin to grow [force]
+  std::optional<double> griffith_load;         ///< the crack would begin to grow at it [force]
 };
 
 /// \param spacing  [in] of the block, [mm] of the beams; has to divide their measures

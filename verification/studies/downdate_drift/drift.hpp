@@ -22,7 +22,7 @@ std::vector<Drift> measure_drift(const Model& model, int downdates, int interval
 /// What cutting a part out of the body does to the rest.
 struct Detachment {
   int particles = 0;   ///< in the part
-  int bonds = 0;       ///< that held it
+  int bonds = 0;       ///< bonds that held it
   int springs = 0;     ///< ground springs that the engine added
   double error = 0.0;  ///< in what remains, against a fresh factor without the part
 };

@@ -14,9 +14,9 @@ class BreakOrder {
  public:
   explicit BreakOrder(Index blocks) : of_blocks_(static_cast<std::size_t>(blocks)) {}
 
-  /// What broke in a block in a step that is not earlier than the last one. What breaks again, such
-  /// as the other half of a bond, even in a later step, counts once. Calls for different blocks may
-  /// run at once.
+  /// Adds what broke in a block, in the step of its last call or a later one. What breaks again,
+  /// such as the other half of a bond, counts once, even in a later step. Calls for different
+  /// blocks may run at once.
   void add(Index block, Index step, std::span<const Index> broken) {
     for (const Index each : broken) of_blocks_[block].emplace_back(step, each);
   }

@@ -25,8 +25,8 @@ struct RelaxationResult {
   /// Norm of the residual force over that of loads and reactions, the largest of the load steps
   /// that came to rest, or where the run ended otherwise.
   double residual = 0.0;
-  /// Norm of what may be left of the way over that of the displacement, in the masses' measure: the
-  /// residual force over the stiffness of the slowest vibration. Likewise the largest.
+  /// Estimated relative error of the displacement, in the norm of the masses: the residual force
+  /// over the stiffness of the slowest vibration. Likewise the largest.
   double error = 0.0;
   double peak_load = 0.0;            ///< largest support reaction in magnitude [force]
   ExplicitRecord last;               ///< end of the last load step that came to rest

@@ -43,7 +43,7 @@ struct TrussHalf {
     return e;
   }
 
-  /// What a bar yields by, in tension and compression alike.
+  /// Measure of yielding of a bar, the same in tension and compression.
   double size(const double* own, const double* far) const { return std::abs(extension(own, far)); }
 
   /// q' K q_now / 2 of the whole element between two motions [force length].

@@ -11,7 +11,7 @@ struct MotionStep {
   double damping_rate = 0.0;  ///< c [1/time]
 };
 
-/// What was done on the way, over the mean of the old and the new velocity [force length].
+/// Work during the step, with the mean of the old and the new velocity [force length].
 struct MotionWork {
   double external = 0.0;
   double damping = 0.0;

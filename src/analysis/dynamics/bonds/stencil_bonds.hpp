@@ -7,8 +7,8 @@
 
 namespace perilink {
 
-/// Trusses of small strains on a stencil: whole groups of particles at a time, with nothing kept of
-/// a half of a bond but whether it is there.
+/// Truss bonds of small strains on a stencil, computed for whole groups of particles at a time;
+/// nothing is stored of half a bond but whether it exists.
 /// \param network  has to outlive the result
 /// \param rest     the elements off the stencil; null: there are none
 std::unique_ptr<ExplicitBonds> make_stencil_bonds(const Network& network, BondStencil stencil,

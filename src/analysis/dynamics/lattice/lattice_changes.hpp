@@ -16,7 +16,7 @@ class LatticeChanges {
         damage_(model, particles_),
         yielding_(model, particles_) {}
 
-  /// What happens to the particles of a row. After the sums of rows on both sides.
+  /// Finds what happens to the particles of a row. Needs the sums of rows on both sides.
   void look(ExplicitState& state, Index row) const;
   /// Notes in near_news whether bonds or sums of the row change: where they do not, the later
   /// stages do nothing. Damage becomes what was noted, and the energy before the change is
@@ -24,18 +24,19 @@ class LatticeChanges {
   void commit(ExplicitState& state, Index row, double time_step) const;
   /// Own bonds take the plastic stretches of their particles. Needs rows after it.
   void update_plastic_bonds(ExplicitState& state, Index row) const;
-  /// Sums take them, and the energy that flow cost is counted. Needs rows before it.
+  /// Sums take the plastic stretches, and the energy that flow cost is counted. Needs rows before
+  /// it.
   void update_plastic_sums(ExplicitState& state, Index row, double time_step) const;
   /// Own bonds take the factors of the damage of their particles. Needs rows after it.
   void update_factors(ExplicitState& state, Index row) const;
-  /// Sums take these, and the energy that damage cost is counted. Needs rows before it.
+  /// Sums take the factors, and the energy that damage cost is counted. Needs rows before it.
   void update_sums(ExplicitState& state, Index row, double time_step) const;
 
  private:
   static constexpr std::uint8_t changed = RowNews::damage_grew | RowNews::flowed;
-  /// News of the row and of those where its bonds end.
+  /// Bits of RowNews of the row and of those where its bonds end.
   std::uint8_t outgoing(const ExplicitState& state, Index row) const;
-  /// News of the row and of those next to it.
+  /// Bits of RowNews of the row and of those next to it.
   std::uint8_t around(const ExplicitState& state, Index row) const;
   void flow_at(ExplicitState& state, Index row, Index slot) const;
 

@@ -26,7 +26,7 @@ inline double largest_or_nan(double largest, double zero_times_all) {
 /// The largest positive value; of those above `share` of it the first. Two passes: the largest of
 /// every block, in parallel, then the first element among the blocks that reach the threshold. The
 /// answer does not depend on the number of threads.
-/// \param elements          that are searched
+/// \param elements          those to search
 /// \param block_largest     work space, one per block
 /// \param fewest_parallel   blocks from which on several threads are faster than one
 /// \param largest_in        largest value in the positions [begin, end), see largest_or_nan()

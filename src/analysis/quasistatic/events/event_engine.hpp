@@ -12,15 +12,15 @@ namespace perilink {
 
 /// The next thing that happens under a growing load.
 struct Event {
-  Index element = no_index;  ///< that breaks or yields; no_index: nothing can break any more
-  double load_factor = 0.0;  ///< at which it happens
+  Index element = no_index;  ///< it breaks or yields; no_index: nothing can break any more
+  double load_factor = 0.0;  ///< when it happens
 };
 
 /// What became of an event.
 struct EventOutcome {
   bool mechanism = false;  ///< the element held the last load path, weak elastic supports not
                            ///< counted: nothing was changed
-  double secant = 0.0;     ///< on which the element goes on, over its intact stiffness; 0: it broke
+  double secant = 0.0;     ///< with it the element goes on, over its intact stiffness; 0: it broke
   bool broke() const { return secant == 0.0; }
   /// 1 - x' K^-1 x, of a micropolar bond the smallest of its modes; 0: cannot be told from zero
   double pivot = 1.0;

@@ -22,7 +22,7 @@ ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape,
 /// The softening that a material of the case asks for; strength zero where it is unbreakable.
 CrackOpeningLaw softening_of(const MaterialSection& material);
 
-/// A model with particles and groups only, for what is said of places: supports, loads, gauges.
+/// A model with particles and groups only, in which supports, loads and gauges find their places.
 /// \param slots  where its particles are in the lattice
 /// \throws InputError where a region is a group of the mesh without area (2D) or volume (3D)
 Model lattice_places(const CaseFile& input, const LatticeShape& shape, const ExplicitModel& body,

@@ -32,11 +32,11 @@ class LatticeShape {
   bool is_solid(const Vector3& point) const;
   /// Whether a point lies in a hole without a group; the side of a hole belongs to the body.
   bool is_in_hole(const Region& hole, const Vector3& point) const;
-  /// Holes of the case, as often as it names them.
+  /// Holes of the case; one that is named twice is here twice.
   std::span<const Region* const> holes() const { return holes_; }
 
   /// Whether points lie in a region of the case; `body` is not one of them.
-  /// \param key  that asks in the case, for the message
+  /// \param key  place in the case, for messages
   /// \throws InputError where the region is a group of the mesh without area (2D) or volume (3D)
   PointTest test_of(const Region& region, const std::string& key) const;
 

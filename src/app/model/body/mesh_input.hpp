@@ -21,8 +21,8 @@ struct MeshInput {
 MeshInput read_mesh_input(const CaseFile& input, int dim);
 
 /// The physical group of a region, which must consist of cells.
-/// \param key       that asks in the case, for the message
-/// \param contents  that the region is to hold, for the same
+/// \param key       place in the case, for messages
+/// \param contents  what the region should hold, for messages
 /// \throws InputError  where it consists of what has no area (2D) or volume (3D)
 const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const Region& region,
                                 const std::string& key, const std::string& contents);

@@ -15,8 +15,8 @@ struct ExplicitCase {
   ExplicitModel model;
   ExplicitOptions options;          ///< threads left at one
   double critical_time_step = 0.0;  ///< [time]
-  double time_step = 0.0;           ///< that the run takes [time]
-  /// That external damping refers to, given or computed; 0: not asked for [time].
+  double time_step = 0.0;           ///< the one that the run takes [time]
+  /// The period to which external damping refers, given or computed; 0: not asked for [time].
   double fundamental_period = 0.0;
   Index steps = 0;
   Index bonds = 0;

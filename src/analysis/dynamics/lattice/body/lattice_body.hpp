@@ -69,7 +69,7 @@ struct ExplicitModel {
   StateModuli moduli;
   std::vector<double> mass;          ///< per slot; one where it is empty [mass]
   std::vector<double> inverse_mass;  ///< zero where a slot is empty
-  std::vector<double> volume;        ///< over which a particle's stress is taken [length^3]
+  std::vector<double> volume;        ///< volume over which a particle's stress is taken [length^3]
   std::vector<std::vector<PrescribedMotion>> prescribed;  ///< per row, by slot
   std::vector<std::vector<AppliedForce>> applied;         ///< the same; empty: no forces
   int load_component = 1;  ///< along which the reaction of supports is summed: that of the largest
@@ -83,7 +83,8 @@ struct ExplicitModel {
   }
   /// Whether anything can happen to a particle but motion.
   bool alters() const { return material.breakable || material.yields; }
-  /// Whether damage weighs a bond's stretch in the sums of its ends otherwise than its own force.
+  /// Whether damage weakens a bond's stretch in the sums of its ends by another factor than its
+  /// force.
   bool weighs_halves() const { return material.breakable && rules == LatticeRules::consistent; }
 };
 

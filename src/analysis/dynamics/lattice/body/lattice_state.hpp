@@ -62,8 +62,8 @@ struct LatticeFlow {
   std::vector<std::uint8_t> crushed;  ///< particles that carry no compression either
 };
 
-/// What a step finds from the displacements anew, and nothing that outlasts it. Shapes have the
-/// slots of `places`.
+/// What every step computes anew from the displacements; nothing here outlasts the step. Shapes
+/// have the slots of `places`.
 struct StepNumbers {
   RowPlaces places;
   std::vector<double> stretch;    ///< elastic, of own bonds, shape (own bonds, slots); only where
@@ -76,8 +76,8 @@ struct StepNumbers {
                                   ///< forces on the owner [force], (own bonds, dim, slots)
   std::vector<double> sum;        ///< weighted stretches summed over all bonds, times length
 
-  /// Zeros beyond the end of a row, where bonds that do not exist lead and a longer row at the same
-  /// place has left its numbers.
+  /// Writes zeros beyond the end of a row: bonds that do not exist lead there, and a longer row at
+  /// the same place has left its numbers.
   void clear_stale(Index row, Index size);
 };
 StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places);
@@ -106,7 +106,7 @@ struct ExplicitState {
   std::vector<Index> cracked_in;          ///< step in which damage of a particle began
   std::vector<double> crack_band;         ///< width [length]; zero where no crack began
   std::vector<double> crack_at;  ///< first principal stress at which a particle is looked at
-  std::vector<double> grow_at;   ///< strain that drives damage by the rules of the papers, the same
+  std::vector<double> grow_at;   ///< the same for the strain that drives damage (papers' rules)
   std::vector<double> wait;      ///< path of the row before which no crack can begin at a particle
   LatticeFlow flow;
   std::vector<RowSums> sums;  ///< per row

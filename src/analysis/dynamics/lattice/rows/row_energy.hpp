@@ -4,10 +4,10 @@
 
 namespace perilink {
 
-/// Stored energy of a row with the stretches of this step times those of the last one
-/// [force length]. What the integrator keeps, together with the kinetic energy of the velocities
-/// between the two steps, and what its motion loses where factors fall or plastic stretches grow:
-/// exact for a linear body. Effective stretches and sums must be up to date.
+/// Stored energy of a row [force length], with products of the stretches of this step and the last
+/// one in place of squares. The integrator keeps the sum of this and the kinetic energy between the
+/// two steps, exactly for a linear body; motion loses what this loses where factors fall or plastic
+/// stretches grow. Effective stretches and sums must be up to date.
 double half_step_energy(const ExplicitModel& model, const ExplicitState& state, Index row,
                         double time_step);
 

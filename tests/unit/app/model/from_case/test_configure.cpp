@@ -243,7 +243,7 @@ TEST(Configure, HorizonsBelowTheSpacingAreRefused) {
 
 TEST(Configure, OutlinesThatMissTheLatticeAreRefused) {
   CaseFile input = strip_case();
-  input.materials[0].regions = {"strip", "middle"};  // whose sides lie off the lattice
+  input.materials[0].regions = {"strip", "middle"};  // their sides lie off the lattice
   expect_refused(input, "body.spacing", "misses the lattice");
   input.body.spacing.reset();
   input.body.columns = 7;
