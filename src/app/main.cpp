@@ -120,7 +120,7 @@ int with_exit_status(const Command& command) {
   }
 }
 
-/// What is not the program's to answer with a signal.
+/// Conditions that must not end the program by a signal.
 void set_up_process() {
   std::set_terminate(end_without_handler);
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a full disk

@@ -140,7 +140,7 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
   fmt::print("#   run                {}\n", run_text(input, set_up.seconds, cost));
 }
 
-/// What loading times are measured by.
+/// Prints the fundamental period, with which loading times are compared.
 /// \param period  computes it
 template <class Period>
 void print_period(Period period) {

@@ -66,8 +66,8 @@ void write_first_files(const fs::path& directory, const CaseFile& input) {
   write_whole_file((directory / "case.toml").string(), write_case(input));
 }
 
-/// Writes the summary of a run that failed before it began. What goes wrong with that is not told:
-/// the first failure is.
+/// Writes the summary of a run that failed before it began. What goes wrong with that is not
+/// reported: the first failure is.
 void tell_of_failure(const fs::path& directory, const CaseFile& input, const DiskFull& error) {
   try {
     write_failed_summary(directory, input, error.what());

@@ -52,8 +52,8 @@ struct Pair {
   }
 };
 
-/// That of the summary; without one by least squares of the rows before the peak that have at most
-/// a third of its load, or of the first row where there are none.
+/// Initial stiffness from the summary; without one by least squares of the rows before the peak
+/// that have at most a third of its load, or of the first row where there are none.
 double initial_stiffness(const RunResult& result) {
   const double known = number_of(result.summary, "initial_stiffness");
   if (!std::isnan(known)) return known;

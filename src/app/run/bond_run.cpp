@@ -21,7 +21,7 @@ namespace perilink {
 namespace {
 
 constexpr double most_steps = 2e9;  ///< steps have 32-bit numbers
-/// By this part of itself the time of a step may fall short of the time that it stands for.
+/// The time of a step may fall short of the time that is wanted by this part of itself.
 constexpr double round_off = 1e-9;
 
 std::vector<double> densities(const CaseFile& input) {

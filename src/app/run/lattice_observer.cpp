@@ -14,7 +14,7 @@
 namespace perilink {
 namespace {
 
-/// By this part of itself the time of a step may fall short of the time that it stands for.
+/// The time of a step may fall short of the time that is wanted by this part of itself.
 constexpr double round_off = 1e-9;
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 constexpr int lanes = BondStencil::lanes;
 static_assert(lanes == num_lanes);
 
-/// What bonds that cannot break have for a limit [-]: a group that reaches it is looked at in vain.
+/// Limit of bonds that cannot break [-]: a group that reaches it is looked at in vain.
 constexpr double stretch_of_unbreakable = 1e6;
 
 /// A line as the loop over its lanes wants it. The demand e of a bond is its extension over its

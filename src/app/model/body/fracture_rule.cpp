@@ -10,8 +10,8 @@
 namespace perilink {
 namespace {
 
-/// By this factor the steps of a lattice may differ; the cost of cracks was measured where they are
-/// equal.
+/// Largest ratio between steps of a lattice to which the cost of cracks applies; it was measured
+/// where they are equal.
 constexpr double nearly_equal = 1.1;
 
 bool bonds_can_break(const CaseFile& input, const Model& model) {
