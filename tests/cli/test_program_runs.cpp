@@ -358,8 +358,8 @@ TEST_F(ProgramRuns, ASeparatedBodyBearsNoLoad) {
   for (int k = 0; k < 4; ++k) std::getline(cells, cell, ',');
   EXPECT_EQ(cell, "0") << last;
   ASSERT_EQ(run({"plot", "r"}).exit_status, 0);
-  const int broken = result["broken_bonds"];
-  EXPECT_THAT(read_text(work() / fmt::format("r/fields_{}.svg", broken)),
+  const int row = result["steps"];
+  EXPECT_THAT(read_text(work() / fmt::format("r/fields_{}.svg", row)),
               testing::HasSubstr(" · load 0 · "));
 }
 
