@@ -73,8 +73,7 @@ TEST_P(StopSignals, KeepTheResultsSoFar) {
   const auto json = summary("r");
   EXPECT_EQ(json["status"], "interrupted");
   EXPECT_EQ(expect_whole_rows(history("r")), json["steps"].get<int>());
-  const std::string last = "fields_" + std::string(6, '0');
-  EXPECT_TRUE(fs::exists(work() / "r" / (last + ".vtu"))) << "the first field file";
+  EXPECT_TRUE(fs::exists(work() / "r/fields_000001.vtu")) << "the first field file";
   EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
 }
 
