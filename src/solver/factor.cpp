@@ -15,11 +15,11 @@ void Factor::compliance(std::span<const SparseVector> x, std::span<double> resul
   std::vector<double> direction(static_cast<std::size_t>(statistics().size));
   for (std::size_t b = 0; b < x.size(); ++b) {
     std::fill(direction.begin(), direction.end(), 0.0);
-    for (int k = 0; k < x[b].size; ++k) direction[x[b].rows[k]] = x[b].values[k];
+    for (int k = 0; k < x[b].size(); ++k) direction[x[b].rows[k]] = x[b].values[k];
     solve(direction, direction);
     for (std::size_t a = 0; a < x.size(); ++a) {
       double sum = 0.0;
-      for (int k = 0; k < x[a].size; ++k) sum += x[a].values[k] * direction[x[a].rows[k]];
+      for (int k = 0; k < x[a].size(); ++k) sum += x[a].values[k] * direction[x[a].rows[k]];
       result[a * x.size() + b] = sum;
     }
   }

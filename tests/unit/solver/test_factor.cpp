@@ -26,7 +26,7 @@ std::vector<double> dense_solution(const Eigen::MatrixXd& matrix, const std::vec
 
 Eigen::VectorXd dense_vector(const SparseVector& x, Index size) {
   Eigen::VectorXd dense = Eigen::VectorXd::Zero(size);
-  for (int k = 0; k < x.size; ++k) dense[x.rows[k]] = x.values[k];
+  for (int k = 0; k < x.size(); ++k) dense[x.rows[k]] = x.values[k];
   return dense;
 }
 
@@ -79,7 +79,7 @@ TEST_P(EveryRoute, FollowsRemovalsAndTheirLoadChanges) {
     factor->commit_downdate(load_change, solution);
     const Eigen::VectorXd dense = dense_vector(x, lattice.size);
     expected -= dense * dense.transpose();
-    for (int a = 0; a < x.size; ++a) load[x.rows[a]] += load_change * x.values[a];
+    for (int a = 0; a < x.size(); ++a) load[x.rows[a]] += load_change * x.values[a];
   }
 
   EXPECT_LT(relative_difference(solution, dense_solution(expected, load)), tolerance);
@@ -111,9 +111,7 @@ TEST_P(EveryRoute, UpdateKeepsTheSolutionAndTheNextDowndateUndoesIt) {
   factor->follow_load(load, solution);
   const auto before = solution;
   SparseVector spring;
-  spring.size = 1;
-  spring.rows[0] = 17;
-  spring.values[0] = 2.0;
+  spring.add(17, 2.0);
 
   factor->update(spring, solution);
   EXPECT_EQ(solution, before);
@@ -155,10 +153,11 @@ TEST_P(EveryRoute, NamesTheUnknownOfAMatrixThatIsNotPositiveDefinite) {
 std::vector<SparseVector> several_vectors(const SparseVector& spring, int count) {
   std::vector<SparseVector> vectors(static_cast<std::size_t>(count), spring);
   for (int a = 0; a < count; ++a) {
-    const auto values = random_vector(spring.size, 50 + a);
-    for (int k = 0; k < spring.size; ++k) vectors[a].values[k] = 0.2 * values[k];
+    const auto values = random_vector(spring.size(), 50 + a);
+    for (int k = 0; k < spring.size(); ++k) vectors[a].values[k] = 0.2 * values[k];
   }
-  vectors.back().size -= 1;  // a held unknown
+  vectors.back().rows.pop_back();  // a held unknown
+  vectors.back().values.pop_back();
   return vectors;
 }
 
@@ -192,10 +191,10 @@ TEST_P(EveryRoute, DowndatesOfSeveralVectorsFollowTheLoad) {
   for (std::size_t s = 0; s < lattice.springs.size(); s += 37) {
     // Vectors that do not interact: the second less its share of the first.
     auto vectors = several_vectors(lattice.springs[s], 2);
-    vectors[1].size = vectors[0].size;
+    vectors[1].add(vectors[0].rows.back(), 0.1);
     std::vector<double> compliance(4);
     factor->compliance(vectors, compliance);
-    for (int k = 0; k < vectors[0].size; ++k) {
+    for (int k = 0; k < vectors[0].size(); ++k) {
       vectors[1].values[k] -= compliance[1] / compliance[0] * vectors[0].values[k];
     }
     factor->compliance(vectors, compliance);

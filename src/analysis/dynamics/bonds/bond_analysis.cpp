@@ -238,6 +238,7 @@ ExplicitResult run_explicit_bonds(const Network& network, const Unknowns& unknow
                                   const Loads& loads, const ReferenceLoad& reference,
                                   const Inertia& inertia, const BondRunRules& rules,
                                   const ExplicitOptions& options, BondRunObserver& observer) {
+  expect_nothing_carried(unknowns);
   return BondRun(network, unknowns, loads, reference, inertia, rules, options, observer).run();
 }
 

@@ -322,6 +322,7 @@ RelaxationResult run_dynamic_relaxation(const Network& network, const Unknowns& 
                                         const Loads& loads, const ReferenceLoad& reference,
                                         const RelaxationOptions& options,
                                         BondRunObserver& observer) {
+  expect_nothing_carried(unknowns);
   return Relaxation(network, unknowns, loads, reference, options, observer).run();
 }
 
