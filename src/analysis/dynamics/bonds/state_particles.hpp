@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "analysis/dynamics/bonds/explicit_bonds.hpp"
 #include "material/crack_opening.hpp"
 #include "material/elasticity.hpp"
 #include "network/network.hpp"
