@@ -3,10 +3,11 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/types.hpp"
-#include "calibration/calibration.hpp"
+#include "calibration/calibration_input.hpp"
 #include "discretization/bonds.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
@@ -82,5 +83,8 @@ struct Network {
   bool can_break(Index element) const { return has_limit(element) && !law(element).endless(); }
   bool is_segment(Index element) const { return element >= first_segment; }
 };
+
+/// Takes out the elements that are not marked. Only before bars are added.
+void keep_elements(Network& network, std::span<const std::uint8_t> keep);
 
 }  // namespace perilink

@@ -9,6 +9,7 @@
 #include "assembly/fields.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "network/rigid_modes.hpp"
 #include "support/clouds.hpp"
 #include "support/micropolar_networks.hpp"

@@ -5,6 +5,7 @@
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/timer.hpp"
+#include "solver/factor_routes.hpp"
 
 namespace perilink {
 namespace {

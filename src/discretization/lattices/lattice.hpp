@@ -24,8 +24,8 @@ enum class Pattern {
 
 /// What is done about the missing bonds at a surface.
 enum class Surface {
-  none,   ///< conforming lattice: particles on the boundary, nothing corrected
-  ghost,  ///< Peri2D: cell-centred particles and a ghost layer bonded at half stiffness
+  none,        ///< conforming lattice: particles on the boundary, nothing corrected
+  ghost,       ///< Peri2D: cell-centred particles and a ghost layer bonded at half stiffness
   energy,      ///< bonds scaled so that each particle stores the energy of the continuum
   calibrated,  ///< bonds that pass the linear patch test, boundary included
 };
@@ -75,12 +75,6 @@ struct Body {
   Simplices cells;            ///< of a mesh; a lattice has none
   std::vector<Group> groups;  ///< of a mesh
 };
-
-/// Fills a body with particles: `conforming` puts particles on the boundary and gives each the
-/// integral of its shape function as volume; Peri2D's grid (surface = ghost) is cell-centred in x,
-/// starts on the lowest row and continues as ghosts for one horizon beyond the body.
-/// \throws std::invalid_argument where the body is empty or its outline misses the lattice
-Body make_body(const LatticeInput& input);
 
 /// Family of a particle far from every surface.
 BulkFamily bulk_family(const Lattice& lattice, double horizon);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "solver/factor.hpp"
+#include "solver/factor_routes.hpp"
 #include "support/spring_lattice.hpp"
 
 namespace perilink {

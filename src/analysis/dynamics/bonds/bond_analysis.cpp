@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "analysis/dynamics/bonds/break_order.hpp"
 #include "analysis/dynamics/bonds/free_motion.hpp"
 #include "analysis/dynamics/bonds/particle_blocks.hpp"

@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 
+#include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "analysis/dynamics/bonds/break_order.hpp"
 #include "analysis/dynamics/bonds/particle_blocks.hpp"
 #include "base/memory.hpp"

@@ -1,4 +1,4 @@
-#include "solver/factor.hpp"
+#include "solver/factor_routes.hpp"
 
 #include <gtest/gtest.h>
 
