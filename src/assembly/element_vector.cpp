@@ -18,16 +18,15 @@ ElementVectors frame_vectors(const Network& network, const Unknowns& unknowns, I
     if (!(modes.stiffness[m] > 0.0)) continue;
     const double root = std::sqrt(modes.stiffness[m] * fraction);
     SparseVector& x = result.x[result.count];
-    x.size = 0;
     for (int end = 0; end < 2; ++end) {
       const auto& b = end == 0 ? modes.first[m] : modes.second[m];
       const std::size_t slot = static_cast<std::size_t>(ends[end]) * Modes::width;
       for (int a = 0; a < Modes::width; ++a) {
         if (b[a] == 0.0) continue;
         result.prescribed[result.count] += root * b[a] * unknowns.prescribed[slot + a];
-        if (unknowns.number[slot + a] == no_index) continue;
-        x.rows[x.size] = unknowns.number[slot + a];
-        x.values[x.size++] = root * b[a];
+        unknowns.for_each(slot + a, [&](Index unknown, double weight) {
+          x.add(unknown, weight * (root * b[a]));
+        });
       }
     }
     ++result.count;
@@ -60,11 +59,12 @@ SparseVector element_vector(const Network& network, const Unknowns& unknowns, In
   const std::span<const double> n = network.bonds.direction(element);
   const Index ends[2] = {network.bonds.first[element], network.bonds.second[element]};
   for (int end = 0; end < 2; ++end) {
+    const std::size_t slot = static_cast<std::size_t>(ends[end]) * unknowns.width;
     for (int a = 0; a < network.dim(); ++a) {
-      const Index unknown = unknowns.at(ends[end], a);
-      if (unknown == no_index || n[a] == 0.0) continue;
-      x.rows[x.size] = unknown;
-      x.values[x.size++] = (end == 0 ? -root : root) * n[a];
+      if (n[a] == 0.0) continue;
+      unknowns.for_each(slot + a, [&](Index unknown, double weight) {
+        x.add(unknown, weight * ((end == 0 ? -root : root) * n[a]));
+      });
     }
   }
   return x;

@@ -265,6 +265,7 @@ LinearElements make_linear_elements(Simplices cells, std::span<const double> pos
 }
 
 SparseMatrix assemble_stiffness(const LinearElements& elements, const Unknowns& unknowns) {
+  expect_nothing_carried(unknowns);
   if (elements.dim() == 2) return ElementStiffness<2>(elements, unknowns).build();
   return ElementStiffness<3>(elements, unknowns).build();
 }

@@ -4,7 +4,9 @@
 #include <array>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
+#include "assembly/element_vector.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/state_stiffness.hpp"
 #include "base/csr.hpp"
@@ -208,11 +210,40 @@ class StiffnessBuilder {
   std::vector<Block> diagonal_;  // lower triangles
 };
 
+/// Sum of x x' over the modes of all elements and the springs of supports: for particles that
+/// something carries, whose elements couple any number of unknowns.
+SparseMatrix assemble_carried(const Network& network, std::span<const double> secants,
+                              const Unknowns& unknowns) {
+  if (network.has_states()) expect_nothing_carried(unknowns);
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  const auto add = [&](const SparseVector& x, double factor) {
+    for (int a = 0; a < x.size(); ++a) {
+      for (int b = 0; b < x.size(); ++b) {
+        if (x.rows[a] < x.rows[b]) continue;
+        entries.emplace_back(x.rows[a], x.rows[b], factor * x.values[a] * x.values[b]);
+      }
+    }
+  };
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const ElementVectors parts = element_vectors(network, unknowns, e, 1.0);
+    for (int m = 0; m < parts.count; ++m) add(parts.x[m], secants[e]);
+  }
+  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
+    SparseVector x;
+    unknowns.for_each(slot, [&](Index k, double weight) { x.add(k, weight); });
+    add(x, network.support_stiffness[slot]);
+  }
+  SparseMatrix matrix(unknowns.count, unknowns.count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
 }  // namespace
 
 SparseMatrix assemble_stiffness(const Network& network, std::span<const double> secants,
                                 const Unknowns& unknowns) {
   const bool plane = network.dim() == 2;
+  if (unknowns.carries()) return assemble_carried(network, secants, unknowns);
   if (network.has_states()) return assemble_state_stiffness(network, secants, unknowns);
   if (network.carries_moments()) {
     return plane ? StiffnessBuilder<FrameBlocks<2>>(network, secants, unknowns).build()
@@ -239,29 +270,18 @@ std::vector<double> right_hand_side(const Unknowns& unknowns, const Loads& loads
                                     std::span<const double> driven) {
   std::vector<double> result(static_cast<std::size_t>(unknowns.count));
   for (std::size_t slot = 0; slot < loads.forces.size(); ++slot) {
-    if (unknowns.number[slot] == no_index) continue;
-    result[unknowns.number[slot]] = loads.forces[slot] - (driven.empty() ? 0.0 : driven[slot]);
+    const double force = loads.forces[slot] - (driven.empty() ? 0.0 : driven[slot]);
+    unknowns.for_each(slot, [&](Index k, double weight) { result[k] += weight * force; });
   }
   return result;
 }
 
 std::vector<Index> particle_of_unknown(const Unknowns& unknowns) {
-  std::vector<Index> particles(static_cast<std::size_t>(unknowns.count));
-  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
-    const Index number = unknowns.number[slot];
-    if (number != no_index) {
-      particles[number] = static_cast<Index>(slot / static_cast<std::size_t>(unknowns.width));
-    }
+  std::vector<Index> particles;
+  for (const std::size_t slot : unknowns.slots()) {
+    particles.push_back(static_cast<Index>(slot / static_cast<std::size_t>(unknowns.width)));
   }
   return particles;
-}
-
-std::vector<double> expand(const Unknowns& unknowns, std::span<const double> solution) {
-  std::vector<double> displacement = unknowns.prescribed;
-  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
-    if (unknowns.number[slot] != no_index) displacement[slot] = solution[unknowns.number[slot]];
-  }
-  return displacement;
 }
 
 }  // namespace perilink

@@ -37,7 +37,4 @@ bool is_driven(const Unknowns& unknowns);
 /// Particle of every unknown, size unknowns.count.
 std::vector<Index> particle_of_unknown(const Unknowns& unknowns);
 
-/// Displacement of all particles from the unknowns, rotations included; shape (particles, width).
-std::vector<double> expand(const Unknowns& unknowns, std::span<const double> solution);
-
 }  // namespace perilink

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <vector>
 
 #include "base/types.hpp"
 
@@ -8,10 +9,21 @@ namespace perilink {
 
 /// The few entries of the vector x of a rank-one change K -+ x x', each row once, in any order.
 struct SparseVector {
-  static constexpr int capacity = 12;
-  int size = 0;
-  std::array<Index, capacity> rows;
-  std::array<double, capacity> values;
+  std::vector<Index> rows;
+  std::vector<double> values;
+
+  int size() const { return static_cast<int>(rows.size()); }
+
+  /// Adds to the entry of the row, which need not be there.
+  void add(Index row, double value) {
+    const auto found = std::find(rows.begin(), rows.end(), row);
+    if (found == rows.end()) {
+      rows.push_back(row);
+      values.push_back(value);
+    } else {
+      values[static_cast<std::size_t>(found - rows.begin())] += value;
+    }
+  }
 };
 
 }  // namespace perilink

@@ -5,8 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/calibration.hpp"
-#include "calibration/least_change/least_change.hpp"
+#include "calibration/bond_equations.hpp"
+#include "calibration/bond_orbits.hpp"
+#include "calibration/calibration_input.hpp"
+#include "calibration/least_change/point_equations.hpp"
+#include "discretization/facets.hpp"
 
 namespace perilink {
 

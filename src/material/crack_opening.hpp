@@ -25,7 +25,8 @@ double band_damage(const CrackOpeningLaw& law, double youngs_modulus, double str
 double max_band_width(const CrackOpeningLaw& law, double youngs_modulus);
 
 /// Damage as Nikravesh & Gerstle (2018, Eq. 39) print it, with the total elongation of the band in
-/// place of the opening, so that damage begins with a jump. Not below zero.
+/// place of the opening, so that damage begins with a jump. Not below zero. Kept for comparison
+/// with the papers of 2017 and 2018.
 /// \param strain   in the band
 /// \param opening  its equivalent crack opening [length]
 double printed_damage(const CrackOpeningLaw& law, double youngs_modulus, double strain,

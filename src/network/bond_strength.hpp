@@ -4,7 +4,7 @@
 
 #include "network/lattice_families.hpp"
 #include "network/network.hpp"
-#include "network/network_builder.hpp"
+#include "network/network_input.hpp"
 
 /// \file
 /// When calibrated bonds break. Calibration changes what single bonds carry, not what the material

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "discretization/lattices/lattice.hpp"
-#include "network/network_builder.hpp"
+#include "network/network_input.hpp"
 
 namespace perilink {
 

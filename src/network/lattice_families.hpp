@@ -7,7 +7,7 @@
 
 #include "calibration/isotropic_weights.hpp"
 #include "discretization/lattices/lattice.hpp"
-#include "network/network_builder.hpp"
+#include "network/network_input.hpp"
 
 namespace perilink {
 

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/types.hpp"
-#include "calibration/calibration.hpp"
+#include "calibration/calibration_input.hpp"
 #include "discretization/bonds.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
@@ -45,8 +46,8 @@ struct Network {
   /// Laws of the elements, and the number of each element's; empty: all have the first one.
   std::vector<BondLaw> laws = {BondLaw::brittle()};
   std::vector<std::uint8_t> law_of;
-  /// Per element [-]: the stretch at which brittle bonds break, the yield strain of bars, the unit
-  /// of stretch of other laws; infinity: stays elastic.
+  /// By which each element's law counts its stretches [-]: where brittle bonds break, the yield
+  /// strain of bars; infinity: stays elastic.
   std::vector<double> critical_stretch;
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: none.
@@ -78,9 +79,12 @@ struct Network {
   Index num_elements() const { return bonds.size(); }
   const BondLaw& law(Index element) const { return laws[law_of.empty() ? 0 : law_of[element]]; }
   /// Whether its law has events, or it stays elastic.
-  bool has_limit(Index element) const { return std::isfinite(critical_stretch[element]); }
+  bool has_limit(Index element) const { return !std::isinf(critical_stretch[element]); }
   bool can_break(Index element) const { return has_limit(element) && !law(element).endless(); }
   bool is_segment(Index element) const { return element >= first_segment; }
 };
+
+/// Takes out the elements that are not marked. Only before bars are added.
+void keep_elements(Network& network, std::span<const std::uint8_t> keep);
 
 }  // namespace perilink

@@ -171,38 +171,6 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
 
 }  // namespace
 
-MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
-                           const SolidMaterial& material) {
-  const ElasticConstants elastic{material.youngs_modulus, material.poissons_ratio};
-  // Calibration starts from the continuum: a lattice alone may not reach the Poisson's ratio.
-  const bool continuum =
-      input.micromodulus == Constants::continuum || body.lattice.surface == Surface::calibrated;
-  if (input.model == BondModel::micropolar) {
-    if (continuum) {
-      return continuum_micropolar(input.problem, elastic, input.horizon, input.thickness);
-    }
-    return lattice_micropolar(input.problem, bulk_family(body.lattice, input.horizon).offsets,
-                              body.lattice.cell_volume, elastic);
-  }
-  if (continuum) {
-    return {continuum_micromodulus(input.problem, material.youngs_modulus, input.horizon,
-                                   input.thickness),
-            0.0};
-  }
-  const BulkFamily family = bulk_family(body.lattice, input.horizon);
-  const LatticeModuli moduli =
-      lattice_moduli(input.problem, family.offsets, body.lattice.cell_volume);
-  return {moduli.micromodulus_per_modulus * material.youngs_modulus, 0.0};
-}
-
-LameConstants lame_constants(const NetworkInput& input, const SolidMaterial& material) {
-  const double nu = input.model == BondModel::micropolar ? material.poissons_ratio
-                                                         : bond_poissons_ratio(input.problem);
-  const double mu = 0.5 * material.youngs_modulus / (1.0 + nu);
-  const double through = input.problem == Problem::plane_stress ? 1.0 - nu : 1.0 - 2.0 * nu;
-  return {2.0 * mu * nu / through, mu};
-}
-
 Network build_network(const Body& body, const NetworkInput& input) {
   check_input(body, input);
   const PairConstants constants(body, input);
@@ -237,22 +205,6 @@ Network build_network(const Body& body, const NetworkInput& input) {
   }
   if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
   return network;
-}
-
-void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
-  keep_bonds(network.particles, network.bonds, keep);
-  const auto keep_values = [&](auto& values) {
-    std::size_t next = 0;
-    for (std::size_t e = 0; e < values.size(); ++e) {
-      if (keep[e]) values[next++] = values[e];
-    }
-    values.resize(next);
-  };
-  for (std::vector<double>* values : {&network.stiffness, &network.bending, &network.bending_ratio,
-                                      &network.inflection, &network.critical_stretch}) {
-    keep_values(*values);
-  }
-  keep_values(network.law_of);
 }
 
 std::vector<Index> find_loose_particles(const Network& network) {

@@ -17,7 +17,9 @@ struct ParticleFitReport {
   Index worst = no_index;                              ///< particle of the largest residual
 };
 
-/// A body of state-based particles (SPPM, Nikravesh 2017, chapter 3).
+/// A body of state-based particles (SPPM, Nikravesh 2017, chapter 3). Scattered ones are kept for
+/// comparison with the papers: they are too soft, and no refinement helps
+/// (docs/theory/lattice_particles.md, section 7).
 struct ParticleNetwork {
   Network network;
   ParticleFitReport report;

@@ -2,7 +2,7 @@
 
 #include "discretization/lattices/lattice.hpp"
 #include "network/network.hpp"
-#include "network/network_builder.hpp"
+#include "network/network_input.hpp"
 
 namespace perilink {
 

@@ -1,8 +1,39 @@
 #include "network/unknowns.hpp"
 
+#include <stdexcept>
 #include <utility>
 
 namespace perilink {
+
+std::vector<double> Unknowns::expand(std::span<const double> q) const {
+  std::vector<double> displacement = prescribed;
+  for (std::size_t slot = 0; slot < number.size(); ++slot) {
+    for_each(slot, [&](Index k, double weight) { displacement[slot] += weight * q[k]; });
+  }
+  return displacement;
+}
+
+std::vector<double> Unknowns::restrict(std::span<const double> forces) const {
+  std::vector<double> result(static_cast<std::size_t>(count), 0.0);
+  for (std::size_t slot = 0; slot < number.size(); ++slot) {
+    for_each(slot, [&](Index k, double weight) { result[k] += weight * forces[slot]; });
+  }
+  return result;
+}
+
+std::vector<std::size_t> Unknowns::slots() const {
+  std::vector<std::size_t> result(static_cast<std::size_t>(count), number.size());
+  for (std::size_t slot = 0; slot < number.size(); ++slot) {
+    for_each(slot, [&](Index k, double) {
+      if (number[slot] == k || result[k] == number.size()) result[k] = slot;
+    });
+  }
+  return result;
+}
+
+void expect_nothing_carried(const Unknowns& unknowns) {
+  if (unknowns.carries()) throw std::invalid_argument("particles cannot be carried here");
+}
 
 Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
                          std::vector<double> prescribed) {

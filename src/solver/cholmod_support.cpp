@@ -107,10 +107,10 @@ void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
 }
 
 PermutedColumn::PermutedColumn(const SparseVector& x, std::span<const Index> position, Index size)
-    : sorted_(permute(x, position)), offsets_{0, static_cast<Index>(x.size)}, matrix_{} {
+    : sorted_(permute(x, position)), offsets_{0, static_cast<Index>(x.size())}, matrix_{} {
   matrix_.nrow = static_cast<std::size_t>(size);
   matrix_.ncol = 1;
-  matrix_.nzmax = SparseVector::capacity;
+  matrix_.nzmax = sorted_.rows.size();
   matrix_.p = offsets_;
   matrix_.i = sorted_.rows.data();
   matrix_.x = sorted_.values.data();
@@ -122,15 +122,14 @@ PermutedColumn::PermutedColumn(const SparseVector& x, std::span<const Index> pos
 }
 
 SparseVector permute(const SparseVector& x, std::span<const Index> position) {
-  std::array<int, SparseVector::capacity> order{};
-  std::iota(order.begin(), order.begin() + x.size, 0);
-  std::sort(order.begin(), order.begin() + x.size,
+  std::vector<int> order(x.rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
             [&](int a, int b) { return position[x.rows[a]] < position[x.rows[b]]; });
   SparseVector sorted;
-  sorted.size = x.size;
-  for (int k = 0; k < x.size; ++k) {
-    sorted.rows[k] = position[x.rows[order[k]]];
-    sorted.values[k] = x.values[order[k]];
+  for (const int k : order) {
+    sorted.rows.push_back(position[x.rows[k]]);
+    sorted.values.push_back(x.values[k]);
   }
   return sorted;
 }

@@ -73,11 +73,11 @@ void CholmodUpdownFactor::backward(std::span<double> solution) {
 
 double CholmodUpdownFactor::prepare_downdate(const SparseVector& x) {
   x_ = x;
-  if (x.size == 0) return 1.0;
+  if (x.size() == 0) return 1.0;
   PermutedColumn column(x, position_, static_cast<Index>(factor_->n));
   std::vector<double> rhs(factor_->n, 0.0);
   const SparseVector& entries = column.entries();
-  for (int k = 0; k < entries.size; ++k) rhs[entries.rows[k]] = entries.values[k];
+  for (int k = 0; k < entries.size(); ++k) rhs[entries.rows[k]] = entries.values[k];
   cholmod_dense b = view_column(rhs);
   if (!cholmod_solve2(CHOLMOD_L, factor_.get(), &b, column.get(), &solved_, &solved_set_,
                       &workspace_y_, &workspace_e_, session_.get())) {
@@ -95,11 +95,12 @@ double CholmodUpdownFactor::prepare_downdate(const SparseVector& x) {
 
 /// K -+ x x' and f + load_change x, the forward solution of f with them.
 void CholmodUpdownFactor::change(bool add, const SparseVector& x, double load_change) {
-  if (x.size == 0) return;
+  if (x.size() == 0) return;
   PermutedColumn column(x, position_, static_cast<Index>(factor_->n));
   std::vector<double> change(forward_.size(), 0.0);
   const SparseVector& entries = column.entries();
-  for (int k = 0; k < entries.size; ++k) change[entries.rows[k]] = load_change * entries.values[k];
+  for (int k = 0; k < entries.size(); ++k)
+    change[entries.rows[k]] = load_change * entries.values[k];
   cholmod_dense forward = view_column(forward_);
   cholmod_dense delta = view_column(change);
   if (!cholmod_updown_solve(add, column.get(), factor_.get(), &forward, &delta, session_.get())) {
@@ -114,7 +115,7 @@ void CholmodUpdownFactor::commit_downdate(double load_change, std::span<double> 
 
 void CholmodUpdownFactor::update(const SparseVector& x, std::span<const double> solution) {
   double extension = 0.0;
-  for (int k = 0; k < x.size; ++k) extension += x.values[k] * solution[x.rows[k]];
+  for (int k = 0; k < x.size(); ++k) extension += x.values[k] * solution[x.rows[k]];
   change(true, x, extension);
 }
 

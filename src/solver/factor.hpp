@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstddef>
-#include <memory>
+#include <cstdint>
 #include <span>
-#include <string>
 
 #include <Eigen/SparseCore>
 
@@ -14,13 +12,6 @@ namespace perilink {
 
 /// Symmetric matrix; only the lower triangle is stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
-
-/// How a factor follows the removal of a bond.
-enum class FactorRoute {
-  in_place,        ///< our LDL' downdate on the supernodal pattern
-  cholmod_updown,  ///< CHOLMOD's simplicial update/downdate, the reference of the tests
-  refactorize,     ///< numerical factorisation from the changed matrix, the yardstick
-};
 
 /// Size and cost of a factor.
 struct FactorStatistics {
@@ -88,15 +79,5 @@ class Factor {
 
   virtual FactorStatistics statistics() const = 0;
 };
-
-/// \param threads  threads that the factor may use; results do not depend on it
-std::unique_ptr<Factor> make_factor(FactorRoute route, int threads);
-
-/// Size and cost of the factor of a matrix from its pattern alone: orders and analyses, computes no
-/// number of L.
-FactorStatistics estimate_factor(const SparseMatrix& matrix, std::span<const Index> groups);
-
-/// Name of a route as the case file spells it.
-std::string to_string(FactorRoute route);
 
 }  // namespace perilink

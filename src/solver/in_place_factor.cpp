@@ -203,14 +203,14 @@ void InPlaceFactor::follow_load(std::span<const double> load, std::span<double> 
 
 /// Eliminates x along its path and leaves p = L^-1 x in p_.
 void InPlaceFactor::forward_path(const SparseVector& permuted) {
-  forward_path(permuted, permuted.size == 0 ? no_index : permuted.rows[0]);
+  forward_path(permuted, permuted.size() == 0 ? no_index : permuted.rows[0]);
 }
 
 /// The same along the path from column `start`, at or before the first row of x; no_index: none.
 void InPlaceFactor::forward_path(const SparseVector& permuted, Index start) {
   clear_path();
   if (start == no_index) return;
-  for (int k = 0; k < permuted.size; ++k) p_[permuted.rows[k]] = permuted.values[k];
+  for (int k = 0; k < permuted.size(); ++k) p_[permuted.rows[k]] = permuted.values[k];
   for (Index s = supernode_of_[start]; s != no_index; s = parent_[s]) {
     path_.push_back(s);
     on_path_[s] = 1;
@@ -267,7 +267,7 @@ void InPlaceFactor::start_change(double sign) {
 void InPlaceFactor::commit_downdate(double load_change, std::span<double> solution) {
   const Index* permutation = ints(factor_->Perm);
   double extension = load_change;
-  for (int k = 0; k < x_.size; ++k) extension += x_.values[k] * solution[permutation[x_.rows[k]]];
+  for (int k = 0; k < x_.size(); ++k) extension += x_.values[k] * solution[permutation[x_.rows[k]]];
   const double scale = extension / pivot_;
   start_change(-1.0);
   descend([this](Index s, double* local) {
@@ -286,7 +286,7 @@ void InPlaceFactor::compliance(std::span<const SparseVector> x, std::span<double
   Index start = no_index;
   for (const SparseVector& column : x) {
     permuted.push_back(permute(column, position_));
-    if (column.size == 0) continue;
+    if (column.size() == 0) continue;
     const Index first = permuted.back().rows[0];
     start = start == no_index ? first : std::min(start, first);
   }
@@ -313,15 +313,9 @@ void InPlaceFactor::downdate(std::span<const SparseVector> x, std::span<const do
   SparseVector sum;
   for (std::size_t a = 0; a < x.size(); ++a) {
     double extension = load_changes[a];
-    for (int k = 0; k < x[a].size; ++k) extension += x[a].values[k] * solution[x[a].rows[k]];
-    for (int k = 0; k < x[a].size; ++k) {
-      const auto end = sum.rows.begin() + sum.size;
-      const auto place = std::find(sum.rows.begin(), end, x[a].rows[k]) - sum.rows.begin();
-      if (place == sum.size) {
-        sum.rows[sum.size] = x[a].rows[k];
-        sum.values[sum.size++] = 0.0;
-      }
-      sum.values[place] += extension / pivots[a] * x[a].values[k];
+    for (int k = 0; k < x[a].size(); ++k) extension += x[a].values[k] * solution[x[a].rows[k]];
+    for (int k = 0; k < x[a].size(); ++k) {
+      sum.add(x[a].rows[k], extension / pivots[a] * x[a].values[k]);
     }
   }
   forward_path(permute(sum, position_));

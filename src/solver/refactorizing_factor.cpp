@@ -38,17 +38,17 @@ void RefactorizingFactor::follow_load(std::span<const double> load, std::span<do
 double RefactorizingFactor::prepare_downdate(const SparseVector& x) {
   x_ = x;
   std::vector<double> direction(static_cast<std::size_t>(matrix_.cols()), 0.0);
-  for (int k = 0; k < x.size; ++k) direction[x.rows[k]] = x.values[k];
+  for (int k = 0; k < x.size(); ++k) direction[x.rows[k]] = x.values[k];
   solve(direction, direction);
   double removed = 0.0;
-  for (int k = 0; k < x.size; ++k) removed += x.values[k] * direction[x.rows[k]];
+  for (int k = 0; k < x.size(); ++k) removed += x.values[k] * direction[x.rows[k]];
   return 1.0 - removed;
 }
 
 /// Adds sign * x x' to the lower triangle.
 void RefactorizingFactor::change_matrix(const SparseVector& x, double sign) {
-  for (int a = 0; a < x.size; ++a) {
-    for (int b = 0; b < x.size; ++b) {
+  for (int a = 0; a < x.size(); ++a) {
+    for (int b = 0; b < x.size(); ++b) {
       if (x.rows[a] < x.rows[b]) continue;
       const Index* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[x.rows[b]];
       const Index* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[x.rows[b] + 1];
@@ -62,7 +62,7 @@ void RefactorizingFactor::change_matrix(const SparseVector& x, double sign) {
 }
 
 void RefactorizingFactor::add_to_load(const SparseVector& x, double factor) {
-  for (int k = 0; k < x.size; ++k) load_[x.rows[k]] += factor * x.values[k];
+  for (int k = 0; k < x.size(); ++k) load_[x.rows[k]] += factor * x.values[k];
 }
 
 void RefactorizingFactor::commit_downdate(double load_change, std::span<double> solution) {
@@ -84,7 +84,7 @@ void RefactorizingFactor::downdate(std::span<const SparseVector> x,
 void RefactorizingFactor::update(const SparseVector& x, std::span<const double> solution) {
   change_matrix(x, 1.0);
   double extension = 0.0;
-  for (int k = 0; k < x.size; ++k) extension += x.values[k] * solution[x.rows[k]];
+  for (int k = 0; k < x.size(); ++k) extension += x.values[k] * solution[x.rows[k]];
   add_to_load(x, extension);
   factorize_numerically(session_, matrix_, factor_.get());
   ++factorizations_;

@@ -1,16 +1,15 @@
-// One small case with an edit each: what `check` and `run` refuse alike, in the same words, before
-// anything is computed.
+// What `check` and `run` refuse alike, in the same words, before anything is computed: the cases of
+// malformed/run and some with files beside them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <ostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/mesh/gmsh_mesher.hpp"
+#include "support/case_tables.hpp"
 #include "support/process.hpp"
 #include "support/program_cases.hpp"
 
@@ -22,103 +21,28 @@ using test::write_text;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-struct Edit {
-  const char* name;
-  std::vector<std::pair<std::string, std::string>> replaced;
-  std::vector<std::string> message;
-};
-
-void PrintTo(const Edit& edit, std::ostream* stream) { *stream << edit.name; }
-
-/// A region "half" of its own material in the right half of the strip.
-std::string right_half(const std::string& modulus) {
-  return "[[regions]]\nname = \"half\"\nx = [1, 2]\ny = [0, 1]\n[[materials]]\nregion = \"half\"\n"
-         "youngs_modulus = " +
-         modulus + "\nfracture_energy = 1\n[[supports]]";
-}
-
-const std::string driven = "[[displacements]]\nregion = \"right side\"\nx = 0.04";
-
-const std::vector<Edit>& edits() {
-  static const std::vector<Edit> all = {
-      {"horizon200",
-       {{"horizon = 0.6", "horizon_ratio = 200"}},
-       {"body.horizon_ratio: makes the", "the body's diagonal is 2.23607",
-        "bonded to every other"}},
-      {"horizon200calibrated",
-       {{"horizon = 0.6", "horizon_ratio = 200"}, {"\"none\"", "\"calibrated\""}},
-       {"bonded to every other"}},
-      {"horizon2e9", {{"horizon = 0.6", "horizon_ratio = 2e9"}}, {"bonded to every other"}},
-      {"horizon1e40", {{"horizon = 0.6", "horizon = 1e40"}}, {"body.horizon: makes the horizon"}},
-      {"tooManyBonds",
-       {{"spacing = 0.25", "spacing = 0.001"}, {"horizon = 0.6", "horizon = 0.1"}},
-       {"body.horizon:", "3.14e+04 neighbours", "3.1e+10 bonds"}},
-      {"horizonAlongRows",
-       {{"horizon = 0.6", "horizon_ratio = 1"}},
-       {"body.horizon_ratio:", "do not resist shear", "horizon_ratio = 1.4143"}},
-      {"stiffness",
-       {{"[[supports]]", right_half("1e22")}},
-       {"materials[2].youngs_modulus: is 1e+22", "1e+20 times", "at most 1e+10 times"}},
-      {"unbending",
-       {{"[body]", "[body]\nmodel = \"micropolar\""},
-        {"\"none\"", "\"calibrated\""},
-        {"youngs_modulus", "poissons_ratio = 0.3333\nyoungs_modulus"}},
-       {"materials[1].poissons_ratio: is 0.3333", "do not bend", "at most 0.3330"}},
-      {"smallDisplacement",
-       {{"x = 0.04", "x = \"1e-300\""}},
-       {"displacements[1]", "too small to compute with"}},
-      {"smallBodyForce",
-       {{driven, "[[loads]]\nregion = \"strip\"\nbody_force = [\"1e-300\", 0]"}},
-       {"loads[1]", "too small to compute with"}},
-      {"smallTraction",
-       {{driven, "[[tractions]]\nregion = \"right side\"\ntraction = [\"1e-300*x\", 0]"}},
-       {"tractions[1]", "too small to compute with"}},
-      {"largeDisplacement",
-       {{"x = 0.04", "x = \"1e200\""}},
-       {"displacements[1].x: is 1e+200", "below 1e+50"}},
-      {"idleLoad",
-       {{driven, "[[loads]]\nregion = \"corner\"\nforce = [1, 1]"}},
-       {"loads[1]", "supports hold all particles"}},
-      {"mereShift",
-       {{"fix = [\"x\"]", "fix = [\"y\"]"}},
-       {"displacements[1]", "only moves the body as a whole"}},
-      {"regionBetweenParticles",
-       {{"x = [2, 2]", "x = [2.05, 2.1]"}},
-       {"no particle lies in the region \"right side\"", "0.05 outside, at (2, 0)"}},
-      {"holesLeaveNothing",
-       {{"youngs_modulus", "holes = [\"all\"]\nyoungs_modulus"},
-        {"[[materials]]", "[[regions]]\nname = \"all\"\nx = [-1, 3]\ny = [0, 1]\n[[materials]]"}},
-       {"materials[1].holes", "take all of the material away"}},
-  };
-  return all;
-}
-
-class EditedCase : public ::testing::TestWithParam<Edit> {
+class EditedCase : public ::testing::TestWithParam<test::CaseEntry> {
  protected:
   test::TemporaryDirectory directory_;
 };
 
 TEST_P(EditedCase, IsRefusedByCheckAndRun) {
-  std::string text = test::tension_strip_case;
-  for (const auto& [from, to] : GetParam().replaced) {
-    ASSERT_NE(text.find(from), std::string::npos) << from;
-    text.replace(text.find(from), from.size(), to);
-  }
+  ASSERT_EQ(GetParam().base, "tension_strip_case");
   std::filesystem::create_directories(directory_ / "work");
-  write_text(directory_ / "case.toml", text);
+  write_text(directory_ / "case.toml", test::edited_text(GetParam(), test::tension_strip_case));
   for (const char* command : {"check", "run"}) {
     const auto end = run_program(directory_ / "work", {command, "../case.toml"});
     EXPECT_EQ(end.exit_status, 2) << command;
     EXPECT_THAT(end.err, HasSubstr("perilink: bad input: ../case.toml:")) << command;
-    for (const std::string& part : GetParam().message) {
+    for (const std::string& part : GetParam().expected) {
       EXPECT_THAT(end.err, HasSubstr(part)) << command;
     }
   }
   EXPECT_TRUE(std::filesystem::is_empty(directory_ / "work"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Program, EditedCase, ::testing::ValuesIn(edits()),
-                         [](const auto& edit) { return std::string(edit.param.name); });
+INSTANTIATE_TEST_SUITE_P(Program, EditedCase, ::testing::ValuesIn(test::read_case_tables("run")),
+                         [](const auto& entry) { return entry.param.name; });
 
 class MeshedCase : public ::testing::Test {
  protected:

@@ -61,11 +61,11 @@ void expect_failed(const nlohmann::json& summary) {
 TEST_F(FullDisks, ARunThatCannotWriteAFieldTellsWhatItFound) {
   write_text(work() / "damage.toml", damage_case());
   ASSERT_EQ(run_program(work(), {"run", "damage.toml", "--out", "free"}).exit_status, 0);
-  const auto size = fs::file_size(work() / "free/fields_000010.vtu");
+  const auto size = fs::file_size(work() / "free/fields_000011.vtu");
   const ProcessEnd end =
       run_program(work(), {"run", "damage.toml", "--out", "r"}, {{RLIMIT_FSIZE, size}});
   EXPECT_EQ(end.exit_status, 3);
-  EXPECT_THAT(end.err, HasSubstr("fields_000015.vtu: cannot be written: File too large"));
+  EXPECT_THAT(end.err, HasSubstr("fields_000016.vtu: cannot be written: File too large"));
   EXPECT_EQ(expect_whole_files(work() / "r"), 0) << "a temporary is left";
   expect_failed(summary("r"));
   EXPECT_EQ(summary("r")["steps"], expect_whole_table(work() / "r/history.csv"));
@@ -111,7 +111,7 @@ TEST_F(FullDisks, EveryFileIsWholeWhereverTheRoomEnds) {
     if (!fs::exists(work() / "kept/r")) continue;
     EXPECT_EQ(expect_whole_files(work() / "kept/r"), 0) << kilobytes;
     const nlohmann::json json = summary("kept/r");
-    if (status != 3 || !fs::exists(work() / "kept/r/fields_000000.vtu")) continue;
+    if (status != 3 || !fs::exists(work() / "kept/r/fields_000001.vtu")) continue;
     expect_failed(json);
     told = true;
   }

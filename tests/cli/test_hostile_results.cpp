@@ -108,11 +108,11 @@ TEST_F(HostileResults, EscapeCodesReachNoTerminalAndNoPicture) {
 
 TEST_F(HostileResults, SeriesOfFieldsStayInTheirFolder) {
   make_result();
-  fs::copy_file(work() / "r/fields_000000.vtu", work() / "outside.vtu");
+  fs::copy_file(work() / "r/fields_000001.vtu", work() / "outside.vtu");
   const std::string outside = (work() / "outside.vtu").string();
   for (const std::string& file : {std::string("../outside.vtu"), outside}) {
     const std::string good = read_text(work() / "r/fields.pvd");
-    change("fields.pvd", "fields_000000.vtu", file);
+    change("fields.pvd", "fields_000001.vtu", file);
     const ProcessEnd end = run({"plot", "r"});
     EXPECT_EQ(end.exit_status, 2) << file;
     EXPECT_THAT(end.err, HasSubstr("only files of its own folder are read"));
@@ -140,7 +140,7 @@ TEST_F(HostileResults, LinksThatSomebodyLaidAreNotFollowed) {
   ASSERT_EQ(run({"plot", "r"}).exit_status, 0);
   for (const char* name : {"c/compare.csv", "c/compare.csv.part", "c/compare.svg", "r/history.csv",
                            "r/summary.json.part", "r/load_displacement.svg", "r/log.txt",
-                           "r/load_displacement.svg.part", "r/fields_000000.vtu.part"}) {
+                           "r/load_displacement.svg.part", "r/fields_000001.vtu.part"}) {
     fs::remove(work() / name);
     fs::create_symlink(work() / "victim", work() / name);
   }

@@ -1,114 +1,97 @@
-// Every file of malformed/ is refused by the reader and by the program, every file of
-// malformed_body/ by the program, which has the body before it. The first lines of each file say
-// what the message must contain: `# expect: text`.
+// Every case of malformed/text is refused by the reader and by the program, every case of
+// malformed/body by the program, which has the body before it. The tables say what the message
+// must contain.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <algorithm>
-#include <cctype>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "io/case/case_file.hpp"
+#include "support/case_tables.hpp"
+#include "support/process.hpp"
 
 namespace perilink {
 namespace {
 
-namespace fs = std::filesystem;
+using test::CaseEntry;
 
-std::vector<fs::path> files_of(const std::string& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry :
-       fs::directory_iterator(fs::path(PERILINK_SOURCE_DIR) / "tests/cli" / folder)) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
+std::vector<CaseEntry> all_entries() {
+  std::vector<CaseEntry> entries = test::read_case_tables("text");
+  const std::vector<CaseEntry> more = test::read_case_tables("body");
+  entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
 }
 
-std::vector<fs::path> all_files() {
-  std::vector<fs::path> files = files_of("malformed");
-  const std::vector<fs::path> more = files_of("malformed_body");
-  files.insert(files.end(), more.begin(), more.end());
-  return files;
-}
-
-std::vector<std::string> expectations(const fs::path& path) {
-  const std::string mark = "# expect: ";
-  std::vector<std::string> result;
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line) && line.starts_with(mark);) {
-    result.push_back(line.substr(mark.size()));
-  }
-  return result;
-}
-
-std::string content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void expect_message(const std::string& message, const fs::path& path) {
-  const std::vector<std::string> texts = expectations(path);
-  EXPECT_FALSE(texts.empty()) << path << " has no line `# expect: ...`";
-  for (const std::string& text : texts) EXPECT_THAT(message, testing::HasSubstr(text));
-  EXPECT_THAT(message, testing::HasSubstr(path.filename().string()));
+void expect_message(const std::string& message, const CaseEntry& entry) {
+  EXPECT_FALSE(entry.expected.empty()) << entry.name << " has no line `? ...`";
+  for (const std::string& text : entry.expected) EXPECT_THAT(message, testing::HasSubstr(text));
+  EXPECT_THAT(message, testing::HasSubstr(entry.name + ".toml"));
   EXPECT_LT(message.size(), 1500u) << "nobody reads that much";
 }
 
-std::string name_of(const testing::TestParamInfo<fs::path>& info) {
-  return info.param.stem().string();
-}
+std::string name_of(const testing::TestParamInfo<CaseEntry>& info) { return info.param.name; }
 
-class MalformedCase : public testing::TestWithParam<fs::path> {};
+class TableCase : public testing::TestWithParam<CaseEntry> {
+ protected:
+  std::filesystem::path write() const {
+    const std::filesystem::path path = directory_ / (GetParam().name + ".toml");
+    test::write_text(path, test::case_text(GetParam()));
+    return path;
+  }
+
+  test::TemporaryDirectory directory_;
+};
+
+class MalformedCase : public TableCase {};
 
 TEST_P(MalformedCase, IsRefusedByReader) {
-  const fs::path& path = GetParam();
+  const std::filesystem::path path = write();
   try {
     read_case_file(path.string());
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    expect_message(error.what(), path);
+    expect_message(error.what(), GetParam());
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Text, MalformedCase, testing::ValuesIn(files_of("malformed")), name_of);
+INSTANTIATE_TEST_SUITE_P(Text, MalformedCase, testing::ValuesIn(test::read_case_tables("text")),
+                         name_of);
 
-class BodyCase : public testing::TestWithParam<fs::path> {};
+class BodyCase : public TableCase {};
 
 /// Otherwise the process test would pass for a reason that has nothing to do with the body.
-TEST_P(BodyCase, IsAcceptedByReader) { EXPECT_NO_THROW(read_case_file(GetParam().string())); }
+TEST_P(BodyCase, IsAcceptedByReader) { EXPECT_NO_THROW(read_case_file(write().string())); }
 
-INSTANTIATE_TEST_SUITE_P(Text, BodyCase, testing::ValuesIn(files_of("malformed_body")), name_of);
+INSTANTIATE_TEST_SUITE_P(Text, BodyCase, testing::ValuesIn(test::read_case_tables("body")),
+                         name_of);
 
-class MalformedProcess : public testing::TestWithParam<fs::path> {};
+class MalformedProcess : public TableCase {};
 
 TEST_P(MalformedProcess, IsRefusedByProgram) {
-  ASSERT_TRUE(fs::exists(PERILINK_PROGRAM)) << "the program is not built";
-  const fs::path& path = GetParam();
-  const fs::path work =
-      fs::path(testing::TempDir()) / ("perilink_malformed_" + path.stem().string());
-  fs::remove_all(work);
-  fs::create_directories(work / "empty");
-  const std::string command = "cd '" + (work / "empty").string() +
-                              "' && '" PERILINK_PROGRAM "' check '" + path.string() +
-                              "' >../out 2>../err";
-  const int status = std::system(command.c_str());
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 2);
-  expect_message(content(work / "err"), path);
-  EXPECT_TRUE(fs::is_empty(work / "empty")) << "a refused case left files behind";
-  fs::remove_all(work);
+  ASSERT_TRUE(std::filesystem::exists(PERILINK_PROGRAM)) << "the program is not built";
+  const std::filesystem::path path = write();
+  std::filesystem::create_directories(directory_ / "empty");
+  const auto end = test::run_program(directory_ / "empty", {"check", path.string()});
+  EXPECT_EQ(end.exit_status, 2);
+  expect_message(end.err, GetParam());
+  EXPECT_TRUE(std::filesystem::is_empty(directory_ / "empty")) << "a refused case left files";
 }
 
-INSTANTIATE_TEST_SUITE_P(Program, MalformedProcess, testing::ValuesIn(all_files()), name_of);
+INSTANTIATE_TEST_SUITE_P(Program, MalformedProcess, testing::ValuesIn(all_entries()), name_of);
+
+class BaseCase : public testing::TestWithParam<std::filesystem::path> {};
+
+/// What is refused, is refused for the edit.
+TEST_P(BaseCase, IsAcceptedByReader) { EXPECT_NO_THROW(read_case_file(GetParam().string())); }
+
+INSTANTIATE_TEST_SUITE_P(Text, BaseCase,
+                         testing::ValuesIn(test::files_of(test::malformed_folder() / "bases",
+                                                          ".toml")),
+                         [](const auto& base) { return base.param.stem().string(); });
 
 }  // namespace
 }  // namespace perilink

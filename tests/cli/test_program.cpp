@@ -121,9 +121,9 @@ TEST_F(Program, RunWritesTheFilesOfTheContractAndNoOthers) {
   EXPECT_EQ(names(),
             (std::set<std::string>{"small.toml", place + "case.toml", place + "history.csv",
                                    place + "timing.csv", place + "summary.json",
-                                   place + "fields.pvd", place + "fields_000000.vtu",
-                                   place + "fields_000010.vtu", place + "fields_000020.vtu",
-                                   place + "fields_000030.vtu", place + "log.txt"}));
+                                   place + "fields.pvd", place + "fields_000001.vtu",
+                                   place + "fields_000011.vtu", place + "fields_000021.vtu",
+                                   place + "fields_000031.vtu", place + "log.txt"}));
   const auto summary = nlohmann::json::parse(read_text(work() / place / "summary.json"));
   EXPECT_EQ(summary["status"], "completed");
   EXPECT_EQ(summary["broken_bonds"], 30);
@@ -199,7 +199,7 @@ TEST_F(Program, TheResolvedCaseRunsAgainToTheSameHistory) {
   write_case("small.toml", small_ghost_case);
   ASSERT_EQ(run({"run", "small.toml", "--out", "first"}).exit_status, 0);
   ASSERT_EQ(run({"run", "first/case.toml", "--out", "second"}).exit_status, 0);
-  for (const char* file : {"history.csv", "case.toml", "fields_000030.vtu"}) {
+  for (const char* file : {"history.csv", "case.toml", "fields_000031.vtu"}) {
     EXPECT_EQ(read_text(work() / "first" / file), read_text(work() / "second" / file)) << file;
   }
 }
@@ -375,13 +375,13 @@ TEST_F(Program, PlotDrawsWhatAResultHolds) {
   ASSERT_EQ(run({"run", "small.toml", "--out", "r"}).exit_status, 0);
   const ProcessEnd end = run({"plot", "r", "--out", "pictures"});
   EXPECT_EQ(end.exit_status, 0) << end.err;
-  for (const char* name : {"load_displacement.svg", "fields_0.svg", "fields_10.svg",
-                           "fields_20.svg", "fields_30.svg"}) {
+  for (const char* name : {"load_displacement.svg", "fields_1.svg", "fields_11.svg",
+                           "fields_21.svg", "fields_31.svg"}) {
     EXPECT_THAT(read_text(work() / "pictures" / name), HasSubstr("</svg>")) << name;
     EXPECT_THAT(end.out, HasSubstr(name));
   }
   EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
-  EXPECT_TRUE(fs::exists(work() / "r/fields_30.svg"));
+  EXPECT_TRUE(fs::exists(work() / "r/fields_31.svg"));
 }
 
 TEST_F(Program, PlotOfADirectoryWithoutResultsIsRefused) {

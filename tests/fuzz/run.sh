@@ -11,6 +11,7 @@ build=${2:-$root/build/fuzz}
 target=${3:-case}
 libraries=-lfmt
 mkdir -p "$build/found_$target"
+build=$(cd "$build" && pwd)
 
 src=$root/src
 case $target in
@@ -18,8 +19,13 @@ case $target in
     sources=$(ls "$src"/io/case/case_*.cpp "$src"/io/case/sections/*.cpp "$src"/io/text/toml_*.cpp \
                  "$src"/io/text/formula.cpp "$src"/io/text/input_text.cpp)
     libraries="-lfmt -lmuparser"
-    seeds="$root/tests/fuzz/corpus $root/tests/cli/malformed $root/meshes"
-    replayed="$root/tests/fuzz/corpus/* $root/tests/cli/malformed/*.toml $root/meshes/*.toml"
+    ${CXX:-g++} -std=c++20 -I"$root/tests" -DPERILINK_SOURCE_DIR="\"$root\"" \
+      "$root/tests/fuzz/expand_cases.cpp" -o "$build/expand_cases"
+    rm -rf "$build/malformed"
+    "$build/expand_cases" "$build/malformed"
+    bases=$root/tests/cli/malformed/bases
+    seeds="$root/tests/fuzz/corpus $build/malformed $bases $root/meshes"
+    replayed="$root/tests/fuzz/corpus/* $build/malformed/* $bases/* $root/meshes/*.toml"
     options="-max_len=8192 -dict=$root/tests/fuzz/case.dict" ;;
   mesh)
     sources="$(ls "$src"/io/text/toml_*.cpp "$src"/discretization/meshes/mesh_*.cpp)

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {

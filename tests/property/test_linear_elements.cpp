@@ -9,6 +9,7 @@
 
 #include "analysis/quasistatic/elastic_analysis.hpp"
 #include "app/study/convergence.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "discretization/meshes/mesh_body.hpp"
 #include "support/simplex_meshes.hpp"

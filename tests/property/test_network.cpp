@@ -5,6 +5,7 @@
 #include "assembly/fields.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
 #include "support/small_networks.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/damage_analysis.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "support/micropolar_networks.hpp"
 #include "support/textbook_beams.hpp"
 

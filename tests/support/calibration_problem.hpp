@@ -8,6 +8,7 @@
 #include "calibration/calibration.hpp"
 #include "calibration/isotropic_weights.hpp"
 #include "discretization/lattices/lattice.hpp"
+#include "discretization/lattices/make_body.hpp"
 
 namespace perilink::test {
 

@@ -5,6 +5,7 @@
 
 #include "analysis/dynamics/inertia.hpp"
 #include "assembly/internal_force.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink::test {

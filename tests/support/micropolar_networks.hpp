@@ -1,5 +1,6 @@
 #pragma once
 
+#include "discretization/lattices/make_body.hpp"
 #include "support/small_networks.hpp"
 
 namespace perilink::test {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "discretization/lattices/make_body.hpp"
 #include "support/analysis_bodies.hpp"
 
 /// \file

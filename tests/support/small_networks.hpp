@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "discretization/lattices/make_body.hpp"
 #include "network/network_builder.hpp"
 
 namespace perilink::test {

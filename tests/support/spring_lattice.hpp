@@ -42,7 +42,6 @@ inline SpringLattice make_spring_lattice(int columns, int rows, double radius,
       if (length > radius) continue;
       const double root = std::sqrt(stiffness(random) / length);
       SparseVector x;
-      x.size = 4;
       x.rows = {2 * i, 2 * i + 1, 2 * j, 2 * j + 1};
       x.values = {-root * dx / length, -root * dy / length, root * dx / length, root * dy / length};
       for (int a = 0; a < 4; ++a) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "support/small_networks.hpp"
 
 /// \file

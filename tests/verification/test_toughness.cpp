@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bodies.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "network/crack_cost.hpp"
 #include "strip.hpp"
 

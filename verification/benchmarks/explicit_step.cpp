@@ -11,6 +11,7 @@
 #include "analysis/dynamics/lattice/lattice_analysis.hpp"
 #include "base/timer.hpp"
 #include "discretization/lattices/lattice.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "network/network_builder.hpp"
 #include "network/unknowns.hpp"
 

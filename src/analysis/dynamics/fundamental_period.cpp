@@ -172,6 +172,7 @@ double Vibration::settle() {
 
 double fundamental_period(const Network& network, const Unknowns& unknowns, const Inertia& inertia,
                           std::span<const std::vector<double>> free) {
+  expect_nothing_carried(unknowns);
   if (unknowns.count <= static_cast<Index>(free.size())) {
     return std::numeric_limits<double>::infinity();
   }

@@ -5,6 +5,7 @@
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/timer.hpp"
+#include "solver/factor_routes.hpp"
 
 namespace perilink {
 namespace {
@@ -32,15 +33,15 @@ ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, int th
   double load_norm = 0.0;
   for (const double value : load) load_norm += value * value;
   for (int pass = 0; pass < 2; ++pass) {
-    result.displacement = expand(unknowns, solution);
+    result.displacement = unknowns.expand(solution);
     const InternalForce internal = internal_of(result.displacement);
-    std::vector<double> residual;
-    double square = 0.0;
-    for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
-      if (unknowns.number[slot] == no_index) continue;
-      residual.push_back(loads.forces[slot] - internal.forces[slot]);
-      square += residual.back() * residual.back();
+    std::vector<double> missing(loads.forces.size());
+    for (std::size_t slot = 0; slot < missing.size(); ++slot) {
+      missing[slot] = loads.forces[slot] - internal.forces[slot];
     }
+    std::vector<double> residual = unknowns.restrict(missing);
+    double square = 0.0;
+    for (const double value : residual) square += value * value;
     result.strain_energy = internal.energy;
     result.residual = load_norm > 0.0 ? std::sqrt(square / load_norm) : std::sqrt(square);
     if (pass == 1) break;

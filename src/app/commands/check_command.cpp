@@ -19,7 +19,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "discretization/lattices/triangulate.hpp"
-#include "solver/factor.hpp"
+#include "solver/factor_routes.hpp"
 
 namespace perilink {
 namespace {

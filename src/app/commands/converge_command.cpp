@@ -18,7 +18,7 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/plain_text.hpp"
-#include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {

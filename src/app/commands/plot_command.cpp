@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 
 #include "app/commands/commands.hpp"
 #include "app/plot/plot_curve.hpp"
@@ -38,25 +37,15 @@ Index count_of(const VtuGrid& grid, const char* name, const std::string& path) {
 
 void plot_series(const fs::path& directory, const fs::path& out, const PlotLabels& labels,
                  double scale) {
-  std::set<long> drawn;
   for (const PvdEntry& entry : read_pvd((directory / "fields.pvd").string())) {
     const std::string path = (directory / entry.file).string();
     const VtuGrid grid = read_vtu(path);
     const Index step = count_of(grid, "step", path);
     FieldsCaption caption{count_of(grid, "broken_bonds", path), grid.field("load_factor", 0.0),
                           grid.field("load", 0.0)};
-    if (const double time = grid.field("time", -1.0); time >= 0.0) {
-      caption.time = time;
-      const std::string name = fmt::format("fields_{}.svg", step);
-      save(draw_fields(read_body(grid, path), caption, labels, scale), out / name);
-      continue;
-    }
-    // Load steps without a break share the count.
-    const bool again = !drawn.insert(caption.broken_bonds).second;
-    const std::string name = again
-                                 ? fmt::format("fields_{}_step_{}.svg", caption.broken_bonds, step)
-                                 : fmt::format("fields_{}.svg", caption.broken_bonds);
-    save(draw_fields(read_body(grid, path), caption, labels, scale), out / name);
+    if (const double time = grid.field("time", -1.0); time >= 0.0) caption.time = time;
+    save(draw_fields(read_body(grid, path), caption, labels, scale),
+         out / fmt::format("fields_{}.svg", step));
   }
 }
 

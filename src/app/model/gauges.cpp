@@ -11,7 +11,6 @@
 #include "assembly/fields.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
-#include "io/case/sections/case_lattice.hpp"
 
 namespace perilink {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "io/case/sections/case_lattice.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {

@@ -78,8 +78,8 @@ void RunObserver::note_places(const StepRecord& record, StateSource& source) {
 
 /// A load step may pass a number that the case asks for; the first row beyond it counts then.
 bool RunObserver::wants_fields(Index broken_bonds) const {
-  if (written_.empty()) return true;
-  const Index last = *written_.rbegin();
+  if (series_.empty()) return true;
+  const Index last = broken_at_fields_;
   if (broken_bonds == last) return false;
   const std::vector<int>& at = input_.output.fields_at;
   if (std::any_of(at.begin(), at.end(), [&](int n) { return n > last && n <= broken_bonds; })) {
@@ -110,10 +110,10 @@ VtuGrid RunObserver::make_grid(const StepRecord& record, StateSource& source) {
 
 void RunObserver::write_fields(const StepRecord& record, StateSource& source) {
   const Timer timer;
-  const std::string name = fmt::format("fields_{:06}.vtu", record.broken_bonds);
+  const std::string name = fmt::format("fields_{:06}.vtu", record.step);
   write_vtu((directory_ / name).string(), make_grid(record, source));
-  written_.insert(record.broken_bonds);
-  series_.push_back({static_cast<double>(record.broken_bonds), name});
+  broken_at_fields_ = record.broken_bonds;
+  series_.push_back({static_cast<double>(record.step), name});
   write_pvd((directory_ / "fields.pvd").string(), series_);
   seconds_writing_ += timer.seconds();
 }
@@ -132,7 +132,8 @@ void RunObserver::on_step(const StepRecord& record, StateSource& source) {
 }
 
 void RunObserver::on_end(const StepRecord& last, StateSource& source) {
-  if (last.step > 0 && !written_.contains(last.broken_bonds)) write_fields(last, source);
+  const bool written = !series_.empty() && series_.back().time == static_cast<double>(last.step);
+  if (last.step > 0 && !written) write_fields(last, source);
 }
 
 bool RunObserver::stop_requested() { return stop_signal_received(); }

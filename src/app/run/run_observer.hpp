@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <vector>
 
 #include "analysis/quasistatic/observer.hpp"
@@ -47,10 +46,10 @@ class RunObserver final : public StepObserver {
   Csr families_;               ///< made with the first field file
   std::vector<Index> broken_;  ///< in the order of breaking
   std::vector<std::uint8_t> is_broken_;
-  Index last_element_ = no_index;  ///< failed at the end of the last row
-  std::set<Index> written_;        ///< numbers of broken bonds that have a field file
-  std::vector<PvdEntry> series_;
-  double highest_ = 0.0;  ///< |load| so far
+  Index last_element_ = no_index;  ///< that failed at the end of the last row
+  std::vector<PvdEntry> series_;   ///< field files by rows
+  Index broken_at_fields_ = 0;     ///< number of broken bonds in the last of them
+  double highest_ = 0.0;           ///< |load| so far
   std::vector<PlaceForce> places_;
   double seconds_writing_ = 0.0;
 };

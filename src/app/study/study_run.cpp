@@ -19,7 +19,7 @@
 #include "base/timer.hpp"
 #include "io/case/case_overrides.hpp"
 #include "io/case/case_words.hpp"
-#include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/text/formula.hpp"
 
 namespace perilink {

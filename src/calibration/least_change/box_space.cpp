@@ -12,6 +12,7 @@
 
 #include "calibration/least_change/variable_parts.hpp"
 #include "solver/dense_kernels.hpp"
+#include "solver/factor_routes.hpp"
 
 namespace perilink {
 namespace {

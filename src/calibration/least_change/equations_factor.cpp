@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "calibration/least_change/variable_parts.hpp"
+#include "solver/factor_routes.hpp"
 
 namespace perilink {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "calibration/least_change/least_change.hpp"
+#include "calibration/least_change/point_equations.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {

@@ -224,14 +224,6 @@ LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions
 
 }  // namespace
 
-KeptPreconditioner::KeptPreconditioner() = default;
-KeptPreconditioner::~KeptPreconditioner() = default;
-
-void KeptPreconditioner::reset() {
-  boxes.reset();
-  factor.reset();
-}
-
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
                          KeptPreconditioner& kept) {
   if (!equations.unknown.empty()) return solve_tied(equations, options);

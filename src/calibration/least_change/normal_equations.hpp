@@ -8,9 +8,8 @@
 
 #include <Eigen/Dense>
 
-#include "calibration/least_change/box_space.hpp"
-#include "calibration/least_change/equations_factor.hpp"
-#include "calibration/least_change/least_change.hpp"
+#include "calibration/least_change/kept_preconditioner.hpp"
+#include "calibration/least_change/point_equations.hpp"
 #include "calibration/least_change/variable_parts.hpp"
 
 namespace perilink {

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "calibration/least_change/variable_parts.hpp"
+#include "solver/factor_routes.hpp"
 
 namespace perilink {
 namespace {

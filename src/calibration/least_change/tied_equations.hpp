@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
-#include "calibration/least_change/least_change.hpp"
+#include "calibration/least_change/point_equations.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {

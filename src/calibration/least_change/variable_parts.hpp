@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "calibration/least_change/least_change.hpp"
+#include "calibration/least_change/point_equations.hpp"
 
 namespace perilink {
 

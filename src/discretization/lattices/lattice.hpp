@@ -77,12 +77,6 @@ struct Body {
   std::vector<Group> groups;  ///< meshes only
 };
 
-/// Fills a body with particles: `conforming` puts particles on the boundary and gives each the
-/// integral of its shape function as volume; Peri2D's grid (surface = ghost) is cell-centred in x,
-/// starts on the lowest row and continues as ghosts for one horizon beyond the body.
-/// \throws std::invalid_argument where the body is empty or its outline misses the lattice
-Body make_body(const LatticeInput& input);
-
 /// Family of a particle far from every surface.
 BulkFamily bulk_family(const Lattice& lattice, double horizon);
 

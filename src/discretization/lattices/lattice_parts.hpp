@@ -12,6 +12,9 @@
 
 namespace perilink {
 
+/// 2 or 3.
+int dimension_of(Pattern pattern);
+
 /// Lattice of about the given spacing whose planes end on the body's bounding box.
 Lattice conforming_lattice(const LatticeInput& input, const Box& bounds, double spacing);
 

@@ -43,7 +43,8 @@ struct BodySection {
   std::string critical_stretch = "dissipated";
   double rotation = 0.0;  ///< angle of the rows of model = lattice against x, about z [degrees]
   Vector3 offset{};       ///< one of its lattice points [length]
-  std::string variant = "consistent";  ///< its rules: consistent | 2018 | 2017
+  /// Its rules: consistent | 2018 | 2017, the latter two kept for comparison with the papers.
+  std::string variant = "consistent";
 };
 
 /// Keys of [[materials]] of bodies with model = lattice; some also of those with particles.

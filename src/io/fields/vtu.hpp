@@ -45,7 +45,7 @@ VtuGrid read_vtu(const std::string& path);
 
 /// One file of a series.
 struct PvdEntry {
-  double time = 0.0;  ///< number of broken bonds, or step
+  double time = 0.0;  ///< row of the history, or time
   std::string file;   ///< its name; it lies beside the .pvd
 };
 

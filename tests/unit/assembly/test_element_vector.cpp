@@ -26,7 +26,7 @@ TEST(ElementVector, HoldsTheRootOfTheStiffnessTimesTheDirection) {
 
   const SparseVector x = element_vector(network, unknowns, 0, 9.0);
 
-  ASSERT_EQ(x.size, 4);
+  ASSERT_EQ(x.size(), 4);
   const double expected[] = {-1.8, -2.4, 1.8, 2.4};  // 3 times (3, 4) / 5
   for (int k = 0; k < 4; ++k) {
     EXPECT_EQ(x.rows[k], k);
@@ -40,7 +40,7 @@ TEST(ElementVector, LeavesOutPrescribedDisplacements) {
 
   const SparseVector x = element_vector(network, unknowns, 0, 9.0);
 
-  ASSERT_EQ(x.size, 1);
+  ASSERT_EQ(x.size(), 1);
   EXPECT_EQ(x.rows[0], 0);
   EXPECT_NEAR(x.values[0], 1.8, 1e-15);
 }

@@ -34,7 +34,7 @@ TEST(DamageIndex, IsTheBrokenShareOfTheFamilyVolume) {
   EXPECT_EQ(damage.back(), 0.0);
   // What has lost a part of its stiffness is damaged by that part.
   for (const Index b : families.row(0)) secants[b] = 0.25;
-  EXPECT_EQ(damage_index(network, families, secants)[0], 0.75);
+  EXPECT_DOUBLE_EQ(damage_index(network, families, secants)[0], 0.75);
 }
 
 TEST(StrainEnergyDensity, SumsToTheEnergyOfTheNetwork) {

@@ -109,7 +109,7 @@ TEST_P(StiffnessOfLattice, SolvesADrivenBodyToEquilibrium) {
   const Eigen::VectorXd solution =
       stiffness.llt().solve(Eigen::Map<const Eigen::VectorXd>(f.data(), unknowns.count));
   const auto displacement =
-      expand(unknowns, {solution.data(), static_cast<std::size_t>(solution.size())});
+      unknowns.expand({solution.data(), static_cast<std::size_t>(solution.size())});
   const auto forces = internal_force(network, secants, displacement).forces;
   for (std::size_t slot = 0; slot < slots; ++slot) {
     if (held[slot]) {

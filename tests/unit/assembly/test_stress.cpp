@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discretization/bonds.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "support/small_networks.hpp"
 
 namespace perilink {

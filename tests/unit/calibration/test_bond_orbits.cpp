@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "discretization/lattices/make_body.hpp"
+
 namespace perilink {
 namespace {
 

@@ -6,6 +6,7 @@
 
 #include "calibration/least_change/variable_parts.hpp"
 #include "discretization/lattices/lattice.hpp"
+#include "discretization/lattices/make_body.hpp"
 
 namespace perilink {
 namespace {

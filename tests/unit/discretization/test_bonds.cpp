@@ -4,6 +4,7 @@
 
 #include "discretization/bonds.hpp"
 #include "discretization/lattices/lattice.hpp"
+#include "discretization/lattices/make_body.hpp"
 
 namespace perilink {
 namespace {

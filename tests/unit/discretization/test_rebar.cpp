@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "discretization/lattices/lattice.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "discretization/rebar.hpp"
 
 namespace perilink {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "discretization/lattices/make_body.hpp"
 #include "support/clouds.hpp"
 #include "support/micropolar_networks.hpp"
 

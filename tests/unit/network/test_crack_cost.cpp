@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "discretization/lattices/make_body.hpp"
 #include "support/clouds.hpp"
 #include "support/lattice_networks.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "discretization/lattices/make_body.hpp"
 #include "support/small_networks.hpp"
 
 namespace perilink {

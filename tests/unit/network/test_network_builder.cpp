@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "discretization/lattices/make_body.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
 #include "network/network_builder.hpp"
@@ -117,7 +118,7 @@ TEST(BuildNetwork, BarsAddSegmentsAndTies) {
   int breakable = 0;
   for (Index e = network.first_tie; e < network.num_elements(); ++e) {
     if (network.is_segment(e)) {
-      EXPECT_EQ(network.critical_stretch[e], infinity);
+      EXPECT_FALSE(network.can_break(e));
       continue;
     }
     const Index solid = network.bonds.first[e];
@@ -146,32 +147,6 @@ TEST(BuildNetwork, RefusesWhatDoesNotFit) {
   input.horizon = 2.0 * body_of.spacing;
   input.bars = {{{0.1, 0.5, 0.0}, {1.5, 0.5, 0.0}}};
   EXPECT_THROW(build_network(body, input), std::invalid_argument);  // no material of the bar
-}
-
-TEST(KeepElements, TakesBondsOutOfEveryList) {
-  Network network = make_network({"", Pattern::rectangular, Surface::none}, 4);
-  network.bending.assign(network.stiffness.begin(), network.stiffness.end());
-  network.bending_ratio.assign(network.stiffness.begin(), network.stiffness.end());
-  const Network whole = network;
-  std::vector<std::uint8_t> keep(whole.stiffness.size());
-  std::vector<Index> kept;
-  for (std::size_t e = 0; e < keep.size(); ++e) {
-    keep[e] = e % 3 != 1;
-    if (keep[e]) kept.push_back(static_cast<Index>(e));
-  }
-  keep_elements(network, keep);
-  ASSERT_EQ(network.num_elements(), static_cast<Index>(kept.size()));
-  ASSERT_EQ(network.stiffness.size(), kept.size());
-  ASSERT_EQ(network.bending.size(), kept.size());
-  ASSERT_EQ(network.bending_ratio.size(), kept.size());
-  ASSERT_EQ(network.critical_stretch.size(), kept.size());
-  for (std::size_t e = 0; e < kept.size(); ++e) {
-    EXPECT_EQ(network.bonds.first[e], whole.bonds.first[kept[e]]);
-    EXPECT_EQ(network.bonds.second[e], whole.bonds.second[kept[e]]);
-    EXPECT_EQ(network.stiffness[e], whole.stiffness[kept[e]]);
-    EXPECT_EQ(network.bending[e], whole.stiffness[kept[e]]);
-    EXPECT_EQ(network.bending_ratio[e], whole.stiffness[kept[e]]);
-  }
 }
 
 TEST(LooseParticles, HaveTooFewDirections) {

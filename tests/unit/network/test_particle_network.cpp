@@ -11,6 +11,7 @@
 
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "material/state_moduli.hpp"
 #include "support/particle_clouds.hpp"

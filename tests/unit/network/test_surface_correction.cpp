@@ -7,6 +7,7 @@
 #include <span>
 
 #include "assembly/internal_force.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "support/clouds.hpp"
 #include "support/small_networks.hpp"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "solver/factor.hpp"
+#include "solver/factor_routes.hpp"
 #include "support/spring_lattice.hpp"
 
 namespace perilink {
@@ -37,7 +37,7 @@ TEST(InPlaceFactor, AnIndefiniteRemovalShowsInThePivotOnly) {
   const auto factor = make_factor(FactorRoute::in_place, 1);
   factor->factorize(lattice.lower, lattice.groups);
   SparseVector twice = lattice.springs[10];
-  for (int k = 0; k < twice.size; ++k) twice.values[k] *= 2.0;
+  for (int k = 0; k < twice.size(); ++k) twice.values[k] *= 2.0;
 
   EXPECT_LT(factor->prepare_downdate(twice), 0.0);
   EXPECT_GT(factor->prepare_downdate(lattice.springs[10]), 0.0);

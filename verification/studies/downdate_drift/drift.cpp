@@ -27,7 +27,7 @@ double relative_error(const std::vector<double>& a, const std::vector<double>& b
 double residual_of(const Model& model, const std::vector<double>& secants,
                    const std::vector<double>& solution) {
   const InternalForce internal =
-      internal_force(model.network, secants, expand(model.unknowns, solution));
+      internal_force(model.network, secants, model.unknowns.expand(solution));
   std::vector<double> residual, load;
   for (std::size_t slot = 0; slot < model.unknowns.number.size(); ++slot) {
     if (model.unknowns.number[slot] == no_index) continue;
@@ -46,7 +46,7 @@ std::vector<double> fresh_solution(const Model& model, const Unknowns& unknowns,
   std::vector<double> solution(load.size());
   factor->solve(load, solution);
   // One step of refinement makes the yardstick better than what it measures.
-  const InternalForce internal = internal_force(model.network, secants, expand(unknowns, solution));
+  const InternalForce internal = internal_force(model.network, secants, unknowns.expand(solution));
   std::vector<double> residual;
   for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
     if (unknowns.number[slot] == no_index) continue;
@@ -125,7 +125,7 @@ Detachment measure_detachment(const Model& model, double x, double y, double rad
     held[slot] = model.unknowns.number[slot] == no_index || inside[slot / 2];
   }
   const Unknowns rest = number_unknowns(2, held, std::vector<double>(held.size(), 0.0));
-  const auto expected = expand(rest, fresh_solution(model, rest, secants));
+  const auto expected = rest.expand(fresh_solution(model, rest, secants));
   double difference = 0.0, size = 0.0;
   for (std::size_t slot = 0; slot < held.size(); ++slot) {
     if (inside[slot / 2]) continue;

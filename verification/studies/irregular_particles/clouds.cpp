@@ -10,6 +10,7 @@
 #include "analysis/dynamics/fundamental_period.hpp"
 #include "analysis/dynamics/inertia.hpp"
 #include "analysis/quasistatic/elastic_analysis.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "discretization/lattices/triangulate.hpp"
 
 namespace perilink::verification {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/elastic_analysis.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "network/network_builder.hpp"
 #include "network/rigid_modes.hpp"
 

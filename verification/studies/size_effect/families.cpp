@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assembly/internal_force.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "discretization/neighbor_search.hpp"
 
 namespace perilink::verification {

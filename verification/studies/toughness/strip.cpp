@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bodies.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "material/critical_stretch.hpp"
 #include "network/lattice_families.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "analysis/dynamics/bonds/break_order.hpp"
 #include "analysis/dynamics/bonds/free_motion.hpp"
 #include "analysis/dynamics/bonds/particle_blocks.hpp"
@@ -238,6 +239,7 @@ ExplicitResult run_explicit_bonds(const Network& network, const Unknowns& unknow
                                   const Loads& loads, const ReferenceLoad& reference,
                                   const Inertia& inertia, const BondRunRules& rules,
                                   const ExplicitOptions& options, BondRunObserver& observer) {
+  expect_nothing_carried(unknowns);
   return BondRun(network, unknowns, loads, reference, inertia, rules, options, observer).run();
 }
 

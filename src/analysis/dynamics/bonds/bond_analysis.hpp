@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "analysis/dynamics/bonds/explicit_bonds.hpp"
 #include "analysis/dynamics/bonds/state_particles.hpp"
 #include "analysis/dynamics/explicit_run.hpp"
 #include "analysis/dynamics/inertia.hpp"

@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 
+#include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "analysis/dynamics/bonds/break_order.hpp"
 #include "analysis/dynamics/bonds/particle_blocks.hpp"
 #include "base/memory.hpp"
@@ -322,6 +323,7 @@ RelaxationResult run_dynamic_relaxation(const Network& network, const Unknowns& 
                                         const Loads& loads, const ReferenceLoad& reference,
                                         const RelaxationOptions& options,
                                         BondRunObserver& observer) {
+  expect_nothing_carried(unknowns);
   return Relaxation(network, unknowns, loads, reference, options, observer).run();
 }
 

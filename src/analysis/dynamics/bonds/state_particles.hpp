@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "analysis/dynamics/bonds/explicit_bonds.hpp"
 #include "material/crack_opening.hpp"
 #include "material/elasticity.hpp"
 #include "network/network.hpp"
@@ -39,8 +39,9 @@ void check_bands(const Particles& particles, std::span<const StateMaterial> mate
 /// A particle's stress is Hooke's of the strain that fits the extensions of its neighbours' bonds
 /// best, each particle's share of bonds between different damages counted as its own, which is
 /// exact under uniform strains wherever the neighbours are; the stress of the forces of a few
-/// scattered bonds is not. Damage follows the opening of a crack in a band as wide as a square
-/// (cube) of the particle's volume. It weakens bonds from the next step on.
+/// scattered bonds is not. Scattered particles are kept for comparison with the papers: they are
+/// too soft, however many there are. Damage follows the opening of a crack in a band as wide as a
+/// square (cube) of the particle's volume. It weakens bonds from the next step on.
 /// \param materials  by Particles::material
 /// \param thickness  two-dimensional bodies only [length]
 /// \throws std::invalid_argument as check_bands() does

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "analysis/dynamics/bonds/bond_stencil.hpp"
+#include "analysis/dynamics/bonds/explicit_bonds.hpp"
 
 namespace perilink {
 

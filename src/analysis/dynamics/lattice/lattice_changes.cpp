@@ -4,7 +4,6 @@
 
 #include "analysis/dynamics/lattice/rows/row_energy.hpp"
 #include "analysis/dynamics/lattice/rows/row_flow.hpp"
-#include "analysis/dynamics/lattice/rows/row_flow_printed.hpp"
 #include "analysis/dynamics/lattice/rows/row_kernels.hpp"
 #include "analysis/dynamics/lattice/rows/row_scan.hpp"
 
@@ -29,9 +28,6 @@ void LatticeChanges::look(ExplicitState& state, Index row) const {
   if (due.flow.empty()) return;
   if (flows_in_rows(model_)) {
     if (flow_row(model_, state, row)) state.news[row] |= RowNews::flowed;
-  } else if (model_.rules == LatticeRules::least_2018) {
-    const bool flowed = flow_row_as_printed(model_, particles_, state, row, due.flow);
-    if (flowed) state.news[row] |= RowNews::flowed;
   } else {
     for (const Index slot : due.flow) flow_at(state, row, slot);
   }

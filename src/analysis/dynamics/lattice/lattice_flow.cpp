@@ -1,13 +1,15 @@
 #include "analysis/dynamics/lattice/lattice_flow.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-
-#include "analysis/dynamics/lattice/rows/row_flow_printed.hpp"
 
 namespace perilink {
 namespace {
+
+/// Largest plastic change of a stretch in a step (2018, below Eq. 29).
+constexpr double most_flow = 0.01;
+/// Largest fall of the yield stress in a step, as a factor (2018, below Eq. 24).
+constexpr double softening_per_step = 0.99;
 
 /// Strain of an isotropic solid under a stress.
 SymmetricTensor elastic_strain(double e, double nu, const SymmetricTensor& stress) {
@@ -31,10 +33,13 @@ SymmetricTensor free_strain(Problem problem, double nu, SymmetricTensor plastic)
 }  // namespace
 
 LatticeYielding::Change LatticeYielding::flow(ExplicitState& state, Index row, Index slot) const {
-  assert(model_.rules != LatticeRules::least_2018);  // see flow_row_as_printed
   const Family family = particles_.family(state, row, slot);
-  return model_.rules == LatticeRules::consistent ? flow_consistently(state, family)
-                                                  : flow_as_printed(state, family);
+  switch (model_.rules) {
+    case LatticeRules::mean_2017: return flow_as_in_2017(state, family);
+    case LatticeRules::least_2018: return flow_as_in_2018(state, family);
+    case LatticeRules::consistent: break;
+  }
+  return flow_consistently(state, family);
 }
 
 LatticeYielding::Change LatticeYielding::flow_consistently(ExplicitState& state,
@@ -72,11 +77,44 @@ LatticeYielding::Change LatticeYielding::flow_consistently(ExplicitState& state,
 double LatticeYielding::plastic_strain(const ExplicitState& state, Index row, Index slot) const {
   return model_.rules == LatticeRules::consistent
              ? state.flow.equivalent[slot]
-             : printed_plastic_strain(model_, particles_, state, row, slot);
+             : present_plastic_strain(state, particles_.family(state, row, slot));
+}
+
+double LatticeYielding::present_plastic_strain(const ExplicitState& state,
+                                               const Family& family) const {
+  Halves halves{};
+  for (int j = 0; j < family.bonds; ++j) {
+    if (family.has(j)) halves[j] = state.flow.stretch[model_.lattice.at(j, family.slot)];
+  }
+  const PrincipalValues strain =
+      principal_values(particles_.fit(halves, family), model_.lattice.dim);
+  const double e1 = strain.first, e2 = strain.last;
+  return std::sqrt(e1 * e1 - e1 * e2 + e2 * e2);
+}
+
+bool LatticeYielding::step_along(const Halves& force, double length, ExplicitState& state,
+                                 const Family& family) const {
+  double sum = 0.0, square = 0.0;
+  int count = 0;
+  for (int j = 0; j < family.bonds; ++j) {
+    sum += force[j];
+    count += family.has(j) ? 1 : 0;
+  }
+  Halves change{};
+  for (int j = 0; j < family.bonds; ++j) {
+    if (family.has(j)) change[j] = force[j] - sum / count;
+    square += change[j] * change[j];
+  }
+  if (square == 0.0) return false;
+  for (double& entry : change) entry *= length / std::sqrt(square);
+  for (int j = 0; j < family.bonds; ++j) {
+    if (family.has(j)) state.flow.stretch[model_.lattice.at(j, family.slot)] += change[j];
+  }
+  return true;
 }
 
 /// 2017, Eqs. 4.15 and 4.17, with the strain that is there, not with its plastic part.
-double LatticeYielding::printed_yield(const ExplicitState& state, const Family& family,
+double LatticeYielding::yield_of_2017(const ExplicitState& state, const Family& family,
                                       bool& beyond) const {
   const YieldCurve& curve = model_.material.yielding;
   const double slope = (curve.ultimate - curve.yield) / curve.ultimate_strain;
@@ -97,11 +135,11 @@ double LatticeYielding::printed_yield(const ExplicitState& state, const Family& 
   return curve.yield + slope * strain;
 }
 
-LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state,
+LatticeYielding::Change LatticeYielding::flow_as_in_2017(ExplicitState& state,
                                                          const Family& family) const {
   const Index slot = family.slot;
   bool beyond = false;
-  const double yield = printed_yield(state, family, beyond);
+  const double yield = yield_of_2017(state, family, beyond);
   Change result;
   result.crushed = beyond && state.flow.crushed[slot] == 0;
   if (result.crushed) state.flow.crushed[slot] = 1;
@@ -111,27 +149,44 @@ LatticeYielding::Change LatticeYielding::flow_as_printed(ExplicitState& state,
   const Halves force = particles_.forces(state, family);
   const double mises = mises_stress(particles_.stress(state, family, force));
   if (mises <= yield) return result;
-  double sum = 0.0, square = 0.0;
-  int count = 0;
-  for (int j = 0; j < family.bonds; ++j) {
-    sum += force[j];
-    count += family.has(j) ? 1 : 0;
-  }
-  Halves change{};
-  for (int j = 0; j < family.bonds; ++j) {
-    if (family.has(j)) change[j] = force[j] - sum / count;
-    square += change[j] * change[j];
-  }
-  if (square == 0.0) return result;  // equal forces: the printed rule does not flow
   const LatticeMaterial& material = model_.material;
   const double excess = mises / yield * (mises / yield) - 1.0;
   const double amount = material.yielding.yield / material.youngs_modulus * excess;
-  for (double& entry : change) entry *= amount / std::sqrt(square);
-  result.flowed = true;
-  for (int j = 0; j < family.bonds; ++j) {
-    if (family.has(j)) state.flow.stretch[model_.lattice.at(j, slot)] += change[j];
-  }
+  result.flowed = step_along(force, amount, state, family);
   return result;
+}
+
+void LatticeYielding::harden_as_in_2018(ExplicitState& state, const Family& family) const {
+  const YieldCurve& curve = model_.material.yielding;
+  const double slope = (curve.ultimate - curve.yield) / curve.ultimate_strain;
+  const double strain = present_plastic_strain(state, family);
+  double& yield = state.flow.yield[family.slot];
+  double& visit = state.flow.visit[family.slot];
+  if (strain >= curve.ultimate_strain) {
+    yield *= softening_per_step;
+    visit = -1.0;  // a yield stress that falls does so in every step
+  } else {
+    visit = yield = std::max(yield, curve.yield + slope * strain);
+  }
+}
+
+LatticeYielding::Change LatticeYielding::flow_as_in_2018(ExplicitState& state,
+                                                         const Family& family) const {
+  const double yield = state.flow.yield[family.slot];
+  harden_as_in_2018(state, family);
+  Halves force = particles_.forces(state, family);
+  const double mises = mises_stress(particles_.stress(state, family, force));
+  if (mises <= yield) return {};
+  // The smaller one of the two force states where they agree in sign, else their mean (Eq. 5).
+  const Halves other = particles_.partner_forces(state, family);
+  for (int j = 0; j < family.bonds; ++j) {
+    const double smaller = std::abs(force[j]) < std::abs(other[j]) ? force[j] : other[j];
+    force[j] = force[j] * other[j] > 0.0 ? smaller : 0.5 * (force[j] + other[j]);
+  }
+  const LatticeMaterial& material = model_.material;
+  const double least = material.yielding.yield / material.youngs_modulus, ratio = mises / yield;
+  const double amount = std::min(least * (ratio * ratio - 1.0), most_flow);
+  return {step_along(force, amount, state, family), false, 0.0};
 }
 
 }  // namespace perilink

@@ -6,7 +6,7 @@
 #include "base/types.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
-#include "solver/factor.hpp"
+#include "solver/factor_routes.hpp"
 
 namespace perilink {
 

@@ -36,11 +36,11 @@ std::vector<double> SingleEventEngine::refined_compliance(const Removal& removal
   const std::size_t rank = static_cast<std::size_t>(removal.rank);
   std::vector<double> compliance(rank * rank);
   for (std::size_t b = 0; b < rank; ++b) {
-    const std::vector<long double> motion = motion_of(removal.x[b]).first;
+    const std::vector<long double> motion = motion_of(removal.x[b]).first.unknowns;
     for (std::size_t a = 0; a < rank; ++a) {
       long double sum = 0.0;
       const SparseVector& x = removal.x[a];
-      for (int k = 0; k < x.size; ++k) sum += x.values[k] * motion[slot_of_[x.rows[k]]];
+      for (int k = 0; k < x.size(); ++k) sum += x.values[k] * motion[x.rows[k]];
       compliance[a * rank + b] = static_cast<double>(sum);
     }
   }
@@ -178,7 +178,7 @@ std::pair<double, double> SingleEventEngine::driven_work_of(Index element) const
     work += modes.deformation(m, solution_) * modes.prescribed[m];
     double size = std::abs(modes.prescribed[m]);
     const SparseVector& x = modes.x[m];
-    for (int k = 0; k < x.size; ++k) size += std::abs(x.values[k] * solution_[x.rows[k]]);
+    for (int k = 0; k < x.size(); ++k) size += std::abs(x.values[k] * solution_[x.rows[k]]);
     sizes += size * std::abs(modes.prescribed[m]);
   }
   return {work, sizes};

@@ -13,12 +13,12 @@ namespace perilink {
 ///          = s^2 + (kb/k) (g/xi)^2 + (kb/k) (|dtheta_bend|^2 + torsion dtheta_twist^2) / 12,
 ///
 /// s = e/xi its axial stretch, kb/k = Network::ratio_of_bending(). A bond breaks where s_eq reaches
-/// the critical stretch while it is in tension, s > 0 (bars that yield either way). A bond with its
-/// own kb/k then holds k xi^2 s_c^2 / 2, whatever its direction across a crack, and the fracture
-/// energy needs the axial stiffness only; calibrated bonds, measured with the ratio of before the
+/// the critical stretch while it is in tension, s > 0 (bars yield either way). A bond with its own
+/// kb/k then holds k xi^2 s_c^2 / 2, whatever its direction across a crack, and the fracture energy
+/// needs the axial stiffness only; calibrated bonds, measured with the ratio of before the
 /// calibration, hold it in the mean (docs/theory/micropolar.md, section 5). s_eq grows in
 /// proportion to the load factor, which is therefore 1 / ratio as for trusses. Bonds without
-/// bending stiffness (ties) break by s alone.
+/// bending stiffness (ties, bars) have s alone.
 class FrameLimitSearch final : public BreakSearch {
  public:
   explicit FrameLimitSearch(const Network& network);

@@ -14,7 +14,7 @@ using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 
 double Removal::deformation(int mode, std::span<const double> solution) const {
   double sum = prescribed[mode];
-  for (int k = 0; k < x[mode].size; ++k) sum += x[mode].values[k] * solution[x[mode].rows[k]];
+  for (int k = 0; k < x[mode].size(); ++k) sum += x[mode].values[k] * solution[x[mode].rows[k]];
   return sum;
 }
 
@@ -36,28 +36,19 @@ void decouple(Removal& removal, std::span<const double> compliance) {
 
   // All new vectors live on the rows of all old ones.
   SparseVector rows;
-  Eigen::Matrix<double, SparseVector::capacity, Removal::capacity> old;
-  old.setZero();
   for (int m = 0; m < rank; ++m) {
-    for (int k = 0; k < removal.x[m].size; ++k) {
-      const Index row = removal.x[m].rows[k];
-      const auto end = rows.rows.begin() + rows.size;
-      const auto place =
-          static_cast<int>(std::find(rows.rows.begin(), end, row) - rows.rows.begin());
-      if (place == rows.size) rows.rows[rows.size++] = row;
-      old(place, m) = removal.x[m].values[k];
-    }
+    for (const Index row : removal.x[m].rows) rows.add(row, 0.0);
   }
-  const auto prescribed = removal.prescribed;
+  const Removal old = removal;
   for (int m = 0; m < rank; ++m) {
     removal.pivot[m] = axes.eigenvalues()[m];
     removal.prescribed[m] = 0.0;
     removal.x[m] = rows;
-    std::fill_n(removal.x[m].values.begin(), rows.size, 0.0);
     for (int n = 0; n < rank; ++n) {
       const double share = axes.eigenvectors()(n, m);
-      removal.prescribed[m] += share * prescribed[n];
-      for (int k = 0; k < rows.size; ++k) removal.x[m].values[k] += share * old(k, n);
+      removal.prescribed[m] += share * old.prescribed[n];
+      const SparseVector& x = old.x[n];
+      for (int k = 0; k < x.size(); ++k) removal.x[m].add(x.rows[k], share * x.values[k]);
     }
   }
 }

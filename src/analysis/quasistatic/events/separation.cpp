@@ -46,16 +46,21 @@ constexpr const char* out_of_digits =
 /// element in extended precision, and leaves its forces and energy in `fine_`.
 /// \param load  per unknown
 SingleEventEngine::Refined SingleEventEngine::refine_finely(std::span<const double> load,
-                                                            std::vector<long double>& motion) {
+                                                            FineMotion& motion) {
   std::vector<double> residual(solution_.size());
   Refined result;
   auto measure = [&] {
-    internal_force(network_, secants_, motion, fine_);
+    internal_force(network_, secants_, motion.particles, fine_);
     long double square = 0.0, ground = 0.0;
+    std::vector<long double> internal(residual.size(), 0.0L);
+    for (std::size_t slot = 0; slot < fine_.forces.size(); ++slot) {
+      unknowns_.for_each(
+          slot, [&](Index k, double weight) { internal[k] += weight * fine_.forces[slot]; });
+    }
     for (std::size_t k = 0; k < residual.size(); ++k) {
-      const long double u = motion[slot_of_[k]];
+      const long double u = motion.unknowns[k];
       const double stiffness = ground_stiffness_.empty() ? 0.0 : ground_stiffness_[k];
-      const long double missing = load[k] - fine_.forces[slot_of_[k]] - stiffness * u;
+      const long double missing = load[k] - internal[k] - stiffness * u;
       residual[k] = static_cast<double>(missing);
       square += missing * missing;
       ground += stiffness * u * u;
@@ -73,12 +78,17 @@ SingleEventEngine::Refined SingleEventEngine::refine_finely(std::span<const doub
     if (pass == 1) result.factor_error = std::sqrt(std::max(energy, 0.0) / result.error);
     result.error = energy >= 0.0 ? energy : std::numeric_limits<double>::infinity();
     if (!gains || !std::isfinite(result.error)) break;
-    for (std::size_t k = 0; k < correction.size(); ++k) motion[slot_of_[k]] += correction[k];
+    for (std::size_t k = 0; k < correction.size(); ++k) motion.unknowns[k] += correction[k];
+    for (std::size_t slot = 0; slot < motion.particles.size(); ++slot) {
+      unknowns_.for_each(slot, [&](Index k, double weight) {
+        motion.particles[slot] += static_cast<long double>(weight) * correction[k];
+      });
+    }
     measure();
     if (result.error <= fine_enough * result.energy) break;
   }
   long double largest = 0.0;
-  for (const long double u : motion) largest = std::max(largest, std::abs(u));
+  for (const long double u : motion.particles) largest = std::max(largest, std::abs(u));
   // Directions of bonds are rounded: a rigid motion stretches them by as much.
   const double noise = round_off * static_cast<double>(largest);
   result.error += stiffness_sum_ * noise * noise;
@@ -86,10 +96,11 @@ SingleEventEngine::Refined SingleEventEngine::refine_finely(std::span<const doub
 }
 
 /// The v with K v = x, and what is in doubt of its energy v'K v = x'v <= 1.
-std::pair<std::vector<long double>, double> SingleEventEngine::motion_of(const SparseVector& x) {
+auto SingleEventEngine::motion_of(const SparseVector& x) -> std::pair<FineMotion, double> {
   std::vector<double> load(solution_.size(), 0.0);
-  for (int k = 0; k < x.size; ++k) load[x.rows[k]] = x.values[k];
-  std::vector<long double> motion(displacement_.size(), 0.0L);
+  for (int k = 0; k < x.size(); ++k) load[x.rows[k]] = x.values[k];
+  FineMotion motion{std::vector<long double>(solution_.size(), 0.0L),
+                    std::vector<long double>(displacement_.size(), 0.0L)};
   double error = refine_finely(load, motion).error;
   if (!(error < most_error)) {
     factorize();
@@ -111,16 +122,17 @@ double SingleEventEngine::pivot_by_energy(const SparseVector& x, Index element, 
   const auto [motion, error] = motion_of(x);
   const double before = secants_[element];
   secants_[element] = kept;
-  internal_force(network_, secants_, motion, fine_);
+  internal_force(network_, secants_, motion.particles, fine_);
   secants_[element] = before;
   double energy = static_cast<double>(2.0L * fine_.energy);
   for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
-    energy += static_cast<double>(ground_stiffness_[k] * motion[slot_of_[k]] * motion[slot_of_[k]]);
+    const long double u = motion.unknowns[k];
+    energy += static_cast<double>(ground_stiffness_[k] * u * u);
   }
   supports_alone_ = static_cast<double>(fine_.support_energy) > 0.25 * energy;
   if (!(energy > clearly_there * error)) return 0.0;
   long double extension = 0.0;
-  for (int k = 0; k < x.size; ++k) extension += x.values[k] * motion[slot_of_[x.rows[k]]];
+  for (int k = 0; k < x.size(); ++k) extension += x.values[k] * motion.unknowns[x.rows[k]];
   return energy / (energy + static_cast<double>(extension * extension));
 }
 
@@ -128,7 +140,7 @@ double SingleEventEngine::pivot_by_energy(const SparseVector& x, Index element, 
 /// can be trusted or, after `must_rebuild_`, is to be made anew. 0: nothing holds the ends.
 double SingleEventEngine::pivot_of(const Change& change, Index element, double kept) {
   must_rebuild_ = supports_alone_ = false;
-  if (change.x.size == 0) return 1.0;
+  if (change.x.size() == 0) return 1.0;
   double prepared = factor_->prepare_downdate(change.x);
   if (prepared > doubtful_pivot && !look_closer_) return prepared;
   double pivot = pivot_by_energy(change.x, element, kept);
@@ -172,12 +184,10 @@ bool SingleEventEngine::rebuild_without(Index element, double kept) {
 Equilibrium SingleEventEngine::polish() {
   look_closer_ = true;
   if (stale_) refresh();
-  std::vector<double> load(solution_.size());
-  for (std::size_t k = 0; k < load.size(); ++k) {
-    load[k] = loads_.forces[slot_of_[k]];
-    if (!ground_load_.empty()) load[k] += ground_load_[k];
-  }
-  std::vector<long double> motion(displacement_.begin(), displacement_.end());
+  std::vector<double> load = unknowns_.restrict(loads_.forces);
+  for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
+  FineMotion motion{{solution_.begin(), solution_.end()},
+                    {displacement_.begin(), displacement_.end()}};
   Refined refined = refine_finely(load, motion);
   const auto uncertain = [&] {
     return !(refined.error < most_error * std::max(refined.energy, last_work_));
@@ -188,7 +198,7 @@ Equilibrium SingleEventEngine::polish() {
     if (uncertain()) throw SolverError(out_of_digits);
   }
   for (std::size_t k = 0; k < solution_.size(); ++k) {
-    solution_[k] = static_cast<double>(motion[slot_of_[k]]);
+    solution_[k] = static_cast<double>(motion.unknowns[k]);
   }
   scatter_solution();
   force_work_ = work_of_forces();

@@ -38,6 +38,7 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
       search_(make_break_search(network)),
       secants_(static_cast<std::size_t>(network.num_elements()), 1.0),
       teeth_(secants_.size(), 0),
+      slot_of_(unknowns.slots()),
       solution_(static_cast<std::size_t>(unknowns.count), 0.0),
       displacement_(unknowns.prescribed) {
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
@@ -47,7 +48,6 @@ SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unk
   for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
     // A force on a prescribed displacement is a part of the reaction there, whose work counts.
     if (unknowns.number[slot] == no_index) continue;
-    slot_of_.push_back(slot);
     if (loads.forces[slot] != 0.0) loaded_slots_.push_back(slot);
   }
   const int width = network.width();
@@ -82,8 +82,8 @@ void SingleEventEngine::choose_current_unknowns() {
   std::vector<std::uint8_t> wanted(solution_.size(), 0);
   auto want = [&](Index particle) {
     for (int a = 0; a < network_.width(); ++a) {
-      const Index unknown = unknowns_.at(particle, a);
-      if (unknown != no_index) wanted[unknown] = 1;
+      const std::size_t slot = static_cast<std::size_t>(particle) * network_.width() + a;
+      unknowns_.for_each(slot, [&](Index unknown, double) { wanted[unknown] = 1; });
     }
   };
   for (Index e = 0; e < network_.num_elements(); ++e) {
@@ -128,11 +128,15 @@ std::span<const double> SingleEventEngine::displacement() {
   if (!stale_) return displacement_;
   std::vector<double> all = present_load();
   factor_->solve(all, all);
-  observed_ = expand(unknowns_, all);
+  observed_ = unknowns_.expand(all);
   return observed_;
 }
 
 void SingleEventEngine::scatter_solution() {
+  if (unknowns_.carries()) {
+    displacement_ = unknowns_.expand(solution_);
+    return;
+  }
   for (std::size_t k = 0; k < slot_of_.size(); ++k) displacement_[slot_of_[k]] = solution_[k];
 }
 
@@ -177,8 +181,9 @@ void SingleEventEngine::pass_limit(Index element, double secant) {
 
 void SingleEventEngine::commit(const Change& change, Index element, double secant) {
   pass_limit(element, secant);
-  if (must_rebuild_) return;       // done already
-  if (change.x.size == 0) return;  // both ends prescribed: nothing unknown is held by this element
+  if (must_rebuild_) return;  // done already
+  if (change.x.size() == 0)
+    return;  // both ends prescribed: nothing unknown is held by this element
   factor_->commit_downdate(change.load_change, solution_);
   scatter_solution();
   stale_ = partial_;
@@ -251,10 +256,12 @@ LoadWork SingleEventEngine::load_work() {
 
 double SingleEventEngine::measure_residual(std::vector<double>& residual) {
   internal_force(network_, secants_, displacement_, internal_);
-  residual.resize(slot_of_.size());
+  for (std::size_t slot = 0; slot < internal_.forces.size(); ++slot) {
+    internal_.forces[slot] = loads_.forces[slot] - internal_.forces[slot];
+  }
+  residual = unknowns_.restrict(internal_.forces);
   double square = 0.0;
-  for (std::size_t k = 0; k < slot_of_.size(); ++k) {
-    residual[k] = loads_.forces[slot_of_[k]] - internal_.forces[slot_of_[k]];
+  for (std::size_t k = 0; k < residual.size(); ++k) {
     if (!ground_stiffness_.empty()) {
       residual[k] += ground_load_[k] - ground_stiffness_[k] * solution_[k];
     }
@@ -304,7 +311,7 @@ void SingleEventEngine::factorize() {
 
 Index SingleEventEngine::most_mobile_unknown(const SparseVector& x) {
   std::vector<double> direction(solution_.size(), 0.0);
-  for (int k = 0; k < x.size; ++k) direction[x.rows[k]] = x.values[k];
+  for (int k = 0; k < x.size(); ++k) direction[x.rows[k]] = x.values[k];
   factor_->solve(direction, direction);
   const auto largest = std::max_element(direction.begin(), direction.end(), [](double a, double b) {
     return std::abs(a) < std::abs(b);
@@ -333,9 +340,7 @@ void SingleEventEngine::add_ground_spring(Index unknown) {
   }
   const double stiffness = ground_stiffness_of(unknown);
   SparseVector x;
-  x.size = 1;
-  x.rows[0] = unknown;
-  x.values[0] = std::sqrt(stiffness);
+  x.add(unknown, std::sqrt(stiffness));
   factor_->update(x, solution_);
   ground_stiffness_[unknown] += stiffness;
   ground_load_[unknown] += stiffness * solution_[unknown];

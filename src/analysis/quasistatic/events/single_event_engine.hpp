@@ -73,8 +73,12 @@ class SingleEventEngine final : public EventEngine {
     /// Relative error of a solution by the factor, in the norm of energy.
     double factor_error = 0.0;
   };
-  Refined refine_finely(std::span<const double> load, std::vector<long double>& motion);
-  std::pair<std::vector<long double>, double> motion_of(const SparseVector& x);
+  /// A motion in extended precision: the unknowns, and all particles, shape (particles, width).
+  struct FineMotion {
+    std::vector<long double> unknowns, particles;
+  };
+  Refined refine_finely(std::span<const double> load, FineMotion& motion);
+  std::pair<FineMotion, double> motion_of(const SparseVector& x);
   double pivot_by_energy(const SparseVector& x, Index element, double kept);
   double pivot_of(const Change& change, Index element, double kept);
   bool hangs_on_weak_supports(double compliance_growth) const;
@@ -107,7 +111,7 @@ class SingleEventEngine final : public EventEngine {
   bool stale_ = false;    ///< the other displacements are those of an earlier event
   double force_work_ = 0.0;           ///< f'u, followed through the events while partial_
   double driven_spring_work_ = 0.0;   ///< work of elastic supports at driven displacements
-  std::vector<std::size_t> slot_of_;  ///< particle * width + component of every unknown
+  std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
   std::vector<double> solution_;      ///< per unknown
   std::vector<double> displacement_;
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_

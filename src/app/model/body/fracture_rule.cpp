@@ -17,8 +17,8 @@ constexpr double nearly_equal = 1.1;
 bool bonds_can_break(const CaseFile& input, const Model& model) {
   const Network& network = model.network;
   if (input.analysis.type == "elastic") return false;
-  for (Index e = 0; e < network.num_elements(); ++e) {
-    if (network.can_break(e)) return true;
+  for (std::size_t e = 0; e < network.critical_stretch.size(); ++e) {
+    if (network.can_break(static_cast<Index>(e))) return true;
   }
   return false;
 }

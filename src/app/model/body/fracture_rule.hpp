@@ -6,7 +6,7 @@
 
 #include "app/model/model.hpp"
 #include "io/case/case_file.hpp"
-#include "network/network_builder.hpp"
+#include "network/network_input.hpp"
 
 namespace perilink {
 

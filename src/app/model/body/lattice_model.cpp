@@ -13,7 +13,7 @@
 
 #include "analysis/dynamics/lattice/body/lattice_statics.hpp"
 #include "base/error.hpp"
-#include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "app/model/body/mesh_input.hpp"
 #include "base/error.hpp"
-#include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/text/toml_tree.hpp"
 
 namespace perilink {

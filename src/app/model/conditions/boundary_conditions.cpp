@@ -10,7 +10,7 @@
 #include "app/model/conditions/loads.hpp"
 #include "app/model/conditions/supports.hpp"
 #include "base/error.hpp"
-#include "io/case/sections/case_particles.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "network/network_builder.hpp"
 
 namespace perilink {

@@ -16,10 +16,10 @@
 #include "app/model/gauges.hpp"
 #include "app/results/calibration_text.hpp"
 #include "base/error.hpp"
+#include "discretization/lattices/make_body.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "io/case/case_unused.hpp"
-#include "io/case/sections/case_lattice.hpp"
-#include "io/case/sections/case_particles.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "network/network_builder.hpp"
 
 namespace perilink {

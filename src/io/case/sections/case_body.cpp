@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <string>
 
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_particles.hpp"
 #include "io/case/sections/case_sections.hpp"
@@ -179,13 +177,6 @@ std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySect
   return given;
 }
 
-bool is_number(const std::string& text) {
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0 &&
-         end == text.c_str() + text.size();
-}
-
 std::vector<std::string> read_material_regions(const CaseTable& table) {
   table.need_one_of({"region", "regions"});
   if (const auto single = table.text("region")) return {*single};
@@ -215,50 +206,6 @@ std::vector<std::string> read_holes(const CaseTable& table, const BodySection& b
 }
 
 }  // namespace
-
-void read_mesh_file(const CaseTable& table, BodySection& body) {
-  if (!table.has("mesh")) {
-    if (!table.has("mesh_size")) return;
-    table.refuse("mesh_size", "is given, but the body has no `mesh`", "delete it");
-  }
-  body.mesh = table.path("mesh");
-  if (body.mesh->empty()) table.refuse("mesh", "is empty", "name the file of a gmsh mesh");
-  body.mesh_size = table.positive("mesh_size");
-  if (body.mesh_size && !is_geometry(*body.mesh)) {
-    table.refuse("mesh_size", "is given, but `mesh` is meshed already",
-                 "delete it, or name a geometry (.geo, .step, .stp, .brep) as `mesh`");
-  }
-  if (!body.mesh_size && is_geometry(*body.mesh) && !is_gmsh_script(*body.mesh)) {
-    table.refuse_missing("mesh_size", "the size of the cells of this geometry");
-  }
-}
-
-int dimension_of(const BodySection& body) { return body.problem == "three_dimensional" ? 3 : 2; }
-
-double read_fracture_energy(const CaseTable& table) {
-  const std::string key = "fracture_energy";
-  const TomlValue* value = table.value(key);
-  if (value != nullptr && value->kind == TomlValue::Kind::text) {
-    if (is_number(value->text)) {
-      table.refuse(
-          key,
-          fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
-          fmt::format("write the number without quotes: {} = {}", key, value->text));
-    }
-    if (value->text != "infinite") {
-      table.refuse(key,
-                   fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
-                   "write numbers without quotes and units. " + suggest(value->text, {"infinite"}));
-    }
-    return std::numeric_limits<double>::infinity();
-  }
-  if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
-    table.refuse(key, fmt::format("is {}", describe(*value)),
-                 "write fracture_energy = \"infinite\" for a material that cannot break");
-  }
-  return table.need(key, table.positive(key),
-                    "the fracture energy, or \"infinite\" for a material that cannot break");
-}
 
 BodySection read_body(const CaseTable& table) {
   BodySection body;

@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include "io/case/sections/case_particles.hpp"
-#include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {

@@ -10,9 +10,7 @@
 #include <string_view>
 
 #include "io/case/case_words.hpp"
-#include "io/case/sections/case_bond_dynamics.hpp"
-#include "io/case/sections/case_particles.hpp"
-#include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {
@@ -156,12 +154,6 @@ void refuse_lattice_tables(const CaseFile& input) {
 }
 
 }  // namespace
-
-bool is_lattice(const BodySection& body) { return body.model == "lattice"; }
-
-bool has_state_based_particles(const BodySection& body) {
-  return is_lattice(body) || is_particles(body);
-}
 
 void read_lattice_body(const CaseTable& table, BodySection& body) {
   for (const char* key : {"torsion", "columns", "surface", "horizon", "horizon_level",

@@ -10,12 +10,6 @@
 
 namespace perilink {
 
-/// Whether [body] says model = "lattice".
-bool is_lattice(const BodySection& body);
-
-/// Whether it says that or model = "particles".
-bool has_state_based_particles(const BodySection& body);
-
 /// The keys of [body] below `model`.
 void read_lattice_body(const CaseTable& table, BodySection& body);
 /// Refuses keys of lattice bodies in [body] of others.

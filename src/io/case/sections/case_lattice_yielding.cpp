@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "io/case/case_words.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
-#include "io/case/sections/case_sections.hpp"
 
 namespace perilink {
 namespace {

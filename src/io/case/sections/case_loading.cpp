@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/case/case_words.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_sections.hpp"
 
 namespace perilink {

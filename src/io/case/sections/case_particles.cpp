@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
-#include "io/case/sections/case_sections.hpp"
 
 namespace perilink {
 namespace {
@@ -18,8 +18,6 @@ void refuse_table(const CaseFile& input, const std::string& table, bool given,
 }
 
 }  // namespace
-
-bool is_particles(const BodySection& body) { return body.model == "particles"; }
 
 void refuse_horizon_keys(const CaseTable& table) {
   for (const char* key : {"surface", "horizon", "horizon_level", "horizon_ratio", "micromodulus",

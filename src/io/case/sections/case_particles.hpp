@@ -10,9 +10,6 @@
 
 namespace perilink {
 
-/// Whether [body] says model = "particles".
-bool is_particles(const BodySection& body);
-
 /// Refuses keys of [body] that speak of horizons and bonds.
 void refuse_horizon_keys(const CaseTable& table);
 

@@ -8,6 +8,7 @@
 #include "io/case/case_schema.hpp"
 #include "io/case/case_table.hpp"
 #include "io/case/case_unused.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_rules.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/text/input_text.hpp"

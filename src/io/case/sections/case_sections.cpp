@@ -9,6 +9,7 @@
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_bond_dynamics.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
 
 namespace perilink {
@@ -71,20 +72,6 @@ void refuse_third_axis(const CaseTable& table, const std::string& key, int dim) 
   if (dim == 3) return;
   table.refuse(key, "is an axis that a two-dimensional body does not have",
                "delete it, or set problem = \"three_dimensional\" in [body]");
-}
-
-std::string why_nothing_rotates(const BodySection& body) {
-  if (body.method == "linear_elements") return "the corners of linear elements do not rotate";
-  return fmt::format("the particles of a {} body do not rotate", is_lattice(body) ? "lattice"
-                                                                 : has_state_based_particles(body)
-                                                                     ? "state-based"
-                                                                     : "bond-based");
-}
-
-std::string what_rotates(const BodySection& body) {
-  return body.method == "linear_elements"
-             ? "set model = \"micropolar\" in [body] instead of method = \"linear_elements\""
-             : "set model = \"micropolar\" in [body]";
 }
 
 SupportSection read_support(const CaseTable& table, const BodySection& body) {

@@ -14,23 +14,10 @@
 
 namespace perilink {
 
-/// 2 or 3.
-int dimension_of(const BodySection& body);
-
-/// Why particles have no rotations where the body is not micropolar, and what would give them some:
-/// parts of refusals.
-std::string why_nothing_rotates(const BodySection& body);
-std::string what_rotates(const BodySection& body);
-
 /// Refuses a key for the third axis of a body in the plane.
 void refuse_third_axis(const CaseTable& table, const std::string& key, int dim);
 
-/// `mesh` and `mesh_size`, where the body has them.
-void read_mesh_file(const CaseTable& table, BodySection& body);
-
 BodySection read_body(const CaseTable& table);
-/// A positive number, or infinity for "infinite".
-double read_fracture_energy(const CaseTable& table);
 Region read_region(const CaseTable& table, int dim);
 void write_region(TomlWriter& out, const Region& region, int dim);
 /// \param index  zero-based, for the name of a nameless material

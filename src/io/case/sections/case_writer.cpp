@@ -8,6 +8,7 @@
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_bond_dynamics.hpp"
 #include "io/case/sections/case_gauges.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_particles.hpp"
 #include "io/case/sections/case_sections.hpp"

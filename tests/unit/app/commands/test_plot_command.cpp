@@ -34,8 +34,11 @@ class Plot : public ::testing::Test {
   ~Plot() override { fs::remove_all(directory_); }
 
   void write_fields() const {
-    write_vtu((directory_ / "a.vtu").string(), test::make_cracked_field({}, true));
-    write_pvd((directory_ / "fields.pvd").string(), {{4.0, "a.vtu"}, {4.0, "a.vtu"}});
+    VtuGrid grid = test::make_cracked_field({}, true);
+    write_vtu((directory_ / "a.vtu").string(), grid);
+    for (auto& [name, value] : grid.field_data) value += name == "step";
+    write_vtu((directory_ / "b.vtu").string(), grid);
+    write_pvd((directory_ / "fields.pvd").string(), {{5.0, "a.vtu"}, {6.0, "b.vtu"}});
   }
   std::string text(const std::string& name) const {
     std::ifstream file(directory_ / name);
@@ -51,8 +54,8 @@ TEST_F(Plot, DrawsCurveAndFields) {
   write_fields();
   std::ofstream(directory_ / "summary.json") << R"({"title": "Beam <1>", "units": "kip, in"})";
   EXPECT_EQ(plot_results({directory_.string(), "", 0.0}), 0);
-  // The second file of the series has the same number of broken bonds.
-  for (const char* name : {"load_displacement.svg", "fields_4.svg", "fields_4_step_5.svg"}) {
+  // The second file of the series has the same number of broken bonds, in the next row.
+  for (const char* name : {"load_displacement.svg", "fields_5.svg", "fields_6.svg"}) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_file((directory_ / name).c_str())) << name;
     EXPECT_NE(text(name).find("Beam &lt;1&gt;"), std::string::npos) << name;

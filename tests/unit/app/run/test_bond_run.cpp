@@ -12,7 +12,7 @@
 #include "base/error.hpp"
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
-#include "solver/factor_count.hpp"
+#include "solver/factor_routes.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink {

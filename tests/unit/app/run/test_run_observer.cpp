@@ -94,8 +94,8 @@ TEST_F(RunObserverTest, FieldsAreWrittenAtTheCountsAskedForAndFirstAndLast) {
   input_.output.fields_at = {2, 4, 50};
   RunObserver observer = make_observer();
   run(observer, {7, 3, 11, 5, 2});
-  EXPECT_THAT(series(), ElementsAre("fields_000000.vtu", "fields_000002.vtu", "fields_000004.vtu",
-                                    "fields_000005.vtu"));
+  EXPECT_THAT(series(), ElementsAre("fields_000001.vtu", "fields_000003.vtu", "fields_000005.vtu",
+                                    "fields_000006.vtu"));
   const std::vector<std::string> listed = series();
   EXPECT_EQ(field_files(), std::set<std::string>(listed.begin(), listed.end()));
   EXPECT_GT(observer.seconds_writing(), 0.0);
@@ -106,16 +106,16 @@ TEST_F(RunObserverTest, FieldsAreWrittenAfterEverySoManyBreaks) {
   input_.output.fields_every = 2;
   RunObserver observer = make_observer();
   run(observer, {7, 3, 11, 5});
-  EXPECT_THAT(series(), ElementsAre("fields_000000.vtu", "fields_000002.vtu", "fields_000003.vtu",
-                                    "fields_000004.vtu"));
+  EXPECT_THAT(series(), ElementsAre("fields_000001.vtu", "fields_000003.vtu", "fields_000004.vtu",
+                                    "fields_000005.vtu"));
 }
 
 TEST_F(RunObserverTest, BrokenBondsKeepTheOrderOfBreaking) {
   RunObserver observer = make_observer();
   run(observer, {70, 3, 110, 5});
-  EXPECT_THAT(broken_bonds("fields_000004.vtu"),
+  EXPECT_THAT(broken_bonds("fields_000005.vtu"),
               ElementsAre(ends_of(70), ends_of(3), ends_of(110), ends_of(5)));
-  EXPECT_TRUE(broken_bonds("fields_000000.vtu").empty());
+  EXPECT_TRUE(broken_bonds("fields_000001.vtu").empty());
 }
 
 TEST_F(RunObserverTest, EventsAreFollowedWithoutLookingAtTheBody) {
@@ -148,9 +148,9 @@ TEST_F(RunObserverTest, ALoadStepThatPassesACountWritesTheNextOne) {
   row(observer, 32);
   fail(40);
   row(observer, 40);
-  EXPECT_THAT(series(), ElementsAre("fields_000000.vtu", "fields_000004.vtu", "fields_000007.vtu"));
+  EXPECT_THAT(series(), ElementsAre("fields_000001.vtu", "fields_000002.vtu", "fields_000004.vtu"));
   observer.on_end(record_, *this);
-  EXPECT_EQ(series().back(), "fields_000008.vtu");
+  EXPECT_EQ(series().back(), "fields_000005.vtu");
 }
 
 TEST_F(RunObserverTest, YieldingBreaksNothing) {
@@ -173,7 +173,7 @@ TEST_F(RunObserverTest, YieldingBreaksNothing) {
   fail(8);
   row(observer, 99);
   observer.on_end(record_, *this);
-  EXPECT_THAT(broken_bonds("fields_000002.vtu"), ElementsAre(ends_of(17), ends_of(8)));
+  EXPECT_THAT(broken_bonds("fields_000004.vtu"), ElementsAre(ends_of(17), ends_of(8)));
 }
 
 TEST_F(RunObserverTest, TellsWhatIsBrokenInTheOrderOfBreaking) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "discretization/lattices/lattice.hpp"
+#include "discretization/lattices/make_body.hpp"
 
 namespace perilink {
 namespace {

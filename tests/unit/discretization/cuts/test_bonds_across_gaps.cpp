@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "discretization/lattices/lattice.hpp"
+#include "discretization/lattices/make_body.hpp"
 
 namespace perilink {
 namespace {

@@ -7,6 +7,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "discretization/lattices/make_body.hpp"
+
 namespace perilink {
 namespace {
 

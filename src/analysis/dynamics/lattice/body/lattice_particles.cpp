@@ -95,8 +95,8 @@ LatticeParticles::Family LatticeParticles::family(const ExplicitState& state, In
   return result;
 }
 
-LatticeParticles::Halves LatticeParticles::elastic(const ExplicitState& state,
-                                                   const Family& family) const {
+LatticeParticles::Halves LatticeParticles::elastic_at(double end, const ExplicitState& state,
+                                                      const Family& family) const {
   Halves half{};
   const StepNumbers& now = state.now;
   const std::vector<double>& stretch = now.stretch.empty() ? now.effective : now.stretch;
@@ -104,9 +104,14 @@ LatticeParticles::Halves LatticeParticles::elastic(const ExplicitState& state,
   for (int j = 0; j < family.bonds; ++j) {
     if (!family.has(j)) continue;
     half[j] = stretch[family.now_at[j]];
-    if (own_halves) half[j] += family.side(j) * state.flow.half[family.at[j]];
+    if (own_halves) half[j] += end * family.side(j) * state.flow.half[family.at[j]];
   }
   return half;
+}
+
+LatticeParticles::Halves LatticeParticles::elastic(const ExplicitState& state,
+                                                   const Family& family) const {
+  return elastic_at(1.0, state, family);
 }
 
 LatticeParticles::Halves LatticeParticles::shared(const ExplicitState& state,
@@ -147,6 +152,18 @@ LatticeParticles::Halves LatticeParticles::forces(const ExplicitState& state,
     const double weaker = factor(state, family, j);
     const double part = root(state, family, j) * shared;
     force[j] = model_.own_modulus(family.own_number(j)) * weaker * half[j] + part;
+  }
+  return force;
+}
+
+LatticeParticles::Halves LatticeParticles::partner_forces(const ExplicitState& state,
+                                                          const Family& family) const {
+  const Halves half = elastic_at(-1.0, state, family);
+  Halves force{};
+  for (int j = 0; j < family.bonds; ++j) {
+    if (!family.has(j)) continue;
+    const double stiffness = model_.own_modulus(family.own_number(j)) * factor(state, family, j);
+    force[j] = stiffness * half[j] + model_.moduli.sum * state.now.sum[family.now_partner[j]];
   }
   return force;
 }

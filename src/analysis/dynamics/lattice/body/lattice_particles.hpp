@@ -50,6 +50,9 @@ class LatticeParticles {
   /// Force states of the particle: own modulus times the stretch times the factor of damage, plus
   /// the part of the sum times `root` [force].
   Halves forces(const ExplicitState& state, const Family& family) const;
+  /// Force states of the particles at the other ends of its bonds, each in the bond between the
+  /// two, by the rules of the papers [force].
+  Halves partner_forces(const ExplicitState& state, const Family& family) const;
   /// (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain [force/length^2].
   /// \param force  F_j, as `forces` gives them
   SymmetricTensor stress(const ExplicitState& state, const Family& family,
@@ -78,6 +81,8 @@ class LatticeParticles {
   using Inverse = std::vector<double>;
   Inverse invert(std::uint32_t mask) const;
   void find_faces();
+  /// Elastic stretches of the halves at one end, 1: the particle's own, -1: its partners'.
+  Halves elastic_at(double end, const ExplicitState& state, const Family& family) const;
   SymmetricTensor bond_stress(const Family& family, const Halves& force) const;
   const Inverse& inverse_of(const Family& family) const { return inverses_[kind_[family.slot]]; }
 

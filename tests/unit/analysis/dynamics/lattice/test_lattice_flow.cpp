@@ -120,6 +120,34 @@ TEST(LatticeYielding, ForcesStayTheDerivativeOfTheStoredEnergy) {
   }
 }
 
+TEST(LatticeYielding, RulesOf2018StepAlongTheDeviatorOfTheBondForces) {
+  const ExplicitModel model = block(Problem::plane_stress, LatticeRules::least_2018);
+  const LatticeRows& lattice = model.lattice;
+  const LatticeParticles particles(model);
+  ExplicitState state(model);
+  const double yield = 22.98e6, e = 25e9, excess = 1.01;
+  const double strain = -excess * yield / e;  // uniaxial stress along y
+  strain_body(model, state, -0.2 * strain, strain, 0.0);
+  const LatticeYielding yielding(model, particles);
+  for_each_particle(lattice, [&](Index row, Index slot) { yielding.flow(state, row, slot); });
+  int deep = 0;  // whole neighbours: the bond forces are those of the uniform strain
+  for_each_particle(lattice, [&](Index row, Index slot) {
+    const LatticeParticles::Family family = particles.family(state, row, slot);
+    if (particles.is_near_face(slot)) return;
+    ++deep;
+    double square = 0.0, sum = 0.0;
+    for (int j = 0; j < family.bonds; ++j) {
+      const double flow = state.flow.stretch[lattice.at(j, slot)];
+      sum += flow;
+      square += flow * flow;
+    }
+    // Eqs. 28 and 29: a step of this length without a mean; stretches are linear up to squares.
+    EXPECT_NEAR(std::sqrt(square), yield / e * (excess * excess - 1.0), 2e-2 * yield / e * 0.02);
+    EXPECT_NEAR(sum, 0.0, 1e-15);
+  });
+  EXPECT_GT(deep, 10);
+}
+
 TEST(LatticeYielding, RulesOf2018SoftenByAStepAndThoseOf2017Crush) {
   for (const LatticeRules rules : {LatticeRules::least_2018, LatticeRules::mean_2017}) {
     const ExplicitModel model = block(Problem::plane_stress, rules);

@@ -116,11 +116,13 @@ TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
   }
 }
 
-/// Two bonds of unit stiffness and length in series whose end is moved by lambda, with secants a of
-/// the first and 1 of the second: the first stretches by lambda / (1 + a). Its teeth end at 0.01,
-/// 0.014 and 0.03 (lambda = 0.02, 0.0224, 0.036) before the second reaches 0.01.
+/// Two bonds of unit stiffness and length in series, beside a row that stays elastic, whose end is
+/// moved by lambda, with secants a of the first and 1 of the second: the first stretches by lambda
+/// / (1 + a). Its teeth end at 0.01, 0.014 and 0.03 (lambda = 0.02, 0.0224, 0.036) before the
+/// second reaches 0.01.
 TEST(SingleEventEngine, BondsLoseTheirStiffnessToothByTooth) {
-  AnalysisBody body = make_chains(2, 1, true, 1.0, 0.01);
+  AnalysisBody body = make_chains(2, 2, true, 1.0, 0.01);
+  for (const Index e : bonds_of_row(body.network, 1.0)) body.network.critical_stretch[e] = infinity;
   body.network.laws.front() = three_teeth();
   for (const FactorRoute route : routes) {
     SingleEventEngine engine = make_engine(body, with_route(route));
@@ -137,7 +139,6 @@ TEST(SingleEventEngine, BondsLoseTheirStiffnessToothByTooth) {
       EXPECT_NEAR(outcome.pivot, (1.0 + teeth[k + 1]) / (1.0 + teeth[k]), 1e-14);
       EXPECT_EQ(engine.secants()[first], teeth[k + 1]);
     }
-    EXPECT_TRUE(engine.load_work().separated);
   }
 }
 

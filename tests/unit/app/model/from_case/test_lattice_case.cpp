@@ -9,7 +9,7 @@
 
 #include "analysis/dynamics/lattice/body/lattice_statics.hpp"
 #include "base/error.hpp"
-#include "solver/factor_count.hpp"
+#include "solver/factor_routes.hpp"
 #include "support/program_cases.hpp"
 
 namespace perilink {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/case/sections/case_kinds.hpp"
 #include "support/case_texts.hpp"
 
 namespace perilink {

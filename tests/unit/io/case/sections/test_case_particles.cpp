@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "io/case/sections/case_kinds.hpp"
 #include "support/case_texts.hpp"
 
 namespace perilink {

@@ -1,0 +1,91 @@
+#include "io/case/sections/case_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "io/case/case_schema.hpp"
+#include "io/case/case_words.hpp"
+
+namespace perilink {
+namespace {
+
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0 &&
+         end == text.c_str() + text.size();
+}
+
+}  // namespace
+
+int dimension_of(const BodySection& body) { return body.problem == "three_dimensional" ? 3 : 2; }
+
+bool is_lattice(const BodySection& body) { return body.model == "lattice"; }
+
+bool is_particles(const BodySection& body) { return body.model == "particles"; }
+
+bool has_state_based_particles(const BodySection& body) {
+  return is_lattice(body) || is_particles(body);
+}
+
+std::string why_nothing_rotates(const BodySection& body) {
+  if (body.method == "linear_elements") return "the corners of linear elements do not rotate";
+  return fmt::format("the particles of a {} body do not rotate", is_lattice(body) ? "lattice"
+                                                                 : has_state_based_particles(body)
+                                                                     ? "state-based"
+                                                                     : "bond-based");
+}
+
+std::string what_rotates(const BodySection& body) {
+  return body.method == "linear_elements"
+             ? "set model = \"micropolar\" in [body] instead of method = \"linear_elements\""
+             : "set model = \"micropolar\" in [body]";
+}
+
+void read_mesh_file(const CaseTable& table, BodySection& body) {
+  if (!table.has("mesh")) {
+    if (!table.has("mesh_size")) return;
+    table.refuse("mesh_size", "is given, but the body has no `mesh`", "delete it");
+  }
+  body.mesh = table.path("mesh");
+  if (body.mesh->empty()) table.refuse("mesh", "is empty", "name the file of a gmsh mesh");
+  body.mesh_size = table.positive("mesh_size");
+  if (body.mesh_size && !is_geometry(*body.mesh)) {
+    table.refuse("mesh_size", "is given, but `mesh` is meshed already",
+                 "delete it, or name a geometry (.geo, .step, .stp, .brep) as `mesh`");
+  }
+  if (!body.mesh_size && is_geometry(*body.mesh) && !is_gmsh_script(*body.mesh)) {
+    table.refuse_missing("mesh_size", "the size of the cells of this geometry");
+  }
+}
+
+double read_fracture_energy(const CaseTable& table) {
+  const std::string key = "fracture_energy";
+  const TomlValue* value = table.value(key);
+  if (value != nullptr && value->kind == TomlValue::Kind::text) {
+    if (is_number(value->text)) {
+      table.refuse(
+          key,
+          fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
+          fmt::format("write the number without quotes: {} = {}", key, value->text));
+    }
+    if (value->text != "infinite") {
+      table.refuse(key,
+                   fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
+                   "write numbers without quotes and units. " + suggest(value->text, {"infinite"}));
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+  if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
+    table.refuse(key, fmt::format("is {}", describe(*value)),
+                 "write fracture_energy = \"infinite\" for a material that cannot break");
+  }
+  return table.need(key, table.positive(key),
+                    "the fracture energy, or \"infinite\" for a material that cannot break");
+}
+
+}  // namespace perilink

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "io/case/case_file.hpp"
+#include "io/case/case_table.hpp"
+
+/// \file
+/// What kind of body a case has, and the keys that several kinds share.
+
+namespace perilink {
+
+/// 2 or 3.
+int dimension_of(const BodySection& body);
+
+/// Whether [body] says model = "lattice".
+bool is_lattice(const BodySection& body);
+
+/// Whether [body] says model = "particles".
+bool is_particles(const BodySection& body);
+
+/// Whether it says either.
+bool has_state_based_particles(const BodySection& body);
+
+/// Why particles have no rotations where the body is not micropolar, and what would give them some:
+/// parts of refusals.
+std::string why_nothing_rotates(const BodySection& body);
+std::string what_rotates(const BodySection& body);
+
+/// `mesh` and `mesh_size`, where the body has them.
+void read_mesh_file(const CaseTable& table, BodySection& body);
+
+/// A positive number, or infinity for "infinite".
+double read_fracture_energy(const CaseTable& table);
+
+}  // namespace perilink

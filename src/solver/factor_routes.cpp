@@ -1,0 +1,49 @@
+#include "solver/factor_routes.hpp"
+
+#include <atomic>
+
+#include "solver/cholmod_support.hpp"
+#include "solver/cholmod_updown_factor.hpp"
+#include "solver/in_place_factor.hpp"
+#include "solver/refactorizing_factor.hpp"
+
+namespace perilink {
+namespace {
+
+std::atomic<int> made = 0;
+
+}  // namespace
+
+int factors_made() { return made; }
+
+std::unique_ptr<Factor> make_factor(FactorRoute route, int threads) {
+  ++made;
+  switch (route) {
+    case FactorRoute::in_place: return std::make_unique<InPlaceFactor>(threads);
+    case FactorRoute::cholmod_updown: return std::make_unique<CholmodUpdownFactor>();
+    case FactorRoute::refactorize: return std::make_unique<RefactorizingFactor>();
+  }
+  return nullptr;
+}
+
+FactorStatistics estimate_factor(const SparseMatrix& matrix, std::span<const Index> groups) {
+  CholmodSession session;
+  const CholmodFactorPtr factor = analyze_supernodal(session, matrix, groups);
+  FactorStatistics result;
+  result.size = static_cast<Index>(factor->n);
+  result.entries = static_cast<double>(factor->xsize);
+  result.bytes = 8.0 * result.entries + 4.0 * static_cast<double>(factor->ssize);
+  result.flops = session.get()->fl;
+  return result;
+}
+
+std::string to_string(FactorRoute route) {
+  switch (route) {
+    case FactorRoute::in_place: return "in_place";
+    case FactorRoute::cholmod_updown: return "cholmod_updown";
+    case FactorRoute::refactorize: return "refactorize";
+  }
+  return "unknown";
+}
+
+}  // namespace perilink
