@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "analysis/dynamics/inertia.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"

@@ -15,7 +15,7 @@ const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
 Eigen::MatrixXd dense_columns(const Removal& removal, Index size) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(size, removal.rank);
   for (int m = 0; m < removal.rank; ++m) {
-    for (int k = 0; k < removal.x[m].size; ++k) {
+    for (int k = 0; k < removal.x[m].size(); ++k) {
       columns(removal.x[m].rows[k], m) = removal.x[m].values[k];
     }
   }
