@@ -58,18 +58,21 @@ struct CarriedCase {
   bool driven, micropolar, toothed;
 };
 
+AnalysisBody block_of(const CarriedCase& param) {
+  BlockCase block;
+  block.lattice = {"plane", Pattern::rectangular, Surface::none};
+  block.columns = 8;
+  block.driven = param.driven;
+  block.micropolar = param.micropolar;
+  block.toothed = param.toothed;
+  return make_block(block);
+}
+
 /// A block with a rigid pair (of bonds without moments: one that keeps its direction) and a
 /// particle that moves as the mean of its neighbours on the left and on the right.
 class CarriedParticles : public testing::TestWithParam<CarriedCase> {
  protected:
-  CarriedParticles()
-      : body_(make_block({{"plane", Pattern::rectangular, Surface::none},
-                          GetParam().driven,
-                          false,
-                          8,
-                          0.1,
-                          GetParam().micropolar,
-                          GetParam().toothed})) {
+  CarriedParticles() : body_(block_of(GetParam())) {
     const auto& bounds = body_.network.particles;
     Vector3 end{};
     for (Index i = 0; i < bounds.size(); ++i) {

@@ -173,8 +173,8 @@ TEST_P(MicropolarLattice, StiffnessIsTheSumOfTheElementVectors) {
     const ElementVectors parts = element_vectors(network_, unknowns, e, secants[e]);
     EXPECT_EQ(parts.count, e >= network_.first_tie ? 1 : network_.width());
     for (int m = 0; m < parts.count; ++m) {
-      for (int a = 0; a < parts.x[m].size; ++a) {
-        for (int b = 0; b < parts.x[m].size; ++b) {
+      for (int a = 0; a < parts.x[m].size(); ++a) {
+        for (int b = 0; b < parts.x[m].size(); ++b) {
           sum(parts.x[m].rows[a], parts.x[m].rows[b]) +=
               parts.x[m].values[a] * parts.x[m].values[b];
         }
@@ -196,7 +196,7 @@ TEST_P(MicropolarLattice, PrescribedPartsAddToTheDeformation) {
     const ElementVectors parts = element_vectors(network_, unknowns, e, 1.0);
     for (int m = 0; m < parts.count; ++m) {
       double deformation = parts.prescribed[m];
-      for (int a = 0; a < parts.x[m].size; ++a) {
+      for (int a = 0; a < parts.x[m].size(); ++a) {
         for (std::size_t slot = 0; slot < motion.size(); ++slot) {
           if (unknowns.number[slot] == parts.x[m].rows[a]) {
             deformation += parts.x[m].values[a] * motion[slot];

@@ -20,7 +20,7 @@ TEST(Unknowns, CountTheFreeAxesInTheOrderOfTheParticles) {
 TEST(Unknowns, ExpandPutsPrescribedValuesBack) {
   const Unknowns unknowns = number_unknowns(2, {0, 1, 1, 0}, {0.0, 0.5, -0.25, 0.0});
   const std::vector<double> solution = {7.0, 8.0};
-  EXPECT_EQ(expand(unknowns, solution), (std::vector<double>{7.0, 0.5, -0.25, 8.0}));
+  EXPECT_EQ(unknowns.expand(solution), (std::vector<double>{7.0, 0.5, -0.25, 8.0}));
 }
 
 }  // namespace

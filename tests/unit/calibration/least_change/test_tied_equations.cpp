@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "calibration/least_change/least_change.hpp"
+
 namespace perilink {
 namespace {
 
