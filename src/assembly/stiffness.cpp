@@ -226,7 +226,12 @@ SparseMatrix assemble_carried(const Network& network, std::span<const double> se
   };
   for (Index e = 0; e < network.num_elements(); ++e) {
     const ElementVectors parts = element_vectors(network, unknowns, e, 1.0);
-    for (int m = 0; m < parts.count; ++m) add(parts.x[m], secants[e]);
+    SparseVector all;  // modes that are taken together couple the unknowns of each with all others'
+    for (int m = 0; m < parts.count; ++m) {
+      add(parts.x[m], secants[e]);
+      for (const Index row : parts.x[m].rows) all.add(row, 0.0);
+    }
+    add(all, 0.0);
   }
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
     SparseVector x;
