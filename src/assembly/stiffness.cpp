@@ -226,10 +226,14 @@ SparseMatrix assemble_carried(const Network& network, std::span<const double> se
   };
   for (Index e = 0; e < network.num_elements(); ++e) {
     const ElementVectors parts = element_vectors(network, unknowns, e, 1.0);
-    SparseVector all;  // modes that are taken together couple the unknowns of each with all others'
-    for (int m = 0; m < parts.count; ++m) {
-      add(parts.x[m], secants[e]);
-      for (const Index row : parts.x[m].rows) all.add(row, 0.0);
+    for (int m = 0; m < parts.count; ++m) add(parts.x[m], secants[e]);
+    // Modes that are taken together couple all unknowns of both ends, and the ordering asks for it.
+    SparseVector all;
+    for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
+      for (int a = 0; a < unknowns.width; ++a) {
+        const std::size_t slot = static_cast<std::size_t>(i) * unknowns.width + a;
+        unknowns.for_each(slot, [&](Index k, double) { all.add(k, 0.0); });
+      }
     }
     add(all, 0.0);
   }

@@ -164,7 +164,7 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
     network.critical_stretch.push_back(bar.yield_strength / bar.youngs_modulus);
   }
   if (mesh.segments.size() == 0) return;
-  network.law_of.assign(static_cast<std::size_t>(network.first_segment), 0);
+  network.law_of.resize(static_cast<std::size_t>(network.first_segment), 0);
   network.law_of.resize(network.stiffness.size(), static_cast<std::uint8_t>(network.laws.size()));
   network.laws.push_back(BondLaw::plateau());
 }

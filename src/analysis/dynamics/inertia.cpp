@@ -43,10 +43,16 @@ Blocks<Dim> own_trusses(const Network& network, Strain strain) {
   for (Index e = 0; e < network.num_elements(); ++e) {
     const Eigen::Map<const Eigen::Matrix<double, Dim, 1>> n(network.bonds.direction(e).data());
     Eigen::Matrix<double, Dim, Dim> part = stiffness[e] * n * n.transpose();
-    if (strain == Strain::green && std::isfinite(network.critical_stretch[e])) {
-      const double g = network.critical_stretch[e];
-      part *= 1.0 + 2.0 * g;
-      part.diagonal().array() += g * network.stiffness[e];
+    if (strain == Strain::green && network.can_break(e)) {
+      double along = 0.0, across = 0.0;  // largest of all teeth
+      for (int k = 0; network.law(e).tooth(k).secant > 0.0; ++k) {
+        const Tooth tooth = network.law(e).tooth(k);
+        const double g = network.critical_stretch[e] * tooth.limit;
+        along = std::max(along, tooth.secant * (1.0 + 2.0 * g));
+        across = std::max(across, tooth.secant * g);
+      }
+      part *= along;
+      part.diagonal().array() += across * network.stiffness[e];
     }
     blocks[network.bonds.first[e]] += part;
     blocks[network.bonds.second[e]] += part;

@@ -47,7 +47,7 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
   double smallest = INFINITY, largest = 0.0;
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!network.can_break(e)) continue;
-    const double limit = network.critical_stretch[e];
+    const double limit = network.critical_stretch[e] * network.law(e).tooth(0).limit;
     ++breakable;
     smallest = std::min(smallest, limit);
     largest = std::max(largest, limit);

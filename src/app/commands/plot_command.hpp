@@ -12,7 +12,7 @@ struct PlotOptions {
 };
 
 /// Draws what DIR holds: history.csv as load_displacement.svg and every file of fields.pvd as
-/// fields_<broken bonds>.svg. Title and units come from summary.json when it is there.
+/// fields_<row>.svg. Title and units come from summary.json when it is there.
 /// \returns the exit status
 /// \throws FileError
 int plot_results(const PlotOptions& options);

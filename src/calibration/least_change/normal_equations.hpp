@@ -93,8 +93,8 @@ class NormalEquations {
   static constexpr int stale_iterations = 40;
   /// Iterations of a solution after which blocks get help.
   static constexpr int patience = 60;
-  /// The coarse system of boxes takes the time of forty iterations, its fields that of a hundred;
-  /// they are made anew where a solution needs more than this, since more will follow.
+  /// The coarse system of boxes takes the time of forty iterations and its fields that of a
+  /// hundred, but they serve the solutions to come as well: made anew where one needs more.
   static constexpr int stale_coarse = 40, stale_fields = 40;
 
   template <class Values>

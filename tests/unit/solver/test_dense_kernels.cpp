@@ -35,6 +35,16 @@ TEST(DenseKernels, FindEigenvectorsBelowALimit) {
   EXPECT_EQ(eigenvectors_below(chain, -1.0, 10).cols(), 0);
 }
 
+/// A subspace that turns out to be too small is made larger; nothing resists anything in the end.
+TEST(DenseKernels, FindMoreEigenvectorsThanExpected) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(30, 30);
+  for (int k = 0; k < 14; ++k) matrix(k, k) = 1e-5 * k;
+  const Eigen::MatrixXd found = eigenvectors_below(matrix, 0.01, 3);
+  ASSERT_EQ(found.cols(), 14);
+  EXPECT_LT(found.bottomRows(16).norm(), 1e-6);  // (1e-4 + shift)^2 of the stiff ones
+  EXPECT_EQ(eigenvectors_below(Eigen::MatrixXd::Zero(4, 4), 0.01, 2).cols(), 4);
+}
+
 TEST(DenseKernels, RefuseWhatIsNotFinite) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(3, 3);
   matrix(1, 1) = std::numeric_limits<double>::quiet_NaN();

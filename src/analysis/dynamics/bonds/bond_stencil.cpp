@@ -62,7 +62,8 @@ class Kinds {
     kind.length = bonds.lengths[element];
     kind.modulus = network.stiffness[element] /
                    (volumes[bonds.first[element]] * volumes[bonds.second[element]]);
-    kind.limit = network.critical_stretch[element] * kind.length;
+    kind.limit =
+        network.critical_stretch[element] * network.law(element).tooth(0).limit * kind.length;
     return kind;
   }
 

@@ -214,8 +214,7 @@ struct FrameHalf {
   }
 
   double size(const double* own, const double* far) const {
-    const double e = deformation(own, far).extension;
-    return e * e;
+    return square(deformation(own, far), shear_share, bend_share, twist_share);
   }
 
   double energy(const double* own_before, const double* far_before, const double* own,

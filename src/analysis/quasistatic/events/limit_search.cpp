@@ -11,15 +11,6 @@ namespace {
 /// Fewer blocks than this are searched faster by one thread.
 constexpr Index smallest_parallel_search = 400;
 
-/// The larger ratio; within the tolerance the lower number.
-BreakSearch::Hit nearer(const BreakSearch::Hit& a, const BreakSearch::Hit& b, double tolerance) {
-  if (a.element == no_index || b.element == no_index) return a.element == no_index ? b : a;
-  if (std::abs(a.ratio - b.ratio) > tolerance * std::max(a.ratio, b.ratio)) {
-    return a.ratio > b.ratio ? a : b;
-  }
-  return a.element < b.element ? a : b;
-}
-
 }  // namespace
 
 LimitSearch::LimitSearch(const Network& network) : network_(network), dim_(network.dim()) {
@@ -95,7 +86,18 @@ LimitSearch::Hit LimitSearch::find_in_all(const double* u, double tolerance, int
   const Hit pulled = find_in<Dim, Sense::tension>(pulled_, u, tolerance, threads);
   if (strained_.elements.empty()) return pulled;
   const Hit strained = find_in<Dim, Sense::both>(strained_, u, tolerance, threads);
-  return nearer(pulled, strained, tolerance);
+  const Hit& larger = pulled.ratio > strained.ratio ? pulled : strained;
+  const double apart = std::abs(pulled.ratio - strained.ratio);
+  if (larger.element == no_index || apart > 2.0 * tolerance * larger.ratio) return larger;
+  // A tie across the groups: one threshold for both.
+  const std::span<const double> all(u, network_.particles.positions.size());
+  const std::vector<Hit> hits = list(all, larger.ratio * (1.0 - 2.0 * tolerance));
+  double largest = 0.0;
+  for (const Hit& hit : hits) largest = std::max(largest, hit.ratio);
+  for (const Hit& hit : hits) {
+    if (hit.ratio >= largest * (1.0 - tolerance)) return hit;
+  }
+  return larger;
 }
 
 LimitSearch::Hit LimitSearch::find(std::span<const double> displacement, double tolerance,

@@ -315,6 +315,28 @@ TEST(LeastChange, SaysHowFarContradictionsAre) {
   }
 }
 
+/// Equations that may be left at first end in the same place where they can be met, and where
+/// they cannot with the least residual, as near as the last gap lets weights come to their bounds
+/// (1e-2).
+TEST(LeastChange, EquationsThatMayBeLeftAtFirstChangeNoAnswer) {
+  LeastChangeOptions options;
+  options.method = Method::interior_point;
+  const LeastChange exact = least_change(one_point(1.5, 0.8), options);
+  options.proximity = 1e-8;
+  const LeastChange met = least_change(one_point(1.5, 0.8), options);
+  EXPECT_TRUE(met.converged);
+  for (std::size_t v = 0; v < met.weights.size(); ++v) {
+    EXPECT_NEAR(met.weights[v], exact.weights[v], 1e-12);
+  }
+  const PointEquations too_much = one_point(0.5, 0.8);
+  const LeastChange contradictory = least_change(too_much, options);
+  EXPECT_FALSE(contradictory.converged);
+  EXPECT_NEAR(contradictory.residual, 0.3, 3e-2);
+  for (std::size_t v = 0; v < too_much.lower.size(); ++v) {
+    EXPECT_GE(contradictory.weights[v], too_much.lower[v]);
+  }
+}
+
 /// Least squares of change and residual: w = 1 - t, t = d / (3 + ridge) with d = 3 - 1.5.
 TEST(LeastChange, ARidgeTradesResidualForChange) {
   PointEquations equations = one_point(1.5, 0.0);

@@ -76,6 +76,24 @@ TEST_P(EveryDimension, ListsAllThatReachARatio) {
   EXPECT_GT(hits.size(), 0U);
 }
 
+/// An element of either sense may be the first of a tie.
+TEST(LimitSearch, TiesAcrossSensesGoToTheLowestNumber) {
+  for (const Index yielding : {0, 1}) {
+    Network network = make_network({"", Pattern::rectangular, Surface::none}, 2);
+    network.laws.push_back(BondLaw::plateau(1.21));  // the first tooth ends at 1.1
+    network.law_of.assign(static_cast<std::size_t>(network.num_elements()), 0);
+    network.law_of[yielding] = 1;
+    network.critical_stretch.assign(network.law_of.size(), INFINITY);
+    const auto u = linear_field(network.particles, {{{1, 0, 0}, {0, 1, 0}, {}}});
+    for (const Index e : {0, 1}) {
+      const double size = std::abs(stretch(network, u, e));
+      network.critical_stretch[e] = e == yielding ? size / 1.1 : size;
+    }
+    LimitSearch search(network);
+    EXPECT_EQ(search.find(u, tie_tolerance, 1).element, 0);
+  }
+}
+
 TEST_P(EveryDimension, RemovedBondsNeverComeBack) {
   const Network network = make_network(GetParam(), 2);
   const auto u = random_vector(network.particles.positions.size(), 3);
