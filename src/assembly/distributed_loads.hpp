@@ -8,7 +8,7 @@
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 #include "discretization/simplices.hpp"
-#include "network/unknowns.hpp"
+#include "network/loaded_network.hpp"
 
 /// \file
 /// Loads that are spread over the surface or the volume, as forces on particles: the integral of

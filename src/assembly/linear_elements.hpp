@@ -7,7 +7,7 @@
 #include "assembly/internal_force.hpp"
 #include "discretization/simplices.hpp"
 #include "material/elasticity.hpp"
-#include "network/unknowns.hpp"
+#include "network/loaded_network.hpp"
 
 /// \file
 /// Linear finite elements on the particles: constant-strain triangles and tetrahedra. The yardstick

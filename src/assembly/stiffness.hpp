@@ -6,8 +6,8 @@
 #include <Eigen/SparseCore>
 
 #include "base/types.hpp"
+#include "network/loaded_network.hpp"
 #include "network/network.hpp"
-#include "network/unknowns.hpp"
 
 namespace perilink {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "network/loaded_network.hpp"
 #include "network/network.hpp"
-#include "network/unknowns.hpp"
 
 namespace perilink {
 

@@ -69,11 +69,6 @@ struct Unknowns {
 /// \throws std::invalid_argument where something carries particles
 void expect_nothing_carried(const Unknowns& unknowns);
 
-/// Loads at load factor 1.
-struct Loads {
-  std::vector<double> forces;  ///< shape (particles, width) [force], moments [force length]
-};
-
 /// Fills `number` and `count` in the order of the particles. `held` has shape (particles, width):
 /// nonzero where the displacement or rotation is prescribed.
 Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,

@@ -70,9 +70,7 @@ TEST_P(PulledPlate, BreaksAcrossTheHoleOnly) {
   const Model model = build_model(input);
   ASSERT_LT(model.network.calibration->smallest_weight, 0.1);
   Recorder recorder;
-  const DamageResult result =
-      run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
-                          damage_options(input, 1), recorder);
+  const DamageResult result = run_damage_analysis(model, damage_options(input, 1), recorder);
   const auto peak =
       std::max_element(recorder.rows.begin(), recorder.rows.end(),
                        [](const StepRecord& a, const StepRecord& b) { return a.load < b.load; });

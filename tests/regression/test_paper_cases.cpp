@@ -51,8 +51,7 @@ const PaperRun& run_of(const std::string& name) {
   PaperRun run{build_model(input), {}, {}};
   Recorder recorder;
   const Model& model = run.model;
-  run.result = run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
-                                   damage_options(input, 1), recorder);
+  run.result = run_damage_analysis(model, damage_options(input, 1), recorder);
   run.rows = std::move(recorder.rows);
   return runs.emplace(name, std::move(run)).first->second;
 }
@@ -165,9 +164,7 @@ TEST(PaperCantilever, BearsMoreThanItsFirstCrackThanksToItsBar) {
   plain.rebar.clear();
   const Model model = build_model(plain);
   Recorder recorder;
-  const DamageResult result =
-      run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
-                          damage_options(plain, 1), recorder);
+  const DamageResult result = run_damage_analysis(model, damage_options(plain, 1), recorder);
   EXPECT_LT(result.peak_load, 0.8 * run.result.peak_load);
   EXPECT_LT(result.peak_load, 1.2 * recorder.rows.front().load);
 }

@@ -20,12 +20,7 @@
 namespace perilink::test {
 
 /// All that an analysis needs.
-struct AnalysisBody {
-  Network network;
-  Unknowns unknowns;
-  Loads loads;
-  ReferenceLoad reference;
-};
+using AnalysisBody = LoadedNetwork;
 
 inline std::vector<double> intact(const Network& network) {
   return std::vector<double>(static_cast<std::size_t>(network.num_elements()), 1.0);
@@ -330,8 +325,7 @@ class Recorder final : public StepObserver {
 
 inline DamageResult run(const AnalysisBody& body, const DamageOptions& options,
                         Recorder& recorder) {
-  return run_damage_analysis(body.network, body.unknowns, body.loads, body.reference, options,
-                             recorder);
+  return run_damage_analysis(body, options, recorder);
 }
 
 }  // namespace perilink::test

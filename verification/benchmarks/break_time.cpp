@@ -57,7 +57,7 @@ RouteTime time_events(const Model& model, FactorRoute route, int events, int thr
   EngineOptions options;
   options.route = route;
   options.threads = threads;
-  const auto engine = make_event_engine(model.network, model.unknowns, model.loads, options);
+  const auto engine = make_event_engine(model, options);
   std::vector<double> search, apply;
   RouteTime result;
   for (int k = 0; k < events; ++k) {

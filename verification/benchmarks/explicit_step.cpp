@@ -12,8 +12,8 @@
 #include "base/timer.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "discretization/lattices/make_body.hpp"
+#include "network/loaded_network.hpp"
 #include "network/network_builder.hpp"
-#include "network/unknowns.hpp"
 
 using namespace perilink;
 
@@ -125,16 +125,15 @@ double rate_of_bonds(const Network& network, int threads) {
   std::vector<std::uint8_t> held(static_cast<std::size_t>(network.particles.size()) * width, 0);
   held[0] = held[1] = 1;
   const Unknowns unknowns = number_unknowns(width, held, std::vector<double>(held.size(), 0.0));
-  Loads loads;
-  loads.forces.assign(held.size(), 0.0);
-  loads.forces.back() = 1e-3;
+  LoadedNetwork problem{network, unknowns, {}, {false, 1e-3}};
+  problem.loads.forces.assign(held.size(), 0.0);
+  problem.loads.forces.back() = 1e-3;
   const double steps = std::max(fewest_steps, 20.0 * updates / network.num_elements());
   const ExplicitOptions options = options_of(inertia.critical_time_step(), steps, threads);
   double best = 0.0;
   for (int k = 0; k < repeats; ++k) {
     Silent<BondRunObserver, BondRunState> observer;
-    const ExplicitResult result =
-        run_explicit_bonds(network, unknowns, loads, {false, 1e-3}, inertia, {}, options, observer);
+    const ExplicitResult result = run_explicit_bonds(problem, inertia, {}, options, observer);
     best = std::max(best, 1.0 * network.num_elements() * result.steps / observer.seconds());
   }
   return best;

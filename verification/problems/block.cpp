@@ -83,8 +83,7 @@ BlockRun run_block(const Model& model, FactorRoute route, Index broken_bonds, in
   RowRecorder recorder;
   BlockRun run;
   const Timer timer;
-  run.result = run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
-                                   options, recorder);
+  run.result = run_damage_analysis(model, options, recorder);
   run.seconds = timer.seconds();
   run.rows = std::move(recorder.rows);
   return run;

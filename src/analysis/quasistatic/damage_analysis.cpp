@@ -37,14 +37,13 @@ class EngineState final : public StateSource {
 /// The run as it goes on: engine, path energies, the row being written and the result.
 class Run {
  public:
-  Run(const Network& network, const Unknowns& unknowns, const Loads& loads,
-      const ReferenceLoad& reference, const DamageOptions& options, StepObserver& observer)
-      : network_(network),
-        reference_(reference),
+  Run(const LoadedNetwork& problem, const DamageOptions& options, StepObserver& observer)
+      : network_(problem.network),
+        reference_(problem.reference),
         options_(options),
         observer_(observer),
-        engine_(make_event_engine(network, unknowns, loads, options.engine)),
-        state_(network, *engine_) {
+        engine_(make_event_engine(problem, options.engine)),
+        state_(problem.network, *engine_) {
     const LoadWork work = engine_->load_work();
     const double whole = work.forces + work.supports;
     compliance_ = work.forces - work.supports;
@@ -302,10 +301,9 @@ DamageResult Run::finish() {
 
 }  // namespace
 
-DamageResult run_damage_analysis(const Network& network, const Unknowns& unknowns,
-                                 const Loads& loads, const ReferenceLoad& reference,
-                                 const DamageOptions& options, StepObserver& observer) {
-  Run run(network, unknowns, loads, reference, options, observer);
+DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptions& options,
+                                 StepObserver& observer) {
+  Run run(problem, options, observer);
   return run.go();
 }
 

@@ -7,8 +7,8 @@
 #include "analysis/quasistatic/events/event_engine.hpp"
 #include "analysis/quasistatic/load_curve.hpp"
 #include "analysis/quasistatic/observer.hpp"
+#include "network/loaded_network.hpp"
 #include "network/network.hpp"
-#include "network/unknowns.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -54,16 +54,8 @@ struct DamageResult {
   FactorStatistics factor;
 };
 
-/// Reference load or displacement that turns load factors into the two axes of the load curve, each
-/// work-conjugate to the other.
-struct ReferenceLoad {
-  bool driven = false;  ///< displacements drive the body (forces may help them)
-  double value = 0.0;   ///< load of all loaded places, or relative displacement of driven ones
-};
-
 /// THE MAIN JOB: proportional loading of a network of brittle bonds to collapse, event by event.
-DamageResult run_damage_analysis(const Network& network, const Unknowns& unknowns,
-                                 const Loads& loads, const ReferenceLoad& reference,
-                                 const DamageOptions& options, StepObserver& observer);
+DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptions& options,
+                                 StepObserver& observer);
 
 }  // namespace perilink

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "assembly/linear_elements.hpp"
+#include "network/loaded_network.hpp"
 #include "network/network.hpp"
-#include "network/unknowns.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -27,8 +27,7 @@ struct ElasticResult {
 
 /// One assembly, one factorisation, one solve.
 /// \throws SolverError when the stiffness matrix is not positive definite
-ElasticResult run_elastic_analysis(const Network& network, const Unknowns& unknowns,
-                                   const Loads& loads, int threads);
+ElasticResult run_elastic_analysis(const LoadedNetwork& problem, int threads);
 
 /// The same with linear finite elements in place of bonds.
 ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknowns& unknowns,

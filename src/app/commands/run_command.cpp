@@ -193,8 +193,7 @@ int run_moving_bonds(const RunOptions& options, const CaseFile& input, const fs:
   BondRunFiles files(input, model, built.steps, directory, options.quiet);
   ExplicitResult result;
   attempt(result, [&] {
-    result = run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference,
-                                built.inertia, built.rules, built.options, files);
+    result = run_explicit_bonds(model, built.inertia, built.rules, built.options, files);
   });
   attempt(result, [&] { files.finish(); });
   seconds.output = files.seconds_writing();
@@ -232,8 +231,7 @@ int run_relaxation(const RunOptions& options, const CaseFile& input, const fs::p
                      directory, options.quiet);
   RelaxationResult result;
   attempt(result, [&] {
-    result = run_dynamic_relaxation(model.network, model.unknowns, model.loads, model.reference,
-                                    relaxation_options(input, threads), files);
+    result = run_dynamic_relaxation(model, relaxation_options(input, threads), files);
   });
   attempt(result, [&] { files.finish(); });
   seconds.output = files.seconds_writing();

@@ -13,10 +13,10 @@
 #include "discretization/lattices/lattice.hpp"
 #include "io/case/case_file.hpp"
 #include "material/elasticity.hpp"
+#include "network/loaded_network.hpp"
 #include "network/network.hpp"
 #include "network/particle_network.hpp"
 #include "network/rigid_modes.hpp"
-#include "network/unknowns.hpp"
 
 namespace perilink {
 
@@ -32,8 +32,10 @@ struct Gauge {
   std::optional<std::array<int, 2>> stress;  ///< axes of the component instead of a displacement
 };
 
-/// A case turned into particles, bonds, unknowns and loads.
-struct Model {
+/// A case turned into particles, bonds, unknowns and loads. With method = "linear_elements" its
+/// network holds the particles, and the edges of the cells as bonds: used only for connectivity,
+/// their stiffness means nothing.
+struct Model : LoadedNetwork {
   Problem problem = Problem::plane_stress;
   Lattice lattice;
   Facets facets;              ///< faces of the body; corners are particles of the network
@@ -42,15 +44,9 @@ struct Model {
   double horizon = 0.0;       ///< [length]
   /// crack_cost() of each material, where critical_stretch = "dissipated" [-].
   std::vector<double> crack_cost;
-  /// With method = "linear_elements": the particles, and the edges of the cells as bonds. Those are
-  /// used only for connectivity; their stiffness means nothing.
-  Network network;
   std::optional<LinearElements> elements;         ///< with method = "linear_elements"
   std::optional<ParticleFitReport> particle_fit;  ///< with model = "particles"
-  Unknowns unknowns;
-  Loads loads;
-  ReferenceLoad reference;
-  std::vector<LoadedPlace> loaded_places;  ///< by forces, where nothing is driven
+  std::vector<LoadedPlace> loaded_places;         ///< by forces, where nothing is driven
   std::vector<DrivenPlace> driven_places;
   std::vector<Gauge> gauges;
   /// Whether, per particle, a displacement of it is prescribed by a support or driven (planes of

@@ -91,9 +91,8 @@ ExpectedCost expected_cost(const Network& network, const FactorStatistics& facto
 double seconds_per_step(const Model& model, const BondRunCase& built) {
   const double at_rest = time_of_step(built.steps, [&](Index steps) {
     SilentBonds silent;
-    run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference, built.inertia,
-                       built.rules, some_steps(built.options, built.options.time_step, steps),
-                       silent);
+    run_explicit_bonds(model, built.inertia, built.rules,
+                       some_steps(built.options, built.options.time_step, steps), silent);
   });
   return can_break(model.network) ? breaking * at_rest : at_rest;
 }

@@ -55,13 +55,12 @@ Model build_model_visibly(const CaseFile& input, bool quiet) {
 ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepObserver& observer) {
   ModelRun run;
   if (input.analysis.type != "elastic") {
-    run.result = run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
-                                     damage_options(input, threads), observer);
+    run.result = run_damage_analysis(model, damage_options(input, threads), observer);
     return run;
   }
   run.elastic = model.elements
                     ? run_elastic_analysis(*model.elements, model.unknowns, model.loads, threads)
-                    : run_elastic_analysis(model.network, model.unknowns, model.loads, threads);
+                    : run_elastic_analysis(model, threads);
   run.result = as_history(model, *run.elastic);
   ElasticState state(model.network, *run.elastic);
   try {

@@ -104,8 +104,7 @@ CrackRun run_specimen(const Specimen& specimen, int threads) {
   CrackRun run;
   run.specimen = specimen;
   const Timer timer;
-  run.result = run_damage_analysis(model.network, model.unknowns, model.loads, model.reference,
-                                   damage_options(input, threads), recorder);
+  run.result = run_damage_analysis(model, damage_options(input, threads), recorder);
   run.seconds = timer.seconds();
   const std::span<const Index> broken = recorder.broken(run.result.last.broken_bonds);
   run.path = find_crack(specimen, model, broken);

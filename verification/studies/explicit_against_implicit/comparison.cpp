@@ -47,9 +47,7 @@ Specimen read_specimen(const std::string& name, const std::string& path) {
 Outcome run_implicit(const Specimen& specimen) {
   ImplicitRecorder recorder;
   const Timer timer;
-  const DamageResult result =
-      run_damage_analysis(specimen.network, specimen.unknowns, specimen.loads, specimen.reference,
-                          specimen.options, recorder);
+  const DamageResult result = run_damage_analysis(specimen, specimen.options, recorder);
   Outcome outcome;
   outcome.seconds = timer.seconds();
   outcome.peak_load = std::abs(recorder.peak.load);
@@ -81,7 +79,7 @@ Outcome run_explicit(const Specimen& specimen, const Outcome& implicit, double s
   ExplicitRecorder recorder;
   const Timer timer;
   const ExplicitResult result =
-      run_explicit_bonds(specimen.network, unknowns, specimen.loads, reference, inertia,
+      run_explicit_bonds({specimen.network, unknowns, specimen.loads, reference}, inertia,
                          {2.0 * 2.0 * std::numbers::pi / period}, options, recorder);
   Outcome outcome;
   outcome.seconds = timer.seconds();

@@ -21,7 +21,7 @@ Solution solve(const Specimen& specimen) {
   const Timer timer;
   ElasticResult result = model.elements
                              ? run_elastic_analysis(*model.elements, model.unknowns, model.loads, 1)
-                             : run_elastic_analysis(model.network, model.unknowns, model.loads, 1);
+                             : run_elastic_analysis(model, 1);
   Solution solution;
   solution.seconds = timer.seconds();
   solution.deflection = deflection(specimen, result.displacement);
@@ -37,8 +37,7 @@ Solution relax(const Specimen& specimen, Strain strain, double tolerance, int th
   options.threads = threads;
   Silent observer;
   const Timer timer;
-  RelaxationResult result = run_dynamic_relaxation(model.network, model.unknowns, model.loads,
-                                                   model.reference, options, observer);
+  RelaxationResult result = run_dynamic_relaxation(model, options, observer);
   Solution solution;
   solution.seconds = timer.seconds();
   solution.deflection = deflection(specimen, result.displacement);

@@ -95,8 +95,7 @@ ExplicitResult run_at(const MovingBody& body, double factor, bool refuse) {
   BondRunCase built = build_bond_run(input, model);
   choose(built.options, built.inertia.critical_time_step(), factor, refuse);
   SilentBonds observer;
-  return run_explicit_bonds(model.network, model.unknowns, model.loads, model.reference,
-                            built.inertia, built.rules, built.options, observer);
+  return run_explicit_bonds(model, built.inertia, built.rules, built.options, observer);
 }
 
 bool is_finite(const ExplicitRecord& record) {

@@ -118,7 +118,7 @@ Stretching stretch(const Cloud& cloud, const ParticleNetwork& built) {
   const double by = 1e-3 * cloud.length;
   const Unknowns unknowns = pull(cloud, network, by);
   const Loads loads{std::vector<double>(unknowns.number.size(), 0.0)};
-  const ElasticResult result = run_elastic_analysis(network, unknowns, loads, 1);
+  const ElasticResult result = run_elastic_analysis({network, unknowns, loads, {}}, 1);
   Stretching found;
   found.modulus =
       2.0 * result.strain_energy * cloud.length / (youngs_modulus * section(cloud) * by * by);
@@ -156,7 +156,8 @@ ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built) {
   reference.driven = true;
   reference.value = extension;
   Silent observer;
-  return run_explicit_bonds(network, unknowns, loads, reference, inertia, rules, options, observer);
+  return run_explicit_bonds({network, unknowns, loads, reference}, inertia, rules, options,
+                            observer);
 }
 
 }  // namespace perilink::verification

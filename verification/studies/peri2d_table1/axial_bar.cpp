@@ -224,7 +224,7 @@ BarErrors solve_bar(const BarGrid& grid) {
   balance_couple(network.particles, loads);
   const std::vector<std::uint8_t> held = hold(network, body.lattice.spacing, links == 4);
   const Unknowns unknowns = number_unknowns(2, held, std::vector<double>(held.size(), 0.0));
-  const ElasticResult result = run_elastic_analysis(network, unknowns, loads, 1);
+  const ElasticResult result = run_elastic_analysis({network, unknowns, loads, {}}, 1);
 
   const double strain_x = strain(cross, body.lattice, result.displacement, 0);
   const double strain_y = strain(cross, body.lattice, result.displacement, 1);

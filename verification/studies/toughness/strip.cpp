@@ -85,7 +85,7 @@ class StripBuilder {
   }
 
   /// Cut from the left end over so many periods of growth.
-  Network cut(int periods) const {
+  LoadedNetwork cut(int periods) const {
     const double tip = (beside_ + periods) * period_ - 1e-6;
     Network network = whole_;
     network.first_tie = network.first_segment = network.bonds.size();
@@ -95,7 +95,7 @@ class StripBuilder {
       if (network.carries_moments()) network.bending[b] = 0.0;
       network.critical_stretch[b] = infinity;
     }
-    return network;
+    return {std::move(network), unknowns, loads, {true, 1.0}};
   }
 
   Unknowns unknowns;
@@ -223,17 +223,14 @@ void StripBuilder::find_bonds() {
 StripCost measure_crack_cost(const Strip& strip) {
   const Interior inside = interior_of(strip);
   const StripBuilder builder(strip, inside);
-  const auto engine_of = [&](const Network& network) {
-    return make_event_engine(network, builder.unknowns, builder.loads, EngineOptions{});
-  };
   const auto stiffness_at = [&](int periods) {
-    const Network network = builder.cut(periods);
-    return stiffness_of(*engine_of(network));
+    const LoadedNetwork cut = builder.cut(periods);
+    return stiffness_of(*make_event_engine(cut, EngineOptions{}));
   };
   const double begin = stiffness_at(strip.skipped);
   const double end = stiffness_at(strip.skipped + strip.counted);
-  const Network network = builder.cut(0);
-  const PathEnergy energy = energy_between(*engine_of(network), begin, end);
+  const LoadedNetwork whole = builder.cut(0);
+  const PathEnergy energy = energy_between(*make_event_engine(whole, EngineOptions{}), begin, end);
   // Critical stretches are one: a plane crack would hold half of the fracture sum per area.
   const double sum = fracture_sum_of_family(inside.problem, inside.offsets, inside.stiffness.axial,
                                             inside.lattice.cell_volume);

@@ -31,31 +31,30 @@ std::unique_ptr<ExplicitBonds> make_bonds(const Network& network, const BondRunR
 
 class BondRun {
  public:
-  BondRun(const Network& network, const Unknowns& unknowns, const Loads& loads,
-          const ReferenceLoad& reference, const Inertia& inertia, const BondRunRules& rules,
+  BondRun(const LoadedNetwork& problem, const Inertia& inertia, const BondRunRules& rules,
           const ExplicitOptions& options, BondRunObserver& observer)
-      : network_(network),
-        unknowns_(unknowns),
-        loads_(loads),
-        reference_(reference),
+      : network_(problem.network),
+        unknowns_(problem.unknowns),
+        loads_(problem.loads),
+        reference_(problem.reference),
         inertia_(inertia),
         options_(options),
         observer_(observer),
-        bonds_(make_bonds(network, rules)),
-        component_(main_component(unknowns, loads)),
-        blocks_(network.particles.size(), unknowns.width),
+        bonds_(make_bonds(network_, rules)),
+        component_(main_component(unknowns_, loads_)),
+        blocks_(network_.particles.size(), unknowns_.width),
         broken_(blocks_.count()),
         loop_(options, inertia.critical_time_step()),
         dt_(loop_.time_step()),
         motion_end_(rules.constant_velocity ? options.duration : 0.0),
         rate_(rules.damping_rate) {
-    const std::size_t slots = unknowns.number.size();
+    const std::size_t slots = unknowns_.number.size();
     motion_.displacement.assign(slots, 0.0);
     motion_.velocity.assign(slots, 0.0);
     force_.assign(slots, 0.0);
     sums_.resize(static_cast<std::size_t>(blocks_.count()));
     for (std::size_t slot = 0; slot < slots; ++slot) {
-      if (unknowns.number[slot] == no_index) held_.push_back(slot);
+      if (unknowns_.number[slot] == no_index) held_.push_back(slot);
     }
   }
 
@@ -235,12 +234,11 @@ int main_component(const Unknowns& unknowns, const Loads& loads) {
   return static_cast<int>(force - loaded.begin());
 }
 
-ExplicitResult run_explicit_bonds(const Network& network, const Unknowns& unknowns,
-                                  const Loads& loads, const ReferenceLoad& reference,
-                                  const Inertia& inertia, const BondRunRules& rules,
-                                  const ExplicitOptions& options, BondRunObserver& observer) {
-  expect_nothing_carried(unknowns);
-  return BondRun(network, unknowns, loads, reference, inertia, rules, options, observer).run();
+ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& inertia,
+                                  const BondRunRules& rules, const ExplicitOptions& options,
+                                  BondRunObserver& observer) {
+  expect_nothing_carried(problem.unknowns);
+  return BondRun(problem, inertia, rules, options, observer).run();
 }
 
 }  // namespace perilink

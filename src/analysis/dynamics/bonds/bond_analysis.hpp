@@ -5,7 +5,7 @@
 #include "analysis/dynamics/explicit_run.hpp"
 #include "analysis/dynamics/inertia.hpp"
 #include "analysis/quasistatic/damage_analysis.hpp"
-#include "network/unknowns.hpp"
+#include "network/loaded_network.hpp"
 
 namespace perilink {
 
@@ -71,9 +71,8 @@ struct BondRunRules {
 /// refuse_unstable is off) or the duration is not positive
 /// \returns ending = failed where energy grows from nothing; peak_displacement is zero where loads
 /// drive the body
-ExplicitResult run_explicit_bonds(const Network& network, const Unknowns& unknowns,
-                                  const Loads& loads, const ReferenceLoad& reference,
-                                  const Inertia& inertia, const BondRunRules& rules,
-                                  const ExplicitOptions& options, BondRunObserver& observer);
+ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& inertia,
+                                  const BondRunRules& rules, const ExplicitOptions& options,
+                                  BondRunObserver& observer);
 
 }  // namespace perilink

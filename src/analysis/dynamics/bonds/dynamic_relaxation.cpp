@@ -33,28 +33,28 @@ struct BlockSums {
 
 class Relaxation {
  public:
-  Relaxation(const Network& network, const Unknowns& unknowns, const Loads& loads,
-             const ReferenceLoad& reference, const RelaxationOptions& options,
+  Relaxation(const LoadedNetwork& problem, const RelaxationOptions& options,
              BondRunObserver& observer)
-      : network_(network),
-        unknowns_(unknowns),
-        loads_(loads),
-        reference_(reference),
+      : network_(problem.network),
+        unknowns_(problem.unknowns),
+        loads_(problem.loads),
+        reference_(problem.reference),
         options_(options),
         observer_(observer),
-        bonds_(make_explicit_bonds(network, options.strain)),
-        inertia_(fictitious_inertia(network, options.strain)),
+        bonds_(make_explicit_bonds(network_, options.strain)),
+        inertia_(fictitious_inertia(network_, options.strain)),
         dt_(options.safety * inertia_.critical_time_step()),
-        component_(main_component(unknowns, loads)),
-        blocks_(network.particles.size(), unknowns.width),
+        component_(main_component(unknowns_, loads_)),
+        blocks_(network_.particles.size(), unknowns_.width),
         broken_(blocks_.count()) {
-    const std::size_t slots = unknowns.number.size();
+    const std::size_t slots = unknowns_.number.size();
     motion_.displacement.assign(slots, 0.0);
     motion_.velocity.assign(slots, 0.0);
     force_ = before_ = first_force_ = first_ = motion_.velocity;
     sums_.resize(static_cast<std::size_t>(blocks_.count()));
     for (std::size_t slot = 0; slot < slots; ++slot) {
-      const std::size_t own = slot - slot % unknowns.width;  // moments become forces of like energy
+      const std::size_t own =
+          slot - slot % unknowns_.width;  // moments become forces of like energy
       weight_.push_back(inertia_.mass[own] / inertia_.mass[slot]);
     }
   }
@@ -319,12 +319,11 @@ Inertia fictitious_inertia(const Network& network, Strain strain) {
   return lumped_inertia(network, std::vector<double>(materials, 1.0), MassScaling::uniform, strain);
 }
 
-RelaxationResult run_dynamic_relaxation(const Network& network, const Unknowns& unknowns,
-                                        const Loads& loads, const ReferenceLoad& reference,
+RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
                                         const RelaxationOptions& options,
                                         BondRunObserver& observer) {
-  expect_nothing_carried(unknowns);
-  return Relaxation(network, unknowns, loads, reference, options, observer).run();
+  expect_nothing_carried(problem.unknowns);
+  return Relaxation(problem, options, observer).run();
 }
 
 }  // namespace perilink

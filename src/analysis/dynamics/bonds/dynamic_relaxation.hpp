@@ -53,8 +53,7 @@ Inertia fictitious_inertia(const Network& network, Strain strain);
 /// fractured was damped.
 /// \returns ending = failed where a load step needs more iterations than it may have, or the motion
 /// grows without bound; interrupted where the observer asked for it
-RelaxationResult run_dynamic_relaxation(const Network& network, const Unknowns& unknowns,
-                                        const Loads& loads, const ReferenceLoad& reference,
+RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
                                         const RelaxationOptions& options,
                                         BondRunObserver& observer);
 

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "base/types.hpp"
+#include "network/loaded_network.hpp"
 #include "network/network.hpp"
-#include "network/unknowns.hpp"
 #include "solver/factor_routes.hpp"
 
 namespace perilink {
@@ -94,7 +94,7 @@ struct EngineOptions {
 
 /// One factor, one event at a time.
 /// \throws SolverError when the stiffness matrix is not positive definite
-std::unique_ptr<EventEngine> make_event_engine(const Network& network, const Unknowns& unknowns,
-                                               const Loads& loads, const EngineOptions& options);
+std::unique_ptr<EventEngine> make_event_engine(const LoadedNetwork& problem,
+                                               const EngineOptions& options);
 
 }  // namespace perilink

@@ -23,45 +23,44 @@ constexpr double cancelled_work = 1e-7;
 
 }  // namespace
 
-std::unique_ptr<EventEngine> make_event_engine(const Network& network, const Unknowns& unknowns,
-                                               const Loads& loads, const EngineOptions& options) {
-  return std::make_unique<SingleEventEngine>(network, unknowns, loads, options);
+std::unique_ptr<EventEngine> make_event_engine(const LoadedNetwork& problem,
+                                               const EngineOptions& options) {
+  return std::make_unique<SingleEventEngine>(problem, options);
 }
 
-SingleEventEngine::SingleEventEngine(const Network& network, const Unknowns& unknowns,
-                                     const Loads& loads, const EngineOptions& options)
-    : network_(network),
-      unknowns_(unknowns),
-      loads_(loads),
+SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem, const EngineOptions& options)
+    : network_(problem.network),
+      unknowns_(problem.unknowns),
+      loads_(problem.loads),
       options_(options),
       factor_(make_factor(options.route, options.threads)),
-      search_(make_break_search(network)),
-      secants_(static_cast<std::size_t>(network.num_elements()), 1.0),
+      search_(make_break_search(network_)),
+      secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
       teeth_(secants_.size(), 0),
-      slot_of_(unknowns.slots()),
-      solution_(static_cast<std::size_t>(unknowns.count), 0.0),
-      displacement_(unknowns.prescribed) {
-  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
-    const double driven = unknowns.prescribed[slot];
-    driven_spring_work_ += network.support_stiffness[slot] * driven * driven;
+      slot_of_(unknowns_.slots()),
+      solution_(static_cast<std::size_t>(unknowns_.count), 0.0),
+      displacement_(unknowns_.prescribed) {
+  for (std::size_t slot = 0; slot < network_.support_stiffness.size(); ++slot) {
+    const double driven = unknowns_.prescribed[slot];
+    driven_spring_work_ += network_.support_stiffness[slot] * driven * driven;
   }
-  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+  for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
     // A force on a prescribed displacement is a part of the reaction there, whose work counts.
-    if (unknowns.number[slot] == no_index) continue;
-    if (loads.forces[slot] != 0.0) loaded_slots_.push_back(slot);
+    if (unknowns_.number[slot] == no_index) continue;
+    if (loads_.forces[slot] != 0.0) loaded_slots_.push_back(slot);
   }
-  const int width = network.width();
+  const int width = network_.width();
   auto driven = [&](Index particle) {
-    const auto begin = unknowns.prescribed.begin() + static_cast<std::ptrdiff_t>(particle) * width;
+    const auto begin = unknowns_.prescribed.begin() + static_cast<std::ptrdiff_t>(particle) * width;
     return std::any_of(begin, begin + width, [](double value) { return value != 0.0; });
   };
-  for (Index e = 0; e < network.num_elements(); ++e) {
-    if (driven(network.bonds.first[e]) || driven(network.bonds.second[e])) {
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (driven(network_.bonds.first[e]) || driven(network_.bonds.second[e])) {
       driven_elements_.push_back(e);
     }
   }
-  for (const double stiffness : network.stiffness) stiffness_sum_ += stiffness;
-  for (const double stiffness : network.support_stiffness) stiffness_sum_ += stiffness;
+  for (const double stiffness : network_.stiffness) stiffness_sum_ += stiffness;
+  for (const double stiffness : network_.support_stiffness) stiffness_sum_ += stiffness;
   factor_->factorize(assemble_stiffness(network_, secants_, unknowns_),
                      particle_of_unknown(unknowns_));
   const std::vector<double> load = present_load();

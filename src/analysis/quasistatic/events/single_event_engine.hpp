@@ -13,8 +13,7 @@ namespace perilink {
 /// One factor, one event at a time: search all elements, downdate, move the displacement.
 class SingleEventEngine final : public EventEngine {
  public:
-  SingleEventEngine(const Network& network, const Unknowns& unknowns, const Loads& loads,
-                    const EngineOptions& options);
+  SingleEventEngine(const LoadedNetwork& problem, const EngineOptions& options);
 
   Event next_event() override;
   EventOutcome apply(const Event& event) override;

@@ -172,8 +172,7 @@ TEST(DamageAnalysis, AnObserverThatFailsLeavesWhatWasFound) {
     }
   } observer;
   const AnalysisBody body = make_driven_chains();
-  const DamageResult result =
-      run_damage_analysis(body.network, body.unknowns, body.loads, body.reference, {}, observer);
+  const DamageResult result = run_damage_analysis(body, {}, observer);
   EXPECT_EQ(result.ending, Ending::failed);
   EXPECT_EQ(result.reason, "no room");
   EXPECT_EQ(result.last.step, 2);
@@ -189,8 +188,7 @@ TEST(DamageAnalysis, StopsWithinAStep) {
     int questions = 0;
   } observer;
   const AnalysisBody body = make_driven_chains();
-  const DamageResult result = run_damage_analysis(body.network, body.unknowns, body.loads,
-                                                  body.reference, by_steps({0.09}), observer);
+  const DamageResult result = run_damage_analysis(body, by_steps({0.09}), observer);
   EXPECT_EQ(result.ending, Ending::interrupted);
   ASSERT_EQ(observer.rows.size(), 1u);
   EXPECT_EQ(observer.rows[0].broken_bonds, 1);

@@ -70,8 +70,7 @@ class BondRunTest : public testing::Test {
 
   ExplicitResult run(BondRunFiles& files) {
     ExplicitResult result =
-        run_explicit_bonds(model_.network, model_.unknowns, model_.loads, model_.reference,
-                           built_.inertia, built_.rules, built_.options, files);
+        run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, files);
     files.finish();
     return result;
   }
@@ -182,8 +181,7 @@ TEST_F(BondRunTest, FieldsNumberBreaksInTheOrderOfTime) {
   BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
   run(files);
   built_.options.rows = 1000000;  // all steps
-  run_explicit_bonds(model_.network, model_.unknowns, model_.loads, model_.reference,
-                     built_.inertia, built_.rules, built_.options, order);
+  run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, order);
   const VtuGrid last =
       read_vtu((work_ / read_pvd((work_ / "fields.pvd").string()).back().file).string());
   const std::vector<double>& broken_at = last.find_cell_data("broken_at")->values;

@@ -25,9 +25,7 @@ class RelaxationRun : public testing::Test {
   }
 
   RelaxationResult run(BondRunFiles& files) {
-    RelaxationResult result =
-        run_dynamic_relaxation(model_.network, model_.unknowns, model_.loads, model_.reference,
-                               relaxation_options(input_, 1), files);
+    RelaxationResult result = run_dynamic_relaxation(model_, relaxation_options(input_, 1), files);
     files.finish();
     return result;
   }

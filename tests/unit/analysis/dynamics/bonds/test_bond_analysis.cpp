@@ -47,8 +47,7 @@ Outcome run(const AnalysisBody& body, const ExplicitOptions& options, const Bond
       lumped_inertia(body.network, std::vector{1.0}, MassScaling::none, rules.strain);
   Outcome outcome;
   outcome.recorder.stop_after = stop_after;
-  outcome.result = run_explicit_bonds(body.network, body.unknowns, body.loads, body.reference,
-                                      inertia, rules, options, outcome.recorder);
+  outcome.result = run_explicit_bonds(body, inertia, rules, options, outcome.recorder);
   return outcome;
 }
 

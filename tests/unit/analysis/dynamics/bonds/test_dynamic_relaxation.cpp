@@ -33,8 +33,7 @@ struct Outcome {
 
 Outcome relax(const AnalysisBody& body, const RelaxationOptions& options) {
   Outcome outcome;
-  outcome.result = run_dynamic_relaxation(body.network, body.unknowns, body.loads, body.reference,
-                                          options, outcome.recorder);
+  outcome.result = run_dynamic_relaxation(body, options, outcome.recorder);
   return outcome;
 }
 
@@ -161,14 +160,10 @@ TEST(DynamicRelaxation, ObserversStopItAndTheirExceptionsPass) {
   const AnalysisBody body = make_chains(40, 2, true, 10.0, INFINITY);
   Recorder stopping;
   stopping.stops = true;
-  EXPECT_EQ(
-      run_dynamic_relaxation(body.network, body.unknowns, body.loads, body.reference, {}, stopping)
-          .ending,
-      Ending::interrupted);
+  EXPECT_EQ(run_dynamic_relaxation(body, {}, stopping).ending, Ending::interrupted);
   Recorder breaking;
   breaking.breaks = true;
-  const RelaxationResult failed =
-      run_dynamic_relaxation(body.network, body.unknowns, body.loads, body.reference, {}, breaking);
+  const RelaxationResult failed = run_dynamic_relaxation(body, {}, breaking);
   EXPECT_EQ(failed.ending, Ending::failed);
   EXPECT_EQ(failed.reason, "the disk is full");
 }

@@ -166,8 +166,7 @@ class PulledPlate : public testing::Test {
     options.ramp = options.duration / 2;
     options.rows = 20;
     options.threads = threads;
-    return run_explicit_bonds(body_.network, body_.unknowns, body_.loads, body_.reference, inertia,
-                              {}, options, recorder);
+    return run_explicit_bonds(body_, inertia, {}, options, recorder);
   }
 
   AnalysisBody body_;

@@ -13,7 +13,7 @@ std::unique_ptr<EventEngine> make_engine(const AnalysisBody& body,
                                          FactorRoute route = FactorRoute::in_place) {
   EngineOptions options;
   options.route = route;
-  return make_event_engine(body.network, body.unknowns, body.loads, options);
+  return make_event_engine(body, options);
 }
 
 constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,

@@ -49,7 +49,7 @@ TEST(FrameEvents, ABondThatAloneTurnedAParticleMayBreak) {
   const AnalysisBody body = make_joint();
   for (const FactorRoute route : routes) {
     SCOPED_TRACE(to_string(route));
-    SingleEventEngine engine(body.network, body.unknowns, body.loads, with_route(route));
+    SingleEventEngine engine(body, with_route(route));
     EXPECT_NEAR(engine.displacement()[0], 1.0 / 1.5, 1e-14);
     EXPECT_NEAR(engine.displacement()[1], -0.25, 1e-14);
     const Event event = engine.next_event();
@@ -71,7 +71,7 @@ TEST(FrameEvents, ABondThatAloneCarriesAMomentLeavesAMechanism) {
   AnalysisBody body = make_joint();
   body.loads.forces[2] = 0.01;
   for (const FactorRoute route : routes) {
-    SingleEventEngine engine(body.network, body.unknowns, body.loads, with_route(route));
+    SingleEventEngine engine(body, with_route(route));
     const std::vector<double> before(engine.displacement().begin(), engine.displacement().end());
     const EventOutcome outcome = engine.apply(engine.next_event());
     EXPECT_TRUE(outcome.mechanism);
@@ -91,7 +91,7 @@ TEST(FrameEvents, TheLastBondOfALoadedPartLeavesAMechanism) {
   number(body, [](Index i, int) { return i == 0; });
   body.reference = {false, 1.0};
   for (const FactorRoute route : routes) {
-    SingleEventEngine engine(body.network, body.unknowns, body.loads, with_route(route));
+    SingleEventEngine engine(body, with_route(route));
     const EventOutcome outcome = engine.apply(engine.next_event());
     EXPECT_TRUE(outcome.mechanism);
     EXPECT_NEAR(outcome.released, 0.5 * engine.load_work().forces, 1e-13);  // all of the energy
@@ -120,7 +120,7 @@ TEST(FrameEvents, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
   const double twice_energy = 1.0 + 3.0 * 0.16 + 3.0 * 0.04 / 12.0;
   for (const FactorRoute route : routes) {
     SCOPED_TRACE(to_string(route));
-    SingleEventEngine engine(body.network, body.unknowns, body.loads, with_route(route));
+    SingleEventEngine engine(body, with_route(route));
     EXPECT_NEAR(engine.load_work().supports, twice_energy, 1e-14);
     const Event event = engine.next_event();
     ASSERT_EQ(event.element, 0);
@@ -180,7 +180,7 @@ TEST(FrameEvents, CutHoldsAParticleAndItsRotationsWithoutDisturbingTheRest) {
     std::fill_n(loose.begin() + center * width, width, 1);
     for (const FactorRoute route : routes) {
       SCOPED_TRACE(to_string(route));
-      SingleEventEngine engine(body.network, body.unknowns, body.loads, with_route(route));
+      SingleEventEngine engine(body, with_route(route));
       EXPECT_EQ(engine.cut(bonds), width);
       EXPECT_EQ(engine.cut(bonds), 0) << "gone already";
       // Round-off of the downdates times the condition number of the block, 1e4.
@@ -203,7 +203,7 @@ TEST(FrameEvents, CutRefusesALoadedPart) {
   const Index a = body.network.bonds.first[bonds[0]], b = body.network.bonds.second[bonds[0]];
   const Index c = body.network.bonds.first[bonds[1]], d = body.network.bonds.second[bonds[1]];
   body.loads.forces[slot(body, a == c || a == d ? a : b, 2)] = 0.01 * body.reference.value;
-  SingleEventEngine engine(body.network, body.unknowns, body.loads, {});
+  SingleEventEngine engine(body, {});
   EXPECT_THROW(engine.cut(bonds), SolverError);
 }
 

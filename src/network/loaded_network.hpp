@@ -1,0 +1,28 @@
+#pragma once
+
+#include "network/network.hpp"
+#include "network/unknowns.hpp"
+
+namespace perilink {
+
+/// Loads at load factor 1.
+struct Loads {
+  std::vector<double> forces;  ///< shape (particles, width) [force], moments [force length]
+};
+
+/// Reference load or displacement that turns load factors into the two axes of the load curve, each
+/// work-conjugate to the other.
+struct ReferenceLoad {
+  bool driven = false;  ///< displacements drive the body (forces may help them)
+  double value = 0.0;   ///< load of all loaded places, or relative displacement of driven ones
+};
+
+/// What an analysis solves: a network, how its particles may move, and what loads them.
+struct LoadedNetwork {
+  Network network;
+  Unknowns unknowns;
+  Loads loads;
+  ReferenceLoad reference;
+};
+
+}  // namespace perilink
