@@ -5,12 +5,21 @@
 namespace perilink {
 namespace {
 
+/// All elements of a network, to be gone through like a list of some.
+struct AllElements {
+  Index count;
+  Index size() const { return count; }
+  Index operator[](Index k) const { return k; }
+};
+
 /// One thread: the sums then have one order, and reading the elements costs most of the time.
-template <int Dim, class Real>
-void add_elements(const Network& network, std::span<const double> secants,
+template <int Dim, class Real, class Elements>
+void add_elements(const Network& network, const Elements& elements, std::span<const double> secants,
                   std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   const Bonds& bonds = network.bonds;
-  for (Index e = 0; e < network.num_elements(); ++e) {
+  const auto count = static_cast<Index>(elements.size());
+  for (Index k = 0; k < count; ++k) {
+    const Index e = elements[k];
     const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
     const std::size_t first = static_cast<std::size_t>(bonds.first[e]) * Dim;
     const std::size_t second = static_cast<std::size_t>(bonds.second[e]) * Dim;
@@ -69,11 +78,13 @@ void add_states(const Network& network, std::span<const double> secants,
   }
 }
 
-template <int Dim, class Real>
-void add_frames(const Network& network, std::span<const double> secants,
+template <int Dim, class Real, class Elements>
+void add_frames(const Network& network, const Elements& elements, std::span<const double> secants,
                 std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   using Modes = FrameModes<Dim>;
-  for (Index e = 0; e < network.num_elements(); ++e) {
+  const auto count = static_cast<Index>(elements.size());
+  for (Index k = 0; k < count; ++k) {
+    const Index e = elements[k];
     if (secants[e] == 0.0) continue;
     const Modes modes = frame_modes<Dim>(network, e);
     const std::size_t first = static_cast<std::size_t>(network.bonds.first[e]) * Modes::width;
@@ -91,19 +102,25 @@ void add_frames(const Network& network, std::span<const double> secants,
   }
 }
 
-template <class Real>
-void add_all(const Network& network, std::span<const double> secants,
-             std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
+template <class Real, class Elements>
+void add_bonds(const Network& network, const Elements& elements, std::span<const double> secants,
+               std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   result.energy = result.support_energy = 0.0;
   result.forces.assign(displacement.size(), 0.0);
   if (network.carries_moments()) {
-    network.dim() == 2 ? add_frames<2>(network, secants, displacement, result)
-                       : add_frames<3>(network, secants, displacement, result);
+    network.dim() == 2 ? add_frames<2>(network, elements, secants, displacement, result)
+                       : add_frames<3>(network, elements, secants, displacement, result);
   } else if (network.dim() == 2) {
-    add_elements<2>(network, secants, displacement, result);
+    add_elements<2>(network, elements, secants, displacement, result);
   } else {
-    add_elements<3>(network, secants, displacement, result);
+    add_elements<3>(network, elements, secants, displacement, result);
   }
+}
+
+template <class Real>
+void add_all(const Network& network, std::span<const double> secants,
+             std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
+  add_bonds(network, AllElements{network.num_elements()}, secants, displacement, result);
   if (network.has_states()) {
     network.dim() == 2 ? add_states<2>(network, secants, displacement, result)
                        : add_states<3>(network, secants, displacement, result);
@@ -127,6 +144,12 @@ void internal_force(const Network& network, std::span<const double> secants,
                     std::span<const long double> displacement,
                     ForcesAndEnergy<long double>& result) {
   add_all(network, secants, displacement, result);
+}
+
+void internal_force(const Network& network, std::span<const double> secants,
+                    std::span<const double> displacement, std::span<const Index> elements,
+                    InternalForce& result) {
+  add_bonds(network, elements, secants, displacement, result);
 }
 
 InternalForce internal_force(const Network& network, std::span<const double> secants,

@@ -25,6 +25,11 @@ InternalForce internal_force(const Network& network, std::span<const double> sec
 void internal_force(const Network& network, std::span<const double> secants,
                     std::span<const double> displacement, InternalForce& result);
 
+/// The same of some of the elements, without supports and states.
+void internal_force(const Network& network, std::span<const double> secants,
+                    std::span<const double> displacement, std::span<const Index> elements,
+                    InternalForce& result);
+
 /// In extended precision, for bodies that move so far that double precision takes away the
 /// digits of their strains. Three times the time.
 void internal_force(const Network& network, std::span<const double> secants,

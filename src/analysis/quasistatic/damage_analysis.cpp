@@ -74,7 +74,10 @@ class Run {
   DamageResult by_steps();
   void record(double load_factor, const LoadWork& work, Index element);
   void note_peaks();
-  void check();
+  void take_note_of(const Balance& balance);
+  void check() { take_note_of(engine_->check_equilibrium()); }
+  void look_after(const EventOutcome& outcome);
+  void follow_motion();
   bool residual_may_be_large() const;
   int check_interval() const;
   bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }
@@ -107,13 +110,34 @@ class Run {
   DamageResult result_;
 };
 
-/// Measures the residual and, element by element, the stored energy of the present equilibrium.
-void Run::check() {
-  const Equilibrium equilibrium = engine_->check_equilibrium();
-  row_.residual = equilibrium.residual;
-  stored_by_elements_ = equilibrium.stored_energy;
-  result_.largest_residual = std::max(result_.largest_residual, equilibrium.residual);
-  checked_compliance_ = compliance_;
+/// The residual and, where it was summed over the elements, the stored energy of the present
+/// equilibrium.
+void Run::take_note_of(const Balance& balance) {
+  row_.residual = balance.residual;
+  stored_by_elements_ = balance.stored_energy;
+  result_.largest_residual = std::max(result_.largest_residual, balance.residual);
+  if (!std::isnan(balance.stored_energy)) checked_compliance_ = compliance_;
+}
+
+/// The whole equilibrium is measured where it may have suffered; from time to time a glance is
+/// enough.
+void Run::look_after(const EventOutcome& outcome) {
+  if (outcome.pivot < 1e-3 || residual_may_be_large()) {
+    check();
+  } else if (events_ % check_interval() == 0) {
+    take_note_of(engine_->glance_at_equilibrium());
+  }
+}
+
+/// Particles that an element carried may have become free.
+void Run::follow_motion() {
+  if (!options_.new_motion) return;
+  const Unknowns* unknowns = options_.new_motion(state_);
+  if (unknowns == nullptr) return;
+  const double growth = engine_->change_motion(*unknowns);
+  energy_.add_freedom(growth);
+  compliance_ += growth;
+  check();
 }
 
 /// What round-off leaves grows in proportion to the displacements, which forces make without bound
@@ -154,8 +178,8 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
                             : load_factor * load_factor * stored_by_elements_;
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
   if (row_.external_work != 0.0) {
-    const double error = std::abs(row_.external_work - stored - row_.dissipated_energy) /
-                         std::abs(row_.external_work);
+    const double kept = stored + row_.dissipated_energy + energy_.freed();
+    const double error = std::abs(row_.external_work - kept) / std::abs(row_.external_work);
     result_.energy_error = std::max(result_.energy_error, error);
     if (!(error <= lost_balance)) {
       row_ = last;
@@ -196,7 +220,8 @@ bool Run::pass(const Event& event) {
   energy_.add_event(outcome);
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // the old value no longer holds
   compliance_ += outcome.compliance_growth;
-  if (++events_ % check_interval() == 0 || outcome.pivot < 1e-3 || residual_may_be_large()) check();
+  ++events_;
+  look_after(outcome);
   if (network_.law(event.element).endless() && outcome.secant < exhausted_secant) {
     end(Ending::collapsed,
         fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
@@ -245,6 +270,7 @@ DamageResult Run::by_events() {
     }
     record(event.load_factor, work, event.element);
     if (stop_rule_met() || !pass(event)) break;
+    follow_motion();
   }
   return finish();
 }
@@ -285,6 +311,7 @@ DamageResult Run::by_steps() {
     }
     record(load_factor, engine_->load_work(), last);
     if (stop_rule_met()) return finish();
+    follow_motion();
   }
   end(Ending::completed, "all load steps are done");
   return finish();
@@ -295,6 +322,7 @@ DamageResult Run::finish() {
   result_.last = row_;
   result_.broken_bonds += broken_bonds_;
   result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
+  result_.freed_energy = energy_.freed();
   result_.factor = engine_->factor_statistics();
   return result_;
 }

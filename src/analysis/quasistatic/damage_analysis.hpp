@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,9 @@ struct DamageOptions {
   std::vector<double> load_factors;  ///< control by steps when not empty, else by events
   StopRules stop;
   int check_interval = 50;  ///< events between looks at the residual
+  /// Asked after each row: unknowns that move the particles from now on, which must outlive the
+  /// run; null: those of before. Empty: they never change.
+  std::function<const Unknowns*(StateSource&)> new_motion;
 };
 
 /// Force on the body at a loaded or driven place.
@@ -48,7 +52,8 @@ struct DamageResult {
   std::optional<double> smoothed_peak_load;  ///< where the path of events is long enough
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;
-  /// Largest |work - stored - dissipated| / work of all rows, the stored energy summed over the
+  double freed_energy = 0.0;  ///< PathEnergy::freed() [force length]
+  /// Largest |work - stored - dissipated - freed| / work of all rows, the stored energy summed over the
   /// elements wherever the residual was measured.
   double energy_error = 0.0;
   FactorStatistics factor;

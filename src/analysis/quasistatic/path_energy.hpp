@@ -1,13 +1,16 @@
 #pragma once
 
-#include "analysis/quasistatic/events/event_engine.hpp"
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 
 namespace perilink {
 
 /// Energies along the path drawn by straight lines through the rows of a history. Between two rows
 /// with load factors lambda_k and lambda_(k+1) the loads do the work of trapezoids; the event
 /// between them dissipates lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2, C the compliance f'u - R'd at
-/// load factor 1, and work = stored + dissipated holds exactly.
+/// load factor 1, and work = stored + dissipated holds exactly. Where particles become freer without
+/// an event, by unknowns of their own, C grows too; what that takes from the stored energy is no
+/// dissipation but an error of the unknowns before, and kept apart: work = stored + dissipated +
+/// freed.
 class PathEnergy {
  public:
   /// Moves along the path to the next row.
@@ -17,7 +20,8 @@ class PathEnergy {
                  0.5 * (load_factor_ * work_.supports + load_factor * work.supports) *
                      (load_factor - load_factor_);
     dissipated_ += 0.5 * load_factor_ * load_factor * growth_;
-    growth_ = 0.0;
+    freed_ += 0.5 * load_factor_ * load_factor * freedom_;
+    growth_ = freedom_ = 0.0;
     load_factor_ = load_factor;
     work_ = work;
   }
@@ -28,9 +32,13 @@ class PathEnergy {
     released_ += load_factor_ * load_factor_ * outcome.released;
   }
 
+  /// The compliance grew at the present row as particles became freer.
+  void add_freedom(double compliance_growth) { freedom_ += compliance_growth; }
+
   double external_work() const { return external_; }
   double dissipated() const { return dissipated_; }
   double released() const { return released_; }
+  double freed() const { return freed_; }
   double stored() const {
     return 0.5 * load_factor_ * load_factor_ * (work_.forces + work_.supports);
   }
@@ -38,9 +46,10 @@ class PathEnergy {
  private:
   double load_factor_ = 0.0;
   LoadWork work_;
-  double growth_ = 0.0;
+  double growth_ = 0.0, freedom_ = 0.0;  ///< since the present row
   double external_ = 0.0;
   double dissipated_ = 0.0;
+  double freed_ = 0.0;
   double released_ = 0.0;
 };
 

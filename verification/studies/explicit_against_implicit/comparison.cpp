@@ -47,7 +47,9 @@ Specimen read_specimen(const std::string& name, const std::string& path) {
 Outcome run_implicit(const Specimen& specimen) {
   ImplicitRecorder recorder;
   const Timer timer;
-  const DamageResult result = run_damage_analysis(specimen, specimen.options, recorder);
+  const DamageResult result =
+      run_damage_analysis({specimen.network, specimen.unknowns, specimen.loads, specimen.reference},
+                          specimen.options, recorder);
   Outcome outcome;
   outcome.seconds = timer.seconds();
   outcome.peak_load = std::abs(recorder.peak.load);

@@ -45,7 +45,7 @@ AnalysisBody make_joint() {
 /// Only the bond turned the particle; without it the rotation is idle, not a mechanism. By hand,
 /// with theta = kb u / 2 / (kb / 3) from moment balance, the frame gives kb / 4 = 1/2 across: u = 1
 /// / (1 + 1/2), v = -1 / (1 + 3); without it u = 1, v = -1/3.
-TEST(FrameEvents, ABondThatAloneTurnedAParticleMayBreak) {
+TEST(Weakening, ABondThatAloneTurnedAParticleMayBreak) {
   const AnalysisBody body = make_joint();
   for (const FactorRoute route : routes) {
     SCOPED_TRACE(to_string(route));
@@ -67,7 +67,7 @@ TEST(FrameEvents, ABondThatAloneTurnedAParticleMayBreak) {
 }
 
 /// The same joint with a moment on it: the rotation carries load.
-TEST(FrameEvents, ABondThatAloneCarriesAMomentLeavesAMechanism) {
+TEST(Weakening, ABondThatAloneCarriesAMomentLeavesAMechanism) {
   AnalysisBody body = make_joint();
   body.loads.forces[2] = 0.01;
   for (const FactorRoute route : routes) {
@@ -84,7 +84,7 @@ TEST(FrameEvents, ABondThatAloneCarriesAMomentLeavesAMechanism) {
 }
 
 /// A chain of two: what hangs on the broken bond carries the load.
-TEST(FrameEvents, TheLastBondOfALoadedPartLeavesAMechanism) {
+TEST(Weakening, TheLastBondOfALoadedPartLeavesAMechanism) {
   Network network = single_frame(3, {1.0, 2.0, 2.0}, 1.0, 2.0);
   AnalysisBody body = free_body(std::move(network));
   body.loads.forces[6] = 1.0;
@@ -101,7 +101,7 @@ TEST(FrameEvents, TheLastBondOfALoadedPartLeavesAMechanism) {
 /// Two prescribed particles stretch (1), shear (0.5 - 0.2 / 2 = 0.4) and bend (0.2) the bond
 /// between them: nothing unknown is held by it, and all that it takes along is its share of the
 /// reactions.
-TEST(FrameEvents, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
+TEST(Weakening, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
   Network network = single_frame(2, {1.0, 0.0}, 1.0, 3.0);
   network.particles.positions.insert(network.particles.positions.end(), {0.0, 1.0});
   network.particles.volumes.push_back(1.0);
@@ -163,7 +163,7 @@ std::vector<Index> bonds_of_middle(const Network& network) {
 }
 
 /// A particle that rotates has three rigid-body modes in the plane and six in space.
-TEST(FrameEvents, CutHoldsAParticleAndItsRotationsWithoutDisturbingTheRest) {
+TEST(Weakening, CutHoldsAParticleAndItsRotationsWithoutDisturbingTheRest) {
   for (const Pattern pattern : {Pattern::hexagonal, Pattern::cubic}) {
     const bool plane = is_plane(pattern);
     const AnalysisBody body =
@@ -196,7 +196,7 @@ TEST(FrameEvents, CutHoldsAParticleAndItsRotationsWithoutDisturbingTheRest) {
   }
 }
 
-TEST(FrameEvents, CutRefusesALoadedPart) {
+TEST(Weakening, CutRefusesALoadedPart) {
   AnalysisBody body =
       make_block({{"", Pattern::hexagonal, Surface::none}, false, false, 8, 0.1, true});
   const std::vector<Index> bonds = bonds_of_middle(body.network);

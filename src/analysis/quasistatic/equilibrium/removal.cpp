@@ -1,4 +1,4 @@
-#include "analysis/quasistatic/events/removal.hpp"
+#include "analysis/quasistatic/equilibrium/removal.hpp"
 
 #include <algorithm>
 
@@ -23,6 +23,7 @@ Removal make_removal(const Network& network, const Unknowns& unknowns, Index ele
   const ElementVectors parts = element_vectors(network, unknowns, element, fraction);
   Removal removal;
   removal.rank = parts.count;
+  removal.fraction = fraction;
   removal.x = parts.x;
   removal.prescribed = parts.prescribed;
   return removal;

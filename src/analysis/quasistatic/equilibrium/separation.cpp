@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "analysis/quasistatic/events/single_event_engine.hpp"
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "base/error.hpp"
 #include "solver/not_positive_definite.hpp"
 
@@ -25,10 +25,6 @@ constexpr double fine_enough = 1e-20;
 /// From a factor that has any digits left, each pass gains some; the last ones only measure.
 constexpr int most_passes = 8;
 
-/// So many events the work of a driven body follows the growth of its compliance before it is
-/// summed over the elements again.
-constexpr int most_events_to_follow = 16;
-
 /// Where nothing but elastic supports holds a part, and the body is less stiff than this share of
 /// what it was before the break, the part counts as loose.
 constexpr double least_support = 1e-3;
@@ -45,8 +41,7 @@ constexpr const char* out_of_digits =
 /// Adds to `motion` what is missing to K motion = load, K times the motion summed element by
 /// element in extended precision, and leaves its forces and energy in `fine_`.
 /// \param load  per unknown
-SingleEventEngine::Refined SingleEventEngine::refine_finely(std::span<const double> load,
-                                                            FineMotion& motion) {
+Equilibrium::Refined Equilibrium::refine_finely(std::span<const double> load, FineMotion& motion) {
   std::vector<double> residual(solution_.size());
   Refined result;
   auto measure = [&] {
@@ -54,7 +49,7 @@ SingleEventEngine::Refined SingleEventEngine::refine_finely(std::span<const doub
     long double square = 0.0, ground = 0.0;
     std::vector<long double> internal(residual.size(), 0.0L);
     for (std::size_t slot = 0; slot < fine_.forces.size(); ++slot) {
-      unknowns_.for_each(
+      unknowns_->for_each(
           slot, [&](Index k, double weight) { internal[k] += weight * fine_.forces[slot]; });
     }
     for (std::size_t k = 0; k < residual.size(); ++k) {
@@ -80,7 +75,7 @@ SingleEventEngine::Refined SingleEventEngine::refine_finely(std::span<const doub
     if (!gains || !std::isfinite(result.error)) break;
     for (std::size_t k = 0; k < correction.size(); ++k) motion.unknowns[k] += correction[k];
     for (std::size_t slot = 0; slot < motion.particles.size(); ++slot) {
-      unknowns_.for_each(slot, [&](Index k, double weight) {
+      unknowns_->for_each(slot, [&](Index k, double weight) {
         motion.particles[slot] += static_cast<long double>(weight) * correction[k];
       });
     }
@@ -96,7 +91,7 @@ SingleEventEngine::Refined SingleEventEngine::refine_finely(std::span<const doub
 }
 
 /// The v with K v = x, and what is in doubt of its energy v'K v = x'v <= 1.
-auto SingleEventEngine::motion_of(const SparseVector& x) -> std::pair<FineMotion, double> {
+auto Equilibrium::motion_of(const SparseVector& x) -> std::pair<FineMotion, double> {
   std::vector<double> load(solution_.size(), 0.0);
   for (int k = 0; k < x.size(); ++k) load[x.rows[k]] = x.values[k];
   FineMotion motion{std::vector<long double>(solution_.size(), 0.0L),
@@ -118,7 +113,7 @@ auto SingleEventEngine::motion_of(const SparseVector& x) -> std::pair<FineMotion
 /// too much by no more than the energy of its error.
 /// \param kept  secant that stays
 /// \return 0 where it cannot be told from zero
-double SingleEventEngine::pivot_by_energy(const SparseVector& x, Index element, double kept) {
+double Equilibrium::pivot_by_energy(const SparseVector& x, Index element, double kept) {
   const auto [motion, error] = motion_of(x);
   const double before = secants_[element];
   secants_[element] = kept;
@@ -136,28 +131,9 @@ double SingleEventEngine::pivot_by_energy(const SparseVector& x, Index element, 
   return energy / (energy + static_cast<double>(extension * extension));
 }
 
-/// Pivot of a removal, prepared in the factor; where it is small, from energies, with a factor that
-/// can be trusted or, after `must_rebuild_`, is to be made anew. 0: nothing holds the ends.
-double SingleEventEngine::pivot_of(const Change& change, Index element, double kept) {
-  must_rebuild_ = supports_alone_ = false;
-  if (change.x.size() == 0) return 1.0;
-  double prepared = factor_->prepare_downdate(change.x);
-  if (prepared > doubtful_pivot && !look_closer_) return prepared;
-  double pivot = pivot_by_energy(change.x, element, kept);
-  look_closer_ = std::abs(prepared - pivot) > noisy_pivot;
-  if (pivot > doubtful_pivot) return pivot;
-  if (pivot == 0.0 || std::abs(prepared - pivot) < same_pivot * pivot) return pivot;
-  factorize();
-  pivot = pivot_by_energy(change.x, element, kept);
-  if (pivot == 0.0) return pivot;
-  prepared = factor_->prepare_downdate(change.x);
-  must_rebuild_ = !(std::abs(prepared - pivot) < usable_pivot * pivot);
-  return pivot;
-}
-
 /// Whether what still holds a loose part are elastic supports that are next to nothing beside what
 /// held it before.
-bool SingleEventEngine::hangs_on_weak_supports(double compliance_growth) const {
+bool Equilibrium::hangs_on_weak_supports(double compliance_growth) const {
   if (!supports_alone_ || !driven_elements_.empty()) return false;
   const double before = partial_ ? force_work_ : work_of_forces();
   return before < least_support * (before + compliance_growth);
@@ -165,7 +141,7 @@ bool SingleEventEngine::hangs_on_weak_supports(double compliance_growth) const {
 
 /// Equilibrium without the element, or with less of it, from a new factor. \return false when there
 /// is none, since the matrix is not positive definite: then all is as it was
-bool SingleEventEngine::rebuild_without(Index element, double kept) {
+bool Equilibrium::rebuild_without(Index element, double kept) {
   const double before = secants_[element];
   secants_[element] = kept;
   try {
@@ -181,10 +157,10 @@ bool SingleEventEngine::rebuild_without(Index element, double kept) {
 
 /// Refines the displacements in extended precision; they are kept rounded. Where that is needed the
 /// factor's pivots may be noise too.
-Equilibrium SingleEventEngine::polish() {
+Balance Equilibrium::polish() {
   look_closer_ = true;
   if (stale_) refresh();
-  std::vector<double> load = unknowns_.restrict(loads_.forces);
+  std::vector<double> load = unknowns_->restrict(loads_.forces);
   for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
   FineMotion motion{{solution_.begin(), solution_.end()},
                     {displacement_.begin(), displacement_.end()}};
@@ -203,7 +179,7 @@ Equilibrium SingleEventEngine::polish() {
   scatter_solution();
   force_work_ = work_of_forces();
   factor_error_ = refined.factor_error;
-  Equilibrium result;
+  Balance result;
   result.residual = std::max(refined.residual / load_norm_, round_off);
   result.stored_energy = static_cast<double>(fine_.energy);
   resists_ = 2.0 * result.stored_energy > clearly_there * refined.error;
@@ -212,20 +188,14 @@ Equilibrium SingleEventEngine::polish() {
 }
 
 /// The work of a driven body whose reactions all but cancel: from the energy of its elements, which
-/// is a sum of squares, and between two looks from the growth of the compliance.
-LoadWork SingleEventEngine::work_by_energy() {
+/// is a sum of squares.
+LoadWork Equilibrium::work_by_energy() {
+  const double before = last_work_;
+  const double work = 2.0 * polish().stored_energy;
+  if (!resists_) return {0.0, 0.0, true};
+  const bool loose = supports_alone_ && before > 0.0 && work < least_support * before;
   const double forces = work_of_forces();
-  if (events_to_follow_ <= 0 || 2.0 * forces - followed_compliance_ < 0.5 * followed_from_) {
-    const double before = last_work_;
-    const double work = 2.0 * polish().stored_energy;
-    const bool loose = supports_alone_ && before > 0.0 && work < least_support * before;
-    if (!resists_) return {0.0, 0.0, true};
-    followed_from_ = work;
-    followed_compliance_ = 2.0 * work_of_forces() - work;
-    events_to_follow_ = most_events_to_follow;
-    return {work_of_forces(), work - work_of_forces(), loose};
-  }
-  return {forces, forces - followed_compliance_};
+  return {forces, work - forces, loose};
 }
 
 }  // namespace perilink

@@ -1,4 +1,4 @@
-// src/analysis/quasistatic/events/separation.cpp: what holds the ends of an element once
+// src/analysis/quasistatic/equilibrium/separation.cpp: what holds the ends of an element once
 // it is gone.
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_up
 SingleEventEngine make_engine(const AnalysisBody& body, FactorRoute route) {
   EngineOptions options;
   options.route = route;
-  return {body.network, body.unknowns, body.loads, options};
+  return {body, options};
 }
 
 /// Particle 0 at the origin, pulled by 1 along x and held by a bond of stiffness 1 that can break
@@ -60,8 +60,8 @@ TEST(Separation, WhatIsWeakStillHolds) {
         ASSERT_FALSE(outcome.mechanism);
         EXPECT_NEAR(outcome.pivot, rest / (1.0 + rest), 1e-14 * rest);
         // The analysis looks at the equilibrium after every pivot this small.
-        const Equilibrium equilibrium = engine.check_equilibrium();
-        EXPECT_NEAR(equilibrium.stored_energy, 0.5 / rest, 1e-9 / rest);  // the tolerance is 1e-10
+        const Balance balance = engine.check_equilibrium();
+        EXPECT_NEAR(balance.stored_energy, 0.5 / rest, 1e-9 / rest);  // the tolerance is 1e-10
         EXPECT_NEAR(engine.displacement()[0], 1.0 / rest, 1e-9 / rest);
         EXPECT_NEAR(engine.load_work().forces, 1.0 / rest, 1e-9 / rest);
         EXPECT_NEAR(outcome.compliance_growth, 1.0 / rest - 1.0 / (1.0 + rest), 1e-9 / rest);
@@ -120,9 +120,9 @@ TEST(Separation, RefinedDisplacementsOfSlenderBodiesBalance) {
   const AnalysisBody body = make_slender({600, 2, SlenderLoad::force_across});
   SingleEventEngine engine = make_engine(body, FactorRoute::in_place);
   // Double precision alone leaves 1e-16 times stiffness times deflection: 1e-6 of the load.
-  const Equilibrium equilibrium = engine.check_equilibrium();
-  EXPECT_LT(equilibrium.residual, 1e-10);
-  EXPECT_NEAR(2.0 * equilibrium.stored_energy, engine.load_work().forces,
+  const Balance balance = engine.check_equilibrium();
+  EXPECT_LT(balance.residual, 1e-10);
+  EXPECT_NEAR(2.0 * balance.stored_energy, engine.load_work().forces,
               1e-10 * engine.load_work().forces);
 }
 

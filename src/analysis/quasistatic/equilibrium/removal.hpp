@@ -8,10 +8,12 @@
 
 namespace perilink {
 
-/// What a micropolar bond takes with it when it breaks: K falls by the sum of x x' over its modes.
+/// What an element takes with it when it breaks or weakens: K falls by the sum of x x' over its
+/// modes, one of a bar and three or six of a micropolar bond.
 struct Removal {
   static constexpr int capacity = ElementVectors::capacity;
   int rank = 0;
+  double fraction = 0.0;  ///< part of the intact stiffness that goes
   std::array<SparseVector, capacity> x;
   std::array<double, capacity> prescribed{};  ///< what prescribed motions add to x'u
   std::array<double, capacity> pivot{};       ///< 1 - x' K^-1 x, ascending; set by decouple()

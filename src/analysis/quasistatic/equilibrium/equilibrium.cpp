@@ -1,0 +1,316 @@
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/stiffness.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+namespace {
+
+/// Where even a fresh factor leaves more than this of the load out of balance, no figure that
+/// follows would mean anything.
+constexpr double hopeless_residual = 1e-3;
+
+/// A driven body whose work is less than this share of the sum of the sizes of its terms has lost
+/// seven of sixteen digits in that sum.
+constexpr double cancelled_work = 1e-7;
+
+/// So many events the work of a driven body follows the growth of its compliance before it is
+/// summed over the elements again.
+constexpr int most_events_to_follow = 16;
+
+double norm(const std::vector<double>& values) {
+  double square = 0.0;
+  for (const double value : values) square += value * value;
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options)
+    : network_(problem.network),
+      unknowns_(&problem.unknowns),
+      loads_(problem.loads),
+      options_(options),
+      factor_(make_factor(options.route, options.threads)),
+      secants_(static_cast<std::size_t>(network_.num_elements()), 1.0) {
+  for (const double stiffness : network_.stiffness) stiffness_sum_ += stiffness;
+  for (const double stiffness : network_.support_stiffness) stiffness_sum_ += stiffness;
+  find_driven_elements();
+  adopt_motion();
+}
+
+void Equilibrium::find_driven_elements() {
+  const std::vector<double>& prescribed = unknowns_->prescribed;
+  for (std::size_t slot = 0; slot < network_.support_stiffness.size(); ++slot) {
+    driven_spring_work_ += network_.support_stiffness[slot] * prescribed[slot] * prescribed[slot];
+  }
+  const int width = network_.width();
+  auto driven = [&](Index particle) {
+    const auto begin = prescribed.begin() + static_cast<std::ptrdiff_t>(particle) * width;
+    return std::any_of(begin, begin + width, [](double value) { return value != 0.0; });
+  };
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (driven(network_.bonds.first[e]) || driven(network_.bonds.second[e])) {
+      driven_elements_.push_back(e);
+    }
+  }
+}
+
+/// Equilibrium under the unknowns as they are, from a new factor.
+void Equilibrium::adopt_motion() {
+  slot_of_ = unknowns_->slots();
+  solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
+  displacement_ = unknowns_->prescribed;
+  loaded_slots_.clear();
+  for (std::size_t slot = 0; slot < unknowns_->number.size(); ++slot) {
+    // A force on a prescribed displacement is a part of the reaction there, whose work counts.
+    if (unknowns_->number[slot] == no_index) continue;
+    if (loads_.forces[slot] != 0.0) loaded_slots_.push_back(slot);
+  }
+  factor_->factorize(assemble_stiffness(network_, secants_, *unknowns_),
+                     particle_of_unknown(*unknowns_));
+  load_norm_ = norm(present_load());
+  residual_floor_ = factor_floor_ = 0.0;
+  choose_current_unknowns();
+  refresh();
+  std::vector<double> residual;
+  measure_residual(residual);
+  refine(residual);
+}
+
+double Equilibrium::change_motion(const Unknowns& unknowns) {
+  if (!ground_stiffness_.empty()) {
+    throw SolverError("the unknowns cannot change while ground springs hold a loose part");
+  }
+  events_to_follow_ = 0;
+  const double before = work().compliance();
+  unknowns_ = &unknowns;
+  adopt_motion();
+  events_to_follow_ = 0;
+  return work().compliance() - before;
+}
+
+/// Under forces alone an event needs the displacements of elements that can fail, and no others:
+/// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
+/// events by its growth. Driven bodies need the reactions and keep all.
+void Equilibrium::choose_current_unknowns() {
+  partial_ = false;
+  if (!driven_elements_.empty()) return;
+  const Bonds& bonds = network_.bonds;
+  std::vector<std::uint8_t> current(static_cast<std::size_t>(network_.particles.size()), 0);
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (network_.has_limit(e)) current[bonds.first[e]] = current[bonds.second[e]] = 1;
+  }
+  std::vector<std::uint8_t> wanted(solution_.size(), 0);
+  const auto width = static_cast<std::size_t>(network_.width());
+  for (std::size_t slot = 0; slot < displacement_.size(); ++slot) {
+    if (current[slot / width] == 0) continue;
+    unknowns_->for_each(slot, [&](Index unknown, double) { wanted[unknown] = 1; });
+  }
+  partial_ = std::any_of(wanted.begin(), wanted.end(), [](std::uint8_t flag) { return flag == 0; });
+  if (!partial_) return;
+  factor_->keep_current(wanted);
+  choose_glanced(current);
+}
+
+/// \param current  per particle: its displacements are kept current
+void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
+  const Bonds& bonds = network_.bonds;
+  glanced_elements_.clear();
+  glanced_.assign(solution_.size(), 0);
+  if (unknowns_->carries() || network_.has_states()) return;  // rows reach further than a bond
+  std::vector<std::uint8_t> inside = current;
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (current[bonds.first[e]] == 0) inside[bonds.second[e]] = 0;
+    if (current[bonds.second[e]] == 0) inside[bonds.first[e]] = 0;
+  }
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (inside[bonds.first[e]] + inside[bonds.second[e]] > 0) glanced_elements_.push_back(e);
+  }
+  for (std::size_t k = 0; k < slot_of_.size(); ++k) {
+    glanced_[k] = inside[slot_of_[k] / static_cast<std::size_t>(network_.width())];
+  }
+}
+
+std::vector<double> Equilibrium::present_load() const {
+  std::vector<double> load = assemble_right_hand_side(network_, secants_, *unknowns_, loads_);
+  for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
+  return load;
+}
+
+/// Solves for all displacements with the factor as it stands.
+void Equilibrium::refresh() {
+  factor_->follow_load(present_load(), solution_);
+  scatter_solution();
+  stale_ = false;
+  force_work_ = work_of_forces();
+}
+
+double Equilibrium::work_of_forces() const {
+  double work = 0.0;
+  for (const std::size_t slot : loaded_slots_) work += loads_.forces[slot] * displacement_[slot];
+  return work;
+}
+
+/// One step of iterative refinement; `residual` is used up.
+void Equilibrium::refine(std::vector<double>& residual) {
+  factor_->solve(residual, residual);
+  for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
+  scatter_solution();
+  force_work_ = work_of_forces();
+}
+
+/// Observers must not change the run: stale displacements are solved for aside.
+std::span<const double> Equilibrium::displacement() {
+  if (!stale_) return displacement_;
+  std::vector<double> all = present_load();
+  factor_->solve(all, all);
+  observed_ = unknowns_->expand(all);
+  return observed_;
+}
+
+void Equilibrium::scatter_solution() {
+  if (unknowns_->carries()) {
+    displacement_ = unknowns_->expand(solution_);
+    return;
+  }
+  for (std::size_t k = 0; k < slot_of_.size(); ++k) displacement_[slot_of_[k]] = solution_[k];
+}
+
+/// Extensions at driven particles summed over all elements there, unless the growth of the
+/// compliance tells the same.
+LoadWork Equilibrium::work() {
+  if (partial_) return {force_work_, 0.0};
+  const double forces = work_of_forces();
+  if (driven_elements_.empty()) return {forces, 0.0};
+  LoadWork work{forces, forces - followed_compliance_};
+  const double whole = work.forces + work.supports;
+  if (events_to_follow_ <= 0 || whole < 0.5 * followed_from_) {
+    work = sum_work();
+    followed_from_ = work.forces + work.supports;
+    followed_compliance_ = work.compliance();
+    events_to_follow_ = most_events_to_follow;
+  }
+  last_work_ = work.forces + work.supports;
+  return work;
+}
+
+LoadWork Equilibrium::sum_work() {
+  LoadWork work{work_of_forces(), driven_spring_work_};
+  double sizes = driven_spring_work_;
+  for (const Index e : driven_elements_) {
+    if (secants_[e] == 0.0) continue;
+    const auto [share, size] = driven_work_of(e);
+    work.supports += share;
+    sizes += size;
+  }
+  return work.forces + work.supports > cancelled_work * sizes ? work : work_by_energy();
+}
+
+/// Work at load factor 1 of the forces of an element on what it does at driven particles, and the
+/// same sum over the sizes of its terms.
+std::pair<double, double> Equilibrium::driven_work_of(Index element) const {
+  const Removal modes = make_removal(network_, *unknowns_, element, secants_[element]);
+  const Deformations deformation = deformations(modes, element);
+  double work = 0.0, sizes = 0.0;
+  for (int m = 0; m < modes.rank; ++m) {
+    work += deformation[m] * modes.prescribed[m];
+    double size = std::abs(modes.prescribed[m]);
+    const SparseVector& x = modes.x[m];
+    for (int k = 0; k < x.size(); ++k) size += std::abs(x.values[k] * solution_[x.rows[k]]);
+    sizes += size * std::abs(modes.prescribed[m]);
+  }
+  return {work, sizes};
+}
+
+double Equilibrium::measure_residual(std::vector<double>& residual) {
+  internal_force(network_, secants_, displacement_, internal_);
+  for (std::size_t slot = 0; slot < internal_.forces.size(); ++slot) {
+    internal_.forces[slot] = loads_.forces[slot] - internal_.forces[slot];
+  }
+  residual = unknowns_->restrict(internal_.forces);
+  double square = 0.0;
+  for (std::size_t k = 0; k < residual.size(); ++k) {
+    if (!ground_stiffness_.empty()) {
+      residual[k] += ground_load_[k] - ground_stiffness_[k] * solution_[k];
+    }
+    square += residual[k] * residual[k];
+  }
+  return std::sqrt(square) / load_norm_;
+}
+
+double Equilibrium::residual_of_current() {
+  internal_force(network_, secants_, displacement_, glanced_elements_, internal_);
+  double square = 0.0;
+  for (std::size_t k = 0; k < solution_.size(); ++k) {
+    if (glanced_[k] == 0) continue;
+    const std::size_t slot = slot_of_[k];
+    const double missing = loads_.forces[slot] - internal_.forces[slot];
+    square += missing * missing;
+  }
+  return std::sqrt(square) / load_norm_;
+}
+
+Balance Equilibrium::glance() {
+  if (!stale_ || glanced_elements_.empty()) return check();
+  const double residual = residual_of_current();
+  if (residual <= std::max(options_.residual_tolerance, residual_floor_)) {
+    return {residual, std::numeric_limits<double>::quiet_NaN()};
+  }
+  return check();
+}
+
+Balance Equilibrium::check() {
+  if (stale_) refresh();
+  std::vector<double> residual;
+  const double size = measure_residual(residual);
+  // Written so that a residual that is not a number is not within any tolerance.
+  if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
+  if (size <= std::max(options_.residual_tolerance, residual_floor_)) {
+    return {size, internal_.energy};
+  }
+  events_to_follow_ = 0;
+  return restore();
+}
+
+/// Refines the displacement, with a fresh factor where the present one is not enough.
+Balance Equilibrium::restore() {
+  const double tolerance = std::max(options_.residual_tolerance, residual_floor_);
+  Balance balance = polish();
+  // Refined displacements do not help the next event, which the factor alone makes.
+  const double usable = std::max(options_.residual_tolerance, factor_floor_);
+  if (!(balance.residual <= tolerance) || !(factor_error_ <= usable)) {
+    factorize();
+    balance = polish();
+    // A body on the verge of separation moves so far that even a fresh factor leaves more than the
+    // tolerance; factorising again for less than twice that would be work for nothing.
+    residual_floor_ = 2.0 * balance.residual;
+    factor_floor_ = 2.0 * factor_error_;
+    if (!(balance.residual <= hopeless_residual)) {
+      throw SolverError(fmt::format(
+          "a fresh factor leaves {:.1e} of the load out of balance: the body is on the verge of "
+          "separation and its stiffness matrix is singular to working precision",
+          balance.residual));
+    }
+  }
+  if (balance.residual <= options_.residual_tolerance) residual_floor_ = 0.0;
+  return balance;
+}
+
+void Equilibrium::factorize() {
+  auto stiffness = assemble_stiffness(network_, secants_, *unknowns_);
+  for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
+    const Index unknown = static_cast<Index>(k);
+    stiffness.coeffRef(unknown, unknown) += ground_stiffness_[k];
+  }
+  factor_->refactorize(stiffness);
+  refresh();
+}
+
+}  // namespace perilink

@@ -1,0 +1,198 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "analysis/quasistatic/equilibrium/removal.hpp"
+#include "assembly/internal_force.hpp"
+#include "network/loaded_network.hpp"
+#include "solver/factor_routes.hpp"
+
+namespace perilink {
+
+/// What became of an element that lost stiffness.
+struct EventOutcome {
+  bool mechanism = false;  ///< the element held the last load path, weak elastic supports not
+                           ///< counted: nothing was changed
+  double secant = 0.0;     ///< with it the element goes on, over its intact stiffness; 0: it broke
+  bool broke() const { return secant == 0.0; }
+  /// 1 - x' K^-1 x, of a micropolar bond the smallest of its modes; 0: cannot be told from zero
+  double pivot = 1.0;
+  /// Growth of f'u - R'd at load factor 1: k e^2 / pivot [force length]. The event dissipates
+  /// lambda_k lambda_(k+1) / 2 times this along the path drawn through the events.
+  double compliance_growth = 0.0;
+  double released = 0.0;  ///< energy that left the element, at load factor 1 [force length]
+};
+
+/// Work products at load factor 1 [force length].
+struct LoadWork {
+  double forces = 0.0;    ///< f'u: applied forces on their displacements
+  double supports = 0.0;  ///< R'd: reactions of driven particles on their displacements
+  /// The body no longer resists what drives it: nothing does, and both are zero, or nothing but
+  /// elastic supports that are weak beside what it was.
+  bool separated = false;
+  double compliance() const { return forces - supports; }
+};
+
+/// Figures that need a pass over the elements.
+struct Balance {
+  double residual = 0.0;       ///< |f - K u| / |f|
+  double stored_energy = 0.0;  ///< sum over elements of k e^2 / 2 at load factor 1 [force length]
+};
+
+/// How equilibrium is solved for.
+struct EquilibriumOptions {
+  FactorRoute route = FactorRoute::in_place;
+  double residual_tolerance = 1e-10;
+  int threads = 1;
+};
+
+/// Pivots below this are computed again from energies: a body that is slender or about to separate
+/// has a condition number that takes most digits of what the factor says.
+inline constexpr double doubtful_pivot = 1e-2;
+
+/// Equilibrium of a network at load factor 1 while its elements lose stiffness: the factor of K and
+/// the displacements that follow, with the looks that tell how far both can be trusted. All engines
+/// that go from event to event stand on it.
+class Equilibrium {
+ public:
+  /// \throws SolverError when the stiffness matrix is not positive definite
+  Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options);
+
+  /// Present stiffness of every element as a fraction of the intact one.
+  std::span<const double> secants() const { return secants_; }
+
+  /// Displacements at load factor 1, rotations included, shape (particles, width), right wherever
+  /// an element can fail; elsewhere they may be those of an earlier event.
+  std::span<const double> where_elements_fail() const { return displacement_; }
+
+  /// The same, right everywhere: costs a solve where some are not.
+  std::span<const double> displacement();
+
+  LoadWork work();
+
+  /// The element goes on with a smaller secant; zero: it breaks.
+  EventOutcome weaken(Index element, double secant);
+
+  /// Removes an element whatever it holds: a part that comes loose without load is held by ground
+  /// springs, one per rigid-body mode, added to the factor before the element goes. The rest of the
+  /// body keeps its exact equilibrium.
+  /// \return number of ground springs added
+  /// \throws SolverError when a loaded part comes loose
+  int cut(Index element);
+
+  /// Measures the residual of all particles; above the tolerance refines the displacement once,
+  /// then factorises anew.
+  Balance check();
+
+  /// The residual where elements can fail alone, without a solve; above the tolerance check().
+  /// \return without the stored energy (not a number) where some displacements are not current
+  Balance glance();
+
+  /// Particles move by other unknowns from now on; loads, secants and prescribed motions stay.
+  /// \param unknowns  must outlive this
+  /// \return growth of the compliance f'u - R'd, positive where particles became freer
+  /// \throws SolverError while ground springs hold something
+  double change_motion(const Unknowns& unknowns);
+
+  const Factor& factor() const { return *factor_; }
+
+ private:
+  void adopt_motion();
+  void find_driven_elements();
+  void choose_current_unknowns();
+  void choose_glanced(const std::vector<std::uint8_t>& current);
+  void factorize();
+  void refresh();
+  void refine(std::vector<double>& residual);
+  void scatter_solution();
+  double work_of_forces() const;
+  LoadWork sum_work();
+  std::pair<double, double> driven_work_of(Index element) const;
+  std::vector<double> present_load() const;
+  double measure_residual(std::vector<double>& residual);
+  double residual_of_current();
+  Balance restore();
+  bool is_frame(Index element) const {
+    return network_.carries_moments() && network_.bending[element] > 0.0;
+  }
+
+  // Events and cuts: weakening.cpp.
+  using Deformations = std::array<double, Removal::capacity>;
+  Deformations deformations(const Removal& removal, Index element) const;
+  double prepare(Removal& removal);
+  void measure_pivots(Removal& removal, Index element, double kept);
+  void look_closely(Removal& removal, Index element, double kept);
+  std::vector<double> refined_compliance(const Removal& removal);
+  bool hold_free_modes(Removal& removal, Index element, double unloaded, int& springs);
+  void follow(const EventOutcome& outcome);
+  void commit(const Removal& removal, Index element, double secant);
+  void add_ground_spring(Index unknown);
+  double ground_stiffness_of(Index unknown) const;
+  Index most_mobile_unknown(const SparseVector& x);
+  void keep_all_current();
+
+  // Separation and extended precision: separation.cpp.
+  struct Refined {
+    double residual = 0.0;  ///< norm of the forces out of balance
+    double energy = 0.0;    ///< u'K u of the refined motion
+    double error = 0.0;     ///< uncertainty of the energy after the last correction, with round-off
+    /// Relative error of a solution by the factor, in the norm of energy.
+    double factor_error = 0.0;
+  };
+  /// A motion in extended precision: the unknowns, and all particles, shape (particles, width).
+  struct FineMotion {
+    std::vector<long double> unknowns, particles;
+  };
+  Refined refine_finely(std::span<const double> load, FineMotion& motion);
+  std::pair<FineMotion, double> motion_of(const SparseVector& x);
+  double pivot_by_energy(const SparseVector& x, Index element, double kept);
+  bool hangs_on_weak_supports(double compliance_growth) const;
+  bool rebuild_without(Index element, double kept);
+  Balance polish();
+  LoadWork work_by_energy();
+
+  const Network& network_;
+  const Unknowns* unknowns_;
+  const Loads& loads_;
+  EquilibriumOptions options_;
+  std::unique_ptr<Factor> factor_;
+
+  std::vector<double> secants_;
+  std::vector<Index> driven_elements_;  ///< elements that end at a driven particle
+  std::vector<std::size_t> loaded_slots_;
+  std::vector<Index> glanced_elements_;  ///< all elements of the unknowns glanced at
+  std::vector<std::uint8_t> glanced_;    ///< per unknown, while partial_
+  bool partial_ = false;     ///< events keep only the displacements current that a search looks at
+  bool stale_ = false;       ///< the other displacements are those of an earlier event
+  double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
+  double driven_spring_work_ = 0.0;   ///< work of elastic supports at driven displacements
+  std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
+  std::vector<double> solution_;      ///< per unknown
+  std::vector<double> displacement_;
+  std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_
+  std::vector<double> ground_stiffness_;  ///< per unknown, empty until a fragment came loose
+  std::vector<double> ground_load_;
+  InternalForce internal_;
+  ForcesAndEnergy<long double> fine_;
+  double stiffness_sum_ = 0.0;        ///< sum over all elements and supports
+  int prepared_with_ = 0;             ///< factorisations when the factor last prepared a removal
+  bool must_rebuild_ = false;         ///< the pivot is known better than the factor can follow
+  bool look_closer_ = false;          ///< pivots that are not small may be noise too
+  bool supports_alone_ = false;       ///< elastic supports hold most of the motion looked at last
+  bool resists_ = true;               ///< the polished body stores energy that is no round-off
+  double last_work_ = 0.0;            ///< f'u + R'd of a driven body when last asked for
+  int events_to_follow_ = 0;          ///< events left that follow the growth of the compliance ...
+  double followed_compliance_ = 0.0;  ///< ... f'u - R'd, ...
+  double followed_from_ = 0.0;        ///< ... since it was this
+  double load_norm_ = 0.0;
+  double residual_floor_ = 0.0;  ///< what a fresh factor can reach
+  double factor_error_ = 0.0;    ///< Refined::factor_error where the body was last polished ...
+  double factor_floor_ = 0.0;    ///< ... and with the last fresh factor
+};
+
+}  // namespace perilink

@@ -1,0 +1,263 @@
+// Elements that lose stiffness: changes of rank one, three and six of the factor, the pivots that
+// tell whether the body survives them, and springs for what comes loose.
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+namespace {
+
+/// How far a pivot from the factor may be from the one from energies before a fresh factor is
+/// worth its price, and before that has to be made without the element.
+constexpr double same_pivot = 1e-8, usable_pivot = 1e-6;
+
+/// Where pivots of the factor are this far off, each event is looked at: its energy is off by as
+/// much.
+constexpr double noisy_pivot = 1e-8;
+
+/// A mode that a removal sets free carries load when it holds more than this share of the bond's
+/// energy; round-off leaves 1e-16.
+constexpr double least_loaded_share = 1e-12;
+
+/// A part that comes loose carries load when it is pulled by more than this share of the load.
+constexpr double least_loaded_force = 1e-6;
+
+}  // namespace
+
+/// Square roots of twice the energies of the modes. That of a bar comes from differences of
+/// displacements, which keep their digits where the body moves far.
+auto Equilibrium::deformations(const Removal& removal, Index element) const -> Deformations {
+  Deformations result{};
+  if (is_frame(element)) {
+    for (int m = 0; m < removal.rank; ++m) result[m] = removal.deformation(m, solution_);
+    return result;
+  }
+  const std::size_t i = static_cast<std::size_t>(network_.bonds.first[element]) * network_.width();
+  const std::size_t j = static_cast<std::size_t>(network_.bonds.second[element]) * network_.width();
+  const std::span<const double> n = network_.bonds.direction(element);
+  const double root = std::sqrt(network_.stiffness[element] * removal.fraction);
+  for (int a = 0; a < network_.dim(); ++a) {
+    result[0] += root * n[a] * (displacement_[j + a] - displacement_[i + a]);
+  }
+  return result;
+}
+
+/// Decouples the modes and gives them the pivots that the factor has for them.
+/// \return the smallest
+double Equilibrium::prepare(Removal& removal) {
+  prepared_with_ = factor_->factorizations();
+  if (removal.rank == 1) return removal.pivot[0] = factor_->prepare_downdate(removal.x[0]);
+  std::vector<double> compliance(static_cast<std::size_t>(removal.rank * removal.rank));
+  factor_->compliance(removal.vectors(), compliance);
+  decouple(removal, compliance);
+  return removal.pivot[0];
+}
+
+/// x_a' K^-1 x_b with K^-1 x_b refined against the elements themselves.
+std::vector<double> Equilibrium::refined_compliance(const Removal& removal) {
+  const std::size_t rank = static_cast<std::size_t>(removal.rank);
+  std::vector<double> compliance(rank * rank);
+  for (std::size_t b = 0; b < rank; ++b) {
+    const std::vector<long double> motion = motion_of(removal.x[b]).first.unknowns;
+    for (std::size_t a = 0; a < rank; ++a) {
+      long double sum = 0.0;
+      const SparseVector& x = removal.x[a];
+      for (int k = 0; k < x.size(); ++k) sum += x.values[k] * motion[x.rows[k]];
+      compliance[a * rank + b] = static_cast<double>(sum);
+    }
+  }
+  for (std::size_t a = 0; a < rank; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      compliance[a * rank + b] = compliance[b * rank + a] =
+          0.5 * (compliance[a * rank + b] + compliance[b * rank + a]);
+    }
+  }
+  return compliance;
+}
+
+/// Decouples the modes; small pivots come from energies.
+void Equilibrium::look_closely(Removal& removal, Index element, double kept) {
+  if (removal.rank > 1) decouple(removal, refined_compliance(removal));
+  supports_alone_ = false;
+  for (int m = removal.rank - 1; m >= 0; --m) {
+    if (removal.rank > 1 && removal.pivot[m] > doubtful_pivot) continue;
+    removal.pivot[m] = pivot_by_energy(removal.x[m], element, kept);
+  }
+  // Energies may put two of them in another order by their last digits.
+  for (int m = removal.rank - 1; m > 0; --m) {
+    removal.pivot[m - 1] = std::min(removal.pivot[m - 1], removal.pivot[m]);
+  }
+}
+
+/// Pivots of a removal; where one is small, from energies, with a factor that can be trusted or,
+/// after `must_rebuild_`, is to be made anew. Zero: nothing holds the mode.
+void Equilibrium::measure_pivots(Removal& removal, Index element, double kept) {
+  must_rebuild_ = supports_alone_ = false;
+  if (removal.rank == 1 && removal.x[0].size() == 0) {  // both ends prescribed
+    removal.pivot[0] = 1.0;
+    return;
+  }
+  const Removal modes = removal;
+  double prepared = prepare(removal);
+  if (prepared > doubtful_pivot && !look_closer_) return;
+  removal = modes;
+  look_closely(removal, element, kept);
+  look_closer_ = std::abs(prepared - removal.pivot[0]) > noisy_pivot;
+  if (removal.pivot[0] > doubtful_pivot) return;
+  const auto agree = [&](double tolerance) {
+    return std::abs(prepared - removal.pivot[0]) < tolerance * removal.pivot[0];
+  };
+  if (removal.pivot[0] == 0.0 || agree(same_pivot)) return;
+  factorize();
+  removal = modes;
+  prepared = prepare(removal);
+  removal = modes;
+  look_closely(removal, element, kept);
+  must_rebuild_ = removal.pivot[0] > 0.0 && !agree(usable_pivot);
+}
+
+/// Before an element goes that alone held an unloaded motion, as the rotation of a particle on
+/// which only ties are left, springs take hold of it.
+/// \param unloaded  energy, twice, up to which a motion counts as unloaded
+/// \return false when the motion carries load: a mechanism
+bool Equilibrium::hold_free_modes(Removal& removal, Index element, double unloaded, int& springs) {
+  const Removal modes = make_removal(network_, *unknowns_, element, secants_[element]);
+  const int most = network_.dim() == 2 ? 3 : 6;
+  for (int tries = 0; removal.rank > 0 && removal.pivot[0] == 0.0; ++tries) {
+    const Deformations deformation = deformations(removal, element);
+    double energy = 0.0;
+    for (int m = 0; m < removal.rank && removal.pivot[m] == 0.0; ++m) {
+      energy += deformation[m] * deformation[m];
+    }
+    if (energy > unloaded) return false;
+    if (tries == most) {
+      throw SolverError("a part that comes loose cannot be held by ground springs");
+    }
+    keep_all_current();
+    add_ground_spring(most_mobile_unknown(removal.x[0]));
+    ++springs;
+    removal = modes;
+    measure_pivots(removal, element, 0.0);
+  }
+  return true;
+}
+
+/// Work products grow with the compliance.
+void Equilibrium::follow(const EventOutcome& outcome) {
+  if (!must_rebuild_) force_work_ += outcome.compliance_growth;
+  followed_compliance_ += outcome.compliance_growth;
+  // Small events leave the displacements as exact as they were.
+  const bool sure = outcome.pivot > doubtful_pivot && !look_closer_ &&
+                    outcome.compliance_growth < 0.01 * last_work_;
+  events_to_follow_ = sure ? events_to_follow_ - 1 : 0;
+}
+
+void Equilibrium::commit(const Removal& removal, Index element, double secant) {
+  secants_[element] = secant;
+  if (must_rebuild_) return;  // done already
+  if (removal.rank == 1) {
+    if (removal.x[0].size() == 0) return;  // nothing unknown is held by this element
+    if (prepared_with_ != factor_->factorizations()) factor_->prepare_downdate(removal.x[0]);
+    factor_->commit_downdate(removal.prescribed[0], solution_);
+  } else {
+    factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
+  }
+  scatter_solution();
+  stale_ = partial_;
+  if (look_closer_) polish();
+}
+
+EventOutcome Equilibrium::weaken(Index element, double secant) {
+  Removal removal = make_removal(network_, *unknowns_, element, secants_[element] - secant);
+  measure_pivots(removal, element, secant);
+  EventOutcome outcome;
+  outcome.secant = secant;
+  double energy = 0.0;
+  for (const double deformation : deformations(removal, element))
+    energy += deformation * deformation;
+  outcome.released = 0.5 * energy;
+  int springs = 0;
+  outcome.mechanism = outcome.broke()
+                          ? !hold_free_modes(removal, element, least_loaded_share * energy, springs)
+                          : removal.pivot[0] == 0.0;
+  outcome.pivot = removal.pivot[0];
+  if (outcome.mechanism) return outcome;
+  const Deformations deformation = deformations(removal, element);
+  for (int m = 0; m < removal.rank; ++m) {
+    outcome.compliance_growth += deformation[m] * deformation[m] / removal.pivot[m];
+  }
+  outcome.mechanism = hangs_on_weak_supports(outcome.compliance_growth) ||
+                      (must_rebuild_ && !rebuild_without(element, secant));
+  if (outcome.mechanism) return outcome;
+  follow(outcome);
+  commit(removal, element, secant);
+  return outcome;
+}
+
+int Equilibrium::cut(Index element) {
+  keep_all_current();
+  if (secants_[element] == 0.0) return 0;
+  Removal removal = make_removal(network_, *unknowns_, element, secants_[element]);
+  measure_pivots(removal, element, 0.0);
+  int springs = 0;
+  // A force, as far as forces and moments compare: sqrt(k) times sqrt(k) times an extension.
+  const double unloaded =
+      std::pow(least_loaded_force * load_norm_, 2) / network_.stiffness[element];
+  if (!hold_free_modes(removal, element, unloaded, springs)) {
+    throw SolverError("the part that comes loose carries load: the body has separated");
+  }
+  if (must_rebuild_ && !rebuild_without(element, 0.0)) {
+    throw SolverError("the body without the part that comes loose cannot be factorised");
+  }
+  commit(removal, element, 0.0);
+  return springs;
+}
+
+Index Equilibrium::most_mobile_unknown(const SparseVector& x) {
+  std::vector<double> direction(solution_.size(), 0.0);
+  for (int k = 0; k < x.size(); ++k) direction[x.rows[k]] = x.values[k];
+  factor_->solve(direction, direction);
+  const auto largest = std::max_element(direction.begin(), direction.end(), [](double a, double b) {
+    return std::abs(a) < std::abs(b);
+  });
+  return static_cast<Index>(largest - direction.begin());
+}
+
+/// That of the stiffest bond; of a rotation the largest bending stiffness.
+double Equilibrium::ground_stiffness_of(Index unknown) const {
+  const auto component = static_cast<int>(slot_of_[unknown] % network_.width());
+  if (component < network_.dim()) {
+    return *std::max_element(network_.stiffness.begin(),
+                             network_.stiffness.begin() + network_.first_tie);
+  }
+  double largest = 0.0;
+  for (Index e = 0; e < network_.first_tie; ++e) {
+    largest = std::max(largest, network_.bending[e] * std::pow(network_.bonds.lengths[e], 2));
+  }
+  return largest;
+}
+
+void Equilibrium::add_ground_spring(Index unknown) {
+  if (ground_stiffness_.empty()) {
+    ground_stiffness_.assign(solution_.size(), 0.0);
+    ground_load_.assign(solution_.size(), 0.0);
+  }
+  const double stiffness = ground_stiffness_of(unknown);
+  SparseVector x;
+  x.add(unknown, std::sqrt(stiffness));
+  factor_->update(x, solution_);
+  ground_stiffness_[unknown] += stiffness;
+  ground_load_[unknown] += stiffness * solution_[unknown];
+}
+
+/// Springs act on displacements anywhere: from now on all of them are kept current.
+void Equilibrium::keep_all_current() {
+  if (partial_) factor_->keep_current(std::vector<std::uint8_t>(solution_.size(), 1));
+  if (stale_) refresh();
+  partial_ = false;
+}
+
+}  // namespace perilink
