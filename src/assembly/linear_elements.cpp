@@ -6,13 +6,11 @@
 #include <string>
 #include <utility>
 
-#include "assembly/stiffness.hpp"
+#include "assembly/lower_triangle.hpp"
 #include "base/csr.hpp"
 
 namespace perilink {
 namespace {
-
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
 template <int Dim>
 using Tensor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
@@ -80,103 +78,37 @@ Csr cells_of_particles(const LinearElements& elements) {
   return rows;
 }
 
-/// Columns of the matrix particle by particle, each by one thread in one order, so that the sums do
-/// not depend on the number of threads.
+/// Blocks of cells, see LowerTriangle: V (lambda g_j g_i' + mu g_i g_j' + mu (g_i g_j) 1).
 template <int Dim>
-class ElementStiffness {
+class CellBlocks {
  public:
-  ElementStiffness(const LinearElements& elements, const Unknowns& unknowns)
-      : elements_(elements), unknowns_(unknowns), cells_(cells_of_particles(elements)) {}
+  static constexpr int width = Dim;
 
-  SparseMatrix build() {
-    SparseMatrix matrix(unknowns_.count, unknowns_.count);
-    lay_out(matrix);
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < elements_.num_particles; ++i) fill_columns(i, matrix);
-    return matrix;
-  }
+  explicit CellBlocks(const LinearElements& elements)
+      : elements_(elements), cells_(cells_of_particles(elements)) {}
 
- private:
-  /// The particle itself and its neighbours of higher number, ascending.
-  std::vector<Index> rows_of(Index particle) const {
-    std::vector<Index> rows;
-    for (const Index cell : cells_.row(particle)) {
-      for (const Index j : elements_.cells.cell(cell)) {
-        if (j >= particle) rows.push_back(j);
-      }
-    }
-    std::sort(rows.begin(), rows.end());
-    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    return rows;
-  }
+  Index num_particles() const { return elements_.num_particles; }
 
-  int num_free(Index particle) const {
-    int count = 0;
-    for (int axis = 0; axis < Dim; ++axis) count += unknowns_.at(particle, axis) != no_index;
-    return count;
-  }
-
-  void lay_out(SparseMatrix& matrix) const {
-    std::vector<Index> below(static_cast<std::size_t>(elements_.num_particles), 0);
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < elements_.num_particles; ++i) {
-      for (const Index j : rows_of(i)) below[i] += j > i ? num_free(j) : 0;
-    }
-    Index* outer = matrix.outerIndexPtr();
-    outer[0] = 0;
-    for (Index i = 0; i < elements_.num_particles; ++i) {
-      int own = num_free(i);
-      for (int axis = 0; axis < Dim; ++axis) {
-        const Index column = unknowns_.at(i, axis);
-        if (column != no_index) outer[column + 1] = outer[column] + own-- + below[i];
-      }
-    }
-    matrix.resizeNonZeros(outer[unknowns_.count]);
-  }
-
-  /// Blocks K_ji of a particle i with the particles j of its rows:
-  /// V (lambda g_j g_i' + mu g_i g_j' + mu (g_i g_j) 1).
-  std::vector<Tensor<Dim>> blocks_of(Index particle, const std::vector<Index>& rows) const {
-    std::vector<Tensor<Dim>> blocks(rows.size(), Tensor<Dim>::Zero());
+  void visit(Index particle, auto&& sink) const {
     for (const Index number : cells_.row(particle)) {
       const std::span<const Index> cell = elements_.cells.cell(number);
       const Gradients<Dim> gradients = gradients_of<Dim>(elements_, number);
       const auto own = std::find(cell.begin(), cell.end(), particle) - cell.begin();
-      const Eigen::Matrix<double, Dim, 1> g_i = gradients.row(own).transpose();
+      const auto g_i = gradients.row(own);
       const double lambda = elements_.volumes[number] * elements_.lambda[number];
       const double mu = elements_.volumes[number] * elements_.mu[number];
       for (int v = 0; v <= Dim; ++v) {
-        if (cell[v] < particle) continue;
-        const Eigen::Matrix<double, Dim, 1> g_j = gradients.row(v).transpose();
-        const auto at = std::lower_bound(rows.begin(), rows.end(), cell[v]) - rows.begin();
-        Tensor<Dim>& block = blocks[static_cast<std::size_t>(at)];
-        block += lambda * g_j * g_i.transpose() + mu * g_i * g_j.transpose();
-        block.diagonal().array() += mu * g_i.dot(g_j);
-      }
-    }
-    return blocks;
-  }
-
-  void fill_columns(Index i, SparseMatrix& matrix) const {
-    const std::vector<Index> rows = rows_of(i);
-    const std::vector<Tensor<Dim>> blocks = blocks_of(i, rows);
-    for (int col = 0; col < Dim; ++col) {
-      const Index column = unknowns_.at(i, col);
-      if (column == no_index) continue;
-      Index entry = matrix.outerIndexPtr()[column];
-      for (std::size_t r = 0; r < rows.size(); ++r) {
-        for (int row = rows[r] == i ? col : 0; row < Dim; ++row) {
-          const Index number = unknowns_.at(rows[r], row);
-          if (number == no_index) continue;
-          matrix.innerIndexPtr()[entry] = number;
-          matrix.valuePtr()[entry++] = blocks[r](row, col);
-        }
+        const auto g_j = gradients.row(v);
+        sink(cell[v], [&](int row, int col) {
+          return lambda * g_j[row] * g_i[col] + mu * g_i[row] * g_j[col];
+        });
+        sink(cell[v], [&](int row, int col) { return row == col ? mu * g_i.dot(g_j) : 0.0; });
       }
     }
   }
 
+ private:
   const LinearElements& elements_;
-  const Unknowns& unknowns_;
   Csr cells_;
 };
 
@@ -266,14 +198,8 @@ LinearElements make_linear_elements(Simplices cells, std::span<const double> pos
 
 SparseMatrix assemble_stiffness(const LinearElements& elements, const Unknowns& unknowns) {
   expect_nothing_carried(unknowns);
-  if (elements.dim() == 2) return ElementStiffness<2>(elements, unknowns).build();
-  return ElementStiffness<3>(elements, unknowns).build();
-}
-
-std::vector<double> assemble_right_hand_side(const LinearElements& elements,
-                                             const Unknowns& unknowns, const Loads& loads) {
-  if (!is_driven(unknowns)) return right_hand_side(unknowns, loads, {});
-  return right_hand_side(unknowns, loads, internal_force(elements, unknowns.prescribed).forces);
+  return elements.dim() == 2 ? LowerTriangle(CellBlocks<2>(elements), unknowns).build()
+                             : LowerTriangle(CellBlocks<3>(elements), unknowns).build();
 }
 
 InternalForce internal_force(const LinearElements& elements, std::span<const double> displacement) {

@@ -42,10 +42,6 @@ LinearElements make_linear_elements(Simplices cells, std::span<const double> pos
 Eigen::SparseMatrix<double, Eigen::ColMajor, Index> assemble_stiffness(
     const LinearElements& elements, const Unknowns& unknowns);
 
-/// f at load factor 1 on the unknowns, as for bonds. Size unknowns.count.
-std::vector<double> assemble_right_hand_side(const LinearElements& elements,
-                                             const Unknowns& unknowns, const Loads& loads);
-
 /// K u for given displacements of all particles, and the energy.
 InternalForce internal_force(const LinearElements& elements, std::span<const double> displacement);
 

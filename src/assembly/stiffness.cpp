@@ -8,207 +8,152 @@
 
 #include "assembly/element_vector.hpp"
 #include "assembly/internal_force.hpp"
-#include "assembly/state_stiffness.hpp"
+#include "assembly/lower_triangle.hpp"
 #include "base/csr.hpp"
 #include "network/frame.hpp"
 
 namespace perilink {
 namespace {
 
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
-
-Index low_end(const Bonds& bonds, Index e) { return std::min(bonds.first[e], bonds.second[e]); }
-Index high_end(const Bonds& bonds, Index e) { return std::max(bonds.first[e], bonds.second[e]); }
-
-/// Elements of every particle to particles of higher number, sorted by that number.
-Csr elements_by_low_end(const Bonds& bonds, Index num_particles) {
-  Csr rows;
-  rows.offsets.assign(static_cast<std::size_t>(num_particles) + 1, 0);
-  for (Index e = 0; e < bonds.size(); ++e) ++rows.offsets[low_end(bonds, e) + 1];
-  for (Index i = 0; i < num_particles; ++i) rows.offsets[i + 1] += rows.offsets[i];
-  rows.values.resize(static_cast<std::size_t>(bonds.size()));
-  std::vector<Index> next(rows.offsets.begin(), rows.offsets.end() - 1);
-  for (Index e = 0; e < bonds.size(); ++e) rows.values[next[low_end(bonds, e)]++] = e;
-  // Bonds come sorted; only ties and bars that start at a solid particle can be out of order.
-  const auto by_high_end = [&](Index a, Index b) {
-    return high_end(bonds, a) < high_end(bonds, b);
-  };
-  for (Index i = 0; i < num_particles; ++i) {
-    const auto begin = rows.values.begin() + rows.offsets[i];
-    const auto end = rows.values.begin() + rows.offsets[i + 1];
-    if (!std::is_sorted(begin, end, by_high_end)) std::stable_sort(begin, end, by_high_end);
-  }
-  return rows;
-}
-
-/// Two blocks of an element's stiffness, entry by entry: that of an end with itself and that which
-/// couples the rows of the higher end to the columns of the lower one.
+/// Entries of an element's stiffness between two of its ends: 0 the first, 1 the second.
 template <int Dim>
-struct TrussBlocks {
+struct Truss {
   static constexpr int width = Dim;
 
-  TrussBlocks(const Network& network, Index element, double secant)
+  Truss(const Network& network, Index element, double secant)
       : n(network.bonds.direction(element).data()), k(network.stiffness[element] * secant) {}
 
-  double of_first(int row, int col) const { return k * n[row] * n[col]; }
-  double of_second(int row, int col) const { return k * n[row] * n[col]; }
-  double coupling(int row, int col) const { return -k * n[row] * n[col]; }
+  double entry(int row_end, int col_end, int row, int col) const {
+    return (row_end == col_end ? k : -k) * n[row] * n[col];
+  }
 
   const double* n;
   double k;
 };
 
 template <int Dim>
-struct FrameBlocks {
+struct Frame {
   using Modes = FrameModes<Dim>;
   static constexpr int width = Modes::width;
 
-  FrameBlocks(const Network& network, Index element, double secant)
-      : modes(frame_modes<Dim>(network, element)),
-        low_is_first(network.bonds.first[element] < network.bonds.second[element]) {
+  /// Flat, so that the modes are rounded as in the rest of this file and not as in one that is
+  /// compiled for more of the machine's instructions.
+  [[gnu::flatten]] Frame(const Network& network, Index element, double secant)
+      : modes(frame_modes<Dim>(network, element)) {
     for (double& k : modes.stiffness) k *= secant;
   }
 
-  double sum(int row, int col, const auto& rows, const auto& cols) const {
+  double entry(int row_end, int col_end, int row, int col) const {
+    const auto& rows = row_end == 0 ? modes.first : modes.second;
+    const auto& cols = col_end == 0 ? modes.first : modes.second;
     double value = 0.0;
     for (int m = 0; m < Modes::count; ++m) {
       value += modes.stiffness[m] * rows[m][row] * cols[m][col];
     }
     return value;
   }
-  double of_first(int row, int col) const { return sum(row, col, modes.first, modes.first); }
-  double of_second(int row, int col) const { return sum(row, col, modes.second, modes.second); }
-  double coupling(int row, int col) const {
-    return low_is_first ? sum(row, col, modes.second, modes.first)
-                        : sum(row, col, modes.first, modes.second);
-  }
 
   Modes modes;
-  bool low_is_first;
 };
 
-template <class ElementBlocks>
-class StiffnessBuilder {
+/// Blocks of elements and springs of supports, see LowerTriangle.
+template <class Element>
+class NetworkBlocks {
  public:
-  static constexpr int width = ElementBlocks::width;
+  static constexpr int width = Element::width;
 
-  StiffnessBuilder(const Network& network, std::span<const double> secants,
-                   const Unknowns& unknowns)
+  NetworkBlocks(const Network& network, std::span<const double> secants)
       : network_(network),
         secants_(secants),
-        unknowns_(unknowns),
-        elements_(elements_by_low_end(network.bonds, network.particles.size())) {}
+        families_(bonds_of_particles(network.bonds, network.particles.size())) {}
 
-  SparseMatrix build() {
-    SparseMatrix matrix(unknowns_.count, unknowns_.count);
-    lay_out(matrix);
-    sum_diagonal_blocks();
-    const Index num_particles = network_.particles.size();
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < num_particles; ++i) fill_columns(i, matrix);
-    return matrix;
+  Index num_particles() const { return families_.rows(); }
+
+  void visit(Index i, auto&& sink) const {
+    for (const Index e : families_.row(i)) visit_element(e, i, sink);
+    visit_support(i, sink);
   }
 
- private:
-  using Block = std::array<double, width * width>;
-
-  int num_free(Index particle) const {
-    int count = 0;
-    for (int axis = 0; axis < width; ++axis) count += unknowns_.at(particle, axis) != no_index;
-    return count;
+ protected:
+  void visit_element(Index e, Index i, auto&& sink) const {
+    const Element element(network_, e, secants_[e]);
+    const int own = network_.bonds.first[e] == i ? 0 : 1;
+    sink(i, [&](int row, int col) { return element.entry(own, own, row, col); });
+    sink(own == 0 ? network_.bonds.second[e] : network_.bonds.first[e],
+         [&](int row, int col) { return element.entry(1 - own, own, row, col); });
   }
 
-  /// Column starts: the free axes of the particle itself from the column's own on, then those of
-  /// every higher neighbour once, however many elements lead there.
-  void lay_out(SparseMatrix& matrix) const {
-    Index* outer = matrix.outerIndexPtr();
-    std::size_t total = 0;
-    outer[0] = 0;
-    for (Index i = 0; i < network_.particles.size(); ++i) {
-      std::size_t below = 0;
-      Index last = no_index;
-      for (const Index e : elements_.row(i)) {
-        const Index j = high_end(network_.bonds, e);
-        if (j != last) below += num_free(j);
-        last = j;
-      }
-      int own = num_free(i);
-      for (int axis = 0; axis < width; ++axis) {
-        const Index column = unknowns_.at(i, axis);
-        if (column == no_index) continue;
-        total += own-- + below;
-        if (total > static_cast<std::size_t>(std::numeric_limits<Index>::max())) {
-          throw std::length_error("the stiffness matrix has more than 2^31 - 1 entries");
-        }
-        outer[column + 1] = static_cast<Index>(total);
-      }
-    }
-    matrix.resizeNonZeros(static_cast<Index>(total));
-  }
-
-  void sum_diagonal_blocks() {
-    diagonal_.assign(static_cast<std::size_t>(network_.particles.size()), Block{});
-    for (Index e = 0; e < network_.num_elements(); ++e) {
-      const ElementBlocks element(network_, e, secants_[e]);
-      Block& first = diagonal_[network_.bonds.first[e]];
-      Block& second = diagonal_[network_.bonds.second[e]];
-      for (int row = 0; row < width; ++row) {
-        for (int col = 0; col <= row; ++col) {
-          first[row * width + col] += element.of_first(row, col);
-          second[row * width + col] += element.of_second(row, col);
-        }
-      }
-    }
-    for (std::size_t slot = 0; slot < network_.support_stiffness.size(); ++slot) {
-      const std::size_t row = slot % width;
-      diagonal_[slot / width][row * width + row] += network_.support_stiffness[slot];
-    }
-  }
-
-  /// Columns of one particle. Numbers of unknowns rise with those of the particles, so rows come
-  /// out sorted.
-  void fill_columns(Index i, SparseMatrix& matrix) const {
-    Index* inner = matrix.innerIndexPtr();
-    double* values = matrix.valuePtr();
-    std::array<Index, width> position{};  // next entry of each column, no_index for a held one
-    for (int col = 0; col < width; ++col) {
-      const Index column = unknowns_.at(i, col);
-      position[col] = column == no_index ? no_index : matrix.outerIndexPtr()[column];
-      if (column == no_index) continue;
-      for (int row = col; row < width; ++row) {
-        if (unknowns_.at(i, row) == no_index) continue;
-        inner[position[col]] = unknowns_.at(i, row);
-        values[position[col]++] = diagonal_[i][row * width + col];
-      }
-    }
-    Index last = no_index;
-    for (const Index e : elements_.row(i)) {
-      const Index j = high_end(network_.bonds, e);
-      const int rows = num_free(j);
-      const ElementBlocks element(network_, e, secants_[e]);
-      for (int col = 0; col < width; ++col) {
-        if (position[col] == no_index) continue;
-        // A second element to the same particle adds to the entries of the first.
-        Index entry = j == last ? position[col] - rows : position[col];
-        for (int row = 0; row < width; ++row) {
-          if (unknowns_.at(j, row) == no_index) continue;
-          const double value = element.coupling(row, col);
-          inner[entry] = unknowns_.at(j, row);
-          values[entry] = j == last ? values[entry] + value : value;
-          ++entry;
-        }
-        position[col] = entry;
-      }
-      last = j;
-    }
+  void visit_support(Index i, auto&& sink) const {
+    if (network_.support_stiffness.empty()) return;
+    const double* springs = network_.support_stiffness.data() + static_cast<std::size_t>(i) * width;
+    sink(i, [&](int row, int col) { return row == col ? springs[row] : 0.0; });
   }
 
   const Network& network_;
   std::span<const double> secants_;
-  const Unknowns& unknowns_;
-  Csr elements_;
-  std::vector<Block> diagonal_;  // lower triangles
+  Csr families_;
 };
+
+/// The same with c h h' of the states of all particles, h u the sum of the extensions of the
+/// particle's bonds, each times its secant: particles that share a neighbour are coupled.
+template <int Dim>
+class StateBlocks : public NetworkBlocks<Truss<Dim>> {
+ public:
+  StateBlocks(const Network& network, std::span<const double> secants)
+      : NetworkBlocks<Truss<Dim>>(network, secants),
+        own_(static_cast<std::size_t>(network.particles.size()), Vector::Zero()) {
+    for (Index e = 0; e < network.num_elements(); ++e) {
+      own_[network.bonds.first[e]] -= counted(e, first_end) * direction(e);
+      own_[network.bonds.second[e]] += counted(e, second_end) * direction(e);
+    }
+  }
+
+  void visit(Index i, auto&& sink) const {
+    visit_state(i, own_[i], sink);
+    for (const Index e : this->families_.row(i)) {
+      this->visit_element(e, i, sink);
+      const bool outward = this->network_.bonds.first[e] == i;
+      const double part = outward ? -counted(e, second_end) : counted(e, first_end);
+      visit_state(this->network_.bonds.other_end(e, i), part * direction(e), sink);
+    }
+    this->visit_support(i, sink);
+  }
+
+ private:
+  using Vector = Eigen::Vector<double, Dim>;
+
+  Vector direction(Index e) const {
+    return Eigen::Map<const Vector>(this->network_.bonds.direction(e).data());
+  }
+
+  /// What the extension of a bond counts in the sum of its end.
+  double counted(Index e, BondEnd end) const {
+    return this->network_.counts_for(e, end) ? this->secants_[e] : 0.0;
+  }
+
+  /// \param by_i  derivative of the particle's sum of extensions by the motion of i
+  void visit_state(Index center, const Vector& by_i, auto&& sink) const {
+    const Vector column = this->network_.state_stiffness[center] * by_i;
+    const Vector& own = own_[center];
+    sink(center, [&](int row, int col) { return own[row] * column[col]; });
+    for (const Index e : this->families_.row(center)) {
+      const bool outward = this->network_.bonds.first[e] == center;
+      const double part = outward ? counted(e, first_end) : -counted(e, second_end);
+      const double* n = this->network_.bonds.direction(e).data();
+      sink(this->network_.bonds.other_end(e, center),
+           [&](int row, int col) { return part * n[row] * column[col]; });
+    }
+  }
+
+  std::vector<Vector> own_;  ///< derivative of the sum of extensions by the particle's own motion
+};
+
+template <class Blocks>
+SparseMatrix assemble(const Network& network, std::span<const double> secants,
+                      const Unknowns& unknowns) {
+  const Blocks blocks(network, secants);
+  return LowerTriangle(blocks, unknowns).build();
+}
 
 /// Sum of x x' over the modes of all elements and the springs of supports: for particles that
 /// something carries, whose elements couple any number of unknowns.
@@ -253,36 +198,32 @@ SparseMatrix assemble_stiffness(const Network& network, std::span<const double> 
                                 const Unknowns& unknowns) {
   const bool plane = network.dim() == 2;
   if (unknowns.carries()) return assemble_carried(network, secants, unknowns);
-  if (network.has_states()) return assemble_state_stiffness(network, secants, unknowns);
-  if (network.carries_moments()) {
-    return plane ? StiffnessBuilder<FrameBlocks<2>>(network, secants, unknowns).build()
-                 : StiffnessBuilder<FrameBlocks<3>>(network, secants, unknowns).build();
+  const auto build =
+      network.has_states() ? plane ? assemble<StateBlocks<2>> : assemble<StateBlocks<3>>
+      : network.carries_moments()
+          ? plane ? assemble<NetworkBlocks<Frame<2>>> : assemble<NetworkBlocks<Frame<3>>>
+      : plane ? assemble<NetworkBlocks<Truss<2>>>
+              : assemble<NetworkBlocks<Truss<3>>>;
+  return build(network, secants, unknowns);
+}
+
+std::vector<double> right_hand_side(const Unknowns& unknowns, const Loads& loads,
+                                    const InternalForceOf& internal_of) {
+  std::vector<double> forces = loads.forces;
+  const auto moves = [](double u) { return u != 0.0; };
+  if (std::any_of(unknowns.prescribed.begin(), unknowns.prescribed.end(), moves)) {
+    const std::vector<double> driven = internal_of(unknowns.prescribed).forces;
+    for (std::size_t slot = 0; slot < forces.size(); ++slot) forces[slot] -= driven[slot];
   }
-  return plane ? StiffnessBuilder<TrussBlocks<2>>(network, secants, unknowns).build()
-               : StiffnessBuilder<TrussBlocks<3>>(network, secants, unknowns).build();
+  return unknowns.restrict(forces);
 }
 
 std::vector<double> assemble_right_hand_side(const Network& network,
                                              std::span<const double> secants,
                                              const Unknowns& unknowns, const Loads& loads) {
-  if (!is_driven(unknowns)) return right_hand_side(unknowns, loads, {});
-  return right_hand_side(unknowns, loads,
-                         internal_force(network, secants, unknowns.prescribed).forces);
-}
-
-bool is_driven(const Unknowns& unknowns) {
-  return std::any_of(unknowns.prescribed.begin(), unknowns.prescribed.end(),
-                     [](double u) { return u != 0.0; });
-}
-
-std::vector<double> right_hand_side(const Unknowns& unknowns, const Loads& loads,
-                                    std::span<const double> driven) {
-  std::vector<double> result(static_cast<std::size_t>(unknowns.count));
-  for (std::size_t slot = 0; slot < loads.forces.size(); ++slot) {
-    const double force = loads.forces[slot] - (driven.empty() ? 0.0 : driven[slot]);
-    unknowns.for_each(slot, [&](Index k, double weight) { result[k] += weight * force; });
-  }
-  return result;
+  return right_hand_side(unknowns, loads, [&](std::span<const double> u) {
+    return internal_force(network, secants, u);
+  });
 }
 
 std::vector<Index> particle_of_unknown(const Unknowns& unknowns) {

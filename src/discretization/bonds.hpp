@@ -22,6 +22,9 @@ struct Bonds {
   std::span<const double> direction(Index b) const {
     return {directions.data() + static_cast<std::size_t>(b) * dim, static_cast<std::size_t>(dim)};
   }
+  Index other_end(Index b, Index particle) const {
+    return first[b] == particle ? second[b] : first[b];
+  }
   /// Appends the bond between two distinct particles; the caller keeps the order.
   void append(const Particles& particles, Index i, Index j);
 };

@@ -11,15 +11,13 @@ namespace perilink {
 namespace {
 
 /// \param assemble     gives K
-/// \param right_side   gives f
-/// \param internal_of  gives K u and the energy for displacements of all particles
-template <class Assemble, class RightSide, class Internal>
+template <class Assemble>
 ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, int threads,
-                            Assemble assemble, RightSide right_side, Internal internal_of) {
+                            Assemble assemble, const InternalForceOf& internal_of) {
   ElasticResult result;
   Timer timer;
   const SparseMatrix stiffness = assemble();
-  const std::vector<double> load = right_side();
+  const std::vector<double> load = right_hand_side(unknowns, loads, internal_of);
   result.seconds.assembly = timer.seconds();
 
   timer.restart();
@@ -60,7 +58,6 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, int threads) {
   const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
   return solve_elastic(
       unknowns, loads, threads, [&] { return assemble_stiffness(network, secants, unknowns); },
-      [&] { return assemble_right_hand_side(network, secants, unknowns, loads); },
       [&](std::span<const double> u) { return internal_force(network, secants, u); });
 }
 
@@ -68,7 +65,6 @@ ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknown
                                    const Loads& loads, int threads) {
   return solve_elastic(
       unknowns, loads, threads, [&] { return assemble_stiffness(elements, unknowns); },
-      [&] { return assemble_right_hand_side(elements, unknowns, loads); },
       [&](std::span<const double> u) { return internal_force(elements, u); });
 }
 
