@@ -133,7 +133,8 @@ TEST(CaseKeys, BondsHaveNoKeysOfStates) {
 
 TEST(CaseKeys, LinearElementsHaveNoKeysOfBonds) {
   for (const std::string_view key : keys_of_bonds()) {
-    expect_refusal("[body]\nmethod = \"linear_elements\"\n" + std::string(key) + " = 1\n",
+    expect_refusal("[body]\nmethod = \"linear_elements\"\n" + std::string(key) +
+                       " = 1\n[analysis]\ntype = \"elastic\"\n",
                    "body." + std::string(key), "have no bonds");
   }
 }
