@@ -28,7 +28,7 @@ const NotFor on_lattice{
     "of a given spacing",
     "delete it; `pattern`, `spacing`, `rotation` and `offset` say where they are"};
 
-/// Of bonds within a horizon.
+/// Keys of bonds within a horizon.
 const Without horizons = {
     {elements, no_bonds, bonds_instead},
     on_lattice,
@@ -125,7 +125,7 @@ const Without rebar = {
     {elements, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
      "delete one of the two", "body.method"}};
 
-/// Of some analyses; in the others it is set aside.
+/// A key that these analyses set aside.
 Without set_aside(Kinds analyses) { return {{analyses, {}, {}}}; }
 
 const Without of_events = set_aside(explicit_ | relaxation);

@@ -9,7 +9,8 @@
 
 namespace perilink {
 
-/// Kinds of cases, one bit each: of bodies, of their dimensions, of analyses. A case has one of each.
+/// Kinds of cases, as bits in three groups: bodies, their dimensions, analyses. A case has one bit
+/// of each group.
 using Kinds = unsigned;
 
 namespace kinds {

@@ -11,7 +11,7 @@
 
 namespace perilink {
 
-/// Of the columns of case_schema(): the kinds of its body, dimensions and analysis.
+/// The kind of a case, for the columns of case_schema(): its body, dimensions and analysis.
 Kinds kinds_of(const CaseFile& input);
 
 /// 2 or 3.
