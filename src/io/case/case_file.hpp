@@ -38,8 +38,8 @@ struct BodySection {
   std::optional<double> horizon;        ///< exactly one of horizon, horizon_level, horizon_ratio
   std::optional<int> horizon_level;     ///< 0–8 of Gerstle, Sau & Silling 2005, Fig. 5
   std::optional<double> horizon_ratio;  ///< horizon / spacing
-  Constants micromodulus = Constants::lattice;                     ///< of a mesh always continuum
-  CriticalStretch critical_stretch = CriticalStretch::dissipated;  ///< of a mesh not lattice
+  Constants micromodulus = Constants::lattice;                     ///< a mesh always has continuum
+  CriticalStretch critical_stretch = CriticalStretch::dissipated;  ///< a mesh has no lattice
   double rotation = 0.0;  ///< angle of the rows of model = lattice against x, about z [degrees]
   Vector3 offset{};       ///< one of its lattice points [length]
   LatticeRules variant = LatticeRules::consistent;

@@ -48,7 +48,7 @@ struct TableSchema {
   std::string_view name;          ///< empty: the top of the file
   bool list = false;              ///< written [[name]], any number of times
   std::vector<KeySchema> keys;    ///< in the order of the reference page
-  std::vector<NotFor> not_for{};  ///< of the table as a whole
+  std::vector<NotFor> not_for{};  ///< cases without the table
 };
 
 /// Refuses every table and key that a schema lacks, [name] in place of [[name]] and vice versa.
