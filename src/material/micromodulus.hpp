@@ -11,6 +11,12 @@
 
 namespace perilink {
 
+/// Where a constant of the bonds comes from.
+enum class Constants {
+  lattice,    ///< sums over the neighbours that a particle of the lattice really has
+  continuum,  ///< integrals over the infinite body
+};
+
 /// Micromodulus of the infinite body, thickness t [length], horizon delta [length]:
 /// plane stress c t = 9 E / (pi delta^3), plane strain c t = 48 E / (5 pi delta^3),
 /// three dimensions c = 12 E / (pi delta^4) (Gerstle, Sau & Silling 2005, Eq. 6 with the thickness

@@ -11,15 +11,10 @@
 #include "discretization/rebar.hpp"
 #include "discretization/region.hpp"
 #include "material/elasticity.hpp"
+#include "material/micromodulus.hpp"
 #include "material/micropolar.hpp"
 
 namespace perilink {
-
-/// Where a constant of the bonds comes from.
-enum class Constants {
-  lattice,    ///< sums over the neighbours that a particle of the lattice really has
-  continuum,  ///< integrals over the infinite body
-};
 
 /// What a bond resists.
 enum class BondModel {

@@ -37,13 +37,4 @@ FactorStatistics estimate_factor(const SparseMatrix& matrix, std::span<const Ind
   return result;
 }
 
-std::string to_string(FactorRoute route) {
-  switch (route) {
-    case FactorRoute::in_place: return "in_place";
-    case FactorRoute::cholmod_updown: return "cholmod_updown";
-    case FactorRoute::refactorize: return "refactorize";
-  }
-  return "unknown";
-}
-
 }  // namespace perilink

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/case/case_schema.hpp"
+#include "io/case/case_keys.hpp"
 #include "quality/source_tree.hpp"
 
 namespace perilink::quality {
@@ -40,9 +40,9 @@ TEST(CaseKeys, EveryKeyIsDocumented) {
   for (const TableSchema& table : case_schema()) {
     const std::string section = section_of(table, page);
     EXPECT_FALSE(section.empty()) << "docs/case_file.md: no heading names " << header_of(table);
-    for (const auto& key : table.keys) {
-      EXPECT_NE(section.find("`" + std::string(key)), std::string::npos)
-          << "docs/case_file.md: " << header_of(table) << " lacks `" << key << "`";
+    for (const KeySchema& key : table.keys) {
+      EXPECT_NE(section.find("`" + std::string(key.name)), std::string::npos)
+          << "docs/case_file.md: " << header_of(table) << " lacks `" << key.name << "`";
     }
   }
 }

@@ -26,7 +26,7 @@ const std::map<std::string, std::set<std::string>>& allowed_modules() {
       {"network", {"base", "material", "discretization", "calibration"}},
       {"assembly", {"base", "material", "discretization", "network"}},
       {"analysis", {"base", "material", "solver", "discretization", "network", "assembly"}},
-      {"io", {"base", "discretization"}},
+      {"io", {"base", "material", "solver", "discretization"}},
       {"app",
        {"base", "material", "solver", "discretization", "calibration", "network", "assembly",
         "analysis", "io"}},

@@ -19,7 +19,6 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/commands/run_command.cpp", "a command: tests/cli runs the program"},
       {"app/main.cpp", "only calls the commands; tests/cli runs the program"},
       {"app/memory_at_start.cpp", "runs before main: tests/cli/test_memory.cpp"},
-      {"app/model/model.cpp", "one choice of three: test_configure.cpp"},
       {"app/process/threads.cpp", "limits on a process: tests/cli/test_memory.cpp"},
       {"discretization/lattices/lattice_conforming.cpp", "a part of make_body: test_make_body.cpp"},
       {"discretization/lattices/lattice_facets.cpp", "a part of make_body: test_facets.cpp"},

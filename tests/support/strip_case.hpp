@@ -65,7 +65,7 @@ inline CaseFile free_strip_case() {
   below.region = "lower end";
   below.force = Vector3{0.0, -12.0, 0.0};
   input.loads.push_back(below);
-  input.analysis.rigid_body_modes = "pin";
+  input.analysis.rigid_body_modes = RigidBodyModes::pin;
   return input;
 }
 

@@ -3,7 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/dynamics/strain.hpp"
+#include "material/mass_scaling.hpp"
+#include "material/strain.hpp"
 #include "network/network.hpp"
 
 namespace perilink {
@@ -18,14 +19,6 @@ struct Inertia {
 
   /// Time step below which the motion without damping is stable for certain [time].
   double critical_time_step() const { return 2.0 / frequency_bound; }
-};
-
-/// How masses are shared among particles.
-enum class MassScaling {
-  none,     ///< density times volume
-  uniform,  ///< in proportion to the stiffness around the particle, so that single short bonds do
-            ///< not rule the time step; the mass of the whole body is the same. For runs to an
-            ///< equilibrium only: waves are not those of the material
 };
 
 /// Lumped masses. Rotations, for which the bonds of a body without size leave nothing, get the

@@ -31,7 +31,7 @@ std::string time_text(double seconds) {
 /// The whole run as far as the case tells its length.
 std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& cost) {
   const double begin = set_up + cost.factorization;
-  if (input.analysis.type == "elastic") return "about " + time_text(begin);
+  if (input.analysis.type == AnalysisType::elastic) return "about " + time_text(begin);
   if (!input.stop.broken_bonds) {
     return fmt::format("about {} until the first bond breaks; the case does not tell how many will",
                        time_text(begin));
@@ -133,7 +133,7 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
   fmt::print("#   memory             {:.3g} GB\n", cost.memory / 1e9);
   print_set_up(set_up);
   fmt::print("#   factorisation      {}\n", time_text(cost.factorization));
-  if (input.analysis.type != "elastic") {
+  if (input.analysis.type != AnalysisType::elastic) {
     fmt::print("#   each broken bond   {:.2g} ms; 1000 of them {}\n", 1e3 * cost.broken_bond,
                time_text(1e3 * cost.broken_bond));
   }
@@ -259,11 +259,11 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   set_threads(0);
   CaseFile input = read_case_file(case_path);
   input.trust_geometry = trust_geometry;
-  if (input.analysis.type == "explicit") {
-    return input.body.model == "lattice" ? check_explicit(case_path, input)
-                                         : check_moving_bonds(case_path, input);
+  if (input.analysis.type == AnalysisType::explicit_) {
+    return input.body.model == BodyModel::lattice ? check_explicit(case_path, input)
+                                                  : check_moving_bonds(case_path, input);
   }
-  if (input.analysis.type == "relaxation") return check_relaxation(case_path, input);
+  if (input.analysis.type == AnalysisType::relaxation) return check_relaxation(case_path, input);
   const Timer timer;
   const Model model = draft_model(input);
   const ExpectedSetUp set_up(model, timer.seconds());

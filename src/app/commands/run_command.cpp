@@ -295,12 +295,12 @@ int run_case(const RunOptions& options) {
                                                : default_result_directory(options.case_path);
   refuse_own_case(directory, options.case_path);
   refuse_old_results(directory, options.force);  // at once: the model may take minutes
-  const bool lattice = input.body.model == "lattice";
-  const std::string& type = input.analysis.type;
-  const auto run = type == "relaxation"            ? run_relaxation
-                   : type == "explicit" && lattice ? run_explicit
-                   : type == "explicit"            ? run_moving_bonds
-                                                   : run_quasistatic;
+  const bool lattice = input.body.model == BodyModel::lattice;
+  const AnalysisType type = input.analysis.type;
+  const auto run = type == AnalysisType::relaxation             ? run_relaxation
+                   : type == AnalysisType::explicit_ && lattice ? run_explicit
+                   : type == AnalysisType::explicit_            ? run_moving_bonds
+                                                                : run_quasistatic;
   std::optional<ResultDirectory> hold;
   try {
     return run(options, input, directory, threads, hold);

@@ -73,7 +73,7 @@ std::size_t number_of(const std::array<int, 2>& axes) {
 
 std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
   std::vector<Gauge> gauges;
-  const std::vector<std::string> taken = input.analysis.type != "explicit"
+  const std::vector<std::string> taken = input.analysis.type != AnalysisType::explicit_
                                              ? history_columns()
                                              : explicit_history_columns(crack_count(input));
   for (std::size_t k = 0; k < input.gauges.size(); ++k) {

@@ -57,6 +57,4 @@ struct Model : LoadedNetwork {
   std::vector<std::string> notes;  ///< what the user should know: pinned modes, unbalanced moments
 };
 
-Problem problem_of(const CaseFile& input);
-
 }  // namespace perilink

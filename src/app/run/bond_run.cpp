@@ -96,23 +96,17 @@ std::string cracks_text(const Model& model, const ExplicitRecord& record) {
                                     : fmt::format("{} broken bonds", record.broken_bonds);
 }
 
-Strain strain_of(const AnalysisSection& analysis) {
-  return analysis.strain == "green" ? Strain::green : Strain::small;
-}
-
 BondRunCase build_bond_run(const CaseFile& input, const Model& model) {
   BondRunCase built;
-  const bool uniform = input.analysis.masses == "uniform";
   built.rules.damping_rate = input.analysis.damping_rate;
-  built.rules.strain = strain_of(input.analysis);
+  built.rules.strain = input.analysis.strain;
   built.rules.constant_velocity = !input.velocities.empty();
   if (model.network.has_states()) {
     built.rules.states = state_body_of(input);
     refuse_wide_bands(input, model.network.particles, built.rules.states);
   }
   built.inertia =
-      lumped_inertia(model.network, densities(input),
-                     uniform ? MassScaling::uniform : MassScaling::none, built.rules.strain);
+      lumped_inertia(model.network, densities(input), input.analysis.masses, built.rules.strain);
   choose_steps(input, built);
   return built;
 }
@@ -126,7 +120,7 @@ BondRunFiles::BondRunFiles(const CaseFile& input, const Model& model, Index step
       history_(directory_.string(), crack_count(input), names_of(model.gauges)),
       bar_(quiet),
       families_(bonds_of_particles(model.network.bonds, model.network.particles.size())),
-      peaks_(input.analysis.type == "relaxation" ? 1 : vibrating_rows) {}
+      peaks_(input.analysis.type == AnalysisType::relaxation ? 1 : vibrating_rows) {}
 
 void BondRunFiles::write_fields(const ExplicitRecord& record, const BondRunState& state) {
   const std::string name = fmt::format("fields_{:06}.vtu", record.step);
@@ -171,7 +165,7 @@ void BondRunFiles::on_row(const ExplicitRecord& record, const BondRunState& stat
   peaks_.add({record.displacement, record.load}, intact);
   const double now = record.time * (1.0 + round_off);
   const std::vector<double>& times = input_.output.fields_times;
-  bool wanted = rows_ == 1 || input_.analysis.type == "relaxation";
+  bool wanted = rows_ == 1 || input_.analysis.type == AnalysisType::relaxation;
   for (; next_time_ < times.size() && times[next_time_] <= now; ++next_time_) wanted = true;
   if (wanted) write_fields(record, state);
   if (!bar_.is_due()) return;

@@ -25,8 +25,6 @@ struct BondRunCase {
 /// "3 broken bonds" or, of state-based particles, "3 cracked particles".
 std::string cracks_text(const Model& model, const ExplicitRecord& record);
 
-Strain strain_of(const AnalysisSection& analysis);
-
 /// Masses and steps of a case with type = "explicit" whose body has bonds.
 /// \throws InputError for a time step above the critical one, or too many steps
 BondRunCase build_bond_run(const CaseFile& input, const Model& model);

@@ -17,7 +17,7 @@ RelaxationOptions relaxation_options(const CaseFile& input, int threads) {
   options.load_factors = input.analysis.load_factors;
   options.tolerance = input.analysis.tolerance;
   options.most_iterations = input.analysis.iterations;
-  options.strain = strain_of(input.analysis);
+  options.strain = input.analysis.strain;
   options.threads = threads;
   return options;
 }

@@ -54,7 +54,7 @@ Model build_model_visibly(const CaseFile& input, bool quiet) {
 
 ModelRun run_model(const CaseFile& input, const Model& model, int threads, StepObserver& observer) {
   ModelRun run;
-  if (input.analysis.type != "elastic") {
+  if (input.analysis.type != AnalysisType::elastic) {
     run.result = run_damage_analysis(model, damage_options(input, threads), observer);
     return run;
   }

@@ -37,7 +37,7 @@ void RunObserver::note_broken(const StepRecord& record, StateSource& source) {
   const std::size_t count = static_cast<std::size_t>(record.broken_bonds);
   if (count == broken_.size()) return;
   if (count == broken_.size() + 1 && last_element_ != no_index &&
-      input_.analysis.control == "events") {
+      input_.analysis.control == LoadControl::events) {
     broken_.push_back(last_element_);
     is_broken_[last_element_] = 1;
     return;
@@ -100,7 +100,7 @@ VtuGrid RunObserver::make_grid(const StepRecord& record, StateSource& source) {
                                  : make_field_grid(network, source.state(), record, broken_,
                                                    families_, model_.lattice.spacing);
   if (network.dim() == 2) grid.field_data.push_back({"thickness", input_.body.thickness});
-  if (input_.analysis.type == "elastic") {
+  if (input_.analysis.type == AnalysisType::elastic) {
     const std::vector<double> displacement = translations(network, source.state().displacement);
     grid.point_data.push_back(
         {"stress", 6, particle_stresses(stress_input(model_, families_), displacement)});

@@ -46,7 +46,8 @@ class StudyObserver final : public StepObserver {
 
 /// Refuses refinements that no member could have.
 void check_refinement(const VarySection& vary, const BodySection& body) {
-  const bool of_lattice = vary.refinement == "spacing" || vary.refinement == "columns";
+  const bool of_lattice =
+      vary.refinement == Refinement::spacing || vary.refinement == Refinement::columns;
   if (of_lattice && body.mesh) {
     throw InputError(
         vary.where,
@@ -61,7 +62,7 @@ void check_refinement(const VarySection& vary, const BodySection& body) {
     throw InputError(vary.where, "is given, but the body of the case is a lattice",
                      "refine with `spacing` or `columns`, or give `mesh` in [body] of the case");
   }
-  if (vary.refinement == "mesh_size" && !is_geometry(*body.mesh)) {
+  if (vary.refinement == Refinement::mesh_size && !is_geometry(*body.mesh)) {
     throw InputError(
         vary.where,
         fmt::format("is given, but the body of the case, {}, is meshed already",
@@ -118,15 +119,18 @@ std::size_t gauge_number(const CaseFile& input, const std::string& name) {
   return std::find_if(input.gauges.begin(), input.gauges.end(), named) - input.gauges.begin();
 }
 
-double quantity_of(const DamageResult& result, const std::string& word) {
-  if (word == "strain_energy") return result.last.strain_energy;
-  if (word == "peak_load") return result.peak_load;
-  if (word == "peak_displacement") return result.peak_displacement;
-  if (word == "first_peak_load") return result.peaks.first().load;
-  if (word == "first_peak_displacement") return result.peaks.first().displacement;
-  if (word == "smoothed_peak_load") return result.smoothed_peak_load.value_or(no_number);
-  if (word == "initial_stiffness") return result.initial_stiffness;
-  return result.last.dissipated_energy;
+double quantity_of(const DamageResult& result, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::strain_energy: return result.last.strain_energy;
+    case Quantity::peak_load: return result.peak_load;
+    case Quantity::peak_displacement: return result.peak_displacement;
+    case Quantity::first_peak_load: return result.peaks.first().load;
+    case Quantity::first_peak_displacement: return result.peaks.first().displacement;
+    case Quantity::smoothed_peak_load: return result.smoothed_peak_load.value_or(no_number);
+    case Quantity::initial_stiffness: return result.initial_stiffness;
+    case Quantity::dissipated_energy: return result.last.dissipated_energy;
+  }
+  return no_number;
 }
 
 SourceLocation where_of_field(const ErrorSection& error) {
@@ -137,7 +141,7 @@ SourceLocation where_of_field(const ErrorSection& error) {
 
 void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) {
   const Model& model = repeat.model;
-  member.method = repeat.input.body.method;
+  member.method = word_of(repeat.input.body.method);
   if (!model.elements) member.surface = word_of(repeat.input.body.surface);
   member.spacing = model.lattice.spacing;
   member.horizon = model.horizon;
@@ -153,7 +157,7 @@ void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) 
     } else if (!error.gauge.empty()) {
       member.values.push_back(repeat.gauges.at(gauge_number(repeat.input, error.gauge)));
     } else {
-      member.values.push_back(quantity_of(repeat.run.result, error.quantity));
+      member.values.push_back(quantity_of(repeat.run.result, *error.quantity));
     }
   }
 }
@@ -215,12 +219,12 @@ std::vector<StudySeries> study_series(const StudyFile& study) {
     }
     bonds = std::move(product);
   };
-  multiply(vary.surface, "surface", [](const std::string& word) { return word; });
+  multiply(vary.surface, "surface", [](Surface surface) { return std::string(word_of(surface)); });
   multiply(vary.horizon_ratio, "horizon_ratio",
            [](double ratio) { return fmt::format("horizon ratio {}", ratio); });
   std::vector<StudySeries> all;
-  for (const std::string& method : vary.method) {
-    if (method == "linear_elements") {
+  for (const BodyMethod method : vary.method) {
+    if (method == BodyMethod::linear_elements) {
       all.push_back({"linear elements", {body_key("method", method)}});
       continue;
     }
@@ -237,11 +241,11 @@ std::vector<StudySeries> study_series(const StudyFile& study) {
 }
 
 void check_study(const StudyFile& study, const CaseFile& input) {
-  if (input.analysis.type == "explicit" || input.analysis.type == "relaxation") {
-    throw InputError(
-        {study.path, 0, "case"},
-        fmt::format("has analysis.type = \"{}\", which studies do not run", input.analysis.type),
-        "name a case with analysis.type = \"elastic\" or \"damage\"");
+  if (!is_quasistatic(input.analysis.type)) {
+    throw InputError({study.path, 0, "case"},
+                     fmt::format("has analysis.type = \"{}\", which studies do not run",
+                                 word_of(input.analysis.type)),
+                     "name a case with analysis.type = \"elastic\" or \"damage\"");
   }
   check_refinement(study.vary, input.body);
   const int dim = dimension_of(input.body);
@@ -260,7 +264,7 @@ void check_study(const StudyFile& study, const CaseFile& input) {
                                    error.displacement.size(), dim),
                        "give one for each axis");
     }
-    if (input.analysis.type != "elastic") {
+    if (input.analysis.type != AnalysisType::elastic) {
       throw InputError(where, "is given, but the case is a damage analysis",
                        "measure a `quantity`, or set analysis.type = \"elastic\" in the case");
     }
@@ -328,7 +332,8 @@ double field_error(const ErrorSection& error, const Particles& particles,
       exact[static_cast<std::size_t>(i) * particles.dim + axis] = value;
     }
   }
-  return relative_l2_error(particles, displacement, exact, error.remove_rigid_motion);
+  return relative_l2_error(particles, displacement, exact,
+                           error.rigid_motion == RigidMotion::removed);
 }
 
 void compare_members(const StudyFile& study, std::vector<StudyMember>& members) {

@@ -32,7 +32,7 @@ class Report {
 
   void begin_series(const std::string& name) {
     append("\n{}\n", name);
-    append("  {:>14} {:>10}", study_.vary.refinement, "unknowns");
+    append("  {:>14} {:>10}", word_of(study_.vary.refinement), "unknowns");
     for (const ErrorSection& error : study_.errors) {
       append(" {:>{}} {:>6}", "error of " + error.name, width_of(error), "order");
     }
@@ -106,8 +106,9 @@ std::string study_report(const StudyFile& study, std::span<const StudySeries> se
 
 std::string study_table(const StudyFile& study, std::span<const StudySeries> series,
                         std::span<const StudyMember> members) {
+  const std::string refined(word_of(study.vary.refinement));
   CsvRow header;
-  header.text("combination").text(study.vary.refinement).text("method").text("surface");
+  header.text("combination").text(refined).text("method").text("surface");
   header.text("mean_spacing").text("horizon").text("particles").text("bonds").text("unknowns");
   for (const ErrorSection& error : study.errors) {
     if (!error.is_field()) header.text(error.name);
@@ -135,8 +136,9 @@ std::string study_table(const StudyFile& study, std::span<const StudySeries> ser
 
 std::string study_timing(const StudyFile& study, std::span<const StudySeries> series,
                          std::span<const StudyMember> members) {
+  const std::string refined(word_of(study.vary.refinement));
   CsvRow header;
-  header.text("combination").text(study.vary.refinement).text("unknowns").text("set_up");
+  header.text("combination").text(refined).text("unknowns").text("set_up");
   std::string table = header.text("calibration")
                           .text("assembly")
                           .text("factorization")

@@ -9,8 +9,8 @@
 
 #include "base/error.hpp"
 #include "base/types.hpp"
-#include "discretization/lattices/lattice.hpp"
 #include "discretization/region.hpp"
+#include "io/case/case_words.hpp"
 #include "io/text/formula.hpp"
 
 /// \file
@@ -26,25 +26,23 @@ struct TomlValue;
 struct BodySection {
   std::optional<std::string> mesh;  ///< file, from the folder of the case; irregular pattern
   std::optional<double> mesh_size;  ///< wanted for the cells where `mesh` is a geometry [length]
-  std::string problem = "plane_stress";  ///< plane_stress | plane_strain | three_dimensional
-  std::string method = "bonds";          ///< bonds | linear_elements
-  std::string model = "bond_based";      ///< bond_based | micropolar | lattice | particles
-  double torsion = 1.0;                  ///< torsional over bending modulus of micropolar bonds, 3D
-  double thickness = 1.0;                ///< two-dimensional bodies only [length]
+  Problem problem = Problem::plane_stress;
+  BodyMethod method = BodyMethod::bonds;
+  BodyModel model = BodyModel::bond_based;
+  double torsion = 1.0;    ///< torsional over bending modulus of micropolar bonds, 3D
+  double thickness = 1.0;  ///< two-dimensional bodies only [length]
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
   Surface surface = Surface::calibrated;
   std::optional<int> columns;  ///< particles across the body in x: this, spacing or mesh
   std::optional<double> spacing;
-  std::optional<double> horizon;         ///< exactly one of horizon, horizon_level, horizon_ratio
-  std::optional<int> horizon_level;      ///< 0–8 of Gerstle, Sau & Silling 2005, Fig. 5
-  std::optional<double> horizon_ratio;   ///< horizon / spacing
-  std::string micromodulus = "lattice";  ///< lattice | continuum, of a mesh always continuum
-  /// dissipated | lattice (not of a mesh) | continuum: what a crack's fracture energy counts.
-  std::string critical_stretch = "dissipated";
+  std::optional<double> horizon;        ///< exactly one of horizon, horizon_level, horizon_ratio
+  std::optional<int> horizon_level;     ///< 0–8 of Gerstle, Sau & Silling 2005, Fig. 5
+  std::optional<double> horizon_ratio;  ///< horizon / spacing
+  Constants micromodulus = Constants::lattice;                     ///< a mesh always has continuum
+  CriticalStretch critical_stretch = CriticalStretch::dissipated;  ///< a mesh has no lattice
   double rotation = 0.0;  ///< angle of the rows of model = lattice against x, about z [degrees]
   Vector3 offset{};       ///< one of its lattice points [length]
-  /// Its rules: consistent | 2018 | 2017, the latter two kept for comparison with the papers.
-  std::string variant = "consistent";
+  LatticeRules variant = LatticeRules::consistent;
 };
 
 /// Keys of [[materials]] of bodies with model = lattice; some also of those with particles.
@@ -164,21 +162,21 @@ struct GaugeSection {
 
 /// [analysis]
 struct AnalysisSection {
-  std::string type = "damage";              ///< damage | elastic | explicit | relaxation
-  std::string control = "events";           ///< events | steps
-  std::vector<double> load_factors;         ///< for control = steps and type = relaxation
-  std::string rigid_body_modes = "refuse";  ///< refuse | pin
-  std::string factor = "in_place";          ///< in_place | cholmod_updown | refactorize
-  double duration = 0.0;                    ///< [time]; from here on: type = explicit
-  double ramp_time = 0.0;                   ///< until the load factor is one [time]
-  std::optional<double> time_step;          ///< [time]
+  AnalysisType type = AnalysisType::damage;
+  LoadControl control = LoadControl::events;
+  std::vector<double> load_factors;  ///< for control = steps and type = relaxation
+  RigidBodyModes rigid_body_modes = RigidBodyModes::refuse;
+  FactorRoute factor = FactorRoute::in_place;
+  double duration = 0.0;            ///< [time]; from here on: type = explicit
+  double ramp_time = 0.0;           ///< until the load factor is one [time]
+  std::optional<double> time_step;  ///< [time]
   double safety = 0.9;        ///< part of the critical time step that is taken without time_step
   int rows = 500;             ///< rows of the history, about
   double damping_rate = 0.0;  ///< for bonds [1/time]
-  std::string masses = "volume";  ///< for bonds: volume | uniform
-  std::string strain = "small";   ///< for bonds that move: small | green
-  double tolerance = 1e-6;        ///< for type = relaxation: relative residual force
-  int iterations = 1000000;       ///< for type = relaxation: limit in a load step
+  MassScaling masses = MassScaling::none;  ///< for bonds
+  Strain strain = Strain::small;           ///< for bonds that move
+  double tolerance = 1e-6;                 ///< for type = relaxation: relative residual force
+  int iterations = 1000000;                ///< for type = relaxation: limit in a load step
 };
 
 /// [stop]: the run ends at the first rule met (always at collapse).

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "io/case/case_keys.hpp"
+
 namespace perilink {
 namespace {
 
@@ -11,10 +13,7 @@ std::vector<std::string_view> replaced_by(const TomlValue& key) {
   if (key.key == "spacing") return {"columns"};
   if (key.key == "columns") return {"spacing"};
   if (key.key == "horizon_ratio") return {"horizon", "horizon_level"};
-  if (key.key == "method" && key.text == "linear_elements") {
-    return {"model",         "torsion",       "surface",      "horizon",
-            "horizon_level", "horizon_ratio", "micromodulus", "critical_stretch"};
-  }
+  if (key.text == word_of(BodyMethod::linear_elements)) return keys_of_bonds();
   return {};
 }
 

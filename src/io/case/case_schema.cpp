@@ -35,7 +35,8 @@ std::string header(const TableSchema& schema) {
 }
 
 bool has_key(const TableSchema& schema, const std::string& key) {
-  return std::find(schema.keys.begin(), schema.keys.end(), key) != schema.keys.end();
+  return std::any_of(schema.keys.begin(), schema.keys.end(),
+                     [&](const KeySchema& known) { return known.name == key; });
 }
 
 /// What is checked against what, for messages.
@@ -52,7 +53,9 @@ std::string suggest_key(const Document& document, const TableSchema& here, const
     if (!has_key(other, key)) continue;
     homes += (homes.empty() ? "" : ", ") + header(other);
   }
-  const std::string allowed = suggest(key, here.keys);
+  std::vector<std::string_view> keys;
+  for (const KeySchema& known : here.keys) keys.push_back(known.name);
+  const std::string allowed = suggest(key, keys);
   return homes.empty() ? allowed : fmt::format("`{}` belongs to {}. {}", key, homes, allowed);
 }
 
@@ -95,69 +98,13 @@ void check_table(const Document& document, const TableSchema& schema, const Toml
 
 }  // namespace
 
-const std::vector<TableSchema>& case_schema() {
-  static const std::vector<TableSchema> schema = {
-      {"", false, {"title", "units"}},
-      {"body",
-       false,
-       {"problem", "method", "model", "torsion", "thickness", "mesh", "mesh_size", "pattern",
-        "surface", "columns", "spacing", "horizon", "horizon_level", "horizon_ratio",
-        "micromodulus", "critical_stretch", "rotation", "offset", "variant"}},
-      {"regions", true, {"name", "group", "x", "y", "z", "center", "radius"}},
-      {"materials",
-       true,
-       {"name",
-        "region",
-        "regions",
-        "holes",
-        "youngs_modulus",
-        "poissons_ratio",
-        "fracture_energy",
-        "density",
-        "tensile_strength",
-        "critical_opening",
-        "knee_stress_ratio",
-        "knee_opening_ratio",
-        "compression_ratio",
-        "compression_threshold",
-        "boundary_factor",
-        "yield_strength",
-        "ultimate_strength",
-        "ultimate_plastic_strain",
-        "crushing_energy",
-        "internal_damping",
-        "external_damping",
-        "fundamental_period"}},
-      {"supports", true, {"region", "fix"}},
-      {"displacements", true, {"region", "x", "y", "z", "rotation", "rx", "ry", "rz"}},
-      {"velocities", true, {"region", "x", "y", "z", "rotation", "rx", "ry", "rz"}},
-      {"loads", true, {"region", "force", "body_force"}},
-      {"tractions", true, {"region", "traction", "pressure"}},
-      {"point_loads", true, {"at", "force", "moment"}},
-      {"symmetry", true, {"axis", "at", "region"}},
-      {"springs", true, {"region", "stiffness", "total"}},
-      {"cracks", true, {"points", "corners"}},
-      {"rebar",
-       true,
-       {"from", "to", "youngs_modulus", "area", "yield_strength", "yields", "ties_break"}},
-      {"gauges", true, {"name", "between", "at", "region", "axis", "stress"}},
-      {"analysis",
-       false,
-       {"type", "control", "load_factors", "rigid_body_modes", "factor", "duration", "ramp_time",
-        "time_step", "safety", "rows", "damping_rate", "masses", "strain", "tolerance",
-        "iterations"}},
-      {"stop", false, {"broken_bonds", "load_fraction", "displacement"}},
-      {"output", false, {"fields_at", "fields_every", "fields_times"}},
-  };
-  return schema;
-}
-
-void check_against_schema(const TomlValue& document, const std::string& path) {
-  if (const TomlValue* vary = document.find("vary")) {
-    throw InputError({path, vary->line, "vary"}, "belongs to a study, and this is to be a case",
-                     fmt::format("run the study by `perilink converge {}`", path));
+bool NotFor::holds(Kinds kind) const {
+  using namespace kinds;
+  for (const Kinds group : {bond_based | micropolar | lattice | particles | elements, plane | space,
+                            damage | elastic | explicit_ | relaxation}) {
+    if ((kinds & group) != 0 && (kinds & group & kind) == 0) return false;
   }
-  check_against_schema(document, path, case_schema(), "case");
+  return true;
 }
 
 void check_against_schema(const TomlValue& document, const std::string& path,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/types.hpp"
+#include "io/case/case_words.hpp"
 #include "io/text/formula.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -31,6 +33,14 @@ class CaseTable {
   /// The same, one of a few words.
   std::optional<std::string> choice(const std::string& key,
                                     const std::vector<std::string_view>& allowed) const;
+  /// The same, one of the words of an enumeration.
+  template <class Enumeration>
+  std::optional<Enumeration> choice(const std::string& key) const {
+    const auto& words = words_of<Enumeration>;
+    const auto word = choice(key, {words.begin(), words.end()});
+    if (!word) return std::nullopt;
+    return static_cast<Enumeration>(std::find(words.begin(), words.end(), *word) - words.begin());
+  }
   std::optional<bool> boolean(const std::string& key) const;
   std::optional<int> integer(const std::string& key, int lowest, int highest) const;
   /// Integers count as numbers.

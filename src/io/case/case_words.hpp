@@ -3,12 +3,17 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
-#include <vector>
 
 #include "discretization/lattices/lattice.hpp"
+#include "material/elasticity.hpp"
+#include "material/lattice_rules.hpp"
+#include "material/mass_scaling.hpp"
+#include "material/micromodulus.hpp"
+#include "material/strain.hpp"
+#include "solver/factor_route.hpp"
 
 /// \file
-/// How the case file spells the axes and the enumerations of the discretization.
+/// The words of case and study files: axes, reserved names, and one table for every enumeration.
 
 namespace perilink {
 
@@ -31,17 +36,109 @@ inline const char* motion_name(int dim, std::size_t component) {
 inline constexpr const char* surface_region = "surface";
 inline constexpr const char* body_region = "body";
 
-const std::vector<std::string_view>& pattern_words();
-const std::vector<std::string_view>& surface_words();
-const std::vector<std::string_view>& method_words();
+/// What a body is made of.
+enum class BodyMethod { bonds, linear_elements };
 
-std::string_view word_of(Pattern pattern);
-std::string_view word_of(Surface surface);
+/// What its bonds are.
+enum class BodyModel {
+  bond_based,
+  micropolar,
+  lattice,    ///< state-based particles on a lattice
+  particles,  ///< state-based particles that stand anywhere
+};
 
-/// \param word  one of pattern_words()
-Pattern pattern_of(std::string_view word);
-/// \param word  one of surface_words()
-Surface surface_of(std::string_view word);
+/// What a crack's fracture energy counts.
+enum class CriticalStretch { dissipated, lattice, continuum };
+
+enum class AnalysisType { damage, elastic, explicit_, relaxation };
+
+/// What a quasistatic analysis steps by.
+enum class LoadControl { events, steps };
+
+/// What becomes of a body that is not held.
+enum class RigidBodyModes { refuse, pin };
+
+/// Keys of [body] that a study refines by.
+enum class Refinement { spacing, columns, mesh, mesh_size };
+
+/// Numbers of a run that a study can measure.
+enum class Quantity {
+  strain_energy,
+  peak_load,
+  peak_displacement,
+  first_peak_load,
+  first_peak_displacement,
+  smoothed_peak_load,
+  initial_stiffness,
+  dissipated_energy,
+};
+
+/// What the error of a quantity is measured against.
+enum class Reference {
+  finest,        ///< the finest member of the same combination
+  extrapolated,  ///< the limit of its three finest members
+  number,        ///< a given one, which no word stands for
+};
+
+/// What becomes of a rigid motion before a displacement is compared.
+enum class RigidMotion { kept, removed };
+
+template <class... Word>
+constexpr std::array<std::string_view, sizeof...(Word)> words(Word... word) {
+  return {word...};
+}
+
+/// The words of an enumeration in the order of its enumerators; the last enumerators may have none
+/// (Pattern::irregular is what a mesh has).
+template <class Enumeration>
+inline constexpr std::nullptr_t words_of{};
+template <>
+inline constexpr auto words_of<Problem> = words("plane_stress", "plane_strain",
+                                                "three_dimensional");
+template <>
+inline constexpr auto words_of<BodyMethod> = words("bonds", "linear_elements");
+template <>
+inline constexpr auto words_of<BodyModel> = words("bond_based", "micropolar", "lattice",
+                                                  "particles");
+template <>
+inline constexpr auto words_of<Pattern> = words("rectangular", "hexagonal", "cubic",
+                                                "face_centred");
+template <>
+inline constexpr auto words_of<Surface> = words("none", "ghost", "energy", "calibrated");
+template <>
+inline constexpr auto words_of<Constants> = words("lattice", "continuum");
+template <>
+inline constexpr auto words_of<CriticalStretch> = words("dissipated", "lattice", "continuum");
+template <>
+inline constexpr auto words_of<LatticeRules> = words("consistent", "2018", "2017");
+template <>
+inline constexpr auto words_of<AnalysisType> = words("damage", "elastic", "explicit", "relaxation");
+template <>
+inline constexpr auto words_of<LoadControl> = words("events", "steps");
+template <>
+inline constexpr auto words_of<RigidBodyModes> = words("refuse", "pin");
+template <>
+inline constexpr auto words_of<FactorRoute> = words("in_place", "cholmod_updown", "refactorize");
+template <>
+inline constexpr auto words_of<MassScaling> = words("volume", "uniform");
+template <>
+inline constexpr auto words_of<Strain> = words("small", "green");
+template <>
+inline constexpr auto words_of<Refinement> = words("spacing", "columns", "mesh", "mesh_size");
+template <>
+inline constexpr auto words_of<Quantity> = words("strain_energy", "peak_load", "peak_displacement",
+                                                 "first_peak_load", "first_peak_displacement",
+                                                 "smoothed_peak_load", "initial_stiffness",
+                                                 "dissipated_energy");
+template <>
+inline constexpr auto words_of<Reference> = words("finest", "extrapolated");
+template <>
+inline constexpr auto words_of<RigidMotion> = words("kept", "removed");
+
+template <class Enumeration>
+std::string_view word_of(Enumeration value) {
+  return words_of<Enumeration>[static_cast<std::size_t>(value)];
+}
 
 /// Whether the file of a mesh is a geometry that has to be meshed, by its name: .geo, .step, .stp
 /// or .brep in letters of either case.

@@ -70,30 +70,37 @@ std::vector<double> positive_list(const CaseTable& table, const std::string& key
   return values;
 }
 
-std::vector<std::string> word_list(const CaseTable& table, const std::string& key,
-                                   const std::vector<std::string_view>& allowed) {
-  if (!table.has(key)) return {};
-  std::vector<std::string> words = distinct(table, key, *table.texts(key));
-  for (const std::string& word : words) {
-    if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) continue;
-    table.refuse(key, fmt::format("holds {}, which is none of the choices", perilink::quoted(word)),
-                 suggest(word, allowed));
+template <class Enumeration>
+std::vector<Enumeration> choices(const CaseTable& table, const std::string& key) {
+  std::vector<Enumeration> result;
+  if (!table.has(key)) return result;
+  const auto& words = words_of<Enumeration>;
+  for (const std::string& word : distinct(table, key, *table.texts(key))) {
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end()) {
+      table.refuse(key,
+                   fmt::format("holds {}, which is none of the choices", perilink::quoted(word)),
+                   suggest(word, {words.begin(), words.end()}));
+    }
+    result.push_back(static_cast<Enumeration>(found - words.begin()));
   }
-  return words;
+  return result;
 }
 
 void read_refinement(const CaseTable& table, VarySection& vary, const StudyFile& study) {
-  const std::vector<std::string> keys = {"spacing", "columns", "mesh", "mesh_size"};
-  table.need_one_of(keys);
-  vary.refinement = *std::find_if(keys.begin(), keys.end(),
-                                  [&](const std::string& key) { return table.has(key); });
-  const std::string& key = vary.refinement;
+  const auto& words = words_of<Refinement>;
+  table.need_one_of({words.begin(), words.end()});
+  const auto given = std::find_if(words.begin(), words.end(), [&](std::string_view word) {
+    return table.has(std::string(word));
+  });
+  vary.refinement = static_cast<Refinement>(given - words.begin());
+  const std::string key(*given);
   vary.where = {study.path, table.value(key)->line, "vary." + key};
-  if (key == "columns") {
+  if (vary.refinement == Refinement::columns) {
     for (const int value : distinct(table, key, *table.integers(key, 2, most_columns))) {
       vary.values.push_back(body_key(key, value));
     }
-  } else if (key == "mesh") {
+  } else if (vary.refinement == Refinement::mesh) {
     for (const std::string& mesh : distinct(table, key, *table.texts(key))) {
       // From the folder of the case, as the case itself would name it.
       vary.values.push_back(
@@ -121,8 +128,8 @@ VarySection read_vary(const CaseTable& table, const StudyFile& study) {
                    "2 to 4 is usual");
     }
   }
-  vary.surface = word_list(table, "surface", surface_words());
-  vary.method = word_list(table, "method", method_words());
+  vary.surface = choices<Surface>(table, "surface");
+  vary.method = choices<BodyMethod>(table, "method");
   return vary;
 }
 
@@ -139,8 +146,7 @@ void read_reference(const CaseTable& table, ErrorSection& error, std::size_t mem
     table.refuse("reference", "is zero, and errors are relative to it",
                  "measure a quantity that does not vanish");
   }
-  const std::string word = *table.choice("reference", {"finest", "extrapolated"});
-  error.reference = word == "finest" ? Reference::finest : Reference::extrapolated;
+  error.reference = *table.choice<Reference>("reference");
   if (error.reference == Reference::extrapolated && members < 3) {
     table.refuse("reference",
                  fmt::format("is \"extrapolated\", but [vary] has {} refinements", members),
@@ -166,23 +172,22 @@ ErrorSection read_error(const CaseTable& table, std::size_t members, SourceLocat
   table.need_one_of({"displacement", "gauge", "quantity"});
   if (table.has("displacement")) error.displacement = read_field(table);
   assign(error.gauge, table.text("gauge"));
-  assign(error.quantity, table.choice("quantity", quantity_words()));
+  error.quantity = table.choice<Quantity>("quantity");
   if (table.has("displacement")) {
     if (table.has("reference")) {
       table.refuse("reference", "is given, but `displacement` is the reference itself",
                    "delete it");
     }
-    error.remove_rigid_motion =
-        table.choice("rigid_motion", {"kept", "removed"}).value_or("kept") == "removed";
+    assign(error.rigid_motion, table.choice<RigidMotion>("rigid_motion"));
   } else {
     if (table.has("rigid_motion")) {
       table.refuse("rigid_motion", "is given, but only a displacement field has one", "delete it");
     }
     read_reference(table, error, members);
   }
-  error.name = !error.gauge.empty()      ? error.gauge
-               : !error.quantity.empty() ? error.quantity
-                                         : "displacement";
+  error.name = !error.gauge.empty() ? error.gauge
+               : error.quantity     ? std::string(word_of(*error.quantity))
+                                    : "displacement";
   assign(error.name, table.text("name"));
   if (error.name.empty()) table.refuse("name", "is empty", "name the error, or delete the key");
   return error;
@@ -217,41 +222,43 @@ void write_error(TomlWriter& out, const ErrorSection& error, bool several) {
   out.write("name", error.name);
   if (error.is_field()) {
     out.write("displacement", error.displacement);
-    out.write("rigid_motion", error.remove_rigid_motion ? "removed" : "kept");
+    out.write("rigid_motion", word_of(error.rigid_motion));
     return;
   }
   if (!error.gauge.empty()) out.write("gauge", error.gauge);
-  if (!error.quantity.empty()) out.write("quantity", error.quantity);
+  if (error.quantity) out.write("quantity", word_of(*error.quantity));
   if (error.reference == Reference::number) {
     out.write("reference", error.reference_value);
   } else {
-    out.write("reference", error.reference == Reference::finest ? "finest" : "extrapolated");
+    out.write("reference", word_of(error.reference));
   }
 }
 
 void write_refinement(TomlWriter& out, const StudyFile& study, const std::string& directory) {
   const VarySection& vary = study.vary;
-  if (vary.refinement == "mesh") {
+  const std::string_view key = word_of(vary.refinement);
+  if (vary.refinement == Refinement::mesh) {
     std::vector<std::string> meshes;
     for (const TomlValue& value : vary.values) {
       meshes.push_back(path_from(directory, beside(study.case_path, value.text)));
     }
-    out.write(vary.refinement, meshes);
+    out.write(key, meshes);
   } else {
     std::vector<double> numbers;
     for (const TomlValue& value : vary.values) numbers.push_back(value.number);
-    out.write(vary.refinement, numbers);
+    out.write(key, numbers);
   }
 }
 
-}  // namespace
-
-const std::vector<std::string_view>& quantity_words() {
-  static const std::vector<std::string_view> words = {
-      "strain_energy",           "peak_load",          "peak_displacement", "first_peak_load",
-      "first_peak_displacement", "smoothed_peak_load", "initial_stiffness", "dissipated_energy"};
-  return words;
+template <class Enumeration>
+void write_words(TomlWriter& out, const char* key, const std::vector<Enumeration>& values) {
+  if (values.empty()) return;
+  std::vector<std::string> list;
+  for (const Enumeration value : values) list.emplace_back(word_of(value));
+  out.write(key, list);
 }
+
+}  // namespace
 
 StudyFile parse_study(const std::string& text, const std::string& path) {
   refuse_large_input(text, path);
@@ -294,8 +301,8 @@ std::string write_study(const StudyFile& study, const std::string& directory) {
   out.header("[vary]");
   write_refinement(out, study, directory);
   if (!study.vary.horizon_ratio.empty()) out.write("horizon_ratio", study.vary.horizon_ratio);
-  if (!study.vary.surface.empty()) out.write("surface", study.vary.surface);
-  if (!study.vary.method.empty()) out.write("method", study.vary.method);
+  write_words(out, "surface", study.vary.surface);
+  write_words(out, "method", study.vary.method);
   for (const ErrorSection& error : study.errors) {
     write_error(out, error, study.errors.size() > 1);
   }

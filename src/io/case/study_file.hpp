@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "io/case/case_words.hpp"
 #include "io/text/formula.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -18,19 +19,12 @@ namespace perilink {
 
 /// [vary]: the case is run for every combination. An empty list leaves the case's own value.
 struct VarySection {
-  std::string refinement;         ///< key of [body] that refines: spacing, columns, mesh, mesh_size
+  Refinement refinement = Refinement::spacing;
   SourceLocation where;           ///< where that key stands
   std::vector<TomlValue> values;  ///< values that it takes: numbers, integers or texts
   std::vector<double> horizon_ratio;
-  std::vector<std::string> surface;
-  std::vector<std::string> method;  ///< bonds | linear_elements
-};
-
-/// What the error of a quantity is measured against.
-enum class Reference {
-  number,        ///< a given one
-  finest,        ///< the finest member of the same combination
-  extrapolated,  ///< the limit of its three finest members
+  std::vector<Surface> surface;
+  std::vector<BodyMethod> method;
 };
 
 /// [error]: exactly one of displacement, gauge and quantity.
@@ -38,9 +32,9 @@ struct ErrorSection {
   SourceLocation where;
   std::string name;                      ///< as columns and pictures give it
   std::vector<Expression> displacement;  ///< closed form, one formula of x, y, z for each axis
-  bool remove_rigid_motion = false;      ///< from the difference to the closed form
-  std::string gauge;                     ///< column of the history
-  std::string quantity;                  ///< one of quantity_words()
+  RigidMotion rigid_motion = RigidMotion::kept;  ///< in the difference to the closed form
+  std::string gauge;                             ///< column of the history
+  std::optional<Quantity> quantity;
   Reference reference = Reference::number;
   double reference_value = 0.0;
 
@@ -57,9 +51,6 @@ struct StudyFile {
   std::vector<ErrorSection> errors;
   bool trust_geometry = false;  ///< from the command line, as in CaseFile
 };
-
-/// Numbers of a run that a study can measure.
-const std::vector<std::string_view>& quantity_words();
 
 /// Reads and checks a study; the case itself is not opened.
 /// \throws InputError  with file, line, key, value given, what is allowed and a suggestion

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "base/error.hpp"
+#include "io/case/case_words.hpp"
 #include "support/spring_lattice.hpp"
 
 namespace perilink {
@@ -217,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(Routes, EveryRoute,
                                          std::pair{FactorRoute::cholmod_updown, 1},
                                          std::pair{FactorRoute::refactorize, 1}),
                          [](const auto& parameter) {
-                           return to_string(parameter.param.first) +
+                           return std::string(word_of(parameter.param.first)) +
                                   std::to_string(parameter.param.second);
                          });
 

@@ -34,7 +34,7 @@ class ExplicitRecorder final : public BondRunObserver {
 
 Specimen read_specimen(const std::string& name, const std::string& path) {
   CaseFile input = read_case_file(path);
-  input.body.critical_stretch = "lattice";  // both modes alike, as recorded
+  input.body.critical_stretch = CriticalStretch::lattice;  // both modes alike, as recorded
   Model model = build_model(input);
   return {name,
           std::move(model.network),

@@ -161,7 +161,7 @@ Comparison compare(const std::string& name, const fs::path& work, std::size_t mo
   StudyFile& study = comparison.study;
   study.title = read_case_file(study.case_path).title;
   study.vary.values.resize(std::min(most, study.vary.values.size()));
-  const bool meshed = study.vary.refinement == "mesh";
+  const bool meshed = study.vary.refinement == Refinement::mesh;
   for (std::size_t k = 0; meshed && k < study.vary.values.size(); ++k) {
     study.vary.values[k] = make_mesh(work, 0.2 / std::pow(2.0, static_cast<double>(k)));
   }

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "analysis/dynamics/bonds/explicit_bonds.hpp"
-#include "analysis/dynamics/strain.hpp"
+#include "material/strain.hpp"
 #include "network/network.hpp"
 
 namespace perilink {

@@ -16,7 +16,7 @@ constexpr double nearly_equal = 1.1;
 
 bool bonds_can_break(const CaseFile& input, const Model& model) {
   const Network& network = model.network;
-  if (input.analysis.type == "elastic") return false;
+  if (input.analysis.type == AnalysisType::elastic) return false;
   for (std::size_t e = 0; e < network.critical_stretch.size(); ++e) {
     if (network.can_break(static_cast<Index>(e))) return true;
   }
@@ -36,7 +36,7 @@ double ratio_of_steps(const Lattice& lattice) {
 std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
                                       NetworkInput& network) {
   std::vector<double> costs;
-  if (input.body.critical_stretch != "dissipated") return costs;
+  if (input.body.critical_stretch != CriticalStretch::dissipated) return costs;
   for (SolidMaterial& material : network.materials) {
     costs.push_back(crack_cost(body, network, material));
     material.fracture_energy /= costs.back();

@@ -116,7 +116,7 @@ void refuse_impossible_horizon(const CaseFile& input, const HorizonReach& reach)
 
 void refuse_shearing_lattice(const CaseFile& input, const Lattice& lattice, double horizon) {
   const bool rows = lattice.pattern == Pattern::rectangular || lattice.pattern == Pattern::cubic;
-  if (!rows || input.body.model != "bond_based") return;
+  if (!rows || input.body.model != BodyModel::bond_based) return;
   double longest = 0.0;  // diagonal of a face of its cells
   for (int a = 0; a < lattice.dim; ++a) {
     for (int b = 0; b < a; ++b) {

@@ -22,12 +22,6 @@ constexpr double most_particles = 3e7;
 /// Largest distance of the lattice point from the body [spacings].
 constexpr double farthest_offset = 1e6;
 
-LatticeRules rules_of(const CaseFile& input) {
-  if (input.body.variant == "2017") return LatticeRules::mean_2017;
-  if (input.body.variant == "2018") return LatticeRules::least_2018;
-  return LatticeRules::consistent;
-}
-
 void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
   double count = 1.0;
   for (int a = 0; a < dim; ++a) {
@@ -122,7 +116,7 @@ LatticeMaterial lattice_material(const CaseFile& input) {
   material.youngs_modulus = section.youngs_modulus;
   material.poissons_ratio = *section.poissons_ratio;
   material.density = own.density;
-  if (input.analysis.type == "elastic") return material;
+  if (input.analysis.type == AnalysisType::elastic) return material;
   material.breakable = own.tensile_strength.has_value();
   material.softening = softening_of(section);
   material.tension_compression_ratio = own.compression_ratio;
@@ -182,7 +176,7 @@ ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape,
                             std::vector<std::string>& notes) {
   LatticeRows lattice = cut_lattice(input, shape, notes);
   try {
-    return make_explicit_model(problem_of(input), rules_of(input), std::move(lattice),
+    return make_explicit_model(input.body.problem, input.body.variant, std::move(lattice),
                                lattice_material(input), input.body.thickness);
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where("body.spacing"), error.what(), "");

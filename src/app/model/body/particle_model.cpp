@@ -30,7 +30,7 @@ void build_particles(const CaseFile& input, Body& body, Model& model) {
 
 StateBody state_body_of(const CaseFile& input) {
   StateBody body;
-  body.problem = problem_of(input);
+  body.problem = input.body.problem;
   body.thickness = input.body.thickness;
   for (const MaterialSection& section : input.materials) {
     StateMaterial material;

@@ -80,7 +80,7 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
 
 void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription) {
   const std::vector<Fragment> fragments = find_fragments(model.network, prescription.held);
-  const bool pin = input.analysis.rigid_body_modes == "pin";
+  const bool pin = input.analysis.rigid_body_modes == RigidBodyModes::pin;
   if (fragments.size() > 1) {
     model.notes.push_back(
         fmt::format("the body consists of {} parts that no bond connects", fragments.size()));
@@ -181,7 +181,7 @@ void refuse_mere_shift(const CaseFile& input, const Model& model,
                        const Prescription& prescription) {
   const auto not_zero = [](double value) { return value != 0.0; };
   const std::vector<double>& springs = model.network.support_stiffness;
-  if (input.analysis.type == "explicit" || !model.reference.driven ||
+  if (input.analysis.type == AnalysisType::explicit_ || !model.reference.driven ||
       std::any_of(model.loads.forces.begin(), model.loads.forces.end(), not_zero) ||
       std::any_of(springs.begin(), springs.end(), not_zero)) {
     return;

@@ -18,8 +18,8 @@
 #include "base/error.hpp"
 #include "discretization/lattices/make_body.hpp"
 #include "discretization/lattices/triangulate.hpp"
-#include "io/case/case_unused.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "io/case/sections/case_unused.hpp"
 #include "network/network_builder.hpp"
 
 namespace perilink {
@@ -69,7 +69,9 @@ void refuse_too_many_particles(const CaseFile& input, const Box& box, double spa
       fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_particles));
 }
 
-bool has_horizon(const BodySection& body) { return body.method == "bonds" && !is_particles(body); }
+bool has_horizon(const BodySection& body) {
+  return body.method == BodyMethod::bonds && !is_particles(body);
+}
 
 Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   LatticeInput lattice;
@@ -195,14 +197,14 @@ void refuse_cracks_without_bonds(const CaseFile& input, const Network& network) 
 NetworkInput network_input(const CaseFile& input, Problem problem, double horizon) {
   NetworkInput network;
   network.problem = problem;
-  if (input.body.model == "micropolar") network.model = BondModel::micropolar;
+  if (input.body.model == BodyModel::micropolar) network.model = BondModel::micropolar;
   network.torsion = input.body.torsion;
   network.horizon = horizon;
   network.thickness = input.body.thickness;
-  network.micromodulus =
-      input.body.micromodulus == "lattice" ? Constants::lattice : Constants::continuum;
-  const bool on_lattice = input.body.critical_stretch == "lattice" ||
-                          (input.body.critical_stretch == "dissipated" && !input.body.mesh);
+  network.micromodulus = input.body.micromodulus;
+  const CriticalStretch rule = input.body.critical_stretch;
+  const bool on_lattice =
+      rule == CriticalStretch::lattice || (rule == CriticalStretch::dissipated && !input.body.mesh);
   network.critical_stretch = on_lattice ? Constants::lattice : Constants::continuum;
   for (std::size_t m = 0; m < input.materials.size() && !input.body.mesh; ++m) {
     const std::vector<Box> boxes = boxes_of(input, m);
@@ -226,7 +228,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
 }
 
 void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
-  if (input.analysis.type != "damage") return;
+  if (input.analysis.type != AnalysisType::damage) return;
   auto finite = [](double value) { return std::isfinite(value); };
   if (std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite)) return;
   throw InputError(input.where("materials[1].fracture_energy"),
@@ -311,7 +313,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
 /// Particles, and bonds or elements, of every body but lattices of state-based particles.
 Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
   Model model;
-  model.problem = problem_of(input);
+  model.problem = input.body.problem;
   const int dim = dimension_of(model.problem);
   Body body = build_body(input, dim, model.horizon, model.notes);
   model.lattice = body.lattice;
@@ -354,11 +356,9 @@ Model draft_model(const CaseFile& input) { return build_model_with(input, {true,
 DamageOptions damage_options(const CaseFile& input, int threads) {
   DamageOptions options;
   options.engine.threads = threads;
-  for (const FactorRoute route :
-       {FactorRoute::in_place, FactorRoute::cholmod_updown, FactorRoute::refactorize}) {
-    if (to_string(route) == input.analysis.factor) options.engine.route = route;
-  }
-  if (input.analysis.control == "steps") options.load_factors = input.analysis.load_factors;
+  options.engine.route = input.analysis.factor;
+  if (input.analysis.control == LoadControl::steps)
+    options.load_factors = input.analysis.load_factors;
   options.stop.broken_bonds = input.stop.broken_bonds;
   options.stop.load_fraction = input.stop.load_fraction;
   options.stop.displacement = input.stop.displacement;

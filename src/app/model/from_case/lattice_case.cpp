@@ -14,7 +14,7 @@
 #include "app/model/conditions/supports.hpp"
 #include "app/model/gauges.hpp"
 #include "base/error.hpp"
-#include "io/case/case_unused.hpp"
+#include "io/case/sections/case_unused.hpp"
 
 namespace perilink {
 namespace {

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
-#include "io/case/sections/case_particles.hpp"
 #include "io/case/sections/case_sections.hpp"
 
 namespace perilink {
@@ -24,15 +22,15 @@ void check_pattern(const CaseTable& table, const BodySection& body) {
   if (flat == (dimension_of(body) == 2)) return;
   table.refuse("pattern",
                fmt::format("is \"{}\", a {}-dimensional pattern, but problem is \"{}\"",
-                           word_of(body.pattern), flat ? "two" : "three", body.problem),
+                           word_of(body.pattern), flat ? "two" : "three", word_of(body.problem)),
                flat ? "Allowed here: cubic, face_centred" : "Allowed here: rectangular, hexagonal");
 }
 
 void read_lattice(const CaseTable& table, BodySection& body) {
   if (dimension_of(body) == 3) body.pattern = Pattern::cubic;
-  if (const auto word = table.choice("pattern", pattern_words())) body.pattern = pattern_of(*word);
+  assign(body.pattern, table.choice<Pattern>("pattern"));
   check_pattern(table, body);
-  if (const auto word = table.choice("surface", surface_words())) body.surface = surface_of(*word);
+  assign(body.surface, table.choice<Surface>("surface"));
   if (body.surface == Surface::ghost && dimension_of(body) == 3) {
     table.refuse("surface", "is \"ghost\", but the ghost layer is for two-dimensional bodies",
                  "Allowed in three dimensions: calibrated, energy, none");
@@ -45,11 +43,11 @@ void read_lattice(const CaseTable& table, BodySection& body) {
 void read_mesh(const CaseTable& table, BodySection& body) {
   read_mesh_file(table, body);
   body.pattern = Pattern::irregular;
-  body.micromodulus = "continuum";
+  body.micromodulus = Constants::continuum;
   if (table.has("pattern")) {
     table.refuse("pattern", "is given beside `mesh`", "delete it: the mesh places the particles");
   }
-  if (const auto word = table.choice("surface", surface_words())) body.surface = surface_of(*word);
+  assign(body.surface, table.choice<Surface>("surface"));
   if (body.surface == Surface::ghost) {
     table.refuse("surface", "is \"ghost\", but the ghost layer belongs to a lattice",
                  "delete it, or fill the body with a lattice");
@@ -62,15 +60,16 @@ void read_mesh(const CaseTable& table, BodySection& body) {
 
 /// Where the constants of bonds come from.
 void read_constants(const CaseTable& table, BodySection& body) {
-  assign(body.micromodulus, table.choice("micromodulus", {"lattice", "continuum"}));
-  assign(body.critical_stretch,
-         table.choice("critical_stretch", {"dissipated", "lattice", "continuum"}));
+  assign(body.micromodulus, table.choice<Constants>("micromodulus"));
+  assign(body.critical_stretch, table.choice<CriticalStretch>("critical_stretch"));
   if (body.pattern != Pattern::irregular) return;
-  for (const char* key : {"micromodulus", "critical_stretch"}) {
-    if (table.text(key) != "lattice") continue;
+  const auto refuse_lattice = [&](const char* key, bool counts) {
+    if (!counts) return;
     table.refuse(key, "is \"lattice\", but a mesh has no lattice to count on",
                  "delete it, or write \"continuum\"");
-  }
+  };
+  refuse_lattice("micromodulus", body.micromodulus == Constants::lattice);
+  refuse_lattice("critical_stretch", body.critical_stretch == CriticalStretch::lattice);
 }
 
 void read_horizon(const CaseTable& table, BodySection& body) {
@@ -101,19 +100,10 @@ void read_horizon(const CaseTable& table, BodySection& body) {
 /// On a lattice calibrated bonds are stiff by equations of their own; a mesh has nothing but the
 /// continuum's formula to start from.
 void refuse_unused_micromodulus(const CaseTable& table, const BodySection& body) {
-  if (body.surface != Surface::calibrated || body.mesh || body.micromodulus != "continuum") return;
+  if (body.surface != Surface::calibrated || body.mesh || body.micromodulus != Constants::continuum)
+    return;
   table.refuse("micromodulus", "is \"continuum\", but calibrated bonds have other stiffnesses",
                "delete it, or set surface = \"none\"");
-}
-
-/// Keys that speak of bonds mean nothing to elements.
-void refuse_keys_of_bonds(const CaseTable& table) {
-  for (const char* key : {"model", "torsion", "surface", "horizon", "horizon_level",
-                          "horizon_ratio", "micromodulus", "critical_stretch"}) {
-    if (!table.has(key)) continue;
-    table.refuse(key, "is given, but linear elements have no bonds",
-                 "delete it, or the line method = \"linear_elements\"");
-  }
 }
 
 void check_element_ratio(const CaseTable& table, double given) {
@@ -123,12 +113,6 @@ void check_element_ratio(const CaseTable& table, double given) {
                "an incompressible solid would need other elements");
 }
 
-/// Poisson's ratio of bonds that act along their length, the most that micropolar bonds can have
-/// (Gerstle, Sau & Silling 2005, section 2; Gerstle, Sau & Aguilera 2007, Eqs. 15, 17 and 20). The
-/// material module has the same two numbers; this module may not include it, and a test holds the
-/// two together.
-bool ratio_is_third(const BodySection& body) { return body.problem == "plane_stress"; }
-
 /// What else a material can be made of whose ratio no bonds have.
 std::string other_model(double given) {
   if (!(given > -1.0 && given < 0.5)) return "";
@@ -136,16 +120,18 @@ std::string other_model(double given) {
          "analysis.type = \"elastic\" has ratios up to 1/2";
 }
 
+/// How messages write bond_poissons_ratio().
+const char* ratio_word(Problem problem) { return problem == Problem::plane_stress ? "1/3" : "1/4"; }
+
 void check_bond_based_ratio(const CaseTable& table, const BodySection& body, double given) {
   constexpr double tolerance = 1e-3;  // users write 0.333
-  const bool third = ratio_is_third(body);
-  const double only = third ? 1.0 / 3.0 : 0.25;
+  const double only = bond_poissons_ratio(body.problem);
   if (std::abs(given - only) <= tolerance) return;
-  const char* word = third ? "1/3" : "1/4";
+  const char* word = ratio_word(body.problem);
   table.refuse(
       "poissons_ratio",
       fmt::format("is {}, but a bond-based solid in {} has the Poisson's ratio {}", given,
-                  body.problem, word),
+                  word_of(body.problem), word),
       given > -1.0 && given < only
           ? std::string("leave the key out, or set model = \"micropolar\" in [body], whose bonds "
                         "bend and have this ratio")
@@ -155,20 +141,18 @@ void check_bond_based_ratio(const CaseTable& table, const BodySection& body, dou
 }
 
 void check_micropolar_ratio(const CaseTable& table, const BodySection& body, double given) {
-  const bool third = ratio_is_third(body);
-  const double largest = third ? 1.0 / 3.0 : 0.25;
-  if (given > -1.0 && given <= largest) return;
+  if (given > -1.0 && given <= bond_poissons_ratio(body.problem)) return;
   table.refuse("poissons_ratio",
                fmt::format("is {}, but micropolar bonds in {} have ratios above -1 and up to {}",
-                           given, body.problem, third ? "1/3" : "1/4"),
+                           given, word_of(body.problem), ratio_word(body.problem)),
                "no bonds of this version have other ratios" + other_model(given));
 }
 
 std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySection& body) {
   std::optional<double> given = table.number("poissons_ratio");
-  if (body.method == "linear_elements") {
+  if (body.method == BodyMethod::linear_elements) {
     if (given) check_element_ratio(table, *given);
-  } else if (body.model == "micropolar") {
+  } else if (body.model == BodyModel::micropolar) {
     given = table.need("poissons_ratio", given, "Poisson's ratio, which micropolar bonds need");
     check_micropolar_ratio(table, body, *given);
   } else if (given) {
@@ -207,33 +191,14 @@ std::vector<std::string> read_holes(const CaseTable& table, const BodySection& b
 
 }  // namespace
 
-BodySection read_body(const CaseTable& table) {
-  BodySection body;
-  assign(body.problem,
-         table.choice("problem", {"plane_stress", "plane_strain", "three_dimensional"}));
-  if (dimension_of(body) == 3 && table.has("thickness")) {
-    table.refuse("thickness", "is given, but a three-dimensional body has none",
-                 "delete it; the regions' z intervals say how thick the body is");
-  }
+BodySection read_body(const CaseTable& table, const BodySection& kind) {
+  BodySection body = kind;
   assign(body.thickness, table.positive("thickness"));
-  assign(body.method, table.choice("method", method_words()));
-  if (body.method == "linear_elements") refuse_keys_of_bonds(table);
-  assign(body.model, table.choice("model", {"bond_based", "micropolar", "lattice", "particles"}));
   if (is_lattice(body)) {
     read_lattice_body(table, body);
     return body;
   }
-  refuse_lattice_keys(table, body);
-  if (table.has("torsion") && (dimension_of(body) == 2 || body.model != "micropolar")) {
-    table.refuse(
-        "torsion",
-        fmt::format("is given, but {}", body.model == "micropolar"
-                                            ? "bonds of a two-dimensional body do not twist"
-                                            : "bonds of a bond-based solid do not twist"),
-        "delete it; three-dimensional bodies with model = \"micropolar\" have it");
-  }
   assign(body.torsion, table.positive("torsion"));
-  if (is_particles(body)) refuse_horizon_keys(table);
   table.need_one_of({"columns", "spacing", "mesh"});
   if (table.has("mesh")) {
     read_mesh(table, body);
@@ -245,7 +210,7 @@ BodySection read_body(const CaseTable& table) {
     body.surface = Surface::none;
     return body;
   }
-  if (body.method == "bonds") read_horizon(table, body);
+  if (body.method == BodyMethod::bonds) read_horizon(table, body);
   read_constants(table, body);
   refuse_unused_micromodulus(table, body);
   return body;
@@ -261,15 +226,10 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
   material.holes = read_holes(table, body);
   material.youngs_modulus =
       table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");
-  if (is_lattice(body)) {
-    read_lattice_material(table, body, material);
+  if (has_state_based_particles(body)) {
+    read_state_material(table, body, material);
     return material;
   }
-  if (is_particles(body)) {
-    read_particle_material(table, body, material);
-    return material;
-  }
-  refuse_lattice_material_keys(table);
   material.poissons_ratio = read_poissons_ratio(table, body);
   material.fracture_energy = read_fracture_energy(table);
   material.density = table.positive("density");

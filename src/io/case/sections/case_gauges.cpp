@@ -92,11 +92,11 @@ void check_gauges(const CaseFile& input) {
                        fmt::format("is {}, the name of another gauge", quoted(gauge.name)),
                        "give every gauge a name of its own");
     }
-    if (gauge.stress && input.analysis.type != "elastic") {
+    if (gauge.stress && input.analysis.type != AnalysisType::elastic) {
       throw InputError(
           input.where(item_key("gauges", k, "stress")),
           fmt::format("is given, but analysis.type is \"{}\", where what breaks carries none",
-                      input.analysis.type),
+                      word_of(input.analysis.type)),
           "measure a displacement, or set analysis.type = \"elastic\"");
     }
   }

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <limits>
 
-#include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 
 namespace perilink {
@@ -22,18 +21,27 @@ bool is_number(const std::string& text) {
 
 }  // namespace
 
-int dimension_of(const BodySection& body) { return body.problem == "three_dimensional" ? 3 : 2; }
+Kinds kinds_of(const CaseFile& input) {
+  const auto bit = [](Kinds first, auto value) { return first << static_cast<Kinds>(value); };
+  const BodySection& body = input.body;
+  return (body.method == BodyMethod::bonds ? bit(kinds::bond_based, body.model) : kinds::elements) |
+         (dimension_of(body) == 2 ? kinds::plane : kinds::space) |
+         bit(kinds::damage, input.analysis.type);
+}
 
-bool is_lattice(const BodySection& body) { return body.model == "lattice"; }
+int dimension_of(const BodySection& body) { return dimension_of(body.problem); }
 
-bool is_particles(const BodySection& body) { return body.model == "particles"; }
+bool is_lattice(const BodySection& body) { return body.model == BodyModel::lattice; }
+
+bool is_particles(const BodySection& body) { return body.model == BodyModel::particles; }
 
 bool has_state_based_particles(const BodySection& body) {
   return is_lattice(body) || is_particles(body);
 }
 
 std::string why_nothing_rotates(const BodySection& body) {
-  if (body.method == "linear_elements") return "the corners of linear elements do not rotate";
+  if (body.method == BodyMethod::linear_elements)
+    return "the corners of linear elements do not rotate";
   return fmt::format("the particles of a {} body do not rotate", is_lattice(body) ? "lattice"
                                                                  : has_state_based_particles(body)
                                                                      ? "state-based"
@@ -41,7 +49,7 @@ std::string why_nothing_rotates(const BodySection& body) {
 }
 
 std::string what_rotates(const BodySection& body) {
-  return body.method == "linear_elements"
+  return body.method == BodyMethod::linear_elements
              ? "set model = \"micropolar\" in [body] instead of method = \"linear_elements\""
              : "set model = \"micropolar\" in [body]";
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/case/case_file.hpp"
+#include "io/case/case_schema.hpp"
 #include "io/case/case_table.hpp"
 
 /// \file
@@ -10,8 +11,16 @@
 
 namespace perilink {
 
+/// The kind of a case, for the columns of case_schema(): its body, dimensions and analysis.
+Kinds kinds_of(const CaseFile& input);
+
 /// 2 or 3.
 int dimension_of(const BodySection& body);
+
+/// Whether an analysis of the type finds equilibria one after the other, without motion.
+inline bool is_quasistatic(AnalysisType type) {
+  return type == AnalysisType::damage || type == AnalysisType::elastic;
+}
 
 /// Whether [body] says model = "lattice".
 bool is_lattice(const BodySection& body);

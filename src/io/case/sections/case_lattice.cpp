@@ -16,26 +16,10 @@ namespace perilink {
 namespace {
 
 constexpr int most_rows = 1000000;
-constexpr std::array body_keys = {"rotation", "offset", "variant"};
-constexpr std::array material_keys = {
-    "tensile_strength",  "critical_opening",      "knee_stress_ratio", "knee_opening_ratio",
-    "compression_ratio", "compression_threshold", "boundary_factor",   "internal_damping",
-    "external_damping",  "fundamental_period"};
-/// The keys among these that an unbreakable material has no use for.
+/// Keys of [[materials]] that an unbreakable one has no use for.
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
                                        "compression_threshold", "boundary_factor"};
-/// Whether irregular particles have a key, too.
-bool is_of_particles(std::string_view key) {
-  for (const char* known : {"tensile_strength", "critical_opening", "knee_stress_ratio",
-                            "knee_opening_ratio", "compression_ratio", "compression_threshold"}) {
-    if (key == known) return true;
-  }
-  return false;
-}
-/// Keys of [analysis] that only bonds have.
-constexpr std::array bond_keys = {"damping_rate", "masses", "rigid_body_modes"};
-
 /// A number above zero and below one.
 std::optional<double> proper_fraction(const CaseTable& table, const std::string& key) {
   const std::optional<double> value = table.positive(key);
@@ -64,8 +48,8 @@ void read_softening(const CaseTable& table, const BodySection& body,
   assign(section.knee_opening_ratio, proper_fraction(table, "knee_opening_ratio"));
   assign(section.compression_ratio, table.positive("compression_ratio"));
   // What the papers of each variant have.
-  section.compression_threshold = body.variant == "2018" ? 0.8 : 1.0 / 3.0;
-  section.boundary_factor = body.variant == "consistent" ? 1.0 : 0.2;
+  section.compression_threshold = body.variant == LatticeRules::least_2018 ? 0.8 : 1.0 / 3.0;
+  section.boundary_factor = body.variant == LatticeRules::consistent ? 1.0 : 0.2;
   assign(section.compression_threshold, proper_fraction(table, "compression_threshold"));
   assign(section.boundary_factor, table.positive("boundary_factor"));
 }
@@ -74,16 +58,6 @@ void read_damping(const CaseTable& table, LatticeMaterialSection& section) {
   assign(section.internal_damping, not_negative(table, "internal_damping"));
   assign(section.external_damping, not_negative(table, "external_damping"));
   section.fundamental_period = table.positive("fundamental_period");
-}
-
-/// Tables that a lattice body cannot have.
-template <class Section>
-void refuse_table(const CaseFile& input, const std::string& table,
-                  const std::vector<Section>& sections, const std::string& why = "knows none",
-                  const std::string& suggestion = "delete it, or take another model in [body]") {
-  if (sections.empty()) return;
-  throw InputError(input.where(item_key(table, 0)),
-                   "is given, but a body with model = \"lattice\" " + why, suggestion);
 }
 
 void check_times(const CaseFile& input) {
@@ -96,27 +70,12 @@ void check_times(const CaseFile& input) {
   }
 }
 
-/// What explicit runs of bonds need.
-void check_explicit_bonds(const CaseFile& input) {
-  if (input.body.method == "linear_elements") {
-    throw InputError(input.where("analysis.type"),
-                     "is \"explicit\", but linear elements have no masses",
-                     "set method = \"bonds\" in [body], or type = \"elastic\"");
-  }
+void need_densities(const CaseFile& input) {
   for (std::size_t i = 0; i < input.materials.size(); ++i) {
     if (input.materials[i].density) continue;
     throw InputError(input.where(item_key("materials", i)),
                      "has no density, which resists the motion of an explicit analysis",
                      "give `density`, mass per volume");
-  }
-}
-
-void refuse_bond_keys(const CaseFile& input) {
-  for (const char* key : bond_keys) {
-    const std::string path = std::string("analysis.") + key;
-    if (input.lines.count(path) == 0) continue;
-    throw InputError(input.where(path), "is given, but lattice particles do not have it",
-                     "delete it; damping of lattices is a matter of [[materials]]");
   }
 }
 
@@ -138,41 +97,18 @@ void refuse_surfaces(const CaseFile& input, const std::string& table,
   }
 }
 
-void refuse_lattice_tables(const CaseFile& input) {
-  refuse_table(input, "tractions", input.tractions, "has no facets on its surface",
-               "give a total over a region, [[loads]] with `force`");
-  refuse_table(input, "symmetry", input.symmetry,
-               "has no mirror image: particles on a plane would lack half of their bonds",
-               "take the whole body");
-  refuse_table(input, "springs", input.springs);
-  refuse_table(input, "cracks", input.cracks);
-  refuse_table(input, "rebar", input.rebar);
-  refuse_surfaces(input, "supports", input.supports);
-  refuse_surfaces(input, "displacements", input.displacements);
-  refuse_surfaces(input, "loads", input.loads);
-  refuse_surfaces(input, "gauges", input.gauges);
-}
-
 }  // namespace
 
 void read_lattice_body(const CaseTable& table, BodySection& body) {
-  for (const char* key : {"torsion", "columns", "surface", "horizon", "horizon_level",
-                          "horizon_ratio", "micromodulus", "critical_stretch"}) {
-    if (!table.has(key)) continue;
-    table.refuse(key,
-                 "is given, but particles with model = \"lattice\" have their nearest "
-                 "neighbours on a lattice of a given spacing",
-                 "delete it; `pattern`, `spacing`, `rotation` and `offset` say where they are");
-  }
   const int dim = dimension_of(body);
   read_mesh_file(table, body);
   body.surface = Surface::none;
   body.pattern = dim == 2 ? Pattern::hexagonal : Pattern::face_centred;
   const std::string_view only = word_of(body.pattern);
-  if (const auto word = table.choice("pattern", pattern_words()); word && *word != only) {
+  if (const auto given = table.choice<Pattern>("pattern"); given && *given != body.pattern) {
     table.refuse("pattern",
-                 fmt::format("is \"{}\", but lattice particles in {} stand on another", *word,
-                             dim == 2 ? "the plane" : "space"),
+                 fmt::format("is \"{}\", but lattice particles in {} stand on another",
+                             word_of(*given), dim == 2 ? "the plane" : "space"),
                  fmt::format("Allowed here: {}", only));
   }
   body.spacing =
@@ -183,15 +119,7 @@ void read_lattice_body(const CaseTable& table, BodySection& body) {
                  "give an angle from -360 to 360");
   }
   assign(body.offset, table.vector("offset", dim));
-  assign(body.variant, table.choice("variant", {"consistent", "2018", "2017"}));
-}
-
-void refuse_lattice_keys(const CaseTable& table, const BodySection& body) {
-  for (const char* key : body_keys) {
-    if (!table.has(key)) continue;
-    table.refuse(key, fmt::format("is given, but model is \"{}\"", body.model),
-                 "delete it, or set model = \"lattice\"");
-  }
+  assign(body.variant, table.choice<LatticeRules>("variant"));
 }
 
 void read_state_material(const CaseTable& table, const BodySection& body,
@@ -210,7 +138,7 @@ void read_state_material(const CaseTable& table, const BodySection& body,
   table.need_one_of({"fracture_energy", "critical_opening"});
   material.fracture_energy = table.has("fracture_energy") ? read_fracture_energy(table) : 0.0;
   const bool breakable = !std::isinf(material.fracture_energy);
-  if (breakable && dimension_of(body) == 3 && body.variant == "2018") {
+  if (breakable && dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
     table.refuse(table.has("fracture_energy") ? "fracture_energy" : "critical_opening",
                  "lets the material break, but the rules of 2018 have no damage in space",
                  "write fracture_energy = \"infinite\", or take another variant in [body]");
@@ -221,30 +149,14 @@ void read_state_material(const CaseTable& table, const BodySection& body,
     table.refuse(key, "is given, but the material is unbreakable",
                  "delete it, or give a finite fracture_energy");
   }
-}
-
-void read_lattice_material(const CaseTable& table, const BodySection& body,
-                           MaterialSection& material) {
-  read_state_material(table, body, material);
-  read_lattice_yielding(table, body, *material.lattice);
-  read_damping(table, *material.lattice);
-}
-
-void refuse_lattice_material_keys(const CaseTable& table) {
-  for (const char* key : material_keys) {
-    if (!table.has(key)) continue;
-    if (!is_of_particles(key)) {
-      table.refuse(key, "is given, but only bodies with model = \"lattice\" have it",
-                   "delete it, or set model = \"lattice\" in [body]");
-    }
-    table.refuse(key, "is given, but only bodies with model = \"lattice\" or \"particles\" have it",
-                 "delete it (bonds break by fracture_energy or critical_stretch), or set another "
-                 "model in [body]");
-  }
+  material.density = section.density;
+  if (!is_lattice(body)) return;
+  read_lattice_yielding(table, body, section);
+  read_damping(table, section);
 }
 
 void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
-  const bool runs = analysis.type == "explicit";  // else the keys are only checked
+  const bool runs = analysis.type == AnalysisType::explicit_;  // else the keys are only checked
   const auto duration = table.positive("duration");
   if (runs) analysis.duration = table.need("duration", duration, "the time that the run covers");
   analysis.ramp_time = analysis.duration;
@@ -263,7 +175,7 @@ void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
   }
   assign(analysis.rows, table.integer("rows", 1, most_rows));
   assign(analysis.damping_rate, not_negative(table, "damping_rate"));
-  assign(analysis.masses, table.choice("masses", {"volume", "uniform"}));
+  assign(analysis.masses, table.choice<MassScaling>("masses"));
 }
 
 void write_lattice_body(TomlWriter& out, const BodySection& body) {
@@ -273,24 +185,22 @@ void write_lattice_body(TomlWriter& out, const BodySection& body) {
   out.write("spacing", body.spacing);
   out.write("rotation", body.rotation);
   out.write("offset", body.offset, dimension_of(body));
-  out.write("variant", body.variant);
+  out.write("variant", word_of(body.variant));
 }
 
-void write_softening(TomlWriter& out, const LatticeMaterialSection& section) {
-  out.write("density", section.density);
-  if (!section.tensile_strength) return;
-  out.write("tensile_strength", section.tensile_strength);
-  out.write("critical_opening", section.critical_opening);
-  out.write("knee_stress_ratio", section.knee_stress_ratio);
-  out.write("knee_opening_ratio", section.knee_opening_ratio);
-  out.write("compression_ratio", section.compression_ratio);
-  out.write("compression_threshold", section.compression_threshold);
-}
-
-void write_lattice_material(TomlWriter& out, const MaterialSection& material) {
+void write_state_material(TomlWriter& out, const MaterialSection& material, bool on_lattice) {
   const LatticeMaterialSection& section = *material.lattice;
-  write_softening(out, section);
-  if (section.tensile_strength) out.write("boundary_factor", section.boundary_factor);
+  out.write("density", section.density);
+  if (section.tensile_strength) {
+    out.write("tensile_strength", section.tensile_strength);
+    out.write("critical_opening", section.critical_opening);
+    out.write("knee_stress_ratio", section.knee_stress_ratio);
+    out.write("knee_opening_ratio", section.knee_opening_ratio);
+    out.write("compression_ratio", section.compression_ratio);
+    out.write("compression_threshold", section.compression_threshold);
+    if (on_lattice) out.write("boundary_factor", section.boundary_factor);
+  }
+  if (!on_lattice) return;
   write_lattice_yielding(out, section);
   out.write("internal_damping", section.internal_damping);
   out.write("external_damping", section.external_damping);
@@ -309,29 +219,26 @@ void write_explicit_analysis(TomlWriter& out, const CaseFile& input) {
   out.write("rows", analysis.rows);
   if (is_lattice(input.body)) return;
   out.write("damping_rate", analysis.damping_rate);
-  out.write("masses", analysis.masses);
-  out.write("strain", analysis.strain);
-  out.write("rigid_body_modes", analysis.rigid_body_modes);
+  out.write("masses", word_of(analysis.masses));
+  out.write("strain", word_of(analysis.strain));
+  out.write("rigid_body_modes", word_of(analysis.rigid_body_modes));
 }
 
 void check_lattice(const CaseFile& input) {
-  const bool lattice = is_lattice(input.body), is_explicit = input.analysis.type == "explicit";
   check_times(input);
-  if (lattice && input.analysis.type == "damage") {
-    throw InputError(input.where("body.model"), "is \"lattice\", but analysis.type is \"damage\"",
-                     "set type = \"explicit\" or \"elastic\" in [analysis], or take another model");
-  }
-  if (!lattice) {
-    if (is_explicit) check_explicit_bonds(input);
+  if (!is_lattice(input.body)) {
+    if (input.analysis.type == AnalysisType::explicit_) need_densities(input);
     return;
   }
-  if (is_explicit) refuse_bond_keys(input);
   if (input.materials.size() > 1) {
     throw InputError(input.where("materials[2]"),
                      "is a second material, but a body with model = \"lattice\" has one",
                      "delete it, or name its regions in the first");
   }
-  refuse_lattice_tables(input);
+  refuse_surfaces(input, "supports", input.supports);
+  refuse_surfaces(input, "displacements", input.displacements);
+  refuse_surfaces(input, "loads", input.loads);
+  refuse_surfaces(input, "gauges", input.gauges);
 }
 
 }  // namespace perilink

@@ -12,27 +12,19 @@ namespace perilink {
 
 /// The keys of [body] below `model`.
 void read_lattice_body(const CaseTable& table, BodySection& body);
-/// Refuses keys of lattice bodies in [body] of others.
-void refuse_lattice_keys(const CaseTable& table, const BodySection& body);
 
-/// Poisson's ratio, fracture_energy and what other bodies' materials lack.
-void read_lattice_material(const CaseTable& table, const BodySection& body,
-                           MaterialSection& material);
-/// Reads those keys that irregular particles have, too: elastic constants, density and softening.
+/// What materials of state-based particles have, on a lattice or anywhere.
 void read_state_material(const CaseTable& table, const BodySection& body,
                          MaterialSection& material);
-void write_softening(TomlWriter& out, const LatticeMaterialSection& section);
 /// Yield strength and what goes with it.
 void read_lattice_yielding(const CaseTable& table, const BodySection& body,
                            LatticeMaterialSection& section);
-/// Refuses keys of lattice materials in those of others.
-void refuse_lattice_material_keys(const CaseTable& table);
 
 /// Keys of [analysis] that only type = "explicit" has; it must have a duration.
 void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis);
 
 void write_lattice_body(TomlWriter& out, const BodySection& body);
-void write_lattice_material(TomlWriter& out, const MaterialSection& material);
+void write_state_material(TomlWriter& out, const MaterialSection& material, bool on_lattice);
 void write_lattice_yielding(TomlWriter& out, const LatticeMaterialSection& section);
 void write_explicit_analysis(TomlWriter& out, const CaseFile& input);
 

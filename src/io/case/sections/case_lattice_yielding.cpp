@@ -35,7 +35,7 @@ void read_lattice_yielding(const CaseTable& table, const BodySection& body,
                  "delete it, or give `yield_strength`");
   }
   if (!section.yield_strength) return;
-  if (dimension_of(body) == 3 && body.variant == "2018") {
+  if (dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
     table.refuse("yield_strength", "is given, but the rules of 2018 have no flow in space",
                  "take another variant in [body], or a body in the plane");
   }
@@ -51,12 +51,13 @@ void read_lattice_yielding(const CaseTable& table, const BodySection& body,
   section.ultimate_plastic_strain =
       table.need("ultimate_plastic_strain", table.positive("ultimate_plastic_strain"),
                  "the plastic strain at the ultimate strength");
-  if (body.variant == "consistent") {
+  if (body.variant == LatticeRules::consistent) {
     section.crushing_energy = read_crushing_energy(table);
   } else if (table.has("crushing_energy")) {
-    table.refuse("crushing_energy",
-                 fmt::format("is given, but the rules of {} soften in their own way", body.variant),
-                 "delete it, or take variant = \"consistent\" in [body]");
+    table.refuse(
+        "crushing_energy",
+        fmt::format("is given, but the rules of {} soften in their own way", word_of(body.variant)),
+        "delete it, or take variant = \"consistent\" in [body]");
   }
 }
 

@@ -20,10 +20,6 @@ std::string need_region(const CaseTable& table, const std::string& use) {
 /// Moments turn about z in two dimensions: a number; about each axis in three.
 Vector3 read_moment(const CaseTable& table, const BodySection& body) {
   if (!table.has("moment")) return {};
-  if (body.model != "micropolar") {
-    table.refuse("moment", "is given, but " + why_nothing_rotates(body),
-                 "apply a couple of forces, or " + what_rotates(body));
-  }
   if (dimension_of(body) == 2) return {0.0, 0.0, *table.number("moment")};
   return *table.vector("moment", 3);
 }

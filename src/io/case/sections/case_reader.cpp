@@ -4,13 +4,13 @@
 
 #include <type_traits>
 
+#include "io/case/case_keys.hpp"
 #include "io/case/case_overrides.hpp"
-#include "io/case/case_schema.hpp"
 #include "io/case/case_table.hpp"
-#include "io/case/case_unused.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_rules.hpp"
 #include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_unused.hpp"
 #include "io/text/input_text.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -79,6 +79,24 @@ class Document {
   const std::string& path_;
 };
 
+/// The kind of the case: chosen here, before any other key is looked at.
+void read_kind(const Document& document, CaseFile& input) {
+  const CaseTable body = document.needed_table("body");
+  assign(input.body.problem, body.choice<Problem>("problem"));
+  assign(input.body.method, body.choice<BodyMethod>("method"));
+  if (input.body.method == BodyMethod::bonds) {
+    assign(input.body.model, body.choice<BodyModel>("model"));
+  }
+  assign(input.analysis.type, document.table("analysis").choice<AnalysisType>("type"));
+}
+
+void refuse_studies(const TomlValue& root, const std::string& path) {
+  const TomlValue* vary = root.find("vary");
+  if (vary == nullptr) return;
+  throw InputError({path, vary->line, "vary"}, "belongs to a study, and this is to be a case",
+                   fmt::format("run the study by `perilink converge {}`", path));
+}
+
 }  // namespace
 
 std::string item_key(const std::string& table, std::size_t index, const std::string& key) {
@@ -106,7 +124,8 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   refuse_large_input(text, path);
   TomlValue root = parse_toml(text, path);
   override_body(root, body_keys);
-  check_against_schema(root, path);
+  refuse_studies(root, path);
+  check_against_schema(root, path, case_schema(), "case");
   const Document document(root, path);
 
   CaseFile input;
@@ -114,7 +133,9 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   collect_lines(root, "", input.lines);
   assign(input.title, document.top().text("title"));
   assign(input.units, document.top().text("units"));
-  input.body = read_body(document.needed_table("body"));
+  read_kind(document, input);
+  input.unused = find_unused(root, input);
+  input.body = read_body(document.table("body"), input.body);
   const int dim = dimension_of(input.body);
   const auto in_dimension = [dim](auto reader) {
     return [dim, reader](const CaseTable& table, std::size_t) { return reader(table, dim); };
@@ -139,10 +160,10 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.cracks = document.list("cracks", in_dimension(read_crack));
   input.rebar = document.list("rebar", in_dimension(read_rebar));
   input.gauges = document.list("gauges", in_dimension(read_gauge));
-  input.analysis = read_analysis(document.table("analysis"));
-  input.stop = read_stop(document.table("stop"));
-  input.output = read_output(document.table("output"));
-  set_aside_unused(input);
+  input.analysis = read_analysis(document.table("analysis"), input.analysis.type);
+  const StopSection stop = read_stop(document.table("stop"));
+  if (is_quasistatic(input.analysis.type)) input.stop = stop;
+  input.output = read_output(document.table("output"), input.analysis.type);
   check_rules(input);
   return input;
 }

@@ -98,7 +98,6 @@ Region read_region(const CaseTable& table, int dim) {
   Region region;
   region.name = table.need("name", table.text("name"), "a name for other tables to refer to");
   if (region.name.empty()) table.refuse("name", "is empty", "give the region a name");
-  if (table.has("z")) refuse_third_axis(table, "z", dim);
   if (table.has("group")) return read_group(table, region, dim);
   if (table.has("radius") || table.has("center")) return read_round(table, region, dim);
   for (int axis = 0; axis < dim; ++axis) read_interval(table, axis, region.box);

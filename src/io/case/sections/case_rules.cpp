@@ -16,7 +16,6 @@
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
-#include "io/case/sections/case_particles.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -235,35 +234,11 @@ void refuse_on_ghosts(const CaseFile& input, const std::string& key) {
                    "surface = \"none\" in [body]");
 }
 
-void check_method(const CaseFile& input) {
-  if (input.body.method != "linear_elements") return;
-  const SourceLocation where = input.where("body.method");
-  if (input.analysis.type != "elastic") {
-    throw InputError(where, "is \"linear_elements\", which cannot break",
-                     "set analysis.type = \"elastic\", or delete the line");
-  }
-  if (!input.rebar.empty()) {
-    throw InputError(where, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
-                     "delete one of the two");
-  }
-  if (!input.cracks.empty()) {
-    throw InputError(where, "is \"linear_elements\", but the case has [[cracks]], which cut bonds",
-                     "delete one of the two, or leave the crack out of the mesh");
-  }
-  if (!input.springs.empty()) {
-    throw InputError(where,
-                     "is \"linear_elements\", but the case has [[springs]], which only bonds know",
-                     "delete one of the two");
-  }
-}
-
 }  // namespace
 
 void check_rules(const CaseFile& input) {
   check_moving_bonds(input);
-  check_particles(input);
   check_lattice(input);
-  check_method(input);
   const std::set<std::string> names = check_region_names(input);
   check_groups(input);
   check_materials(input, names);

@@ -17,40 +17,27 @@ namespace {
 
 constexpr int largest_count = std::numeric_limits<int>::max();
 
-/// Rotations that the particles of the body do not have, or that go by another name.
-void refuse_rotations(const CaseTable& table, const BodySection& body) {
-  const bool flat = dimension_of(body) == 2;
-  for (const char* key : {"rotation", "rx", "ry", "rz"}) {
-    if (!table.has(key)) continue;
-    if (body.model != "micropolar") {
-      table.refuse(key, "is given, but " + why_nothing_rotates(body),
-                   "delete it, or " + what_rotates(body));
-    }
-    if (flat == (std::string_view(key) == "rotation")) continue;
-    table.refuse(key,
-                 fmt::format("is no rotation of a body in {} dimensions", flat ? "two" : "three"),
-                 flat ? "Allowed: rotation" : "Allowed: rx, ry, rz");
-  }
-}
-
 /// Index in SupportSection::fix of what a support names.
 std::size_t find_held_component(const CaseTable& table, const BodySection& body,
                                 const std::string& name) {
   const int dim = dimension_of(body);
+  const bool rotates = body.model == BodyModel::micropolar;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (name == axis_names[axis]) {
-      if (axis == 2) refuse_third_axis(table, "fix", dim);
+      if (axis == 2 && dim == 2) {
+        table.refuse("fix", "is an axis that a two-dimensional body does not have",
+                     "delete it, or set problem = \"three_dimensional\" in [body]");
+      }
       return axis;
     }
     const bool turns = dim == 3 || axis == 2;
     if (!turns || name != rotation_name(dim, axis)) continue;
-    if (body.model != "micropolar") {
+    if (!rotates) {
       table.refuse("fix", fmt::format("names {}, but {}", quoted(name), why_nothing_rotates(body)),
                    "delete it, or " + what_rotates(body));
     }
     return 3 + axis;
   }
-  const bool rotates = body.model == "micropolar";
   table.refuse("fix", fmt::format("names {}, which is no axis", quoted(name)),
                dim == 2 ? (rotates ? "Allowed: x, y, rotation" : "Allowed: x, y")
                         : (rotates ? "Allowed: x, y, z, rx, ry, rz" : "Allowed: x, y, z"));
@@ -58,8 +45,8 @@ std::size_t find_held_component(const CaseTable& table, const BodySection& body,
 
 /// Keys of [analysis] that only quasistatic analyses have.
 void read_events(const CaseTable& table, AnalysisSection& analysis) {
-  assign(analysis.control, table.choice("control", {"events", "steps"}));
-  assign(analysis.factor, table.choice("factor", {"in_place", "cholmod_updown", "refactorize"}));
+  assign(analysis.control, table.choice<LoadControl>("control"));
+  assign(analysis.factor, table.choice<FactorRoute>("factor"));
 }
 
 std::string need_region(const CaseTable& table, const std::string& use) {
@@ -67,12 +54,6 @@ std::string need_region(const CaseTable& table, const std::string& use) {
 }
 
 }  // namespace
-
-void refuse_third_axis(const CaseTable& table, const std::string& key, int dim) {
-  if (dim == 3) return;
-  table.refuse(key, "is an axis that a two-dimensional body does not have",
-               "delete it, or set problem = \"three_dimensional\" in [body]");
-}
 
 SupportSection read_support(const CaseTable& table, const BodySection& body) {
   SupportSection support;
@@ -92,8 +73,6 @@ DisplacementSection read_displacement(const CaseTable& table, const BodySection&
   const int dim = dimension_of(body);
   DisplacementSection driven;
   driven.region = need_region(table, "that is driven");
-  if (table.has("z")) refuse_third_axis(table, "z", dim);
-  refuse_rotations(table, body);
   bool any = false;
   for (std::size_t component = 0; component < 6; ++component) {
     if (dim == 2 && component >= 2 && component != 5) continue;
@@ -122,11 +101,6 @@ LoadSection read_load(const CaseTable& table, int dim) {
 
 CrackSection read_crack(const CaseTable& table, int dim) {
   const std::string key = dim == 2 ? "points" : "corners";
-  if (const std::string other = dim == 2 ? "corners" : "points"; table.has(other)) {
-    table.refuse(other, fmt::format("is given, but the body has {} dimensions", dim),
-                 dim == 2 ? "give the `points` of a line: [[0, 1], [2, 1]]"
-                          : "give the `corners` of a plane polygon");
-  }
   CrackSection crack;
   crack.points = table.need(key, table.vectors(key, dim),
                             dim == 2 ? "the points of a line: [[0, 1], [2, 1]]"
@@ -177,11 +151,12 @@ std::vector<double> read_load_factors(const CaseTable& table) {
   return factors;
 }
 
-AnalysisSection read_analysis(const CaseTable& table) {
+AnalysisSection read_analysis(const CaseTable& table, AnalysisType type) {
   AnalysisSection analysis;
-  assign(analysis.type, table.choice("type", {"damage", "elastic", "explicit", "relaxation"}));
-  assign(analysis.rigid_body_modes, table.choice("rigid_body_modes", {"refuse", "pin"}));
-  const bool is_explicit = analysis.type == "explicit", relaxes = analysis.type == "relaxation";
+  analysis.type = type;
+  assign(analysis.rigid_body_modes, table.choice<RigidBodyModes>("rigid_body_modes"));
+  const bool is_explicit = type == AnalysisType::explicit_;
+  const bool relaxes = type == AnalysisType::relaxation;
   // Keys of other types are checked, too, and then forgotten.
   AnalysisSection other;
   read_strain(table, is_explicit || relaxes ? analysis : other);
@@ -189,10 +164,10 @@ AnalysisSection read_analysis(const CaseTable& table) {
   read_relaxation(table, relaxes ? analysis : other);
   read_events(table, is_explicit || relaxes ? other : analysis);
   if (relaxes) analysis.load_factors = {1.0};
-  if (!table.has("load_factors") && analysis.control != "steps") return analysis;
+  if (!table.has("load_factors") && analysis.control != LoadControl::steps) return analysis;
   const std::vector<double> factors = read_load_factors(table);
   if (is_explicit) return analysis;
-  if (!relaxes && analysis.control == "events") {
+  if (!relaxes && analysis.control == LoadControl::events) {
     table.refuse("load_factors", "is given, but control = \"events\" finds the load factors itself",
                  "set control = \"steps\", or delete `load_factors`");
   }
@@ -213,7 +188,7 @@ StopSection read_stop(const CaseTable& table) {
   return stop;
 }
 
-OutputSection read_output(const CaseTable& table) {
+OutputSection read_output(const CaseTable& table, AnalysisType type) {
   OutputSection output;
   assign(output.fields_at, table.integers("fields_at", 1, largest_count));
   for (std::size_t i = 1; i < output.fields_at.size(); ++i) {
@@ -233,6 +208,12 @@ OutputSection read_output(const CaseTable& table) {
         fmt::format("has {} after {}, but times must ascend", output.fields_times[i], before),
         "sort the times, each once; the fields at time 0 are always written");
   }
+  // As in [analysis], keys of other types are checked and forgotten.
+  if (!is_quasistatic(type)) {
+    output.fields_at.clear();
+    output.fields_every.reset();
+  }
+  if (type != AnalysisType::explicit_) output.fields_times.clear();
   return output;
 }
 

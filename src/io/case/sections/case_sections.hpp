@@ -14,10 +14,8 @@
 
 namespace perilink {
 
-/// Refuses a key for the third axis of a body in the plane.
-void refuse_third_axis(const CaseTable& table, const std::string& key, int dim);
-
-BodySection read_body(const CaseTable& table);
+/// \param kind  problem, method and model, read before
+BodySection read_body(const CaseTable& table, const BodySection& kind);
 Region read_region(const CaseTable& table, int dim);
 void write_region(TomlWriter& out, const Region& region, int dim);
 /// \param index  zero-based, for the name of a nameless material
@@ -34,8 +32,8 @@ RebarSection read_rebar(const CaseTable& table, int dim);
 GaugeSection read_gauge(const CaseTable& table, int dim);
 /// The load factors that an analysis must have.
 std::vector<double> read_load_factors(const CaseTable& table);
-AnalysisSection read_analysis(const CaseTable& table);
+AnalysisSection read_analysis(const CaseTable& table, AnalysisType type);
 StopSection read_stop(const CaseTable& table);
-OutputSection read_output(const CaseTable& table);
+OutputSection read_output(const CaseTable& table, AnalysisType type);
 
 }  // namespace perilink

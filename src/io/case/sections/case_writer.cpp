@@ -10,7 +10,6 @@
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
-#include "io/case/sections/case_particles.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/text/toml_writer.hpp"
 
@@ -19,11 +18,13 @@ namespace {
 
 void write_body(TomlWriter& out, const BodySection& body) {
   out.header("[body]");
-  out.write("problem", body.problem);
-  out.write("method", body.method);
-  const bool bonds = body.method == "bonds";
-  if (bonds) out.write("model", body.model);
-  if (dimension_of(body) == 3 && body.model == "micropolar") out.write("torsion", body.torsion);
+  out.write("problem", word_of(body.problem));
+  out.write("method", word_of(body.method));
+  const bool bonds = body.method == BodyMethod::bonds;
+  if (bonds) out.write("model", word_of(body.model));
+  if (dimension_of(body) == 3 && body.model == BodyModel::micropolar) {
+    out.write("torsion", body.torsion);
+  }
   if (dimension_of(body) == 2) out.write("thickness", body.thickness);
   if (is_lattice(body)) return write_lattice_body(out, body);
   out.write("mesh", body.mesh);
@@ -37,8 +38,8 @@ void write_body(TomlWriter& out, const BodySection& body) {
   out.write("horizon_level", body.horizon_level);
   out.write("horizon_ratio", body.horizon_ratio);
   if (!has_horizon) return;
-  out.write("micromodulus", body.micromodulus);
-  out.write("critical_stretch", body.critical_stretch);
+  out.write("micromodulus", word_of(body.micromodulus));
+  out.write("critical_stretch", word_of(body.critical_stretch));
 }
 
 void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
@@ -55,10 +56,8 @@ void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
     } else if (material.fracture_energy > 0.0) {
       out.write("fracture_energy", material.fracture_energy);
     }
-    if (is_particles(input.body)) {
-      write_particle_material(out, material);
-    } else if (material.lattice) {
-      write_lattice_material(out, material);
+    if (material.lattice) {
+      write_state_material(out, material, is_lattice(input.body));
     } else {
       out.write("density", material.density);
     }
@@ -147,18 +146,20 @@ void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
 
 void write_run(TomlWriter& out, const CaseFile& input) {
   out.header("[analysis]");
-  out.write("type", input.analysis.type);
-  if (input.analysis.type == "explicit") {
+  out.write("type", word_of(input.analysis.type));
+  if (input.analysis.type == AnalysisType::explicit_) {
     write_explicit_analysis(out, input);
     out.header("[output]");
     out.write("fields_times", input.output.fields_times);
     return;
   }
-  if (input.analysis.type == "relaxation") return write_relaxation(out, input);
-  out.write("control", input.analysis.control);
-  if (input.analysis.control == "steps") out.write("load_factors", input.analysis.load_factors);
-  out.write("rigid_body_modes", input.analysis.rigid_body_modes);
-  out.write("factor", input.analysis.factor);
+  if (input.analysis.type == AnalysisType::relaxation) return write_relaxation(out, input);
+  out.write("control", word_of(input.analysis.control));
+  if (input.analysis.control == LoadControl::steps) {
+    out.write("load_factors", input.analysis.load_factors);
+  }
+  out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
+  out.write("factor", word_of(input.analysis.factor));
   out.header("[stop]");
   out.write("broken_bonds", input.stop.broken_bonds);
   out.write("load_fraction", input.stop.load_fraction);

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "io/case/case_words.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {
@@ -316,7 +317,7 @@ TEST_P(DamagedBlock, AllRoutesFindTheSameEvents) {
     Recorder recorder({}, most_rows);
     const DamageResult result = run(body, options, recorder);
     EXPECT_EQ(result.ending, expected.ending) << result.reason;
-    ASSERT_EQ(recorder.rows.size(), reference.rows.size()) << to_string(route);
+    ASSERT_EQ(recorder.rows.size(), reference.rows.size()) << word_of(route);
     for (std::size_t k = 0; k < recorder.rows.size(); ++k) {
       ASSERT_EQ(recorder.rows[k].element, reference.rows[k].element) << "row " << k;
       EXPECT_NEAR(recorder.rows[k].load_factor, reference.rows[k].load_factor,

@@ -23,7 +23,7 @@ GaugeSection gauge_of(const std::string& name, std::optional<int> axis) {
 /// Points of the strip, the mean of a region, and stresses.
 CaseFile strip_with_gauges() {
   CaseFile input = strip_case();
-  input.analysis.type = "elastic";
+  input.analysis.type = AnalysisType::elastic;
   GaugeSection between = gauge_of("between", std::nullopt);
   between.between = {{0.0, 20.0, 0.0}, {30.0, 60.0, 0.0}};
   GaugeSection across = gauge_of("across", 0);
@@ -79,7 +79,7 @@ TEST(Gauges, MeasureLinearDisplacementsExactly) {
 
 TEST(Gauges, LookPastTheRotationsOfMicropolarParticles) {
   CaseFile input = strip_with_gauges();
-  input.body.model = "micropolar";
+  input.body.model = BodyModel::micropolar;
   input.materials[0].poissons_ratio = 0.2;
   expect_values_of_linear_displacement(input);
 }

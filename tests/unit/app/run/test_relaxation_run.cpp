@@ -17,7 +17,7 @@ namespace {
 class RelaxationRun : public testing::Test {
  protected:
   RelaxationRun() : input_(test::strip_case()) {
-    input_.analysis.type = "relaxation";
+    input_.analysis.type = AnalysisType::relaxation;
     input_.analysis.load_factors = {0.5, 1.0};
     input_.analysis.tolerance = 1e-7;
     for (MaterialSection& material : input_.materials) material.fracture_energy = INFINITY;
@@ -36,7 +36,7 @@ class RelaxationRun : public testing::Test {
 };
 
 TEST_F(RelaxationRun, OptionsAreThoseOfTheCase) {
-  input_.analysis.strain = "green";
+  input_.analysis.strain = Strain::green;
   input_.analysis.iterations = 77;
   const RelaxationOptions options = relaxation_options(input_, 3);
   EXPECT_EQ(options.load_factors, (std::vector{0.5, 1.0}));

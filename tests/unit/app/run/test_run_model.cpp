@@ -24,7 +24,7 @@ class Recorder final : public StepObserver {
 
 TEST(RunModel, AnElasticCaseIsOneRowAtLoadFactorOne) {
   CaseFile input = test::strip_case();
-  input.analysis.type = "elastic";
+  input.analysis.type = AnalysisType::elastic;
   const Model model = build_model(input);
   Recorder recorder;
   const ModelRun run = run_model(input, model, 1, recorder);
@@ -40,7 +40,7 @@ TEST(RunModel, AnElasticCaseIsOneRowAtLoadFactorOne) {
 
 TEST(RunModel, PhasesOfAnElasticCaseAreTimed) {
   CaseFile input = test::strip_case();
-  input.analysis.type = "elastic";
+  input.analysis.type = AnalysisType::elastic;
   const Model model = build_model(input);
   Recorder recorder;
   const ElasticSeconds seconds = run_model(input, model, 1, recorder).elastic->seconds;

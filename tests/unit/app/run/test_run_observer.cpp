@@ -125,7 +125,7 @@ TEST_F(RunObserverTest, EventsAreFollowedWithoutLookingAtTheBody) {
 }
 
 TEST_F(RunObserverTest, BreaksWithinALoadStepAreOrderedByNumber) {
-  input_.analysis.control = "steps";
+  input_.analysis.control = LoadControl::steps;
   RunObserver observer = make_observer();
   row(observer, no_index);
   for (const Index element : {70, 3}) fail(element);
@@ -137,7 +137,7 @@ TEST_F(RunObserverTest, BreaksWithinALoadStepAreOrderedByNumber) {
 }
 
 TEST_F(RunObserverTest, ALoadStepThatPassesACountWritesTheNextOne) {
-  input_.analysis.control = "steps";
+  input_.analysis.control = LoadControl::steps;
   input_.output.fields_at = {2, 3, 5};
   RunObserver observer = make_observer();
   row(observer, no_index);
@@ -204,7 +204,7 @@ TEST_F(RunObserverTest, ARunWithoutRowsLeavesNoFields) {
 /// Platens that both move press with the same force, the load of the row.
 TEST(RunObserverPlaces, HaveTheForcesOfTheHighestRow) {
   CaseFile input = test::strip_case();
-  input.analysis.type = "elastic";
+  input.analysis.type = AnalysisType::elastic;
   input.loads.clear();
   input.supports[0].fix = {true, false, false};
   DisplacementSection platen;
@@ -228,7 +228,7 @@ TEST(RunObserverPlaces, HaveTheForcesOfTheHighestRow) {
 
 TEST(RunObserverPlaces, OfLoadsAreTheirForcesAtTheLoadFactor) {
   CaseFile input = test::free_strip_case();
-  input.analysis.type = "elastic";
+  input.analysis.type = AnalysisType::elastic;
   const Model model = build_model(input);
   const test::TemporaryDirectory work;
   RunObserver observer(input, model, work.path(), true);

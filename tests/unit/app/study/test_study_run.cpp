@@ -169,14 +169,14 @@ TEST_F(StudyRun, ErrorsThatTheCaseCannotHaveAreRefused) {
 
 TEST_F(StudyRun, ExplicitAnalysesAreRefused) {
   CaseFile input = read_case_file((directory_ / "strip.toml").string());
-  for (const std::string type : {"explicit", "relaxation"}) {
+  for (const AnalysisType type : {AnalysisType::explicit_, AnalysisType::relaxation}) {
     input.analysis.type = type;
     try {
       check_study(study(energy + "1\n"), input);
       FAIL() << "accepted";
     } catch (const InputError& error) {
       EXPECT_EQ(error.where().key, "case");
-      EXPECT_NE(std::string(error.what()).find(type), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find(word_of(type)), std::string::npos);
     }
   }
 }
@@ -191,7 +191,7 @@ TEST_F(StudyRun, RefinementsThatTheBodyCannotHaveAreRefusedOnce) {
     } catch (const InputError& error) {
       EXPECT_EQ(error.where().file, "study.toml");
       EXPECT_EQ(error.where().line, 3);
-      EXPECT_EQ(error.where().key, "vary." + file.vary.refinement);
+      EXPECT_EQ(error.where().key, "vary." + std::string(word_of(file.vary.refinement)));
       EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
     }
   };

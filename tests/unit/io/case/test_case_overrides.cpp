@@ -31,7 +31,7 @@ TEST(CaseOverrides, LinearElementsDropAllKeysOfBonds) {
   const std::string text = std::string(test::strip_text) + "[analysis]\ntype = \"elastic\"\n";
   const CaseFile input =
       parse_case(text, "strip.toml", {body_key("method", std::string("linear_elements"))});
-  EXPECT_EQ(input.body.method, "linear_elements");
+  EXPECT_EQ(input.body.method, BodyMethod::linear_elements);
   EXPECT_FALSE(input.body.horizon.has_value());
 }
 

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "io/case/case_keys.hpp"
 #include "support/case_texts.hpp"
 
 namespace perilink {

@@ -13,7 +13,7 @@ class CaseTableTest : public testing::Test {
   const TomlValue root_ = parse_toml(
       "i = 3\nn = 2.5\nneg = -1\nb = true\nt = \"word\"\nl = [1, 2.5]\nk = [1, 2]\nw = [\"a\", "
       "\"b\"]\n"
-      "v3 = [1, 2, 3]\nzero = -0.0\n",
+      "v3 = [1, 2, 3]\nzero = -0.0\ns = \"green\"\n",
       "case.toml");
   const CaseTable table_{root_, "table", "case.toml"};
 };
@@ -25,6 +25,7 @@ TEST_F(CaseTableTest, ReadsEveryType) {
   EXPECT_EQ(table_.boolean("b"), true);
   EXPECT_EQ(table_.text("t"), "word");
   EXPECT_EQ(table_.choice("t", {"other", "word"}), "word");
+  EXPECT_EQ(table_.choice<Strain>("s"), Strain::green);
   EXPECT_EQ(table_.numbers("l"), (std::vector<double>{1.0, 2.5}));
   EXPECT_EQ(table_.integers("k", 1, 2), (std::vector<int>{1, 2}));
   EXPECT_EQ(table_.texts("w"), (std::vector<std::string>{"a", "b"}));
@@ -37,6 +38,7 @@ TEST_F(CaseTableTest, ReadsNothingWhereTheKeyIsAbsent) {
   EXPECT_EQ(table_.number("absent"), std::nullopt);
   EXPECT_EQ(table_.boolean("absent"), std::nullopt);
   EXPECT_EQ(table_.text("absent"), std::nullopt);
+  EXPECT_EQ(table_.choice<Strain>("absent"), std::nullopt);
   EXPECT_EQ(table_.vector("absent", 2), std::nullopt);
   EXPECT_EQ(table_.texts("absent"), std::nullopt);
 }
@@ -50,6 +52,7 @@ TEST_F(CaseTableTest, RefusesOtherTypesAndRanges) {
   EXPECT_THROW(table_.boolean("i"), InputError);
   EXPECT_THROW(table_.text("i"), InputError);
   EXPECT_THROW(table_.choice("t", {"other"}), InputError);
+  EXPECT_THROW(table_.choice<Strain>("t"), InputError);
   EXPECT_THROW(table_.numbers("n"), InputError);
   EXPECT_THROW(table_.integers("l", 0, 5), InputError);
   EXPECT_THROW(table_.texts("k"), InputError);

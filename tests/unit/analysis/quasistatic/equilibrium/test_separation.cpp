@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/quasistatic/events/single_event_engine.hpp"
+#include "io/case/case_words.hpp"
 #include "support/slender_bodies.hpp"
 
 namespace perilink {
@@ -51,7 +52,7 @@ TEST(Separation, WhatIsWeakStillHolds) {
   for (const double bending : {0.0, 2.0}) {
     for (const double rest : {1e-3, 1e-8, 1e-13, 1e-20}) {
       for (const FactorRoute route : routes) {
-        SCOPED_TRACE(to_string(route) + " " + std::to_string(std::log10(rest)));
+        SCOPED_TRACE(std::string(word_of(route)) + " " + std::to_string(std::log10(rest)));
         const AnalysisBody body = make_pair(rest, bending);
         SingleEventEngine engine = make_engine(body, route);
         const Event event = engine.next_event();

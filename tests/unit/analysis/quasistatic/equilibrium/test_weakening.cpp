@@ -2,6 +2,7 @@
 
 #include "analysis/quasistatic/events/single_event_engine.hpp"
 #include "base/error.hpp"
+#include "io/case/case_words.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {
@@ -48,7 +49,7 @@ AnalysisBody make_joint() {
 TEST(Weakening, ABondThatAloneTurnedAParticleMayBreak) {
   const AnalysisBody body = make_joint();
   for (const FactorRoute route : routes) {
-    SCOPED_TRACE(to_string(route));
+    SCOPED_TRACE(word_of(route));
     SingleEventEngine engine(body, with_route(route));
     EXPECT_NEAR(engine.displacement()[0], 1.0 / 1.5, 1e-14);
     EXPECT_NEAR(engine.displacement()[1], -0.25, 1e-14);
@@ -119,7 +120,7 @@ TEST(Weakening, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
   body.reference = {true, 1.0};
   const double twice_energy = 1.0 + 3.0 * 0.16 + 3.0 * 0.04 / 12.0;
   for (const FactorRoute route : routes) {
-    SCOPED_TRACE(to_string(route));
+    SCOPED_TRACE(word_of(route));
     SingleEventEngine engine(body, with_route(route));
     EXPECT_NEAR(engine.load_work().supports, twice_energy, 1e-14);
     const Event event = engine.next_event();
@@ -179,7 +180,7 @@ TEST(Weakening, CutHoldsAParticleAndItsRotationsWithoutDisturbingTheRest) {
     const Index center = a == c || a == d ? a : b;
     std::fill_n(loose.begin() + center * width, width, 1);
     for (const FactorRoute route : routes) {
-      SCOPED_TRACE(to_string(route));
+      SCOPED_TRACE(word_of(route));
       SingleEventEngine engine(body, with_route(route));
       EXPECT_EQ(engine.cut(bonds), width);
       EXPECT_EQ(engine.cut(bonds), 0) << "gone already";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/case/case_words.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {
@@ -138,7 +139,7 @@ TEST_P(FollowedBlock, FollowsADenseSolutionThroughTheEvents) {
     if (driven) body_.network.critical_stretch[e] = 0.005;
   }
   for (const FactorRoute route : routes) {
-    SCOPED_TRACE(to_string(route));
+    SCOPED_TRACE(word_of(route));
     const auto engine = make_engine(body_, route);
     LoadWork work = engine->load_work();
     initial_work_ = work.forces + work.supports;

@@ -17,7 +17,7 @@ double weakest(const CaseFile& input) {
   return *std::min_element(limits.begin(), limits.end());
 }
 
-CaseFile with_rule(CaseFile input, const std::string& rule) {
+CaseFile with_rule(CaseFile input, CriticalStretch rule) {
   input.body.critical_stretch = rule;
   return input;
 }
@@ -25,19 +25,19 @@ CaseFile with_rule(CaseFile input, const std::string& rule) {
 /// G_F goes with the square of the critical stretch.
 TEST(FractureRule, SharesTheFractureEnergyBetweenBondsAndPath) {
   const CaseFile input = strip_case();
-  ASSERT_EQ(input.body.critical_stretch, "dissipated");
+  ASSERT_EQ(input.body.critical_stretch, CriticalStretch::dissipated);
   const Model model = build_model(input);
   ASSERT_EQ(model.crack_cost.size(), 1u);
   EXPECT_GT(model.crack_cost[0], 1.1);
-  EXPECT_NEAR(weakest(with_rule(input, "lattice")) / weakest(input), std::sqrt(model.crack_cost[0]),
-              1e-12);
-  EXPECT_TRUE(build_model(with_rule(input, "lattice")).crack_cost.empty());
-  EXPECT_TRUE(build_model(with_rule(input, "continuum")).crack_cost.empty());
+  EXPECT_NEAR(weakest(with_rule(input, CriticalStretch::lattice)) / weakest(input),
+              std::sqrt(model.crack_cost[0]), 1e-12);
+  EXPECT_TRUE(build_model(with_rule(input, CriticalStretch::lattice)).crack_cost.empty());
+  EXPECT_TRUE(build_model(with_rule(input, CriticalStretch::continuum)).crack_cost.empty());
 }
 
 TEST(FractureRule, LeavesUnbreakableMaterialsUnbreakable) {
   CaseFile input = strip_case();
-  input.analysis.type = "elastic";
+  input.analysis.type = AnalysisType::elastic;
   input.materials[0].fracture_energy = INFINITY;
   EXPECT_TRUE(std::isinf(weakest(input)));
 }
@@ -55,7 +55,7 @@ TEST(FractureRule, HoldsBetweenMaterials) {
   weak.fracture_energy *= 0.25;
   input.materials.push_back(weak);
   const std::vector<double> path = build_model(input).network.critical_stretch;
-  const Model plain = build_model(with_rule(input, "lattice"));
+  const Model plain = build_model(with_rule(input, CriticalStretch::lattice));
   const double root = std::sqrt(build_model(input).crack_cost[0]);
   for (std::size_t b = 0; b < path.size(); ++b) {
     EXPECT_NEAR(path[b] * root, plain.network.critical_stretch[b],
@@ -78,7 +78,7 @@ TEST(FractureRule, NotesShortHorizonsWhereBondsBreak) {
   input.body.horizon_ratio = 3.0;
   EXPECT_FALSE(has_note(input));
   input.body.horizon_ratio = 2.5;
-  input.analysis.type = "elastic";
+  input.analysis.type = AnalysisType::elastic;
   EXPECT_FALSE(has_note(input));
 }
 
@@ -92,9 +92,10 @@ TEST(FractureRule, NotesLatticesWhoseStepsDiffer) {
   EXPECT_TRUE(has_note(strip(33.6), "whose steps differ by 12 %"));
   EXPECT_FALSE(has_note(strip(32.0), "whose steps differ")) << "by 7 %";
   EXPECT_FALSE(has_note(strip_case(), "not measured"));
-  EXPECT_FALSE(has_note(with_rule(strip(14.0), "lattice"), "not measured")) << "no cost is taken";
+  EXPECT_FALSE(has_note(with_rule(strip(14.0), CriticalStretch::lattice), "not measured"))
+      << "no cost is taken";
   CaseFile elastic = strip(14.0);
-  elastic.analysis.type = "elastic";
+  elastic.analysis.type = AnalysisType::elastic;
   EXPECT_FALSE(has_note(elastic, "not measured"));
 }
 

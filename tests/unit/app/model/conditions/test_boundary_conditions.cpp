@@ -171,7 +171,7 @@ TEST(BoundaryConditions, PinningHoldsTheRigidModesAndNoMore) {
   prism.loads.push_back(prism.loads[0]);
   prism.loads[1].region = "lower end";
   prism.loads[1].force = Vector3{0.0, -3.0, 0.0};
-  prism.analysis.rigid_body_modes = "pin";
+  prism.analysis.rigid_body_modes = RigidBodyModes::pin;
   const Model space = build_model(prism);
   EXPECT_EQ(space.unknowns.count, 3 * 5 * 5 * 9 - 6);
   EXPECT_THAT(space.notes, testing::Contains(testing::HasSubstr("6 rigid-body modes")));
@@ -179,14 +179,14 @@ TEST(BoundaryConditions, PinningHoldsTheRigidModesAndNoMore) {
 
 TEST(BoundaryConditions, FreeBodiesAreRefusedUnlessTheyMayBePinned) {
   CaseFile input = free_strip_case();
-  input.analysis.rigid_body_modes = "refuse";
+  input.analysis.rigid_body_modes = RigidBodyModes::refuse;
   expect_refused(input, "analysis", "3 of the 3 rigid-body modes of the body are free");
   SupportSection roller;
   roller.region = "lower end";
   roller.fix = {false, true, false};
   input.supports.push_back(roller);
   expect_refused(input, "supports[1]", "1 of the 3 rigid-body modes");
-  input.analysis.rigid_body_modes = "pin";
+  input.analysis.rigid_body_modes = RigidBodyModes::pin;
   expect_refused(input, "analysis.rigid_body_modes", "partly supported");
 }
 
@@ -242,7 +242,7 @@ TEST(BoundaryConditions, LooseParticlesAreRefused) {
 /// The strip with micropolar bonds.
 CaseFile micropolar_strip() {
   CaseFile input = strip_case();
-  input.body.model = "micropolar";
+  input.body.model = BodyModel::micropolar;
   input.materials[0].poissons_ratio = 0.2;
   return input;
 }
@@ -264,7 +264,7 @@ TEST(BoundaryConditions, RotationsAreFreeUnlessASupportHoldsThem) {
 
 TEST(BoundaryConditions, RotationsInSpaceGoAboutTheAxesThatAreNamed) {
   CaseFile input = prism_case();
-  input.body.model = "micropolar";
+  input.body.model = BodyModel::micropolar;
   input.materials[0].poissons_ratio = 0.2;
   input.supports[0].fix = {true, true, true, false, true, false};
   const Model model = build_model(input);

@@ -235,8 +235,8 @@ TEST(Loads, PlacesSideBySideAddUpAndEntriesOfOneRegionAreOnePlace) {
 
 TEST(Loads, PointMomentsTurnMicropolarParticles) {
   CaseFile input = strip_with_top();
-  input.body.model = "micropolar";
-  input.analysis.type = "elastic";
+  input.body.model = BodyModel::micropolar;
+  input.analysis.type = AnalysisType::elastic;
   input.materials[0].poissons_ratio = 0.2;
   input.point_loads.push_back({{20.0, 80.0, 0.0}, {}, {0.0, 0.0, 6.0}});
   const Model model = build_model(input);
@@ -244,7 +244,7 @@ TEST(Loads, PointMomentsTurnMicropolarParticles) {
   for (Index i = 0; i < model.network.particles.size(); ++i) sum += model.loads.forces[3 * i + 2];
   EXPECT_EQ(sum, 6.0);
   EXPECT_EQ(model.reference.value, 6.0);
-  input.body.micromodulus = "continuum";
+  input.body.micromodulus = Constants::continuum;
   input.materials[0].poissons_ratio = 1.0 / 3.0;
   expect_refused(input, "point_loads[1].moment", "resist no rotation");
 }

@@ -98,8 +98,8 @@ TEST(Supports, HalfABodyWithAPlaneOfSymmetryHoldsTheNormalDisplacement) {
 
 TEST(Supports, APlaneOfSymmetryHoldsTheRotationsThatItForbids) {
   CaseFile input = strip_case();
-  input.body.model = "micropolar";
-  input.analysis.type = "elastic";
+  input.body.model = BodyModel::micropolar;
+  input.analysis.type = AnalysisType::elastic;
   input.materials[0].poissons_ratio = 0.2;
   input.supports[0].fix = {false, true};
   input.symmetry.push_back({0, 0.0, ""});
@@ -108,8 +108,8 @@ TEST(Supports, APlaneOfSymmetryHoldsTheRotationsThatItForbids) {
     EXPECT_EQ(plane.unknowns.at(i, 2) == no_index, plane.network.particles.position(i)[0] == 0.0);
   }
   CaseFile prism = test::prism_case();
-  prism.body.model = "micropolar";
-  prism.analysis.type = "elastic";
+  prism.body.model = BodyModel::micropolar;
+  prism.analysis.type = AnalysisType::elastic;
   prism.materials[0].poissons_ratio = 0.2;
   prism.symmetry.push_back({2, 0.4, ""});
   const Model space = build_model(prism);

@@ -263,7 +263,7 @@ TEST(Configure, BodiesThatCannotBreakAreRefusedInADamageAnalysis) {
   CaseFile input = strip_case();
   input.materials[0].fracture_energy = INFINITY;
   expect_refused(input, "materials[1].fracture_energy", "nothing can break");
-  input.analysis.type = "elastic";
+  input.analysis.type = AnalysisType::elastic;
   EXPECT_NO_THROW(build_model(input));
   CaseFile barred = barred_case();  // its bar can yield
   barred.materials[0].fracture_energy = INFINITY;
@@ -311,12 +311,12 @@ TEST(Configure, DamageOptionsFollowTheCase) {
   EXPECT_EQ(options.stop.broken_bonds, 7);
   EXPECT_EQ(options.stop.load_fraction, 0.25);
   EXPECT_EQ(options.stop.displacement, 0.5);
-  input.analysis.control = "steps";
-  input.analysis.factor = "refactorize";
+  input.analysis.control = LoadControl::steps;
+  input.analysis.factor = FactorRoute::refactorize;
   options = damage_options(input, 1);
   EXPECT_EQ(options.load_factors, (std::vector<double>{0.5, 1.0}));
   EXPECT_EQ(options.engine.route, FactorRoute::refactorize);
-  input.analysis.factor = "cholmod_updown";
+  input.analysis.factor = FactorRoute::cholmod_updown;
   EXPECT_EQ(damage_options(input, 1).engine.route, FactorRoute::cholmod_updown);
 }
 

@@ -33,8 +33,8 @@ TEST(CaseBody, TakesAMeshInPlaceOfALattice) {
   const CaseFile input = parse_case(mesh_case, "case.toml");
   EXPECT_EQ(input.body.mesh, "meshes/plate \"a\".msh");
   EXPECT_EQ(input.body.pattern, Pattern::irregular);
-  EXPECT_EQ(input.body.micromodulus, "continuum");
-  EXPECT_EQ(input.body.critical_stretch, "dissipated");
+  EXPECT_EQ(input.body.micromodulus, Constants::continuum);
+  EXPECT_EQ(input.body.critical_stretch, CriticalStretch::dissipated);
   EXPECT_EQ(input.regions[0].group, "plate");
   EXPECT_EQ(input.regions[1].group, "");
   const std::string long_path = "mesh = \"" + std::string(3000, 'p') + "\"\nhorizon_ratio = 3";
@@ -82,8 +82,8 @@ TEST(CaseBody, LinearElementsNeedNoHorizonAndHaveAnyRatio) {
   const std::string elements =
       replaced(std::string(small_case) + "[analysis]\ntype = \"elastic\"\n", "horizon_ratio = 3",
                "method = \"linear_elements\"");
-  EXPECT_EQ(parse_case(elements, "").body.method, "linear_elements");
-  EXPECT_EQ(parse_case(small_case, "").body.method, "bonds");
+  EXPECT_EQ(parse_case(elements, "").body.method, BodyMethod::linear_elements);
+  EXPECT_EQ(parse_case(small_case, "").body.method, BodyMethod::bonds);
   for (const char* ratio : {"-0.999", "0", "0.4999"}) {
     const std::string text = replaced(
         elements, "youngs_modulus", "poissons_ratio = " + std::string(ratio) + "\nyoungs_modulus");

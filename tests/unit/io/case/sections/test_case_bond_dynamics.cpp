@@ -39,7 +39,7 @@ std::string refusal(const std::string& text) {
 TEST(CaseMovingBonds, ReadsRelaxations) {
   const AnalysisSection plain = parse_case(with_analysis("type = \"relaxation\""), "").analysis;
   EXPECT_EQ(plain.load_factors, std::vector{1.0});
-  EXPECT_EQ(plain.strain, "small");
+  EXPECT_EQ(plain.strain, Strain::small);
   EXPECT_EQ(plain.tolerance, 1e-6);
   EXPECT_EQ(plain.iterations, 1000000);
   const AnalysisSection full =
@@ -49,17 +49,17 @@ TEST(CaseMovingBonds, ReadsRelaxations) {
                  "")
           .analysis;
   EXPECT_EQ(full.load_factors, (std::vector{0.5, 1.0}));
-  EXPECT_EQ(full.strain, "green");
+  EXPECT_EQ(full.strain, Strain::green);
   EXPECT_EQ(full.tolerance, 1e-8);
   EXPECT_EQ(full.iterations, 500);
-  EXPECT_EQ(full.rigid_body_modes, "pin");
+  EXPECT_EQ(full.rigid_body_modes, RigidBodyModes::pin);
 }
 
 TEST(CaseMovingBonds, ReadsStrainsAndVelocitiesOfExplicitAnalyses) {
   const CaseFile input = parse_case(replaced(explicit_case("strain = \"green\""), "[analysis]",
                                              velocity + std::string("[analysis]")),
                                     "");
-  EXPECT_EQ(input.analysis.strain, "green");
+  EXPECT_EQ(input.analysis.strain, Strain::green);
   ASSERT_EQ(input.velocities.size(), 1U);
   EXPECT_EQ(input.velocities[0].value[1]->number, 0.5);
   EXPECT_FALSE(input.velocities[0].value[0].has_value());

@@ -17,10 +17,11 @@ using testing::HasSubstr;
 
 TEST(CaseKinds, OnlyLatticesAndParticlesHaveStates) {
   BodySection body;
-  for (const char* model : {"bond_based", "micropolar", "lattice", "particles"}) {
+  for (const BodyModel model :
+       {BodyModel::bond_based, BodyModel::micropolar, BodyModel::lattice, BodyModel::particles}) {
     body.model = model;
-    EXPECT_EQ(is_lattice(body), body.model == "lattice");
-    EXPECT_EQ(is_particles(body), body.model == "particles");
+    EXPECT_EQ(is_lattice(body), body.model == BodyModel::lattice);
+    EXPECT_EQ(is_particles(body), body.model == BodyModel::particles);
     EXPECT_EQ(has_state_based_particles(body), is_lattice(body) || is_particles(body));
   }
 }
@@ -28,10 +29,10 @@ TEST(CaseKinds, OnlyLatticesAndParticlesHaveStates) {
 TEST(CaseKinds, SayWhyNothingRotates) {
   BodySection body;
   EXPECT_THAT(why_nothing_rotates(body), HasSubstr("bond-based body"));
-  body.model = "particles";
+  body.model = BodyModel::particles;
   EXPECT_THAT(why_nothing_rotates(body), HasSubstr("state-based body"));
   body = {};
-  body.method = "linear_elements";
+  body.method = BodyMethod::linear_elements;
   EXPECT_THAT(why_nothing_rotates(body), HasSubstr("corners"));
   EXPECT_THAT(what_rotates(body), HasSubstr("instead of method"));
 }
@@ -39,7 +40,7 @@ TEST(CaseKinds, SayWhyNothingRotates) {
 TEST(CaseKinds, HaveTwoOrThreeDimensions) {
   BodySection body;
   EXPECT_EQ(dimension_of(body), 2);
-  body.problem = "three_dimensional";
+  body.problem = Problem::three_dimensional;
   EXPECT_EQ(dimension_of(body), 3);
 }
 

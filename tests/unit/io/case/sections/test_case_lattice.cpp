@@ -36,7 +36,7 @@ TEST(CaseLattice, ReadsTheBody) {
   EXPECT_EQ(input.body.spacing, 0.1);
   EXPECT_EQ(input.body.rotation, 15.0);
   EXPECT_EQ(input.body.offset, (Vector3{0.025, 0.0, 0.0}));
-  EXPECT_EQ(input.body.variant, "2018");
+  EXPECT_EQ(input.body.variant, LatticeRules::least_2018);
   EXPECT_EQ(parse_case(space_case(), "").body.pattern, Pattern::face_centred);
 }
 
@@ -90,7 +90,7 @@ TEST(CaseLattice, UnbreakableMaterialsHaveNoStrength) {
 
 TEST(CaseLattice, ReadsTheAnalysis) {
   const CaseFile input = parse_case(lattice_case, "");
-  EXPECT_EQ(input.analysis.type, "explicit");
+  EXPECT_EQ(input.analysis.type, AnalysisType::explicit_);
   EXPECT_EQ(input.analysis.duration, 4.0);
   EXPECT_EQ(input.analysis.ramp_time, 4.0) << "the default";
   EXPECT_EQ(input.analysis.time_step, 0.001);

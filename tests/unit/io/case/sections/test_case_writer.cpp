@@ -54,12 +54,12 @@ TEST(CaseWriter, WritesNumbersThatReadBackExactly) {
 
 TEST(CaseWriter, WritesMicropolarBodies) {
   CaseFile input = parse_case(full_case, "");
-  input.body.model = "micropolar";
+  input.body.model = BodyModel::micropolar;
   input.body.torsion = 0.25;
   for (MaterialSection& material : input.materials) material.poissons_ratio = 0.2;
   input.supports.at(0).fix = {true, false, true, false, true, true};
   const CaseFile again = parse_case(write_case(input), "");
-  EXPECT_EQ(again.body.model, "micropolar");
+  EXPECT_EQ(again.body.model, BodyModel::micropolar);
   EXPECT_EQ(again.body.torsion, 0.25);
   EXPECT_EQ(again.supports.at(0).fix, input.supports.at(0).fix);
 }
@@ -70,7 +70,7 @@ TEST(CaseWriter, WritesBodiesOfLinearElements) {
                           "horizon_ratio = 3", "method = \"linear_elements\""),
                  "");
   const std::string written = write_case(input);
-  EXPECT_EQ(parse_case(written, "").body.method, "linear_elements");
+  EXPECT_EQ(parse_case(written, "").body.method, BodyMethod::linear_elements);
   EXPECT_EQ(write_case(parse_case(written, "")), written);
 }
 

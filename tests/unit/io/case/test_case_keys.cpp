@@ -1,4 +1,4 @@
-#include "io/case/sections/case_particles.hpp"
+#include "io/case/case_keys.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ void expect_refusal(const std::string& text, const std::string& key, const std::
   }
 }
 
-TEST(CaseParticles, ReadTheirBodyAndMaterial) {
+TEST(CaseKeys, ParticlesReadTheirBodyAndMaterial) {
   const CaseFile input = parse_case(particle_case, "");
   EXPECT_TRUE(is_particles(input.body));
   EXPECT_EQ(input.body.surface, Surface::none);
@@ -67,7 +67,7 @@ TEST(CaseParticles, ReadTheirBodyAndMaterial) {
   EXPECT_FALSE(is_particles(parse_case(small_case, "").body));
 }
 
-TEST(CaseParticles, WriteWhatTheyRead) {
+TEST(CaseKeys, ParticlesWriteWhatTheyRead) {
   for (const std::string& text :
        {std::string(particle_case),
         replaced(particle_case, "pattern = \"hexagonal\"\nspacing = 0.1", "mesh = \"l.msh\"")}) {
@@ -80,7 +80,7 @@ TEST(CaseParticles, WriteWhatTheyRead) {
   }
 }
 
-TEST(CaseParticles, RefuseWhatBondsWithinAHorizonHave) {
+TEST(CaseKeys, ParticlesRefuseWhatBondsWithinAHorizonHave) {
   for (const char* line : {"horizon = 0.3", "horizon_ratio = 3", "surface = \"none\"",
                            "micromodulus = \"lattice\"", "critical_stretch = \"lattice\""}) {
     const std::string key(line, std::string(line).find(' '));
@@ -91,7 +91,7 @@ TEST(CaseParticles, RefuseWhatBondsWithinAHorizonHave) {
                  "model is \"particles\"");
 }
 
-TEST(CaseParticles, RefuseWhatOnlyLatticesHave) {
+TEST(CaseKeys, ParticlesRefuseWhatOnlyLatticesHave) {
   for (const char* line :
        {"internal_damping = 0.1", "yield_strength = 0.1", "boundary_factor = 0.2"}) {
     const std::string key(line, std::string(line).find(' '));
@@ -105,7 +105,7 @@ TEST(CaseParticles, RefuseWhatOnlyLatticesHave) {
   expect_refusal(replaced(particle_case, "density = 2.5\n", ""), "density", "missing");
 }
 
-TEST(CaseParticles, RefuseWhatTheyCannotBeCombinedWith) {
+TEST(CaseKeys, ParticlesRefuseWhatTheyCannotBeCombinedWith) {
   for (const char* type : {"damage", "relaxation"}) {
     expect_refusal(replaced(particle_case, "type = \"explicit\"\nduration = 2",
                             std::string("type = \"") + type + "\""),
@@ -117,6 +117,44 @@ TEST(CaseParticles, RefuseWhatTheyCannotBeCombinedWith) {
                  "symmetry[1]", "no mirror image");
   expect_refusal(std::string(particle_case) + "strain = \"green\"\n", "analysis.strain",
                  "small strains");
+}
+
+TEST(CaseKeys, BondsHaveNoKeysOfStates) {
+  for (const TableSchema& table : case_schema()) {
+    if (table.name != "materials") continue;
+    for (const KeySchema& key : table.keys) {
+      if (key.not_for.empty()) continue;
+      const std::string line = std::string(key.name) + " = 1\nyoungs_modulus";
+      expect_refusal(replaced(small_case, "youngs_modulus", line), std::string(key.name),
+                     "only bodies with model = \"lattice\"");
+    }
+  }
+}
+
+TEST(CaseKeys, LinearElementsHaveNoKeysOfBonds) {
+  for (const std::string_view key : keys_of_bonds()) {
+    expect_refusal("[body]\nmethod = \"linear_elements\"\n" + std::string(key) +
+                       " = 1\n[analysis]\ntype = \"elastic\"\n",
+                   "body." + std::string(key), "have no bonds");
+  }
+}
+
+/// A text that names what the search does not know would end the program.
+TEST(CaseKeys, TextsAreFilledIn) {
+  const auto check = [](const std::vector<NotFor>& column) {
+    for (const NotFor& entry : column) {
+      for (std::string text : {std::string(entry.fault), std::string(entry.suggestion)}) {
+        for (const char* known : {"{model}", "{type}", "{resting}", "{turning}"}) {
+          if (const auto at = text.find(known); at != std::string::npos) text.erase(at, 1);
+        }
+        EXPECT_EQ(text.find('{'), std::string::npos) << text;
+      }
+    }
+  };
+  for (const TableSchema& table : case_schema()) {
+    check(table.not_for);
+    for (const KeySchema& key : table.keys) check(key.not_for);
+  }
 }
 
 }  // namespace

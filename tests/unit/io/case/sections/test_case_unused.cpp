@@ -1,4 +1,4 @@
-#include "io/case/case_unused.hpp"
+#include "io/case/sections/case_unused.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,9 +36,10 @@ fields_times = [1, 2]
 
 TEST(CaseUnused, OneCaseServesAllAnalyses) {
   const CaseFile damage = parse_case(serving_all("damage"), "a.toml");
-  EXPECT_THAT(damage.unused, ElementsAre("analysis.tolerance", "analysis.duration", "analysis.rows",
-                                         "analysis.damping_rate", "output.fields_times"));
-  EXPECT_EQ(damage.analysis.factor, "refactorize");
+  EXPECT_THAT(damage.unused,
+              ElementsAre("analysis.duration", "analysis.rows", "analysis.damping_rate",
+                          "analysis.tolerance", "output.fields_times"));
+  EXPECT_EQ(damage.analysis.factor, FactorRoute::refactorize);
   EXPECT_EQ(damage.stop.broken_bonds, 7);
   EXPECT_THAT(damage.output.fields_times, IsEmpty());
   EXPECT_EQ(damage.output.fields_every, 5);

@@ -1,0 +1,249 @@
+#include "io/case/case_keys.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace kinds;
+using Without = std::vector<NotFor>;
+
+constexpr std::string_view delete_it = "delete it";
+constexpr std::string_view no_bonds = "is given, but linear elements have no bonds";
+constexpr std::string_view bonds_instead = "delete it, or the line method = \"linear_elements\"";
+constexpr std::string_view another_model = "delete it, or take another model in [body]";
+constexpr std::string_view lattice_instead = "delete it, or set model = \"lattice\" in [body]";
+constexpr std::string_view whole_body = "take the whole body";
+constexpr std::string_view no_lattice_table =
+    "is given, but a body with model = \"lattice\" knows none";
+constexpr std::string_view no_particle_table =
+    "is given, but a body with model = \"particles\" knows none";
+constexpr std::string_view only_lattices =
+    "is given, but only bodies with model = \"lattice\" have it";
+
+constexpr Kinds bonds = bond_based | micropolar;
+constexpr Kinds still = damage | elastic | relaxation;
+
+const NotFor on_lattice{
+    lattice,
+    "is given, but particles with model = \"lattice\" have their nearest neighbours on a lattice "
+    "of a given spacing",
+    "delete it; `pattern`, `spacing`, `rotation` and `offset` say where they are"};
+
+/// Keys of bonds within a horizon.
+const Without horizons = {
+    {elements, no_bonds, bonds_instead},
+    on_lattice,
+    {particles,
+     "is given, but particles with model = \"particles\" have their nearest neighbours, six in the "
+     "plane and eighteen in space",
+     delete_it},
+};
+constexpr std::string_view no_torsion =
+    "delete it; three-dimensional bodies with model = \"micropolar\" have it";
+const Without torsion = {
+    {elements, no_bonds, bonds_instead},
+    on_lattice,
+    {micropolar | plane, "is given, but bonds of a two-dimensional body do not twist", no_torsion},
+    {bond_based | particles, "is given, but bonds of a bond-based solid do not twist", no_torsion},
+};
+const Without lattices = {{bonds | particles | elements, "is given, but model is \"{model}\"",
+                           "delete it, or set model = \"lattice\""}};
+
+/// What a kind of body cannot be analysed by.
+const Without methods = {{elements | damage | relaxation,
+                          "is \"linear_elements\", which cannot break",
+                          "set analysis.type = \"elastic\", or delete the line"}};
+constexpr std::string_view other_type =
+    "set type = \"explicit\" or \"elastic\" in [analysis], or take another model";
+const Without models = {
+    {elements, no_bonds, bonds_instead},
+    {lattice | damage, "is \"lattice\", but analysis.type is \"damage\"", other_type},
+    {particles | damage | relaxation, "is \"particles\", but analysis.type is \"{type}\"",
+     other_type},
+};
+const Without types = {{elements | explicit_, "is \"explicit\", but linear elements have no masses",
+                        "set method = \"bonds\" in [body], or type = \"elastic\""}};
+
+const Without softening = {
+    {bonds | elements,
+     "is given, but only bodies with model = \"lattice\" or \"particles\" have it",
+     "delete it (bonds break by fracture_energy or critical_stretch), or set another model in "
+     "[body]"}};
+const Without lattice_material = {{bonds | elements | particles, only_lattices, lattice_instead}};
+const Without material_damping = {
+    {particles, only_lattices,
+     "delete it; analysis.damping_rate damps the motion of these particles"},
+    {bonds | elements, only_lattices, lattice_instead}};
+
+const Without third_axis = {{plane, "is an axis that a two-dimensional body does not have",
+                             "delete it, or set problem = \"three_dimensional\" in [body]"}};
+constexpr Kinds unturned = bond_based | lattice | particles | elements;
+const NotFor resting{unturned, "is given, but {resting}", "delete it, or {turning}"};
+const Without turn_in_plane = {
+    resting, {space, "is no rotation of a body in three dimensions", "Allowed: rx, ry, rz"}};
+const Without turn_in_space = {
+    resting, {plane, "is no rotation of a body in two dimensions", "Allowed: rotation"}};
+const Without moments = {
+    {unturned, "is given, but {resting}", "apply a couple of forces, or {turning}"}};
+const std::vector<KeySchema> motions = {"region",
+                                        "x",
+                                        "y",
+                                        {"z", third_axis},
+                                        {"rotation", turn_in_plane},
+                                        {"rx", turn_in_space},
+                                        {"ry", turn_in_space},
+                                        {"rz", turn_in_space}};
+const Without velocities = {
+    {still, "is given, but analysis.type is \"{type}\", which knows no time",
+     "give [[displacements]], or set type = \"explicit\""},
+    {lattice, "is given, but only regions of bonds have velocities",
+     "give [[displacements]], which follow the smooth load factor"}};
+
+const Without tractions = {
+    {lattice, "is given, but a body with model = \"lattice\" has no facets on its surface",
+     "give a total over a region, [[loads]] with `force`"}};
+const Without symmetry = {
+    {particles,
+     "is given, but a body with model = \"particles\" has no mirror image: particles on a plane "
+     "would lack half of their neighbours",
+     whole_body},
+    {lattice,
+     "is given, but a body with model = \"lattice\" has no mirror image: particles on a plane "
+     "would lack half of their bonds",
+     whole_body}};
+const Without springs = {
+    {lattice, no_lattice_table, another_model},
+    {elements, "is \"linear_elements\", but the case has [[springs]], which only bonds know",
+     "delete one of the two", "body.method"}};
+const Without cracks = {
+    {particles, no_particle_table, another_model},
+    {lattice, no_lattice_table, another_model},
+    {elements, "is \"linear_elements\", but the case has [[cracks]], which cut bonds",
+     "delete one of the two, or leave the crack out of the mesh", "body.method"}};
+const Without rebar = {
+    {particles, no_particle_table, another_model},
+    {lattice, no_lattice_table, another_model},
+    {elements, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
+     "delete one of the two", "body.method"}};
+
+/// A key that these analyses set aside.
+Without set_aside(Kinds analyses) { return {{analyses, {}, {}}}; }
+
+const Without of_events = set_aside(explicit_ | relaxation);
+const Without of_relaxation = set_aside(damage | elastic | explicit_);
+const Without of_time = set_aside(still);
+const NotFor no_lattice_key{lattice | explicit_, "is given, but lattice particles do not have it",
+                            "delete it; damping of lattices is a matter of [[materials]]"};
+const Without of_bonds_in_time = {{still, {}, {}}, no_lattice_key};
+const Without strains = {
+    {damage | elastic, {}, {}},
+    {lattice, "is given, but lattice particles stretch by their true lengths", delete_it}};
+
+const std::vector<KeySchema> body_keys = {
+    "problem",
+    {"method", methods},
+    {"model", models},
+    {"torsion", torsion},
+    {"thickness",
+     {{space, "is given, but a three-dimensional body has none",
+       "delete it; the regions' z intervals say how thick the body is"}}},
+    "mesh",
+    "mesh_size",
+    "pattern",
+    {"surface", horizons},
+    {"columns", {on_lattice}},
+    "spacing",
+    {"horizon", horizons},
+    {"horizon_level", horizons},
+    {"horizon_ratio", horizons},
+    {"micromodulus", horizons},
+    {"critical_stretch", horizons},
+    {"rotation", lattices},
+    {"offset", lattices},
+    {"variant", lattices}};
+
+const std::vector<KeySchema> material_keys = {"name",
+                                              "region",
+                                              "regions",
+                                              "holes",
+                                              "youngs_modulus",
+                                              "poissons_ratio",
+                                              "fracture_energy",
+                                              "density",
+                                              {"tensile_strength", softening},
+                                              {"critical_opening", softening},
+                                              {"knee_stress_ratio", softening},
+                                              {"knee_opening_ratio", softening},
+                                              {"compression_ratio", softening},
+                                              {"compression_threshold", softening},
+                                              {"boundary_factor", lattice_material},
+                                              {"yield_strength", lattice_material},
+                                              {"ultimate_strength", lattice_material},
+                                              {"ultimate_plastic_strain", lattice_material},
+                                              {"crushing_energy", lattice_material},
+                                              {"internal_damping", material_damping},
+                                              {"external_damping", material_damping},
+                                              {"fundamental_period", lattice_material}};
+
+const std::vector<KeySchema> analysis_keys = {{"type", types},
+                                              {"control", of_events},
+                                              {"load_factors", set_aside(explicit_)},
+                                              {"rigid_body_modes", {no_lattice_key}},
+                                              {"factor", of_events},
+                                              {"duration", of_time},
+                                              {"ramp_time", of_time},
+                                              {"time_step", of_time},
+                                              {"safety", of_time},
+                                              {"rows", of_time},
+                                              {"damping_rate", of_bonds_in_time},
+                                              {"masses", of_bonds_in_time},
+                                              {"strain", strains},
+                                              {"tolerance", of_relaxation},
+                                              {"iterations", of_relaxation}};
+
+const std::vector<KeySchema> crack_keys = {
+    {"points",
+     {{space, "is given, but the body has 3 dimensions", "give the `corners` of a plane polygon"}}},
+    {"corners",
+     {{plane, "is given, but the body has 2 dimensions",
+       "give the `points` of a line: [[0, 1], [2, 1]]"}}}};
+
+}  // namespace
+
+const std::vector<TableSchema>& case_schema() {
+  static const std::vector<TableSchema> schema = {
+      {"", false, {"title", "units"}},
+      {"body", false, body_keys},
+      {"regions", true, {"name", "group", "x", "y", {"z", third_axis}, "center", "radius"}},
+      {"materials", true, material_keys},
+      {"supports", true, {"region", "fix"}},
+      {"displacements", true, motions},
+      {"velocities", true, motions, velocities},
+      {"loads", true, {"region", "force", "body_force"}},
+      {"tractions", true, {"region", "traction", "pressure"}, tractions},
+      {"point_loads", true, {"at", "force", {"moment", moments}}},
+      {"symmetry", true, {"axis", "at", "region"}, symmetry},
+      {"springs", true, {"region", "stiffness", "total"}, springs},
+      {"cracks", true, crack_keys, cracks},
+      {"rebar",
+       true,
+       {"from", "to", "youngs_modulus", "area", "yield_strength", "yields", "ties_break"},
+       rebar},
+      {"gauges", true, {"name", "between", "at", "region", "axis", "stress"}},
+      {"analysis", false, analysis_keys},
+      {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_events},
+      {"output",
+       false,
+       {{"fields_at", of_events}, {"fields_every", of_events}, {"fields_times", of_time}}},
+  };
+  return schema;
+}
+
+std::vector<std::string_view> keys_of_bonds() {
+  std::vector<std::string_view> keys;
+  for (const KeySchema& key : body_keys) {
+    if (!key.not_for.empty() && key.not_for.front().fault == no_bonds) keys.push_back(key.name);
+  }
+  return keys;
+}
+
+}  // namespace perilink
