@@ -4,13 +4,8 @@
 #include <vector>
 
 #include "analysis/dynamics/bonds/bond_analysis.hpp"
-#include "analysis/quasistatic/load_curve.hpp"
-#include "app/model/from_case/configure.hpp"
-#include "app/process/progress.hpp"
-#include "app/results/explicit_history.hpp"
-#include "app/run/summary.hpp"
+#include "app/run/explicit_run.hpp"
 #include "base/csr.hpp"
-#include "io/fields/vtu.hpp"
 
 namespace perilink {
 
@@ -31,13 +26,13 @@ Strain strain_of(const AnalysisSection& analysis);
 /// \throws InputError for a time step above the critical one, or too many steps
 BondRunCase build_bond_run(const CaseFile& input, const Model& model);
 
-/// Turns what happens in the run into files and progress: every row into the history, the states at
-/// the times that the case asks for (and the first and the last) into field files, of a dynamic
-/// relaxation those of all rows.
-class BondRunFiles final : public BondRunObserver {
+/// Turns what happens in a run over time into files and progress: every row into the history, the
+/// states at the times that the case asks for (and the first and the last) into field files, of a
+/// dynamic relaxation those of all rows.
+class BondObserver final : public BondRunObserver, public RunFiles {
  public:
   /// \param steps  in the whole run, for the progress
-  BondRunFiles(const CaseFile& input, const Model& model, Index steps,
+  BondObserver(const CaseFile& input, const Model& model, Index steps,
                std::filesystem::path directory, bool quiet);
 
   void on_row(const ExplicitRecord& record, const BondRunState& state) override;
@@ -45,39 +40,44 @@ class BondRunFiles final : public BondRunObserver {
   void on_iteration(Index load_step, Index iteration, double residual) override;
   bool stop_requested() override;
 
-  /// Brings everything to the disk, ends the progress line.
-  void finish();
-  Index rows() const { return rows_; }
-  const PeakWatch& peaks() const { return peaks_; }
-  std::vector<std::string> doubts(const ExplicitResult& result) const;
-  double seconds_writing() const { return seconds_writing_; }
+  /// Pieces of the broken body at the end that nothing holds.
+  Index loose_pieces() const { return loose_pieces_; }
 
  private:
-  void write_fields(const ExplicitRecord& record, const BondRunState& state);
+  void write_state(const ExplicitRecord& record, const BondRunState& state);
 
-  const CaseFile& input_;
   const Model& model_;
   Index steps_;
-  std::filesystem::path directory_;
-  ExplicitHistory history_;
-  ProgressBar bar_;
   Csr families_;
-  Index rows_ = 0;
-  Index loose_pieces_ = 0;  ///< at the end
-  PeakWatch peaks_;
-  std::size_t next_time_ = 0;  ///< next entry of the case's output.fields_times
-  std::vector<PvdEntry> series_;
-  double seconds_writing_ = 0.0;
+  Index loose_pieces_ = 0;
 };
 
-/// Writes DIR/summary.json. \throws FileError
-void write_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const ExplicitResult& result, const BondRunFiles& files,
-                   const PhaseSeconds& seconds, int threads);
+/// A run with type = "explicit" of a body with bonds: they move instead of going from equilibrium
+/// to equilibrium.
+class BondRun final : public ExplicitRun {
+ public:
+  BondRun(const CaseFile& input, int threads, bool quiet);
+  RunFiles& open(const std::filesystem::path& directory, bool quiet) override {
+    return observer_.emplace(input_, model_, built_.steps, directory, quiet);
+  }
+  void analyse() override {
+    result_ = run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, *observer_);
+  }
+  std::string rate() const override;
+  const Model& model() const { return model_; }
+  const BondRunCase& built() const { return built_; }
 
-/// The same for people, on standard output.
-void print_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const ExplicitResult& result, const BondRunFiles& files,
-                   const PhaseSeconds& seconds);
+ protected:
+  const RunFiles& files() const override { return *observer_; }
+  std::string cracks() const override { return cracks_text(model_, result_.last); }
+  void tell_cracks(Summary& summary) const override;
+  void tell_sizes(Summary& summary) const override { tell_body(summary, model_); }
+  RunFacts facts() const override;
+
+ private:
+  Model model_;
+  BondRunCase built_;
+  std::optional<BondObserver> observer_;
+};
 
 }  // namespace perilink

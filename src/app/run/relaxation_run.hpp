@@ -14,14 +14,28 @@ RelaxationOptions relaxation_options(const CaseFile& input, int threads);
 /// critically, has decayed to the tolerance.
 double expected_iterations(const Model& model, const RelaxationOptions& options);
 
-/// Writes DIR/summary.json. \throws FileError
-void write_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const RelaxationResult& result, const BondRunFiles& files,
-                   const PhaseSeconds& seconds, int threads);
+/// A run with type = "relaxation": bonds that are brought to rest.
+class RelaxationRun final : public RunKind {
+ public:
+  RelaxationRun(const CaseFile& input, int threads, bool quiet);
+  RunFiles& open(const std::filesystem::path& directory, bool quiet) override;
+  void analyse() override {
+    result_ = run_dynamic_relaxation(model_, relaxation_options(input_, threads_), *observer_);
+  }
+  Verdict verdict() override { return {result_.ending, result_.reason}; }
+  std::vector<std::optional<std::string>> late_notes() const override {
+    return {note_of_peaks(observer_->peaks())};
+  }
+  std::string outcome() const override;
+  void tell(Summary& summary) const override;
+  std::string rate() const override;
+  const Model& model() const { return model_; }
+  const RelaxationResult& result() const { return result_; }
 
-/// The same for people, on standard output.
-void print_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const RelaxationResult& result, const BondRunFiles& files,
-                   const PhaseSeconds& seconds);
+ private:
+  Model model_;
+  std::optional<BondObserver> observer_;
+  RelaxationResult result_;
+};
 
 }  // namespace perilink
