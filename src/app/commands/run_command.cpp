@@ -77,17 +77,6 @@ void attempt(const Verdict& verdict, const Action& action) {
   }
 }
 
-/// Writes the summary at the end of a run.
-void conclude(const Verdict& verdict, RunKind& run, const fs::path& directory) {
-  if (verdict.ending == Ending::failed) complain(verdict.reason);
-  try {
-    write_summary_file(directory, summary_of(run, directory).json);
-  } catch (const std::exception& error) {
-    complain(failure_text(error));
-    verdict.ending = Ending::failed;
-  }
-}
-
 /// The resolved case is written to DIR/case.toml; it must not take the place of the user's own
 /// file.
 void refuse_own_case(const fs::path& directory, const std::string& case_path) {
@@ -123,17 +112,23 @@ int run_in(const fs::path& directory, const RunOptions& options, const CaseFile&
   const Verdict verdict = run->verdict();
   attempt(verdict, [&] { run->analyse(); });
   attempt(verdict, [&] { files.finish(); });
-  for (const std::optional<std::string>& note : run->late_notes()) {
-    if (!note) continue;
-    run->notes.push_back(*note);
-    log->info("note: {}", *note);
-  }
   run->seconds.output = files.seconds_writing();
   run->seconds.analysis = timer.seconds() - run->seconds.output;
-  conclude(verdict, *run, directory);
-  log->info("{}: {}; {}", to_string(verdict.ending), verdict.reason, run->outcome());
-  for (const std::string& doubt : run->doubts()) log->info("doubt: {}", doubt);
-  if (!options.quiet) fmt::print("{}", summary_of(*run, directory).text);
+  Summary summary = summary_of(*run, directory);
+  for (std::size_t k = run->notes.size(); k < summary.notes.size(); ++k) {
+    log->info("note: {}", summary.notes[k]);
+  }
+  if (verdict.ending == Ending::failed) complain(verdict.reason);
+  try {
+    write_summary_file(directory, summary.json);
+  } catch (const std::exception& error) {
+    complain(failure_text(error));
+    verdict.ending = Ending::failed;
+    summary = summary_of(*run, directory);
+  }
+  log->info("{}: {}; {}", to_string(verdict.ending), verdict.reason, summary.outcome);
+  for (const std::string& doubt : summary.doubts) log->info("doubt: {}", doubt);
+  if (!options.quiet) fmt::print("{}", summary.text);
   return exit_status_of(verdict.ending);
 }
 

@@ -10,6 +10,8 @@
 #include "app/model/body/particle_model.hpp"
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
+#include "app/run/make_run.hpp"
+#include "app/run/motion.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
 
@@ -80,11 +82,6 @@ Index count_loose_pieces(const Model& model, const BondRunState& state) {
 
 }  // namespace
 
-std::string cracks_text(const Model& model, const ExplicitRecord& record) {
-  return model.network.has_states() ? fmt::format("{} cracked particles", record.cracked_particles)
-                                    : fmt::format("{} broken bonds", record.broken_bonds);
-}
-
 Strain strain_of(const AnalysisSection& analysis) {
   return analysis.strain == "green" ? Strain::green : Strain::small;
 }
@@ -106,16 +103,13 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model) {
   return built;
 }
 
-BondObserver::BondObserver(const CaseFile& input, const Model& model, Index steps,
-                           std::filesystem::path directory, bool quiet)
-    : RunFiles(input, std::move(directory), quiet),
-      model_(model),
-      steps_(steps),
-      families_(bonds_of_particles(model.network.bonds, model.network.particles.size())) {}
+MovingBonds::MovingBonds(const CaseFile& of_case, int on_threads, bool quiet)
+    : NetworkRun(of_case, on_threads, quiet),
+      families_(bonds_of_particles(model_.network.bonds, model_.network.particles.size())) {}
 
-void BondObserver::write_state(const ExplicitRecord& record, const BondRunState& state) {
-  write_fields(record.step, record.time, [&] {
-    FieldMoment moment = moment_of(record, input_, model_);
+void MovingBonds::write_state(const ExplicitRecord& record, const BondRunState& state) {
+  files_->write_fields(record.step, record.time, [&] {
+    FieldMoment moment = moment_of(record, input, model_);
     moment.time = record.time;
     const bool bonds_break = !model_.network.has_states();
     VtuGrid grid =
@@ -130,58 +124,70 @@ void BondObserver::write_state(const ExplicitRecord& record, const BondRunState&
   });
 }
 
-void BondObserver::on_row(const ExplicitRecord& record, const BondRunState& state) {
-  add_row(record, gauge_values(model_, state.motion.displacement, 1.0));
-  if (fields_are_due(record.time)) write_state(record, state);
-  show_steps(record, steps_, cracks_text(model_, record));
+void MovingBonds::on_row(const ExplicitRecord& record, const BondRunState& state) {
+  files_->add_row(record, gauge_values(model_, state.motion.displacement, 1.0));
+  if (files_->fields_are_due(record.time)) write_state(record, state);
+  files_->show_steps(record, steps_);
 }
 
-void BondObserver::on_end(const ExplicitRecord& last, const BondRunState& state) {
+void MovingBonds::on_end(const ExplicitRecord& last, const BondRunState& state) {
   write_state(last, state);
   if (!model_.network.has_states()) loose_pieces_ = count_loose_pieces(model_, state);
 }
 
-void BondObserver::on_iteration(Index load_step, Index iteration, double residual) {
-  if (!bar_.is_due()) return;
-  bar_.draw(fmt::format("load step {} of {}, iteration {}, residual {:.1e}", load_step, steps_,
-                        iteration, residual),
-            static_cast<double>(load_step - 1) / steps_);
+void MovingBonds::on_iteration(Index load_step, Index iteration, double residual) {
+  if (!files_->bar().is_due()) return;
+  files_->bar().draw(fmt::format("load step {} of {}, iteration {}, residual {:.1e}", load_step,
+                                 steps_, iteration, residual),
+                     static_cast<double>(load_step - 1) / steps_);
 }
 
-bool BondObserver::stop_requested() { return stop_signal_received(); }
+bool MovingBonds::stop_requested() { return stop_signal_received(); }
 
-BondRun::BondRun(const CaseFile& input, int threads, bool quiet)
-    : ExplicitRun(input, threads),
-      model_(build_model_visibly(input, quiet)),
-      built_(build_bond_run(input, model_)) {
-  built_.options.threads = threads;
-  take_notes(model_);
-  plan_steps(size_text(model_), built_.steps, built_.options.time_step,
-             built_.inertia.critical_time_step());
-}
+namespace {
 
-std::string BondRun::rate() const {
-  return rate_text(1.0 * model_.network.num_elements() * result_.steps, seconds.analysis,
-                   "bond-steps");
-}
-
-void BondRun::tell_cracks(Summary& summary) const {
-  if (model_.particle_fit) {
-    summary.add("cracked_particles", result_.last.cracked_particles);
-    tell_constants(summary, model_);
-  } else {
-    summary.add("broken_bonds", result_.last.broken_bonds);
+/// A run with type = "explicit" of a body with bonds, which move instead of going from equilibrium
+/// to equilibrium.
+class BondRun final : public MovingBonds {
+ public:
+  BondRun(const CaseFile& of_case, int on_threads, bool quiet)
+      : MovingBonds(of_case, on_threads, quiet), built_(build_bond_run(of_case, model_)) {
+    built_.options.threads = threads;
+    steps_ = built_.steps;
+    plan += fmt::format(", {} steps of {:.4g} (critical {:.4g})", steps_, built_.options.time_step,
+                        built_.inertia.critical_time_step());
   }
-}
 
-RunFacts BondRun::facts() const {
-  const Particles& particles = model_.network.particles;
-  const double length = longest_side(particles.dim, particles.size(), [&](Index i, int axis) {
-    return particles.position(i)[axis];
-  });
-  RunFacts facts = run_facts(input_, length, observer_->peaks().highest().load);
-  facts.loose_pieces = observer_->loose_pieces();
-  return facts;
+  void analyse() override {
+    result_ = run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, *this);
+  }
+
+  Verdict verdict() override { return {result_.ending, result_.reason}; }
+
+  void tell(Summary& summary) const override {
+    MotionExtras extras;
+    if (model_.particle_fit) extras.constants = fit_json(*model_.particle_fit);
+    tell_motion(summary, input, files(), result_, extras);
+    tell_body(summary, model_);
+    summary.rate = bond_rate(result_.steps);
+    const Particles& particles = model_.network.particles;
+    const double length = longest_side(particles.dim, particles.size(), [&](Index i, int axis) {
+      return particles.position(i)[axis];
+    });
+    RunFacts facts = run_facts(input, length, files().peaks().highest().load);
+    facts.loose_pieces = loose_pieces_;
+    summary.doubts = doubts_about(result_, facts);
+  }
+
+ private:
+  BondRunCase built_;
+  ExplicitResult result_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads, bool quiet) {
+  return std::make_unique<BondRun>(input, threads, quiet);
 }
 
 }  // namespace perilink

@@ -7,23 +7,32 @@
 
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
+#include "app/run/run_notes.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {
 
-DamageObserver::DamageObserver(const CaseFile& input, const Model& model,
-                               std::filesystem::path directory, bool quiet)
-    : RunFiles(input, std::move(directory), quiet),
-      model_(model),
-      is_broken_(static_cast<std::size_t>(model.network.num_elements()), 0) {}
+DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
+    : NetworkRun(of_case, on_threads, quiet),
+      is_broken_(static_cast<std::size_t>(model_.network.num_elements()), 0) {
+  plan += fmt::format(", {} unknowns", model_.unknowns.count);
+}
+
+void DamageRun::tell(Summary& summary) const {
+  Equilibria found(result_);
+  found.places = places_;
+  summary.add_note(note_of_grips(model_, broken_));
+  summary.add_note(note_of_peaks(result_, model_, broken_));
+  tell_quasistatic(summary, input, model_, found, seconds.analysis);
+}
 
 /// The element of the last row has failed by now; where several failed in one load step their order
 /// within the step is that of their numbers.
-void DamageObserver::note_broken(const StepRecord& record, StateSource& source) {
+void DamageRun::note_broken(const StepRecord& record, StateSource& source) {
   const std::size_t count = static_cast<std::size_t>(record.broken_bonds);
   if (count == broken_.size()) return;
   if (count == broken_.size() + 1 && last_element_ != no_index &&
-      input_.analysis.control == "events") {
+      input.analysis.control == "events") {
     broken_.push_back(last_element_);
     is_broken_[last_element_] = 1;
     return;
@@ -36,7 +45,7 @@ void DamageObserver::note_broken(const StepRecord& record, StateSource& source) 
   }
 }
 
-void DamageObserver::note_places(const StepRecord& record, StateSource& source) {
+void DamageRun::note_places(const StepRecord& record, StateSource& source) {
   if (!has_several_places(model_) || !(std::abs(record.load) > highest_)) return;
   highest_ = std::abs(record.load);
   if (model_.driven_places.empty()) {  // a look at the state may cost a solve
@@ -48,36 +57,36 @@ void DamageObserver::note_places(const StepRecord& record, StateSource& source) 
 }
 
 /// A load step may pass a number that the case asks for; the first row beyond it counts then.
-bool DamageObserver::wants_fields(Index broken_bonds) const {
-  if (!has_fields()) return true;
+bool DamageRun::wants_fields(Index broken_bonds) const {
+  if (!files_->has_fields()) return true;
   const Index last = broken_at_fields_;
   if (broken_bonds == last) return false;
-  const std::vector<int>& at = input_.output.fields_at;
+  const std::vector<int>& at = input.output.fields_at;
   if (std::any_of(at.begin(), at.end(), [&](int n) { return n > last && n <= broken_bonds; })) {
     return true;
   }
-  const std::optional<int>& every = input_.output.fields_every;
+  const std::optional<int>& every = input.output.fields_every;
   return every && broken_bonds / *every != last / *every;
 }
 
-void DamageObserver::write_state(const StepRecord& record, StateSource& source) {
+void DamageRun::write_state(const StepRecord& record, StateSource& source) {
   const Network& network = model_.network;
-  write_fields(record.step, record.step, [&] {
+  files_->write_fields(record.step, record.step, [&] {
     if (families_.rows() == 0) {
       families_ = bonds_of_particles(network.bonds, network.particles.size());
     }
     const StepState state = source.state();
     std::vector<double> motion(state.displacement.begin(), state.displacement.end());
     for (double& u : motion) u *= record.load_factor;
-    return make_field_grid(network, state.secants, motion, moment_of(record, input_, model_),
+    return make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
                            broken_, families_);
   });
   broken_at_fields_ = record.broken_bonds;
 }
 
-void DamageObserver::show_progress(const StepRecord& record) {
-  if (!bar_.is_due()) return;
-  const StopSection& stop = input_.stop;
+void DamageRun::show_progress(const StepRecord& record) {
+  if (!files_->bar().is_due()) return;
+  const StopSection& stop = input.stop;
   std::optional<double> done;
   if (stop.broken_bonds && *stop.broken_bonds > 0) {
     done = static_cast<double>(record.broken_bonds) / *stop.broken_bonds;
@@ -86,36 +95,26 @@ void DamageObserver::show_progress(const StepRecord& record) {
     done = std::max(done.value_or(0.0), std::abs(record.displacement) / *stop.displacement);
   }
   if (done) done = std::clamp(*done, 0.0, 1.0);
-  bar_.draw(
+  files_->bar().draw(
       fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds, record.load_factor),
       done);
 }
 
-void DamageObserver::on_step(const StepRecord& record, StateSource& source) {
+void DamageRun::on_step(const StepRecord& record, StateSource& source) {
   note_broken(record, source);
   note_places(record, source);
-  add_row(record, model_.gauges.empty()
-                      ? std::vector<double>{}
-                      : gauge_values(model_, source.state().displacement, record.load_factor));
+  files_->add_row(record, model_.gauges.empty() ? std::vector<double>{}
+                                                : gauge_values(model_, source.state().displacement,
+                                                               record.load_factor));
   show_progress(record);
   if (wants_fields(record.broken_bonds)) write_state(record, source);
   last_element_ = record.element;
 }
 
-void DamageObserver::on_end(const StepRecord& last, StateSource& source) {
+void DamageRun::on_end(const StepRecord& last, StateSource& source) {
   if (last.step > 0) write_state(last, source);
 }
 
-bool DamageObserver::stop_requested() { return stop_signal_received(); }
-
-Equilibria found_by(const DamageResult& result) {
-  Equilibria found{result.last, result.peaks, result.factor};
-  found.broken_bonds = result.broken_bonds;
-  found.initial_stiffness = result.initial_stiffness;
-  found.largest_residual = result.largest_residual;
-  found.energy_error = result.energy_error;
-  found.smoothed_peak_load = result.smoothed_peak_load;
-  return found;
-}
+bool DamageRun::stop_requested() { return stop_signal_received(); }
 
 }  // namespace perilink

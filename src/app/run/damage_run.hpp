@@ -1,20 +1,24 @@
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
-#include "app/run/quasistatic_run.hpp"
-#include "app/run/run_notes.hpp"
+#include "app/run/quasistatic.hpp"
+#include "app/run/run_kind.hpp"
 #include "base/csr.hpp"
 
 namespace perilink {
 
-/// Turns what happens in a damage run into files and progress: every row into the history, the
-/// states that the case asks for (and the first and the last) into field files.
-class DamageObserver final : public StepObserver, public RunFiles {
+/// A run with type = "damage": every row goes into the history, the states that the case asks for
+/// (and the first and the last) into field files.
+class DamageRun final : public NetworkRun, public StepObserver {
  public:
-  DamageObserver(const CaseFile& input, const Model& model, std::filesystem::path directory,
-                 bool quiet);
+  DamageRun(const CaseFile& of_case, int on_threads, bool quiet);
+
+  void analyse() override {
+    result_ = run_damage_analysis(model_, damage_options(input, threads), *this);
+  }
+  Verdict verdict() override { return {result_.ending, result_.reason}; }
+  void tell(Summary& summary) const override;
 
   void on_step(const StepRecord& record, StateSource& source) override;
   void on_end(const StepRecord& last, StateSource& source) override;
@@ -22,8 +26,6 @@ class DamageObserver final : public StepObserver, public RunFiles {
 
   /// Broken bonds and ties of the last row, in the order of breaking.
   const std::vector<Index>& broken() const { return broken_; }
-  /// Forces of the places, where there are several, in the row of the largest |load|.
-  const std::vector<PlaceForce>& places() const { return places_; }
 
  private:
   void note_places(const StepRecord& record, StateSource& source);
@@ -32,41 +34,14 @@ class DamageObserver final : public StepObserver, public RunFiles {
   void write_state(const StepRecord& record, StateSource& source);
   void show_progress(const StepRecord& record);
 
-  const Model& model_;
+  DamageResult result_;
   Csr families_;               ///< made with the first field file
   std::vector<Index> broken_;  ///< in the order of breaking
   std::vector<std::uint8_t> is_broken_;
-  Index last_element_ = no_index;  ///< that failed at the end of the last row
-  Index broken_at_fields_ = 0;     ///< number of broken bonds in the last field file
-  double highest_ = 0.0;           ///< |load| so far
-  std::vector<PlaceForce> places_;
-};
-
-Equilibria found_by(const DamageResult& result);
-
-/// A run with type = "damage".
-class DamageRun final : public QuasistaticRun {
- public:
-  using QuasistaticRun::QuasistaticRun;
-  RunFiles& open(const std::filesystem::path& directory, bool quiet) override {
-    return observer_.emplace(input_, model_, directory, quiet);
-  }
-  void analyse() override {
-    result_ = run_damage_analysis(model_, damage_options(input_, threads_), *observer_);
-  }
-  Verdict verdict() override { return {result_.ending, result_.reason}; }
-  std::vector<std::optional<std::string>> late_notes() const override {
-    return {note_of_grips(model_, observer_->broken()),
-            note_of_peaks(result_, model_, observer_->broken())};
-  }
-
- protected:
-  Equilibria found() const override { return found_by(result_); }
-  const std::vector<PlaceForce>& places() const override { return observer_->places(); }
-
- private:
-  std::optional<DamageObserver> observer_;
-  DamageResult result_;
+  Index last_element_ = no_index;   ///< that failed at the end of the last row
+  Index broken_at_fields_ = 0;      ///< number of broken bonds in the last field file
+  double highest_ = 0.0;            ///< |load| so far
+  std::vector<PlaceForce> places_;  ///< in the row of the largest |load|, where there are several
 };
 
 }  // namespace perilink

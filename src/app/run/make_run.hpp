@@ -11,4 +11,10 @@ namespace perilink {
 /// \throws InputError where the case makes no sense for its body
 std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, bool quiet);
 
+/// The single kinds.
+std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads, bool quiet);
+std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads, bool quiet);
+std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads, bool quiet);
+std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads);
+
 }  // namespace perilink

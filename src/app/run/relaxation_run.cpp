@@ -6,6 +6,9 @@
 #include <numbers>
 
 #include "analysis/dynamics/fundamental_period.hpp"
+#include "app/run/bond_run.hpp"
+#include "app/run/make_run.hpp"
+#include "app/run/run_notes.hpp"
 
 namespace perilink {
 
@@ -26,42 +29,52 @@ double expected_iterations(const Model& model, const RelaxationOptions& options)
   return -std::log(options.tolerance) * period / (2.0 * std::numbers::pi * step);
 }
 
-RelaxationRun::RelaxationRun(const CaseFile& input, int threads, bool quiet)
-    : RunKind(input, threads), model_(build_model_visibly(input, quiet)) {
-  take_notes(model_);
-  plan = fmt::format("{}, {} load steps", size_text(model_), input.analysis.load_factors.size());
-}
+namespace {
 
-RunFiles& RelaxationRun::open(const std::filesystem::path& directory, bool quiet) {
-  const auto steps = static_cast<Index>(input_.analysis.load_factors.size());
-  return observer_.emplace(input_, model_, steps, directory, quiet);
-}
+/// A run with type = "relaxation": bonds that are brought to rest.
+class RelaxationRun final : public MovingBonds {
+ public:
+  RelaxationRun(const CaseFile& of_case, int on_threads, bool quiet)
+      : MovingBonds(of_case, on_threads, quiet) {
+    steps_ = static_cast<Index>(input.analysis.load_factors.size());
+    plan += fmt::format(", {} load steps", steps_);
+  }
 
-std::string RelaxationRun::outcome() const {
-  return fmt::format("{} iterations, {} broken bonds, residual {:.2e}", result_.iterations,
-                     result_.last.broken_bonds, result_.residual);
-}
+  void analyse() override {
+    result_ = run_dynamic_relaxation(model_, relaxation_options(input, threads), *this);
+  }
 
-void RelaxationRun::tell(Summary& summary) const {
-  const EnergyBalance& energy = result_.last.energy;
-  tell_peaks(summary, input_, observer_->peaks(), result_.peak_load);
-  summary.add("iterations", result_.iterations);
-  summary.add("residual", result_.residual);
-  summary.add("displacement_error", result_.error);
-  summary.line("iterations", "{}, residual {:.1e}, displacements to {:.1e}", result_.iterations,
-               result_.residual, result_.error);
-  summary.add("rows", observer_->rows());
-  summary.add("broken_bonds", result_.last.broken_bonds);
-  tell_energies(summary, energy);
-  summary.line("energy", "{:.6g} work, {:.6g} dissipated by {} broken bonds, {:.6g} damped",
-               energy.external_work, energy.fractured, result_.last.broken_bonds,
-               energy.external_damping);
-  tell_body(summary, model_);
-}
+  Verdict verdict() override { return {result_.ending, result_.reason}; }
 
-std::string RelaxationRun::rate() const {
-  return rate_text(1.0 * model_.network.num_elements() * result_.iterations, seconds.analysis,
-                   "bond-steps");
+  void tell(Summary& summary) const override {
+    const Index broken = result_.last.broken_bonds;
+    const EnergyBalance& energy = result_.last.energy;
+    tell_peaks(summary, input, files().peaks(), result_.peak_load);
+    summary.add_note(note_of_peaks(files().peaks()));
+    summary.add("iterations", result_.iterations);
+    summary.add("residual", result_.residual);
+    summary.add("displacement_error", result_.error);
+    summary.line("iterations", "{}, residual {:.1e}, displacements to {:.1e}", result_.iterations,
+                 result_.residual, result_.error);
+    summary.add("rows", files().rows());
+    summary.add("broken_bonds", broken);
+    tell_energies(summary, energy);
+    summary.line("energy", "{:.6g} work, {:.6g} dissipated by {} broken bonds, {:.6g} damped",
+                 energy.external_work, energy.fractured, broken, energy.external_damping);
+    tell_body(summary, model_);
+    summary.rate = bond_rate(result_.iterations);
+    summary.outcome = fmt::format("{} iterations, {} broken bonds, residual {:.2e}",
+                                  result_.iterations, broken, result_.residual);
+  }
+
+ private:
+  RelaxationResult result_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads, bool quiet) {
+  return std::make_unique<RelaxationRun>(input, threads, quiet);
 }
 
 }  // namespace perilink

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/timer.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {
@@ -16,10 +17,16 @@ bool is_relaxation(const CaseFile& input) { return input.analysis.type == "relax
 
 }  // namespace
 
+std::string cracks_text(const CaseFile& input, const ExplicitRecord& record) {
+  return has_state_based_particles(input.body)
+             ? fmt::format("{} cracked particles", record.cracked_particles)
+             : fmt::format("{} broken bonds", record.broken_bonds);
+}
+
 RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet)
     : input_(input),
-      bar_(quiet),
       directory_(std::move(directory)),
+      bar_(quiet),
       history_(directory_.string(), input),
       peaks_(is_relaxation(input) ? 1 : vibrating_rows) {}
 
@@ -53,10 +60,10 @@ void RunFiles::write_fields(Index step, double at, const std::function<VtuGrid()
   seconds_writing_ += timer.seconds();
 }
 
-void RunFiles::show_steps(const ExplicitRecord& record, Index steps, const std::string& cracks) {
+void RunFiles::show_steps(const ExplicitRecord& record, Index steps) {
   if (!bar_.is_due()) return;
   bar_.draw(fmt::format("step {} of {}, load factor {:.4g}, {}", record.step, steps,
-                        record.load_factor, cracks),
+                        record.load_factor, cracks_text(input_, record)),
             static_cast<double>(record.step) / steps);
 }
 

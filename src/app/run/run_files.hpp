@@ -17,7 +17,7 @@
 namespace perilink {
 
 /// What a run of any kind leaves while it goes on: rows of the history with their gauges, field
-/// files and a progress line. The observers of the analyses say what is in them.
+/// files and a progress line. The kinds of runs say what is in them.
 class RunFiles {
  public:
   /// \param directory  of the results, which must be there
@@ -35,8 +35,8 @@ class RunFiles {
   /// \param make_grid  makes what is in it
   void write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid);
   /// Draws the progress of a run in steps, where it is time to.
-  /// \param cracks  "3 broken bonds"
-  void show_steps(const ExplicitRecord& record, Index steps, const std::string& cracks);
+  void show_steps(const ExplicitRecord& record, Index steps);
+  ProgressBar& bar() { return bar_; }
   bool has_fields() const { return !series_.empty(); }
   /// Brings everything to the disk and ends the progress line. \throws FileError
   void finish();
@@ -45,12 +45,10 @@ class RunFiles {
   const PeakWatch& peaks() const { return peaks_; }
   double seconds_writing() const { return seconds_writing_; }
 
- protected:
-  const CaseFile& input_;
-  ProgressBar bar_;
-
  private:
+  const CaseFile& input_;
   std::filesystem::path directory_;
+  ProgressBar bar_;
   HistoryFile history_;
   Index rows_ = 0;
   PeakWatch peaks_;
@@ -58,6 +56,9 @@ class RunFiles {
   std::vector<PvdEntry> series_;
   double seconds_writing_ = 0.0;
 };
+
+/// "3 broken bonds" or, of state-based particles, "3 cracked particles".
+std::string cracks_text(const CaseFile& input, const ExplicitRecord& record);
 
 /// What a field file says of the row that it belongs to.
 template <class Record>

@@ -7,11 +7,17 @@
 
 namespace perilink {
 
-void RunKind::take_notes(const Model& model) {
-  notes = model.notes;
-  if (!model.network.calibration) return;
-  calibration = calibration_line(*model.network.calibration);
-  seconds.parts.emplace_back("calibration", model.network.calibration->seconds);
+NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, bool quiet)
+    : RunKind(of_case, on_threads), model_(build_model_visibly(of_case, quiet)) {
+  plan = size_text(model_);
+  notes = model_.notes;
+  if (!model_.network.calibration) return;
+  calibration = calibration_line(*model_.network.calibration);
+  seconds.parts.emplace_back("calibration", model_.network.calibration->seconds);
+}
+
+std::string NetworkRun::bond_rate(Index steps) const {
+  return rate_text(1.0 * model_.network.num_elements() * steps, seconds.analysis, "bond-steps");
 }
 
 std::string rate_text(double count, double seconds, const std::string& unit) {
@@ -21,27 +27,28 @@ std::string rate_text(double count, double seconds, const std::string& unit) {
 Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   const Verdict verdict = run.verdict();
   const PhaseSeconds& seconds = run.seconds;
-  const std::vector<std::string> doubts = run.doubts();
+  const std::string status = to_string(verdict.ending);
   Summary summary;
-  summary.json = summary_head(run.input(), to_string(verdict.ending), verdict.reason);
-  summary.text = (run.input().title.empty() ? run.input().path : run.input().title) + "\n";
-  summary.line("ended", "{} ({})", to_string(verdict.ending), verdict.reason);
+  summary.notes = run.notes;
+  summary.json = summary_head(run.input, status, verdict.reason);
+  summary.text = (run.input.title.empty() ? run.input.path : run.input.title) + "\n";
+  summary.line("ended", "{} ({})", status, verdict.reason);
   run.tell(summary);
 
-  summary.add("notes", run.notes);
-  summary.add("doubts", doubts);
+  summary.add("notes", summary.notes);
+  summary.add("doubts", summary.doubts);
   nlohmann::ordered_json phases = {
       {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
   for (const auto& [part, time] : seconds.parts) phases[part] = time;
   summary.add("seconds", phases);
   summary.line("time", "set-up {:.2f} s, analysis {:.2f} s ({}), output {:.2f} s", seconds.set_up,
-               seconds.analysis, run.rate(), seconds.output);
+               seconds.analysis, summary.rate, seconds.output);
   summary.add("peak_memory_bytes", peak_memory_bytes());
-  summary.add("threads", run.threads());
+  summary.add("threads", run.threads);
   summary.add("version", program_version());
   summary.add("commit", program_commit());
-  for (const std::string& note : run.notes) summary.line("note", "{}", note);
-  for (const std::string& doubt : doubts) summary.line("doubt", "{}", doubt);
+  for (const std::string& note : summary.notes) summary.line("note", "{}", note);
+  for (const std::string& doubt : summary.doubts) summary.line("doubt", "{}", doubt);
   summary.line("results", "{}", directory.string());
   return summary;
 }

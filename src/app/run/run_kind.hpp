@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,50 +27,53 @@ struct Verdict {
   std::string& reason;
 };
 
-/// One kind of run, from the model of its case to its summary. `perilink run` takes all kinds
-/// through the same frame, which calls these functions in their order. Constructors build the model
-/// and fill in what is known before the analysis.
+/// One kind of run: `perilink run` takes all kinds through the same frame. Constructors build the
+/// model of the case and tell what is known before the analysis.
 class RunKind {
  public:
-  RunKind(const CaseFile& input, int threads) : input_(input), threads_(threads) {}
+  /// \param of_case  must outlive the run
+  RunKind(const CaseFile& of_case, int on_threads) : input(of_case), threads(on_threads) {}
   virtual ~RunKind() = default;
 
-  /// Opens the files of the run in its directory. \throws FileError
-  virtual RunFiles& open(const std::filesystem::path& directory, bool quiet) = 0;
+  /// Opens the files in the directory of the run. \throws FileError
+  RunFiles& open(const std::filesystem::path& directory, bool quiet) {
+    return *(files_ = std::make_unique<RunFiles>(input, directory, quiet));
+  }
+  const RunFiles& files() const { return *files_; }
   /// Runs the analysis; an ending that it tells itself is in verdict().
   virtual void analyse() = 0;
   virtual Verdict verdict() = 0;
-  /// What is worth knowing and only known at the end.
-  virtual std::vector<std::optional<std::string>> late_notes() const { return {}; }
-  /// What makes the numbers doubtful, a sentence each.
-  virtual std::vector<std::string> doubts() const { return {}; }
-  /// Steps and cracks, for the log.
-  virtual std::string outcome() const = 0;
-  /// Adds the quantities of this kind of run, which stand between those of all kinds.
+  /// Adds what this kind of run tells, between what all kinds tell.
   virtual void tell(Summary& summary) const = 0;
-  /// How fast the analysis was: "0.2 ms per row".
-  virtual std::string rate() const = 0;
 
-  const CaseFile& input() const { return input_; }
-  int threads() const { return threads_; }
-
+  const CaseFile& input;
+  const int threads;
   std::string plan;                        ///< sizes and steps to come, for the log
-  std::vector<std::string> notes;          ///< what is worth knowing
+  std::vector<std::string> notes;          ///< what is worth knowing before the analysis
   std::optional<std::string> calibration;  ///< what that of the bonds reached, where there is one
   PhaseSeconds seconds;
 
  protected:
-  /// Notes and calibration of a model of bonds.
-  void take_notes(const Model& model);
-
-  const CaseFile& input_;
-  const int threads_;
+  std::unique_ptr<RunFiles> files_;
 };
 
-/// "3.2 M bond-steps/s"; zero of no time.
+/// A run on a network of bonds, or on linear elements.
+class NetworkRun : public RunKind {
+ public:
+  NetworkRun(const CaseFile& of_case, int on_threads, bool quiet);
+  const Model& model() const { return model_; }
+
+ protected:
+  /// "3.2 M bond-steps/s".
+  std::string bond_rate(Index steps) const;
+
+  Model model_;
+};
+
+/// "3.2 M particle-steps/s"; zero of no time.
 std::string rate_text(double count, double seconds, const std::string& unit);
 
-/// What a run tells at its end, as JSON and as text.
+/// What a run tells at its end.
 Summary summary_of(RunKind& run, const std::filesystem::path& directory);
 
 /// build_model(), while people at a terminal see how the calibration of the bonds comes along.

@@ -29,17 +29,13 @@ void tell_energies(Summary& summary, const EnergyBalance& energy) {
   summary.add("dissipated_energy", energy.fractured + energy.plastic);
 }
 
-void tell_constants(Summary& summary, const Model& model) {
-  if (model.particle_fit) summary.add("constants", fit_json(*model.particle_fit));
-}
-
 void tell_body(Summary& summary, const Model& model, const std::string& more) {
   const Network& network = model.network;
   summary.add("particles", network.particles.size());
   summary.add("bonds", model.elements ? 0 : network.first_segment);
   if (model.elements) summary.add("cells", model.elements->cells.size());
   summary.add("unknowns", model.unknowns.count);
-  tell_constants(summary, model);
+  if (model.particle_fit) summary.add("constants", fit_json(*model.particle_fit));
   if (network.calibration) summary.add("calibration", calibration_json(*network.calibration));
   summary.add("spacing", model.lattice.spacing);
   summary.add("horizon", model.horizon);

@@ -18,9 +18,16 @@ namespace perilink {
 struct Summary {
   nlohmann::ordered_json json;
   std::string text;
+  std::vector<std::string> notes;   ///< what is worth knowing
+  std::vector<std::string> doubts;  ///< what makes the numbers doubtful, a sentence each
+  std::string outcome;              ///< steps and cracks, for the log
+  std::string rate;                 ///< how fast the analysis was: "0.2 ms per row"
 
   /// A key that is there keeps its place.
   void add(const std::string& key, nlohmann::ordered_json value) { json[key] = std::move(value); }
+  void add_note(const std::optional<std::string>& note) {
+    if (note) notes.push_back(*note);
+  }
   /// \param label  what the line is about; empty: the same as the line above
   template <class... Args>
   void line(const std::string& label, fmt::format_string<Args...> format, Args&&... args) {
@@ -35,9 +42,6 @@ void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
 
 /// Where the energy of a run over time is at its end.
 void tell_energies(Summary& summary, const EnergyBalance& energy);
-
-/// How well the constants of state-based particles could be found, where there are such.
-void tell_constants(Summary& summary, const Model& model);
 
 /// How many particles and bonds a model has, and how they were made.
 /// \param more  behind the line: ", 60 unknowns"

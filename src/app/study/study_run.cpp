@@ -11,8 +11,7 @@
 
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
-#include "app/run/damage_run.hpp"
-#include "app/run/elastic_run.hpp"
+#include "app/run/quasistatic.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/study/convergence.hpp"
 #include "assembly/fields.hpp"
@@ -94,7 +93,7 @@ std::vector<TomlValue> keys_of(const StudySeries& series, const TomlValue& refin
 
 void analyse_elastic(Repeat& repeat, int threads) {
   ElasticAnswer answer = solve_elastic(repeat.model, threads);
-  tell_equilibria(repeat.found, repeat.input, answer.found());
+  tell_equilibria(repeat.found, repeat.input, Equilibria(answer));
   const ElasticSeconds& seconds = answer.solution.seconds;
   repeat.seconds.assembly = seconds.assembly;
   repeat.seconds.factorization = seconds.factorization;
@@ -109,7 +108,7 @@ void analyse_damage(Repeat& repeat, int threads) {
       run_damage_analysis(repeat.model, damage_options(repeat.input, threads), observer);
   repeat.ending = result.ending;
   repeat.reason = result.reason;
-  tell_equilibria(repeat.found, repeat.input, found_by(result));
+  tell_equilibria(repeat.found, repeat.input, Equilibria(result));
   repeat.note = note_of_peaks(result.peaks);
   repeat.gauges = std::move(observer.gauges);
 }
