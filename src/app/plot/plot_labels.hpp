@@ -8,9 +8,9 @@ namespace perilink {
 /// What a summary tells a figure beside its data.
 struct PlotLabels {
   std::string title;
-  std::string analysis;  ///< kind of the run; empty: of an earlier version, which does not tell
-  std::string force;     ///< unit; empty: none is known
-  std::string length;    ///< unit; empty: none is known
+  std::string force;          ///< unit; empty: none is known
+  std::string length;         ///< unit; empty: none is known
+  std::string analysis = {};  ///< kind of the run; empty: an earlier version did not tell
 };
 
 /// Last part of a path to a directory, "beam" of "results/beam/".

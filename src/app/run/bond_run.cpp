@@ -11,7 +11,7 @@
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
 #include "app/run/make_run.hpp"
-#include "app/run/motion.hpp"
+#include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
 

@@ -3,7 +3,7 @@
 #include "app/process/signals.hpp"
 #include "app/results/lattice_fields.hpp"
 #include "app/run/make_run.hpp"
-#include "app/run/motion.hpp"
+#include "app/run/run_warnings.hpp"
 
 namespace perilink {
 namespace {

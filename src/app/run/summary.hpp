@@ -10,6 +10,7 @@
 #include "analysis/dynamics/explicit_run.hpp"
 #include "analysis/quasistatic/load_curve.hpp"
 #include "app/model/model.hpp"
+#include "app/run/run_files.hpp"
 
 namespace perilink {
 
@@ -42,6 +43,17 @@ void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
 
 /// Where the energy of a run over time is at its end.
 void tell_energies(Summary& summary, const EnergyBalance& energy);
+
+/// What only some bodies that move have.
+struct MotionExtras {
+  double fundamental_period = 0.0;     ///< 0: nothing asks for it [time]
+  bool yields = false;                 ///< particles flow
+  nlohmann::ordered_json constants{};  ///< how well those of state-based particles were found
+};
+
+/// What explicit runs tell, of bonds and of lattices, but for the sizes of their bodies.
+void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
+                 const ExplicitResult& result, const MotionExtras& extras);
 
 /// How many particles and bonds a model has, and how they were made.
 /// \param more  behind the line: ", 60 unknowns"
