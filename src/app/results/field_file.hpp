@@ -20,8 +20,8 @@ struct FieldMoment {
   double load_factor = 0.0;
   double load = 0.0;                     ///< [force]
   double spacing = 0.0;                  ///< between particles [length]
-  std::optional<double> time = {};       ///< of runs over time [time]
-  std::optional<double> thickness = {};  ///< of bodies in the plane [length]
+  std::optional<double> time = {};       ///< in runs over time [time]
+  std::optional<double> thickness = {};  ///< in the plane [length]
 };
 
 /// The state of a body as a grid to look at. Points are the particles at their reference positions
@@ -32,7 +32,7 @@ struct FieldMoment {
 ///           micropolar bonds rotation (one number in two dimensions, three in three)
 ///   cells   element (FieldElement), broken_at (which break of the run it was, from 1; 0: none)
 ///   file    dimension and the moment
-/// \param secants                   of the elements, shape (elements) [-]
+/// \param secants                   one per element, shape (elements) [-]
 /// \param motion                    at that moment, shape (particles, width) [length]
 /// \param broken_elements_in_order  bonds and ties that broke, first one first
 /// \param families                  bonds of each particle (bonds_of_particles)

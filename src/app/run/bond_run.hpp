@@ -21,7 +21,7 @@ Strain strain_of(const AnalysisSection& analysis);
 BondRunCase build_bond_run(const CaseFile& input, const Model& model);
 
 /// A run whose bonds move: every row goes into the history, the states at the times that the case
-/// asks for (and the first and the last) into field files, of a dynamic relaxation those of all rows.
+/// asks for (and the first and the last, in a dynamic relaxation all) into field files.
 class MovingBonds : public NetworkRun, protected BondRunObserver {
  public:
   MovingBonds(const CaseFile& of_case, int on_threads, bool quiet);
@@ -34,7 +34,7 @@ class MovingBonds : public NetworkRun, protected BondRunObserver {
   void write_state(const ExplicitRecord& record, const BondRunState& state);
 
   Index steps_ = 0;         ///< in the whole run
-  Index loose_pieces_ = 0;  ///< of the broken body at the end that nothing holds
+  Index loose_pieces_ = 0;  ///< parts of the broken body at the end that nothing holds
 
  private:
   Csr families_;

@@ -20,7 +20,7 @@ struct ElasticAnswer {
   Ending ending = Ending::completed;
   std::string reason;
   ElasticResult solution;
-  StepRecord row;  ///< of its history
+  StepRecord row;  ///< all its history
   PeakWatch peaks;
 };
 
@@ -39,7 +39,7 @@ inline bool has_several_places(const Model& model) {
 }
 
 /// Forces of all places at a load factor.
-/// \param secants  of the elements; this and the next only looked at where places are driven
+/// \param secants  one per element; this and the next only looked at where places are driven
 /// \param motion   at load factor 1, shape (particles, width) [length]
 std::vector<PlaceForce> place_forces(const Model& model, double load_factor,
                                      std::span<const double> secants,
@@ -65,7 +65,7 @@ struct Equilibria {
 void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& found);
 
 /// The same with the model and what its solution took.
-/// \param seconds  of the analysis
+/// \param seconds  that the analysis took
 void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& model,
                       const Equilibria& found, double seconds);
 

@@ -20,7 +20,7 @@ namespace perilink {
 /// files and a progress line. The kinds of runs say what is in them.
 class RunFiles {
  public:
-  /// \param directory  of the results, which must be there
+  /// \param directory  which must be there
   /// \throws FileError
   RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet);
 
@@ -41,7 +41,7 @@ class RunFiles {
   /// Brings everything to the disk and ends the progress line. \throws FileError
   void finish();
   Index rows() const { return rows_; }
-  /// Of the rows over time so far.
+  /// What the rows over time tell so far.
   const PeakWatch& peaks() const { return peaks_; }
   double seconds_writing() const { return seconds_writing_; }
 

@@ -18,7 +18,7 @@ struct PhaseSeconds {
   double set_up = 0.0;    ///< reading, particles, bonds, constants
   double analysis = 0.0;  ///< assembly, factorisation, events or steps
   double output = 0.0;    ///< field files
-  std::vector<std::pair<std::string, double>> parts = {};  ///< of the first two
+  std::vector<std::pair<std::string, double>> parts = {};  ///< what is in the first two
 };
 
 /// How a run ended, in its result.
