@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "app/run/make_run.hpp"
+#include "app/run/run_kind.hpp"
 #include "io/text/csv.hpp"
 #include "support/temporary_directory.hpp"
 

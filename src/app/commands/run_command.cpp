@@ -14,7 +14,7 @@
 #include "app/process/threads.hpp"
 #include "app/results/result_directory.hpp"
 #include "app/results/summary_file.hpp"
-#include "app/run/make_run.hpp"
+#include "app/run/run_kind.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"

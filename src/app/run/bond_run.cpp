@@ -10,7 +10,6 @@
 #include "app/model/body/particle_model.hpp"
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
-#include "app/run/make_run.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"

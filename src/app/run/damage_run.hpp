@@ -24,9 +24,6 @@ class DamageRun final : public NetworkRun, public StepObserver {
   void on_end(const StepRecord& last, StateSource& source) override;
   bool stop_requested() override;
 
-  /// Broken bonds and ties of the last row, in the order of breaking.
-  const std::vector<Index>& broken() const { return broken_; }
-
  private:
   void note_places(const StepRecord& record, StateSource& source);
   void note_broken(const StepRecord& record, StateSource& source);
@@ -36,7 +33,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
 
   DamageResult result_;
   Csr families_;               ///< made with the first field file
-  std::vector<Index> broken_;  ///< in the order of breaking
+  std::vector<Index> broken_;  ///< bonds and ties, in the order of breaking
   std::vector<std::uint8_t> is_broken_;
   Index last_element_ = no_index;   ///< that failed at the end of the last row
   Index broken_at_fields_ = 0;      ///< number of broken bonds in the last field file

@@ -1,6 +1,6 @@
 #include "app/model/gauges.hpp"
-#include "app/run/make_run.hpp"
 #include "app/run/quasistatic.hpp"
+#include "app/run/run_kind.hpp"
 #include "assembly/fields.hpp"
 #include "discretization/bonds.hpp"
 

@@ -2,7 +2,7 @@
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
 #include "app/results/lattice_fields.hpp"
-#include "app/run/make_run.hpp"
+#include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
 
 namespace perilink {

@@ -1,5 +1,3 @@
-#include "app/run/make_run.hpp"
-
 #include "app/run/damage_run.hpp"
 
 namespace perilink {

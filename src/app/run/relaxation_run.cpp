@@ -7,7 +7,6 @@
 
 #include "analysis/dynamics/fundamental_period.hpp"
 #include "app/run/bond_run.hpp"
-#include "app/run/make_run.hpp"
 #include "app/run/run_notes.hpp"
 
 namespace perilink {

@@ -70,6 +70,17 @@ class NetworkRun : public RunKind {
   Model model_;
 };
 
+/// Builds the model of a case for the kind of run that it asks for.
+/// \param input  must outlive the run
+/// \throws InputError where the case makes no sense for its body
+std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, bool quiet);
+
+/// Single kinds.
+std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads, bool quiet);
+std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads, bool quiet);
+std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads, bool quiet);
+std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads);
+
 /// "3.2 M particle-steps/s"; zero of no time.
 std::string rate_text(double count, double seconds, const std::string& unit);
 

@@ -181,13 +181,6 @@ TEST_F(DamageRunTest, YieldingBreaksNothing) {
   EXPECT_THAT(broken_bonds("fields_000004.vtu"), ElementsAre(ends_of(17), ends_of(8)));
 }
 
-TEST_F(DamageRunTest, TellsWhatIsBrokenInTheOrderOfBreaking) {
-  const auto observer = make_run();
-  EXPECT_TRUE(observer->broken().empty());
-  run(*observer, {7, 3, 11});
-  EXPECT_THAT(observer->broken(), ElementsAre(7, 3, 11));
-}
-
 TEST_F(DamageRunTest, EveryRowGoesToTheHistory) {
   const auto observer = make_run();
   run(*observer, {7, 3, 11});

@@ -1,4 +1,4 @@
-#include "app/run/make_run.hpp"
+#include "app/run/run_kind.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
