@@ -3,8 +3,8 @@
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "app/commands/commands.hpp"
@@ -114,17 +114,18 @@ int run_in(const fs::path& directory, const RunOptions& options, const CaseFile&
   attempt(verdict, [&] { files.finish(); });
   run->seconds.output = files.seconds_writing();
   run->seconds.analysis = timer.seconds() - run->seconds.output;
-  Summary summary = summary_of(*run, directory);
-  for (std::size_t k = run->notes.size(); k < summary.notes.size(); ++k) {
-    log->info("note: {}", summary.notes[k]);
-  }
   if (verdict.ending == Ending::failed) complain(verdict.reason);
+  Summary summary;
   try {
+    summary = summary_of(*run, directory);
     write_summary_file(directory, summary.json);
   } catch (const std::exception& error) {
     complain(failure_text(error));
     verdict.ending = Ending::failed;
     summary = summary_of(*run, directory);
+  }
+  for (std::size_t k = run->notes.size(); k < summary.notes.size(); ++k) {
+    log->info("note: {}", summary.notes[k]);
   }
   log->info("{}: {}; {}", to_string(verdict.ending), verdict.reason, summary.outcome);
   for (const std::string& doubt : summary.doubts) log->info("doubt: {}", doubt);

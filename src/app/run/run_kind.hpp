@@ -61,7 +61,6 @@ class RunKind {
 class NetworkRun : public RunKind {
  public:
   NetworkRun(const CaseFile& of_case, int on_threads, bool quiet);
-  const Model& model() const { return model_; }
 
  protected:
   /// "3.2 M bond-steps/s".
