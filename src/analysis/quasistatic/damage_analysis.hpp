@@ -33,12 +33,6 @@ struct DamageOptions {
   std::function<const Unknowns*(StateSource&)> new_motion;
 };
 
-/// Force on the body at a loaded or driven place.
-struct PlaceForce {
-  std::string name;
-  std::vector<double> force;  ///< size dim [force]
-};
-
 struct DamageResult {
   Ending ending = Ending::completed;
   std::string reason;  ///< in words
@@ -48,7 +42,6 @@ struct DamageResult {
   double peak_displacement = 0.0;  ///< displacement at the peak load
   PeakWatch peaks;                 ///< the same, and what the load did after its first peak
   Index broken_as_gave_way = 0;    ///< bonds broken when the body first gave way
-  std::vector<PlaceForce> places;  ///< forces at the peak, where several; the caller fills it
   std::optional<double> smoothed_peak_load;  ///< where the path of events is long enough
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;

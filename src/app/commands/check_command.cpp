@@ -13,7 +13,6 @@
 #include "app/run/bond_run.hpp"
 #include "app/run/relaxation_run.hpp"
 #include "app/run/run_cost.hpp"
-#include "app/run/run_model.hpp"
 #include "app/run/summary.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"

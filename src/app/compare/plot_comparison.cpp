@@ -48,7 +48,7 @@ std::vector<CurvePoint> points_of(const RunResult& result) {
 
 /// The smooth curve of a long path of events, else none.
 std::vector<CurvePoint> envelope_of(const RunResult& result) {
-  const std::vector<CurvePoint> path = event_path(result.records);
+  const std::vector<CurvePoint> path = event_path_of(result.records, result.labels);
   if (path.size() <= events_for_envelope) return {};
   return smooth_envelope(path, envelope_window(path.size()));
 }

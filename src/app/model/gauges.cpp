@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/model/model_regions.hpp"
-#include "app/results/explicit_history.hpp"
 #include "app/results/history_file.hpp"
 #include "assembly/fields.hpp"
 #include "base/error.hpp"
@@ -73,9 +72,7 @@ std::size_t number_of(const std::array<int, 2>& axes) {
 
 std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
   std::vector<Gauge> gauges;
-  const std::vector<std::string> taken = input.analysis.type != AnalysisType::explicit_
-                                             ? history_columns()
-                                             : explicit_history_columns(crack_count(input));
+  const std::vector<std::string> taken = history_columns(input);
   for (std::size_t k = 0; k < input.gauges.size(); ++k) {
     const GaugeSection& section = input.gauges[k];
     if (std::find(taken.begin(), taken.end(), section.name) != taken.end()) {
@@ -99,36 +96,31 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
   return gauges;
 }
 
-std::vector<std::string> names_of(const std::vector<Gauge>& gauges) {
-  std::vector<std::string> names;
-  for (const Gauge& gauge : gauges) names.push_back(gauge.name);
-  return names;
-}
-
 StressInput stress_input(const Model& model, const Csr& families) {
   return {model.network, families, model.problem, model.hooke, model.elements.has_value()};
 }
 
-std::vector<double> gauge_values(const Model& model, const StepState& state, double load_factor) {
-  const std::size_t dim = model.network.dim(), width = model.network.width();
+std::vector<double> gauge_values(const Model& model, std::span<const double> motion,
+                                 double load_factor) {
+  const std::size_t width = model.network.width();
   Csr families;
   std::vector<double> displacement;  // where a stress is measured
   std::vector<double> values;
   for (const Gauge& gauge : model.gauges) {
-    if (gauge.stress && families.rows() == 0) {
+    if (!gauge.stress) {
+      values.push_back(load_factor * gauge_value(gauge, model.network.dim(), [&](Index i, int a) {
+                         return motion[i * width + a];
+                       }));
+      continue;
+    }
+    if (families.rows() == 0) {
       families = bonds_of_particles(model.network.bonds, model.network.particles.size());
-      displacement = translations(model.network, state.displacement);
+      displacement = translations(model.network, motion);
     }
     double value = 0.0;
     for (const Gauge::Term& term : gauge.terms) {
-      if (gauge.stress) {
-        const Stress stress = stress_at(stress_input(model, families), displacement, term.particle);
-        value += term.weight * stress[number_of(*gauge.stress)];
-        continue;
-      }
-      for (std::size_t a = 0; a < dim; ++a) {
-        value += term.weight * gauge.direction[a] * state.displacement[term.particle * width + a];
-      }
+      const Stress stress = stress_at(stress_input(model, families), displacement, term.particle);
+      value += term.weight * stress[number_of(*gauge.stress)];
     }
     values.push_back(load_factor * value);
   }

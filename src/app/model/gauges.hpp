@@ -1,9 +1,9 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
-#include "analysis/quasistatic/observer.hpp"
 #include "app/model/model.hpp"
 #include "assembly/stress.hpp"
 #include "base/csr.hpp"
@@ -16,10 +16,23 @@ namespace perilink {
 ///                     names of columns that every history has
 std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model);
 
-std::vector<std::string> names_of(const std::vector<Gauge>& gauges);
+/// What a gauge of displacements measures.
+/// \param displacement  takes a particle and an axis [length]
+template <class Displacement>
+double gauge_value(const Gauge& gauge, int dim, Displacement displacement) {
+  double value = 0.0;
+  for (const Gauge::Term& term : gauge.terms) {
+    for (int a = 0; a < dim; ++a) {
+      value += term.weight * gauge.direction[a] * displacement(term.particle, a);
+    }
+  }
+  return value;
+}
 
-/// Their values in a state, at a load factor.
-std::vector<double> gauge_values(const Model& model, const StepState& state, double load_factor);
+/// Values of all gauges at a load factor.
+/// \param motion  at load factor 1, shape (particles, width) [length]
+std::vector<double> gauge_values(const Model& model, std::span<const double> motion,
+                                 double load_factor);
 
 /// What stresses at the particles of an elastic model are found from.
 /// \param families  bonds of each particle; must outlive the result

@@ -131,6 +131,12 @@ std::size_t peak_row(std::span<const StepRecord> records) {
   return static_cast<std::size_t>(peak - records.begin());
 }
 
+std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
+                                      const PlotLabels& labels) {
+  const bool breaks_bonds = labels.analysis.empty() || labels.analysis == "damage";
+  return breaks_bonds ? event_path(records) : std::vector<CurvePoint>{};
+}
+
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
                            const std::optional<CurvePoint>& first_peak) {
   std::vector<CurvePoint> events;
@@ -143,7 +149,7 @@ Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels
             with_unit("load", labels.force), Grid::lines);
   if (records.empty()) return svg;
 
-  const std::vector<CurvePoint> path = event_path(records);
+  const std::vector<CurvePoint> path = event_path_of(records, labels);
   const std::vector<PeakLabel> peaks =
       labels_of(frame, records[peak_row(records)], first_peak, labels);
   if (path.size() > events_for_envelope) {

@@ -18,6 +18,10 @@ inline constexpr std::size_t events_for_envelope = 200;
 /// Row of the largest absolute load; `records` must not be empty.
 std::size_t peak_row(std::span<const StepRecord> records);
 
+/// event_path() of the rows of a run; empty where its summary says that it breaks no single bonds.
+std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
+                                      const PlotLabels& labels);
+
 /// Load over displacement with the peak marked; a path of more than 200 events with its envelope.
 /// \param first_peak  from the run's summary; marked where the peak is another
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,

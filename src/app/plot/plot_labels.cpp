@@ -26,6 +26,7 @@ PlotLabels read_labels(const fs::path& directory) {
   if (!summary) return labels;
   const auto text = [&](const char* key) { return summary_text(*summary, key, directory); };
   if (!text("title").empty()) labels.title = text("title");
+  labels.analysis = text("analysis");
   const std::string units = text("units");  // "kip, in, s": of force, of length, of time
   const std::size_t comma = units.find(',');
   if (comma != std::string::npos) {

@@ -5,11 +5,12 @@
 
 namespace perilink {
 
-/// What a figure says beside its data.
+/// What a summary tells a figure beside its data.
 struct PlotLabels {
   std::string title;
-  std::string force;   ///< unit; empty: none is known
-  std::string length;  ///< unit; empty: none is known
+  std::string force;          ///< unit; empty: none is known
+  std::string length;         ///< unit; empty: none is known
+  std::string analysis = {};  ///< kind of the run; empty: an earlier version did not tell
 };
 
 /// Last part of a path to a directory, "beam" of "results/beam/".

@@ -70,31 +70,6 @@ void ProgressBar::finish() {
   drawn_ = false;
 }
 
-Progress::Progress(bool quiet, std::optional<Index> last_broken_bonds,
-                   std::optional<double> last_displacement)
-    : bar_(quiet), last_broken_bonds_(last_broken_bonds), last_displacement_(last_displacement) {}
-
-std::optional<double> Progress::fraction(const StepRecord& record) const {
-  std::optional<double> done;
-  if (last_broken_bonds_ && *last_broken_bonds_ > 0) {
-    done = static_cast<double>(record.broken_bonds) / *last_broken_bonds_;
-  }
-  if (last_displacement_ && *last_displacement_ > 0.0) {
-    done = std::max(done.value_or(0.0), std::abs(record.displacement) / *last_displacement_);
-  }
-  if (done) done = std::clamp(*done, 0.0, 1.0);
-  return done;
-}
-
-void Progress::update(const StepRecord& record) {
-  if (!bar_.is_due()) return;
-  bar_.draw(
-      fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds, record.load_factor),
-      fraction(record));
-}
-
-void Progress::finish() { bar_.finish(); }
-
 CalibrationProgress::CalibrationProgress(bool quiet)
     : shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
 

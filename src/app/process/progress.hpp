@@ -1,8 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
-#include "analysis/quasistatic/observer.hpp"
 #include "base/timer.hpp"
 
 namespace perilink {
@@ -27,27 +27,6 @@ class ProgressBar {
   Timer since_start_;
   double next_update_ = 0.0;  ///< [s]
   bool drawn_ = false;
-};
-
-/// The bar of a damage analysis.
-class Progress {
- public:
-  /// \param last_broken_bonds  number of broken bonds at which the run stops, if it is known
-  /// \param last_displacement  displacement at which the run stops, if it is known
-  Progress(bool quiet, std::optional<Index> last_broken_bonds,
-           std::optional<double> last_displacement);
-
-  void update(const StepRecord& record);
-  /// Ends the line of the bar.
-  void finish();
-
- private:
-  /// Fraction of the run that is done, where a stop rule tells.
-  std::optional<double> fraction(const StepRecord& record) const;
-
-  ProgressBar bar_;
-  std::optional<Index> last_broken_bonds_;
-  std::optional<double> last_displacement_;
 };
 
 /// Where the calibration of bonds stands, for people at a terminal: a line drawn over itself on

@@ -64,26 +64,26 @@ std::vector<double> energy_densities(std::span<const double> strains,
   return densities;
 }
 
-std::vector<std::pair<std::string, double>> field_data_of(const StepRecord& record, int dim,
-                                                          double spacing) {
-  return {
-      {"step", static_cast<double>(record.step)},
-      {"broken_bonds", static_cast<double>(record.broken_bonds)},
-      {"load_factor", record.load_factor},
-      {"load", record.load},
+std::vector<std::pair<std::string, double>> field_data_of(const FieldMoment& moment, int dim) {
+  std::vector<std::pair<std::string, double>> data = {
+      {"step", static_cast<double>(moment.step)},
+      {"broken_bonds", static_cast<double>(moment.broken_bonds)},
+      {"load_factor", moment.load_factor},
+      {"load", moment.load},
       {"dimension", static_cast<double>(dim)},
-      {"spacing", spacing},
+      {"spacing", moment.spacing},
   };
+  if (moment.time) data.emplace_back("time", *moment.time);
+  if (moment.thickness) data.emplace_back("thickness", *moment.thickness);
+  return data;
 }
 
 }  // namespace
 
-VtuGrid make_field_grid(const Network& network, const StepState& state, const StepRecord& record,
-                        std::span<const Index> broken_elements_in_order, const Csr& families,
-                        double spacing) {
+VtuGrid make_field_grid(const Network& network, std::span<const double> secants,
+                        std::span<const double> motion, const FieldMoment& moment,
+                        std::span<const Index> broken_elements_in_order, const Csr& families) {
   const int dim = network.dim();
-  std::vector<double> motion(state.displacement.begin(), state.displacement.end());
-  for (double& u : motion) u *= record.load_factor;
   const std::vector<double> displacement = translations(network, motion);
 
   VtuGrid grid;
@@ -91,18 +91,18 @@ VtuGrid make_field_grid(const Network& network, const StepState& state, const St
   append_cells(grid, network, broken_elements_in_order);
   grid.point_data = {
       {"displacement", 3, padded_to_three(displacement, dim)},
-      {"damage", 1, damage_index(network, families, state.secants)},
+      {"damage", 1, damage_index(network, families, secants)},
       {"region", 1, as_doubles(network.particles.material)},
       {"kind", 1, as_doubles(network.particles.kind)},
       {"volume", 1, network.particles.volumes},
-      {"strain_energy_density", 1, strain_energy_density(network, families, state.secants, motion)},
+      {"strain_energy_density", 1, strain_energy_density(network, families, secants, motion)},
       {"principal_strain", 3,
-       padded_to_three(principal_strains(network, families, state.secants, displacement), dim)},
+       padded_to_three(principal_strains(network, families, secants, displacement), dim)},
   };
   if (network.carries_moments()) {
     grid.point_data.push_back({"rotation", dim == 2 ? 1 : 3, rotations(network, motion)});
   }
-  grid.field_data = field_data_of(record, dim, spacing);
+  grid.field_data = field_data_of(moment, dim);
   return grid;
 }
 
@@ -116,11 +116,8 @@ void number_cracks(VtuGrid& grid, std::span<const Index> cracked) {
 }
 
 VtuGrid make_element_grid(const LinearElements& elements, const Particles& particles,
-                          std::span<const double> displacement, const StepRecord& record,
-                          double spacing) {
+                          std::span<const double> motion, const FieldMoment& moment) {
   const int dim = particles.dim;
-  std::vector<double> motion(displacement.begin(), displacement.end());
-  for (double& u : motion) u *= record.load_factor;
   const std::vector<double> strains = cell_strains(elements, motion);
   const std::vector<double> stresses = cell_stresses(elements, strains);
   const std::vector<double> densities = energy_densities(strains, stresses, dim);
@@ -155,7 +152,7 @@ VtuGrid make_element_grid(const LinearElements& elements, const Particles& parti
       {"strain_energy_density", 1, averaged_at_particles(elements, densities, 1)},
       {"principal_strain", 3, padded_to_three(principal_values(mean_strains, dim), dim)},
   };
-  grid.field_data = field_data_of(record, dim, spacing);
+  grid.field_data = field_data_of(moment, dim);
   return grid;
 }
 

@@ -1,32 +1,44 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
-#include "analysis/quasistatic/observer.hpp"
 #include "assembly/linear_elements.hpp"
 #include "base/csr.hpp"
 #include "io/fields/vtu.hpp"
+#include "network/network.hpp"
 
 namespace perilink {
 
 /// What a cell of a field file stands for (cell data "element").
 enum class FieldElement { particle = 0, broken_bond = 1, rebar_segment = 2, cell = 3 };
 
-/// The state of a body at the load factor of `record` as a grid to look at. Points are the
-/// particles at their reference positions (z = 0 in two dimensions). Cells: a vertex for each
-/// particle, then a line for each broken bond in the order of breaking, then a line for each bar
-/// segment. Fields:
+/// The moment of a run that a field file shows.
+struct FieldMoment {
+  Index step = 0;
+  Index broken_bonds = 0;
+  double load_factor = 0.0;
+  double load = 0.0;                     ///< [force]
+  double spacing = 0.0;                  ///< between particles [length]
+  std::optional<double> time = {};       ///< in runs over time [time]
+  std::optional<double> thickness = {};  ///< in the plane [length]
+};
+
+/// The state of a body as a grid to look at. Points are the particles at their reference positions
+/// (z = 0 in two dimensions). Cells: a vertex for each particle, then a line for each broken bond
+/// in the order of breaking, then a line for each bar segment. Fields:
 ///   points  displacement, damage, region (number of the material, -1 none), kind (0 solid, 1
 ///           ghost, 2 rebar), volume, strain_energy_density, principal_strain (largest first); with
 ///           micropolar bonds rotation (one number in two dimensions, three in three)
 ///   cells   element (FieldElement), broken_at (which break of the run it was, from 1; 0: none)
-///   file    step, broken_bonds, load_factor, load, dimension, spacing
+///   file    dimension and the moment
+/// \param secants                   one per element, shape (elements) [-]
+/// \param motion                    at that moment, shape (particles, width) [length]
 /// \param broken_elements_in_order  bonds and ties that broke, first one first
 /// \param families                  bonds of each particle (bonds_of_particles)
-/// \param spacing                   between particles [length]
-VtuGrid make_field_grid(const Network& network, const StepState& state, const StepRecord& record,
-                        std::span<const Index> broken_elements_in_order, const Csr& families,
-                        double spacing);
+VtuGrid make_field_grid(const Network& network, std::span<const double> secants,
+                        std::span<const double> motion, const FieldMoment& moment,
+                        std::span<const Index> broken_elements_in_order, const Csr& families);
 
 /// Numbers the vertices of particles that crack, where no bonds break, in `broken_at`.
 /// \param cracked  particles, first one first
@@ -36,9 +48,8 @@ void number_cracks(VtuGrid& grid, std::span<const Index> cracked);
 /// tetrahedra. Fields as above; particles have the mean of the cells around them, and cells further
 ///   strain_energy_density, principal_strain and principal_stress (largest first; in the plane or
 ///   in space; zero for vertices)
-/// \param displacement  at load factor 1, shape (particles, dim) [length]
+/// \param motion  at that moment, shape (particles, dim) [length]
 VtuGrid make_element_grid(const LinearElements& elements, const Particles& particles,
-                          std::span<const double> displacement, const StepRecord& record,
-                          double spacing);
+                          std::span<const double> motion, const FieldMoment& moment);
 
 }  // namespace perilink

@@ -6,15 +6,17 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "base/error.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {
 
 constexpr double seconds_between_flushes = 0.5;
 
-/// The one list of columns, from which both the writer and the reader are made.
+/// The one list of columns of quasistatic runs, from which both the writer and the reader are made.
 struct Column {
   const char* name;
   double (*get)(const StepRecord&);
@@ -54,31 +56,88 @@ constexpr std::array columns = {
     column<&StepRecord::element>("element"),
 };
 
-std::vector<std::string> with(std::vector<std::string> names,
-                              const std::vector<std::string>& more) {
-  names.insert(names.end(), more.begin(), more.end());
+struct TimeColumn {
+  enum class Of { every_body, bonds, particles };
+  const char* name;
+  double (*get)(const ExplicitRecord&);
+  Of of = Of::every_body;
+
+  bool is_shown(bool bonds_break) const {
+    return of == Of::every_body || (of == Of::bonds) == bonds_break;
+  }
+};
+
+/// That of runs over time.
+constexpr std::array time_columns = {
+    TimeColumn{"step", [](const ExplicitRecord& r) { return 1.0 * r.step; }},
+    TimeColumn{"time", [](const ExplicitRecord& r) { return r.time; }},
+    TimeColumn{"load_factor", [](const ExplicitRecord& r) { return r.load_factor; }},
+    TimeColumn{"load", [](const ExplicitRecord& r) { return r.load; }},
+    TimeColumn{"reaction", [](const ExplicitRecord& r) { return r.support_reaction; }},
+    TimeColumn{"displacement", [](const ExplicitRecord& r) { return r.displacement; }},
+    TimeColumn{"broken_bonds", [](const ExplicitRecord& r) { return 1.0 * r.broken_bonds; },
+               TimeColumn::Of::bonds},
+    TimeColumn{"cracked_particles",
+               [](const ExplicitRecord& r) { return 1.0 * r.cracked_particles; },
+               TimeColumn::Of::particles},
+    TimeColumn{"kinetic_energy", [](const ExplicitRecord& r) { return r.energy.kinetic; }},
+    TimeColumn{"strain_energy", [](const ExplicitRecord& r) { return r.energy.stored; }},
+    TimeColumn{"damped_energy",
+               [](const ExplicitRecord& r) {
+                 return r.energy.internal_damping + r.energy.external_damping;
+               }},
+    TimeColumn{"dissipated_energy",
+               [](const ExplicitRecord& r) { return r.energy.fractured + r.energy.plastic; }},
+    TimeColumn{"external_work", [](const ExplicitRecord& r) { return r.energy.external_work; }},
+};
+
+bool is_over_time(const CaseFile& input) { return !is_quasistatic(input.analysis.type); }
+
+std::vector<std::string> all_columns(const CaseFile& input) {
+  std::vector<std::string> names = history_columns(input);
+  for (const GaugeSection& gauge : input.gauges) names.push_back(gauge.name);
   return names;
 }
 
 }  // namespace
 
-std::vector<std::string> history_columns() {
+std::vector<std::string> history_columns(const CaseFile& input) {
   std::vector<std::string> names;
-  for (const Column& column : columns) names.emplace_back(column.name);
+  if (!is_over_time(input)) {
+    for (const Column& column : columns) names.emplace_back(column.name);
+    return names;
+  }
+  const bool bonds_break = !has_state_based_particles(input.body);
+  for (const TimeColumn& column : time_columns) {
+    if (column.is_shown(bonds_break)) names.emplace_back(column.name);
+  }
   return names;
 }
 
-HistoryFile::HistoryFile(const std::string& directory, const std::vector<std::string>& gauges)
-    : history_(directory + "/history.csv", with(history_columns(), gauges)),
+HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input)
+    : bonds_break_(!has_state_based_particles(input.body)),
+      history_(directory + "/history.csv", all_columns(input)),
       timing_(directory + "/timing.csv", {"step", "seconds"}) {}
 
 void HistoryFile::append(const StepRecord& record, std::span<const double> gauges) {
   std::vector<double> row;
-  row.reserve(columns.size() + gauges.size());
   for (const Column& column : columns) row.push_back(column.get(record));
+  write(std::move(row), gauges, record.seconds);
+}
+
+void HistoryFile::append(const ExplicitRecord& record, std::span<const double> gauges) {
+  std::vector<double> row;
+  for (const TimeColumn& column : time_columns) {
+    if (column.is_shown(bonds_break_)) row.push_back(column.get(record));
+  }
+  write(std::move(row), gauges, since_row_.seconds());
+  since_row_.restart();
+}
+
+void HistoryFile::write(std::vector<double> row, std::span<const double> gauges, double seconds) {
   row.insert(row.end(), gauges.begin(), gauges.end());
   history_.write_row(row);
-  timing_.write_row({static_cast<double>(record.step), record.seconds});
+  timing_.write_row({row[0], seconds});
   if (since_flush_.seconds() < seconds_between_flushes) return;
   history_.flush();
   timing_.flush();

@@ -4,35 +4,43 @@
 #include <string>
 #include <vector>
 
+#include "analysis/dynamics/explicit_run.hpp"
 #include "analysis/quasistatic/observer.hpp"
 #include "base/timer.hpp"
+#include "io/case/case_file.hpp"
 #include "io/text/csv.hpp"
 
 namespace perilink {
 
+/// Columns of the history of a case, without its gauges.
+std::vector<std::string> history_columns(const CaseFile& input);
+
 /// Writes DIR/history.csv (what happened, the same in every run on a machine) and DIR/timing.csv
-/// (how long each step took). Rows reach the disk at most twice a second, since runs make thousands
-/// of events per second, and when the writer is destroyed.
+/// (how long each row took) of any run. Rows reach the disk at most twice a second, since runs make
+/// thousands of events per second, and when the writer is destroyed.
 class HistoryFile {
  public:
-  /// \param gauges  names of further columns
   /// \throws FileError
-  explicit HistoryFile(const std::string& directory, const std::vector<std::string>& gauges = {});
+  HistoryFile(const std::string& directory, const CaseFile& input);
 
-  /// \param gauges  values of the further columns
+  /// A row of a quasistatic run.
+  /// \param gauges  their values, in the order of the case
   void append(const StepRecord& record, std::span<const double> gauges = {});
+  /// The same of a run over time, whose rows are timed here.
+  void append(const ExplicitRecord& record, std::span<const double> gauges = {});
   /// Brings all rows to the disk: call it at the end, to learn of a full disk.
   /// \throws FileError
   void finish();
 
  private:
+  void write(std::vector<double> row, std::span<const double> gauges, double seconds);
+
+  bool bonds_break_;  ///< and not particles
   CsvWriter history_;
   CsvWriter timing_;
+  Timer since_row_;
   Timer since_flush_;
 };
-
-/// Columns that every history has.
-std::vector<std::string> history_columns();
 
 /// What to say where CsvTable::cut_off is set.
 inline constexpr const char* cut_off_note =

@@ -23,11 +23,6 @@ std::string text_of(const nlohmann::ordered_json& summary) {
   return summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-nlohmann::ordered_json short_summary(const CaseFile& input, const char* status,
-                                     const std::string& reason) {
-  return {{"title", input.title}, {"units", input.units}, {"status", status}, {"reason", reason}};
-}
-
 [[noreturn]] void refuse(const fs::path& directory, const std::string& fault) {
   throw FileError(fmt::format(
       "{}: {}, so the file is damaged\n"
@@ -37,8 +32,18 @@ nlohmann::ordered_json short_summary(const CaseFile& input, const char* status,
 
 }  // namespace
 
+nlohmann::ordered_json summary_head(const CaseFile& input, const std::string& status,
+                                    const std::string& reason) {
+  return {{"title", input.title},
+          {"units", input.units},
+          {"analysis", word_of(input.analysis.type)},
+          {"model", word_of(input.body.model)},
+          {"status", status},
+          {"reason", reason}};
+}
+
 void write_running_summary(const fs::path& directory, const CaseFile& input) {
-  std::string text = text_of(short_summary(
+  std::string text = text_of(summary_head(
       input, "running", "the run goes on, or it was killed: at its end it replaces this file"));
   text.insert(text.size() - 1, reserve - text.size() % reserve, ' ');
   write_whole_file(path_in(directory), text);
@@ -46,7 +51,7 @@ void write_running_summary(const fs::path& directory, const CaseFile& input) {
 
 void write_failed_summary(const fs::path& directory, const CaseFile& input,
                           const std::string& reason) {
-  write_summary_file(directory, short_summary(input, "failed", reason));
+  write_summary_file(directory, summary_head(input, "failed", reason));
 }
 
 void write_summary_file(const fs::path& directory, const nlohmann::ordered_json& summary) {

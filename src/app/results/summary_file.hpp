@@ -13,6 +13,10 @@
 
 namespace perilink {
 
+/// What every summary begins with: whose run it is, of which kind, and how it stands.
+nlohmann::ordered_json summary_head(const CaseFile& input, const std::string& status,
+                                    const std::string& reason);
+
 /// Says that a run is under way, or was killed. Takes the room that the last summary will need.
 /// \throws FileError
 void write_running_summary(const std::filesystem::path& directory, const CaseFile& input);

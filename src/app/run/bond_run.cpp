@@ -4,25 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
 #include "app/model/body/particle_model.hpp"
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
-#include "app/results/field_file.hpp"
-#include "app/results/summary_file.hpp"
 #include "app/run/run_warnings.hpp"
-#include "base/build_info.hpp"
 #include "base/error.hpp"
+#include "discretization/bonds.hpp"
 
 namespace perilink {
 namespace {
 
 constexpr double most_steps = 2e9;  ///< steps have 32-bit numbers
-/// The time of a step may fall short of the time that is wanted by this part of itself.
-constexpr double round_off = 1e-9;
 
 std::vector<double> densities(const CaseFile& input) {
   std::vector<double> density;
@@ -55,7 +50,7 @@ void choose_steps(const CaseFile& input, BondRunCase& built) {
 
 /// Parts of the body, of a hundredth of its particles or more, that have no elastic supports and in
 /// which no displacement is prescribed.
-Index loose_pieces(const Model& model, const BondRunState& state) {
+Index count_loose_pieces(const Model& model, const BondRunState& state) {
   const Bonds& bonds = model.network.bonds;
   const Index count = model.network.particles.size();
   std::vector<Index> piece(static_cast<std::size_t>(count));
@@ -84,17 +79,7 @@ Index loose_pieces(const Model& model, const BondRunState& state) {
   return loose;
 }
 
-/// Fields and gauges take displacements as they are: the load factor is in them.
-StepState present_state(const BondRunState& state, const std::vector<double>& secants) {
-  return {state.network, secants, state.motion.displacement};
-}
-
 }  // namespace
-
-std::string cracks_text(const Model& model, const ExplicitRecord& record) {
-  return model.network.has_states() ? fmt::format("{} cracked particles", record.cracked_particles)
-                                    : fmt::format("{} broken bonds", record.broken_bonds);
-}
 
 BondRunCase build_bond_run(const CaseFile& input, const Model& model) {
   BondRunCase built;
@@ -111,173 +96,91 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model) {
   return built;
 }
 
-BondRunFiles::BondRunFiles(const CaseFile& input, const Model& model, Index steps,
-                           std::filesystem::path directory, bool quiet)
-    : input_(input),
-      model_(model),
-      steps_(steps),
-      directory_(std::move(directory)),
-      history_(directory_.string(), crack_count(input), names_of(model.gauges)),
-      bar_(quiet),
-      families_(bonds_of_particles(model.network.bonds, model.network.particles.size())),
-      peaks_(input.analysis.type == AnalysisType::relaxation ? 1 : vibrating_rows) {}
+MovingBonds::MovingBonds(const CaseFile& of_case, int on_threads, bool quiet)
+    : NetworkRun(of_case, on_threads, quiet),
+      families_(bonds_of_particles(model_.network.bonds, model_.network.particles.size())) {}
 
-void BondRunFiles::write_fields(const ExplicitRecord& record, const BondRunState& state) {
-  const std::string name = fmt::format("fields_{:06}.vtu", record.step);
-  if (!series_.empty() && series_.back().file == name) return;
-  const Timer timer;
-  const std::vector<double> secants = state.bonds.secants();
-  const bool bonds_break = !model_.network.has_states();
-  StepRecord at;  // with a load factor of one, since the displacements are those of this moment
-  at.step = record.step;
-  at.broken_bonds = record.broken_bonds;
-  at.load_factor = 1.0;
-  at.load = record.load;
-  VtuGrid grid = make_field_grid(model_.network, present_state(state, secants), at,
-                                 bonds_break ? state.broken : std::vector<Index>{}, families_,
-                                 model_.lattice.spacing);
-  for (auto& [key, value] : grid.field_data) {
-    if (key == "load_factor") value = record.load_factor;
-  }
-  if (!bonds_break) {
+void MovingBonds::write_state(const ExplicitRecord& record, const BondRunState& state) {
+  files_->write_fields(record.step, record.time, [&] {
+    FieldMoment moment = moment_of(record, input, model_);
+    moment.time = record.time;
+    const bool bonds_break = !model_.network.has_states();
+    VtuGrid grid =
+        make_field_grid(model_.network, state.bonds.secants(), state.motion.displacement, moment,
+                        bonds_break ? state.broken : std::vector<Index>{}, families_);
+    if (bonds_break) return grid;
     number_cracks(grid, state.broken);
     for (VtuArray& field : grid.point_data) {
       if (field.name == "damage") field.values = state.bonds.damage();
     }
-  }
-  grid.field_data.push_back({"time", record.time});
-  if (model_.network.dim() == 2) grid.field_data.push_back({"thickness", input_.body.thickness});
-  write_vtu((directory_ / name).string(), grid);
-  series_.push_back({record.time, name});
-  write_pvd((directory_ / "fields.pvd").string(), series_);
-  seconds_writing_ += timer.seconds();
-}
-
-void BondRunFiles::on_row(const ExplicitRecord& record, const BondRunState& state) {
-  std::vector<double> gauges;
-  if (!model_.gauges.empty()) {
-    const std::vector<double> secants = state.bonds.secants();
-    gauges = gauge_values(model_, present_state(state, secants), 1.0);
-  }
-  history_.append(record, gauges);
-  ++rows_;
-  const bool intact = record.broken_bonds == 0 && record.cracked_particles == 0;
-  peaks_.add({record.displacement, record.load}, intact);
-  const double now = record.time * (1.0 + round_off);
-  const std::vector<double>& times = input_.output.fields_times;
-  bool wanted = rows_ == 1 || input_.analysis.type == AnalysisType::relaxation;
-  for (; next_time_ < times.size() && times[next_time_] <= now; ++next_time_) wanted = true;
-  if (wanted) write_fields(record, state);
-  if (!bar_.is_due()) return;
-  bar_.draw(fmt::format("step {} of {}, load factor {:.4g}, {}", record.step, steps_,
-                        record.load_factor, cracks_text(model_, record)),
-            static_cast<double>(record.step) / steps_);
-}
-
-void BondRunFiles::on_end(const ExplicitRecord& last, const BondRunState& state) {
-  write_fields(last, state);
-  if (!model_.network.has_states()) loose_pieces_ = loose_pieces(model_, state);
-}
-
-std::vector<std::string> BondRunFiles::doubts(const ExplicitResult& result) const {
-  const Particles& particles = model_.network.particles;
-  const double length = longest_side(particles.dim, particles.size(), [&](Index i, int axis) {
-    return particles.position(i)[axis];
+    return grid;
   });
-  RunFacts facts = run_facts(input_, length, peaks_.highest().load);
-  facts.loose_pieces = loose_pieces_;
-  return doubts_about(result, facts);
 }
 
-void BondRunFiles::on_iteration(Index load_step, Index iteration, double residual) {
-  if (!bar_.is_due()) return;
-  bar_.draw(fmt::format("load step {} of {}, iteration {}, residual {:.1e}", load_step, steps_,
-                        iteration, residual),
-            static_cast<double>(load_step - 1) / steps_);
+void MovingBonds::on_row(const ExplicitRecord& record, const BondRunState& state) {
+  files_->add_row(record, gauge_values(model_, state.motion.displacement, 1.0));
+  if (files_->fields_are_due(record.time)) write_state(record, state);
+  files_->show_steps(record, steps_);
 }
 
-bool BondRunFiles::stop_requested() { return stop_signal_received(); }
-
-void BondRunFiles::finish() {
-  bar_.finish();
-  history_.finish();
+void MovingBonds::on_end(const ExplicitRecord& last, const BondRunState& state) {
+  write_state(last, state);
+  if (!model_.network.has_states()) loose_pieces_ = count_loose_pieces(model_, state);
 }
 
-void write_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const ExplicitResult& result, const BondRunFiles& files,
-                   const PhaseSeconds& seconds, int threads) {
-  const EnergyBalance& energy = result.last.energy;
-  nlohmann::ordered_json json;
-  json["title"] = input.title;
-  json["units"] = input.units;
-  json["status"] = to_string(result.ending);
-  json["reason"] = result.reason;
-  json["peak_load"] = files.peaks().highest().load;
-  json["peak_displacement"] = files.peaks().highest().displacement;
-  json["first_peak_load"] = files.peaks().first().load;
-  json["first_peak_displacement"] = files.peaks().first().displacement;
-  json["peak_reaction"] = result.peak_load;
-  json["steps"] = result.steps;
-  json["rows"] = files.rows();
-  json["time_step"] = result.time_step;
-  json["critical_time_step"] = result.critical_time_step;
-  json["time"] = result.last.time;
-  if (model.particle_fit) {
-    json["cracked_particles"] = result.last.cracked_particles;
-    json["constants"] = fit_json(*model.particle_fit);
-  } else {
-    json["broken_bonds"] = result.last.broken_bonds;
+void MovingBonds::on_iteration(Index load_step, Index iteration, double residual) {
+  if (!files_->bar().is_due()) return;
+  files_->bar().draw(fmt::format("load step {} of {}, iteration {}, residual {:.1e}", load_step,
+                                 steps_, iteration, residual),
+                     static_cast<double>(load_step - 1) / steps_);
+}
+
+bool MovingBonds::stop_requested() { return stop_signal_received(); }
+
+namespace {
+
+/// A run with type = "explicit" of a body with bonds, which move instead of going from equilibrium
+/// to equilibrium.
+class BondRun final : public MovingBonds {
+ public:
+  BondRun(const CaseFile& of_case, int on_threads, bool quiet)
+      : MovingBonds(of_case, on_threads, quiet), built_(build_bond_run(of_case, model_)) {
+    built_.options.threads = threads;
+    steps_ = built_.steps;
+    plan += fmt::format(", {} steps of {:.4g} (critical {:.4g})", steps_, built_.options.time_step,
+                        built_.inertia.critical_time_step());
   }
-  json["external_work"] = energy.external_work;
-  json["kinetic_energy"] = energy.kinetic;
-  json["strain_energy"] = energy.stored;
-  json["damped_energy"] = energy.external_damping;
-  json["dissipated_energy"] = energy.fractured;
-  json["energy_error"] = result.largest_surplus;
-  json["particles"] = model.network.particles.size();
-  json["bonds"] = model.network.first_segment;
-  json["spacing"] = model.lattice.spacing;
-  json["horizon"] = model.horizon;
-  json["notes"] = model.notes;
-  json["doubts"] = files.doubts(result);
-  json["seconds"] = {
-      {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
-  json["peak_memory_bytes"] = peak_memory_bytes();
-  json["threads"] = threads;
-  json["version"] = program_version();
-  json["commit"] = program_commit();
-  write_summary_file(directory, json);
-}
 
-void print_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const ExplicitResult& result, const BondRunFiles& files,
-                   const PhaseSeconds& seconds) {
-  const EnergyBalance& energy = result.last.energy;
-  const double rate = seconds.analysis > 0.0
-                          ? 1.0 * model.network.num_elements() * result.steps / seconds.analysis
-                          : 0.0;
-  fmt::print("{}\n", input.title.empty() ? input.path : input.title);
-  fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
-  fmt::print("  {:<14} {:.6g} at displacement {:.6g}{}{}\n", "peak load",
-             files.peaks().highest().load, files.peaks().highest().displacement,
-             reaction_text(result.peak_load), input.units.empty() ? "" : "  [" + input.units + "]");
-  fmt::print("  {:<14} {} of {:.4g} (critical {:.4g}), {} rows\n", "steps", result.steps,
-             result.time_step, result.critical_time_step, files.rows());
-  fmt::print(
-      "  {:<14} {:.6g} work, {:.6g} kinetic at the end, {:.6g} dissipated by {}, balance to "
-      "{:.1e}\n",
-      "energy", energy.external_work, energy.kinetic, energy.fractured,
-      cracks_text(model, result.last), result.largest_surplus);
-  fmt::print("  {:<14} {} particles, {}\n", "size", model.network.particles.size(),
-             elements_text(model));
-  fmt::print(
-      "  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} M bond-steps/s), output {:.2f} s\n",
-      "time", seconds.set_up, seconds.analysis, rate / 1e6, seconds.output);
-  for (const std::string& note : model.notes) fmt::print("  {:<14} {}\n", "note", note);
-  for (const std::string& doubt : files.doubts(result)) {
-    fmt::print("  {:<14} {}\n", "doubt", doubt);
+  void analyse() override {
+    result_ = run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, *this);
   }
-  fmt::print("  {:<14} {}\n", "results", directory.string());
+
+  Verdict verdict() override { return {result_.ending, result_.reason}; }
+
+  void tell(Summary& summary) const override {
+    MotionExtras extras;
+    if (model_.particle_fit) extras.constants = fit_json(*model_.particle_fit);
+    tell_motion(summary, input, files(), result_, extras);
+    tell_body(summary, model_);
+    summary.rate = bond_rate(result_.steps);
+    const Particles& particles = model_.network.particles;
+    const double length = longest_side(particles.dim, particles.size(), [&](Index i, int axis) {
+      return particles.position(i)[axis];
+    });
+    RunFacts facts = run_facts(input, length, files().peaks().highest().load);
+    facts.loose_pieces = loose_pieces_;
+    summary.doubts = doubts_about(result_, facts);
+  }
+
+ private:
+  BondRunCase built_;
+  ExplicitResult result_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads, bool quiet) {
+  return std::make_unique<BondRun>(input, threads, quiet);
 }
 
 }  // namespace perilink

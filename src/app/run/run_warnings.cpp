@@ -82,22 +82,22 @@ std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFac
   return doubts;
 }
 
-std::vector<std::string> doubts_about(const DamageResult& result) {
+std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual) {
   // Results are printed with six digits; equilibria are exact but for round-off, which leaves ten.
   constexpr double most_imbalance = 1e-6;
   std::vector<std::string> doubts;
   // Written so that what is not a number is in doubt too.
-  if (!(result.energy_error <= most_imbalance)) {
+  if (!(energy_error <= most_imbalance)) {
     doubts.push_back(
         fmt::format("work and energies are out of balance, up to {:.2g} of the work: the body is "
                     "so compliant that round-off has reached its results",
-                    result.energy_error));
+                    energy_error));
   }
-  if (!(result.largest_residual <= most_imbalance)) {
+  if (!(largest_residual <= most_imbalance)) {
     doubts.push_back(
         fmt::format("up to {:.2g} of the load is out of balance: the stiffness matrix is so close "
                     "to singular that displacements are not solved for to six digits",
-                    result.largest_residual));
+                    largest_residual));
   }
   return doubts;
 }

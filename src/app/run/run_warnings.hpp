@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "analysis/dynamics/explicit_run.hpp"
-#include "analysis/quasistatic/damage_analysis.hpp"
 #include "io/case/case_file.hpp"
 
 namespace perilink {
@@ -45,6 +44,8 @@ RunFacts run_facts(const CaseFile& input, double length, double peak_load);
 std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFacts& facts);
 
 /// The same of a quasistatic run: energies that balance, or forces, to no more than six digits.
-std::vector<std::string> doubts_about(const DamageResult& result);
+/// \param energy_error      largest of all rows, over the work [-]
+/// \param largest_residual  forces out of balance, over the loads [-]
+std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual);
 
 }  // namespace perilink

@@ -1,147 +1,100 @@
 #include "app/run/summary.hpp"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
 #include "app/model/body/particle_model.hpp"
-#include "app/process/progress.hpp"
 #include "app/results/calibration_text.hpp"
-#include "app/results/summary_file.hpp"
-#include "app/run/run_warnings.hpp"
-#include "base/build_info.hpp"
+#include "app/run/run_notes.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
-namespace {
 
-void add_peaks(nlohmann::ordered_json& json, const DamageResult& result) {
-  json["peak_load"] = result.peak_load;
-  json["peak_displacement"] = result.peak_displacement;
-  json["first_peak_load"] = result.peaks.first().load;
-  json["first_peak_displacement"] = result.peaks.first().displacement;
-  if (result.smoothed_peak_load) json["smoothed_peak_load"] = *result.smoothed_peak_load;
-  if (!result.places.empty()) {
-    json["places"] = nlohmann::ordered_json::array();
-    for (const PlaceForce& place : result.places) {
-      json["places"].push_back({{"name", place.name}, {"force", place.force}});
-    }
+void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
+                std::optional<double> reaction) {
+  const CurvePoint &highest = peaks.highest(), &first = peaks.first();
+  summary.add("peak_load", highest.load);
+  summary.add("peak_displacement", highest.displacement);
+  summary.add("first_peak_load", first.load);
+  summary.add("first_peak_displacement", first.displacement);
+  if (reaction) summary.add("peak_reaction", *reaction);
+  const bool bears = reaction.value_or(0.0) != 0.0;
+  summary.line("peak load", "{:.6g} at displacement {:.6g}{}{}", highest.load, highest.displacement,
+               bears ? fmt::format(", reaction of supports {:.6g}", *reaction) : "",
+               input.units.empty() ? "" : "  [" + input.units + "]");
+}
+
+void tell_energies(Summary& summary, const EnergyBalance& energy) {
+  summary.add("external_work", energy.external_work);
+  summary.add("kinetic_energy", energy.kinetic);
+  summary.add("strain_energy", energy.stored);
+  summary.add("damped_energy", energy.internal_damping + energy.external_damping);
+  summary.add("dissipated_energy", energy.fractured + energy.plastic);
+}
+
+void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
+                 const ExplicitResult& result, const MotionExtras& extras) {
+  const ExplicitRecord& last = result.last;
+  const std::string cracks = cracks_text(input, last);
+  tell_peaks(summary, input, files.peaks(), result.peak_load);
+  summary.add_note(note_of_peaks(files.peaks()));
+  summary.add("steps", result.steps);
+  summary.add("rows", files.rows());
+  summary.add("time_step", result.time_step);
+  summary.add("critical_time_step", result.critical_time_step);
+  summary.line("steps", "{} of {:.4g} (critical {:.4g}), {} rows", result.steps, result.time_step,
+               result.critical_time_step, files.rows());
+  if (extras.fundamental_period > 0.0) {
+    summary.add("fundamental_period", extras.fundamental_period);
   }
+  summary.add("time", last.time);
+  if (has_state_based_particles(input.body)) {
+    summary.add("cracked_particles", last.cracked_particles);
+  } else {
+    summary.add("broken_bonds", last.broken_bonds);
+  }
+  if (!extras.constants.is_null()) summary.add("constants", extras.constants);
+  tell_energies(summary, last.energy);
+  std::string flow;
+  if (extras.yields) {
+    summary.add("yielded_particles", last.yielded_particles);
+    summary.add("plastic_energy", last.energy.plastic);
+    flow = fmt::format(", {:.6g} by {} yielded ones", last.energy.plastic, last.yielded_particles);
+  }
+  summary.add("energy_error", result.largest_surplus);
+  summary.line("energy",
+               "{:.6g} work, {:.6g} kinetic at the end, {:.6g} dissipated by {}{}, balance to "
+               "{:.1e}",
+               last.energy.external_work, last.energy.kinetic, last.energy.fractured, cracks, flow,
+               result.largest_surplus);
+  summary.outcome = fmt::format("{} steps, {}, energy to {:.2e} of the work", result.steps, cracks,
+                                result.largest_surplus);
 }
 
-}  // namespace
-
-std::string elements_text(const Model& model) {
-  return model.elements ? fmt::format("{} linear elements", model.elements->cells.size())
-                        : fmt::format("{} bonds", model.network.first_segment);
+void tell_body(Summary& summary, const Model& model, const std::string& more) {
+  const Network& network = model.network;
+  summary.add("particles", network.particles.size());
+  summary.add("bonds", model.elements ? 0 : network.first_segment);
+  if (model.elements) summary.add("cells", model.elements->cells.size());
+  summary.add("unknowns", model.unknowns.count);
+  if (model.particle_fit) summary.add("constants", fit_json(*model.particle_fit));
+  if (network.calibration) summary.add("calibration", calibration_json(*network.calibration));
+  summary.add("spacing", model.lattice.spacing);
+  summary.add("horizon", model.horizon);
+  summary.line("size", "{}{}", size_text(model), more);
 }
 
-std::size_t count_at_grips(const Model& model, std::span<const Index> elements) {
-  const Bonds& bonds = model.network.bonds;
-  return std::count_if(elements.begin(), elements.end(), [&](Index e) {
-    return model.gripped[bonds.first[e]] != 0 || model.gripped[bonds.second[e]] != 0;
-  });
-}
-
-std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken) {
-  const std::size_t at_grip = count_at_grips(model, broken);
-  if (at_grip == 0) return std::nullopt;
-  return fmt::format(
-      "{} of {} broken bonds end at particles of [[supports]] or [[displacements]]; where the body "
-      "should not break there, give it a material with fracture_energy = \"infinite\"; hold planes "
-      "of symmetry by [[symmetry]], which this note leaves out",
-      at_grip, broken.size());
+std::string size_text(const Model& model) {
+  const Index particles = model.network.particles.size();
+  return model.elements
+             ? fmt::format("{} particles, {} linear elements", particles,
+                           model.elements->cells.size())
+             : fmt::format("{} particles, {} bonds", particles, model.network.first_segment);
 }
 
 double peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts kilobytes
-}
-
-std::string reaction_text(double reaction) {
-  return reaction == 0.0 ? "" : fmt::format(", reaction of supports {:.6g}", reaction);
-}
-
-void write_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const DamageResult& result, const PhaseSeconds& seconds,
-                   int threads) {
-  nlohmann::ordered_json json;
-  json["title"] = input.title;
-  json["units"] = input.units;
-  json["status"] = to_string(result.ending);
-  json["reason"] = result.reason;
-  add_peaks(json, result);
-  json["initial_stiffness"] = result.initial_stiffness;
-  json["steps"] = result.last.step;
-  json["broken_bonds"] = result.broken_bonds;
-  json["yield_events"] = result.last.yield_events;
-  json["external_work"] = result.last.external_work;
-  json["strain_energy"] = result.last.strain_energy;
-  json["dissipated_energy"] = result.last.dissipated_energy;
-  json["energy_error"] = result.energy_error;
-  json["largest_residual"] = result.largest_residual;
-  json["doubts"] = doubts_about(result);
-  json["particles"] = model.network.particles.size();
-  json["bonds"] = model.elements ? 0 : model.network.first_segment;
-  if (model.elements) json["cells"] = model.elements->cells.size();
-  json["unknowns"] = model.unknowns.count;
-  if (model.particle_fit) json["constants"] = fit_json(*model.particle_fit);
-  if (model.network.calibration) json["calibration"] = calibration_json(*model.network.calibration);
-  json["spacing"] = model.lattice.spacing;
-  json["horizon"] = model.horizon;
-  json["notes"] = model.notes;
-  json["factorizations"] = result.factor.factorizations;
-  json["factor_bytes"] = result.factor.bytes;
-  json["seconds"] = {
-      {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
-  if (model.network.calibration) {
-    json["seconds"]["calibration"] = model.network.calibration->seconds;  // part of set_up
-  }
-  if (seconds.elastic) {
-    json["seconds"]["assembly"] = seconds.elastic->assembly;
-    json["seconds"]["factorization"] = seconds.elastic->factorization;
-    json["seconds"]["solve"] = seconds.elastic->solve;
-  }
-  json["peak_memory_bytes"] = peak_memory_bytes();
-  json["threads"] = threads;
-  json["version"] = program_version();
-  json["commit"] = program_commit();
-
-  write_summary_file(directory, json);
-}
-
-void print_summary(const CaseFile& input, const Model& model, const DamageResult& result,
-                   const PhaseSeconds& seconds, const std::filesystem::path& directory) {
-  const double per_event =
-      result.last.step > 1 ? seconds.analysis / static_cast<double>(result.last.step) * 1e3 : 0.0;
-  fmt::print("{}\n", input.title.empty() ? input.path : input.title);
-  fmt::print("  {:<14} {} ({})\n", "ended", to_string(result.ending), result.reason);
-  fmt::print("  {:<14} {:.6g} at displacement {:.6g}{}\n", "peak load", result.peak_load,
-             result.peak_displacement, input.units.empty() ? "" : "  [" + input.units + "]");
-  if (result.smoothed_peak_load) {
-    fmt::print("  {:<14} {:.6g} of the smooth curve through the events\n", "",
-               *result.smoothed_peak_load);
-  }
-  for (const PlaceForce& place : result.places) {
-    fmt::print("  {:<14} ({:.6g}) by {}\n", "", fmt::join(place.force, ", "), place.name);
-  }
-  fmt::print("  {:<14} {} broken bonds, {} yield events, {} rows\n", "events", result.broken_bonds,
-             result.last.yield_events, result.last.step);
-  fmt::print("  {:<14} {:.6g} dissipated, balance to {:.1e}\n", "energy",
-             result.last.dissipated_energy, result.energy_error);
-  fmt::print("  {:<14} {} particles, {}, {} unknowns\n", "size", model.network.particles.size(),
-             elements_text(model), model.unknowns.count);
-  fmt::print("  {:<14} {} factorisations, largest residual {:.1e}\n", "solver",
-             result.factor.factorizations, result.largest_residual);
-  fmt::print("  {:<14} set-up {:.2f} s, analysis {:.2f} s ({:.3g} ms per row), output {:.2f} s\n",
-             "time", seconds.set_up, seconds.analysis, per_event, seconds.output);
-  for (const std::string& note : model.notes) fmt::print("  {:<14} {}\n", "note", note);
-  for (const std::string& doubt : doubts_about(result)) {
-    fmt::print("  {:<14} {}\n", "doubt", doubt);
-  }
-  fmt::print("  {:<14} {}\n", "results", directory.string());
 }
 
 }  // namespace perilink

@@ -1,48 +1,68 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
+#include <fmt/format.h>
 
-#include "analysis/quasistatic/damage_analysis.hpp"
-#include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/dynamics/explicit_run.hpp"
+#include "analysis/quasistatic/load_curve.hpp"
+#include "app/model/model.hpp"
+#include "app/run/run_files.hpp"
 
 namespace perilink {
 
-/// Wall seconds of the phases of a run.
-struct PhaseSeconds {
-  double set_up = 0.0;                         ///< reading, particles, bonds, constants
-  double analysis = 0.0;                       ///< assembly, factorisation, events
-  double output = 0.0;                         ///< field files
-  std::optional<ElasticSeconds> elastic = {};  ///< parts of `analysis` where it is elastic
+/// What a run tells at its end: quantities under the keys of summary.json, and lines for people.
+/// Where a quantity is added its line is written too.
+struct Summary {
+  nlohmann::ordered_json json;
+  std::string text;
+  std::vector<std::string> notes;   ///< what is worth knowing
+  std::vector<std::string> doubts;  ///< what makes the numbers doubtful, a sentence each
+  std::string outcome;              ///< steps and cracks, for the log
+  std::string rate;                 ///< how fast the analysis was: "0.2 ms per row"
+
+  /// A key that is there keeps its place.
+  void add(const std::string& key, nlohmann::ordered_json value) { json[key] = std::move(value); }
+  void add_note(const std::optional<std::string>& note) {
+    if (note) notes.push_back(*note);
+  }
+  /// \param label  what the line is about; empty: the same as the line above
+  template <class... Args>
+  void line(const std::string& label, fmt::format_string<Args...> format, Args&&... args) {
+    text += fmt::format("  {:<14} {}\n", label, fmt::format(format, std::forward<Args>(args)...));
+  }
 };
 
-/// "1234 bonds" or "1234 linear elements".
-std::string elements_text(const Model& model);
+/// Largest load and that before the body first gave way.
+/// \param reaction  largest of the supports, of runs over time [force]
+void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
+                std::optional<double> reaction = {});
+
+/// Where the energy of a run over time is at its end.
+void tell_energies(Summary& summary, const EnergyBalance& energy);
+
+/// What only some bodies that move have.
+struct MotionExtras {
+  double fundamental_period = 0.0;     ///< 0: nothing asks for it [time]
+  bool yields = false;                 ///< particles flow
+  nlohmann::ordered_json constants{};  ///< how well those of state-based particles were found
+};
+
+/// What explicit runs tell, of bonds and of lattices, but for the sizes of their bodies.
+void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
+                 const ExplicitResult& result, const MotionExtras& extras);
+
+/// How many particles and bonds a model has, and how they were made.
+/// \param more  behind the line: ", 60 unknowns"
+void tell_body(Summary& summary, const Model& model, const std::string& more = "");
+
+/// "45 particles, 1234 bonds" or "45 particles, 1234 linear elements".
+std::string size_text(const Model& model);
 
 /// Peak memory of this process [bytes].
 double peak_memory_bytes();
-
-/// How many elements end at particles that supports or driven displacements hold.
-std::size_t count_at_grips(const Model& model, std::span<const Index> elements);
-
-/// Where bonds broke at particles that supports or driven displacements hold: nothing of the body
-/// may be wrong with that, but often the grips are.
-/// \param broken  elements that broke
-std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken);
-
-/// ", reaction of supports 12.3"; nothing where supports bear none of the load.
-std::string reaction_text(double reaction);
-
-/// Writes DIR/summary.json. \throws FileError
-void write_summary(const std::filesystem::path& directory, const CaseFile& input,
-                   const Model& model, const DamageResult& result, const PhaseSeconds& seconds,
-                   int threads);
-
-/// The same for people, on standard output.
-void print_summary(const CaseFile& input, const Model& model, const DamageResult& result,
-                   const PhaseSeconds& seconds, const std::filesystem::path& directory);
 
 }  // namespace perilink

@@ -11,8 +11,8 @@
 
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
-#include "app/run/peak_note.hpp"
-#include "app/run/run_model.hpp"
+#include "app/run/quasistatic.hpp"
+#include "app/run/run_notes.hpp"
 #include "app/study/convergence.hpp"
 #include "assembly/fields.hpp"
 #include "base/memory.hpp"
@@ -34,7 +34,7 @@ class StudyObserver final : public StepObserver {
   void on_step(const StepRecord& /*record*/, StateSource& /*source*/) override {}
   void on_end(const StepRecord& last, StateSource& source) override {
     if (model_.gauges.empty()) return;
-    gauges = gauge_values(model_, source.state(), last.load_factor);
+    gauges = gauge_values(model_, source.state().displacement, last.load_factor);
   }
   bool stop_requested() override { return stop_signal_received(); }
 
@@ -72,11 +72,15 @@ void check_refinement(const VarySection& vary, const BodySection& body) {
   }
 }
 
-/// What run_model leaves of one repeat.
+/// What one repeat leaves.
 struct Repeat {
   CaseFile input;
   Model model;
-  ModelRun run;
+  Ending ending = Ending::completed;
+  std::string reason;
+  Summary found;                     ///< the quantities of its run
+  std::optional<std::string> note;   ///< on its peaks
+  std::vector<double> displacement;  ///< elastic cases only, shape (particles, width) [length]
   std::vector<double> gauges;
   MemberSeconds seconds;
 };
@@ -86,6 +90,28 @@ std::vector<TomlValue> keys_of(const StudySeries& series, const TomlValue& refin
   std::vector<TomlValue> keys = series.keys;
   keys.push_back(refinement);
   return keys;
+}
+
+void analyse_elastic(Repeat& repeat, int threads) {
+  ElasticAnswer answer = solve_elastic(repeat.model, threads);
+  tell_equilibria(repeat.found, repeat.input, Equilibria(answer));
+  const ElasticSeconds& seconds = answer.solution.seconds;
+  repeat.seconds.assembly = seconds.assembly;
+  repeat.seconds.factorization = seconds.factorization;
+  repeat.seconds.solve = seconds.solve;
+  repeat.displacement = std::move(answer.solution.displacement);
+  repeat.gauges = gauge_values(repeat.model, repeat.displacement, 1.0);
+}
+
+void analyse_damage(Repeat& repeat, int threads) {
+  StudyObserver observer(repeat.model);
+  const DamageResult result =
+      run_damage_analysis(repeat.model, damage_options(repeat.input, threads), observer);
+  repeat.ending = result.ending;
+  repeat.reason = result.reason;
+  tell_equilibria(repeat.found, repeat.input, Equilibria(result));
+  repeat.note = note_of_peaks(result.peaks);
+  repeat.gauges = std::move(observer.gauges);
 }
 
 Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int threads,
@@ -101,15 +127,12 @@ Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int 
     repeat.seconds.set_up -= repeat.seconds.calibration;
   }
   timer.restart();
-  StudyObserver observer(repeat.model);
-  repeat.run = run_model(repeat.input, repeat.model, threads, observer);
-  repeat.seconds.analysis = timer.seconds();
-  repeat.gauges = std::move(observer.gauges);
-  if (repeat.run.elastic) {
-    repeat.seconds.assembly = repeat.run.elastic->seconds.assembly;
-    repeat.seconds.factorization = repeat.run.elastic->seconds.factorization;
-    repeat.seconds.solve = repeat.run.elastic->seconds.solve;
+  if (repeat.input.analysis.type == AnalysisType::elastic) {
+    analyse_elastic(repeat, threads);
+  } else {
+    analyse_damage(repeat, threads);
   }
+  repeat.seconds.analysis = timer.seconds();
   return repeat;
 }
 
@@ -117,20 +140,6 @@ Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int 
 std::size_t gauge_number(const CaseFile& input, const std::string& name) {
   const auto named = [&](const GaugeSection& gauge) { return gauge.name == name; };
   return std::find_if(input.gauges.begin(), input.gauges.end(), named) - input.gauges.begin();
-}
-
-double quantity_of(const DamageResult& result, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::strain_energy: return result.last.strain_energy;
-    case Quantity::peak_load: return result.peak_load;
-    case Quantity::peak_displacement: return result.peak_displacement;
-    case Quantity::first_peak_load: return result.peaks.first().load;
-    case Quantity::first_peak_displacement: return result.peaks.first().displacement;
-    case Quantity::smoothed_peak_load: return result.smoothed_peak_load.value_or(no_number);
-    case Quantity::initial_stiffness: return result.initial_stiffness;
-    case Quantity::dissipated_energy: return result.last.dissipated_energy;
-  }
-  return no_number;
 }
 
 SourceLocation where_of_field(const ErrorSection& error) {
@@ -148,16 +157,16 @@ void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) 
   member.particles = model.network.particles.size();
   member.bonds = model.elements ? 0 : model.network.first_segment;
   member.unknowns = model.unknowns.count;
-  member.note = note_of_peaks(repeat.run.result.peaks).value_or("");
+  member.note = repeat.note.value_or("");
   for (const ErrorSection& error : study.errors) {
     if (error.is_field()) {
-      member.values.push_back(
-          field_error(error, model.network.particles,
-                      translations(model.network, repeat.run.elastic->displacement)));
+      member.values.push_back(field_error(error, model.network.particles,
+                                          translations(model.network, repeat.displacement)));
     } else if (!error.gauge.empty()) {
       member.values.push_back(repeat.gauges.at(gauge_number(repeat.input, error.gauge)));
     } else {
-      member.values.push_back(quantity_of(repeat.run.result, *error.quantity));
+      member.values.push_back(
+          repeat.found.json.value(std::string(word_of(*error.quantity)), no_number));
     }
   }
 }
@@ -296,9 +305,8 @@ StudyMember run_member(const StudyFile& study, const StudySeries& series,
   try {
     for (int k = 0; k < study.repeats; ++k) {
       const Repeat repeat = run_once(study, keys, threads, on_search);
-      const Ending ending = repeat.run.result.ending;
-      if (ending == Ending::failed || ending == Ending::interrupted) {
-        member.failure = repeat.run.result.reason;
+      if (repeat.ending == Ending::failed || repeat.ending == Ending::interrupted) {
+        member.failure = repeat.reason;
         return member;
       }
       if (k == 0) fill_in(member, study, repeat);

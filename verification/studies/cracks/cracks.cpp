@@ -23,10 +23,15 @@ class CrackRecorder final : public StepObserver {
 
   void on_end(const StepRecord& last, StateSource& source) override {
     const Network& network = model_.network;
-    body = read_body(make_field_grid(network, source.state(), last, broken(last.broken_bonds),
-                                     bonds_of_particles(network.bonds, network.particles.size()),
-                                     model_.lattice.spacing),
-                     "field");
+    const StepState state = source.state();
+    std::vector<double> motion(state.displacement.begin(), state.displacement.end());
+    for (double& u : motion) u *= last.load_factor;
+    const FieldMoment moment{last.step, last.broken_bonds, last.load_factor, last.load,
+                             model_.lattice.spacing};
+    body =
+        read_body(make_field_grid(network, state.secants, motion, moment, broken(last.broken_bonds),
+                                  bonds_of_particles(network.bonds, network.particles.size())),
+                  "field");
   }
 
   std::span<const Index> broken(Index count) const {

@@ -22,7 +22,7 @@ class Plot : public ::testing::Test {
   Plot()
       : directory_(fs::path(testing::TempDir()) / ("perilink_plot_" + std::to_string(::getpid()))) {
     fs::create_directories(directory_);
-    HistoryFile history(directory_.string());
+    HistoryFile history(directory_.string(), {});
     for (int k = 0; k < 5; ++k) {
       StepRecord record;
       record.step = k;
@@ -76,6 +76,30 @@ TEST_F(Plot, TakesTheFirstPeakFromTheSummary) {
   EXPECT_EQ(drawn(R"({"first_peak_load": 5, "first_peak_displacement": 0.1})").find("first peak"),
             std::string::npos);
   EXPECT_EQ(drawn(R"({"first_peak_load": null})").find("first peak"), std::string::npos);
+}
+
+/// The rows of any run can look like those of single breaks.
+TEST_F(Plot, TakesTheKindOfTheRunFromTheSummary) {
+  {
+    HistoryFile history(directory_.string(), {});
+    StepRecord record;
+    for (record.step = 0; record.step < 300; ++record.step) {
+      record.broken_bonds = record.step;
+      record.displacement = 1.0 + 0.01 * record.step;
+      record.load = 300.0 - record.step;
+      record.strain_energy = 0.5 * record.load * record.displacement;
+      history.append(record);
+    }
+  }
+  const auto draws_envelope = [&](const std::string& summary) {
+    std::ofstream(directory_ / "summary.json") << summary;
+    EXPECT_EQ(plot_results({directory_.string(), "", 0.0}), 0);
+    return text("load_displacement.svg").find("envelope") != std::string::npos;
+  };
+  EXPECT_TRUE(draws_envelope(R"({"analysis": "damage"})"));
+  EXPECT_FALSE(draws_envelope(R"({"analysis": "explicit"})"));
+  EXPECT_FALSE(draws_envelope(R"({"analysis": "relaxation"})"));
+  EXPECT_TRUE(draws_envelope("{}")) << "of an earlier version: the rows decide";
 }
 
 TEST_F(Plot, WritesWhereItIsToldTo) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/run/run_model.hpp"
+#include "app/model/from_case/configure.hpp"
 #include "support/strip_case.hpp"
 
 namespace perilink {
@@ -56,10 +56,8 @@ std::vector<double> linear_displacement(const Model& model) {
 
 void expect_values_of_linear_displacement(const CaseFile& input) {
   const Model model = build_model(input);
-  const std::vector<double> secants(model.network.num_elements(), 1.0);
   const std::vector<double> displacement = linear_displacement(model);
-  const std::vector<double> values =
-      gauge_values(model, {model.network, secants, displacement}, 2.0);
+  const std::vector<double> values = gauge_values(model, displacement, 2.0);
   ASSERT_EQ(values.size(), 6u);
   const double du = 0.003 * 30.0 + 0.001 * 40.0, dv = 0.002 * 30.0 - 0.004 * 40.0;
   EXPECT_NEAR(values[0], 2.0 * (du * 0.6 + dv * 0.8), 1e-14);
@@ -86,7 +84,7 @@ TEST(Gauges, LookPastTheRotationsOfMicropolarParticles) {
 
 TEST(Gauges, KnowTheirPlaces) {
   CaseFile input = strip_with_gauges();
-  EXPECT_EQ(names_of(build_model(input).gauges)[3], "mean");
+  EXPECT_EQ(build_model(input).gauges[3].name, "mean");
   input.gauges[2].at = {30.0, 91.0, 0.0};
   expect_refused(input, "gauges[3].at", "is 11 from the nearest particle");
   input = strip_with_gauges();
@@ -95,6 +93,10 @@ TEST(Gauges, KnowTheirPlaces) {
   input = strip_with_gauges();
   input.gauges[0].name = "load_factor";
   expect_refused(input, "gauges[1].name", "a column that every history has");
+  input.gauges[0].name = "kinetic_energy";
+  build_model(input);  // which only runs over time have
+  input.analysis.type = "relaxation";
+  expect_refused(input, "gauges[1].name", "a column that every history has");
 }
 
 /// Collects the gauges of all rows, as the history does.
@@ -102,7 +104,7 @@ struct Collector final : StepObserver {
   explicit Collector(const Model& watched) : model(watched) {}
   void on_step(const StepRecord& record, StateSource& source) override {
     rows.push_back(record);
-    gauges.push_back(gauge_values(model, source.state(), record.load_factor));
+    gauges.push_back(gauge_values(model, source.state().displacement, record.load_factor));
   }
   const Model& model;
   std::vector<StepRecord> rows;
@@ -119,7 +121,7 @@ TEST(Gauges, FollowABodyThatBreaks) {
   input.stop.broken_bonds = 20;
   const Model model = build_model(input);
   Collector collector(model);
-  run_model(input, model, 1, collector);
+  run_damage_analysis(model, damage_options(input, 1), collector);
   ASSERT_GE(collector.rows.size(), 20u);
   for (std::size_t k = 0; k < collector.rows.size(); ++k) {
     const double expected = collector.rows[k].displacement;

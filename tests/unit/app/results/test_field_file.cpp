@@ -31,19 +31,14 @@ class FieldFile : public ::testing::Test {
  protected:
   FieldFile() {
     secants_[3] = secants_[4] = 0.0;  // broken
-    record_.step = 5;
-    record_.broken_bonds = 2;
-    record_.load_factor = 0.5;
-    record_.load = 7.0;
-    grid_ = make_field_grid(network_, {network_, secants_, displacement_}, record_,
-                            std::vector<Index>{3, 4}, families_, 1.0);
+    grid_ = make_field_grid(network_, secants_, motion_, {5, 2, 0.5, 7.0, 1.0, 0.25, 2.0},
+                            std::vector<Index>{3, 4}, families_);
   }
 
   Network network_ = make_square();
   Csr families_ = bonds_of_particles(network_.bonds, 6);
   std::vector<double> secants_ = std::vector<double>(6, 1.0);
-  std::vector<double> displacement_ = {0, 0, 0.2, 0, 0, 0, 0.2, 0, 0.1, 0, 0.18, 0};
-  StepRecord record_;
+  std::vector<double> motion_ = {0, 0, 0.1, 0, 0, 0, 0.1, 0, 0.05, 0, 0.09, 0};
   VtuGrid grid_;
 };
 
@@ -60,7 +55,7 @@ TEST_F(FieldFile, CellsAreParticlesThenBrokenBondsThenBars) {
   EXPECT_EQ(grid_.offsets.back(), 12);
 }
 
-TEST_F(FieldFile, DisplacementsAndEnergiesAreThoseOfTheLoadFactor) {
+TEST_F(FieldFile, DisplacementsAndEnergiesAreThoseOfTheMotion) {
   const std::vector<double>& u = grid_.find_point_data("displacement")->values;
   EXPECT_EQ(u.size(), 18u);
   EXPECT_DOUBLE_EQ(u[3], 0.1);
@@ -79,10 +74,10 @@ TEST_F(FieldFile, ShowsTheRotationsOfMicropolarBodies) {
   network_.bending = {1, 1, 1, 1, 0, 0};
   std::vector<double> motion;
   for (int i = 0; i < 6; ++i) {
-    motion.insert(motion.end(), {displacement_[2 * i], displacement_[2 * i + 1], 0.1 * i});
+    motion.insert(motion.end(), {motion_[2 * i], motion_[2 * i + 1], 0.1 * i});
   }
-  const VtuGrid grid = make_field_grid(network_, {network_, secants_, motion}, record_,
-                                       std::vector<Index>{3, 4}, families_, 1.0);
+  const VtuGrid grid = make_field_grid(network_, secants_, motion, {5, 2, 0.5, 7.0, 1.0},
+                                       std::vector<Index>{3, 4}, families_);
   EXPECT_EQ(grid.find_point_data("displacement")->values,
             grid_.find_point_data("displacement")->values);
   EXPECT_EQ(grid.find_point_data("principal_strain")->values,
@@ -90,7 +85,7 @@ TEST_F(FieldFile, ShowsTheRotationsOfMicropolarBodies) {
   const VtuArray* rotation = grid.find_point_data("rotation");
   ASSERT_NE(rotation, nullptr);
   EXPECT_EQ(rotation->components, 1);
-  for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(rotation->values[i], 0.5 * 0.1 * i);
+  for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(rotation->values[i], 0.1 * i);
 }
 
 TEST_F(FieldFile, SaysWhatTheParticlesAre) {
@@ -106,6 +101,8 @@ TEST_F(FieldFile, SaysWhatTheParticlesAre) {
   EXPECT_EQ(grid_.field("load", -1), 7.0);
   EXPECT_EQ(grid_.field("dimension", -1), 2.0);
   EXPECT_EQ(grid_.field("spacing", -1), 1.0);
+  EXPECT_EQ(grid_.field("time", -1), 0.25);
+  EXPECT_EQ(grid_.field("thickness", -1), 2.0);
 }
 
 TEST_F(FieldFile, IsAGoodFile) {

@@ -41,9 +41,22 @@ StepRecord make_record() {
   return record;
 }
 
+ExplicitRecord moving_record() {
+  ExplicitRecord record;
+  record.step = 200;
+  record.time = 0.125;
+  record.load_factor = 1.0 / 3.0;
+  record.load = 60e3;
+  record.support_reaction = -59e3;
+  record.displacement = 1e-4;
+  record.cracked_particles = 12;
+  record.energy = {1.0, 2.0, 3.0, 4.0, 5.0, 15.5};
+  return record;
+}
+
 TEST_F(HistoryFileTest, RecordsComeBackWithoutTheClock) {
   {
-    HistoryFile file(directory_);
+    HistoryFile file(directory_, {});
     file.append(make_record());
   }
   const std::vector<StepRecord> back = read_history(directory_ + "/history.csv");
@@ -68,7 +81,7 @@ TEST_F(HistoryFileTest, RecordsComeBackWithoutTheClock) {
 }
 
 TEST_F(HistoryFileTest, ColumnsAreTheAgreedOnes) {
-  { HistoryFile file(directory_); }
+  { HistoryFile file(directory_, {}); }
   EXPECT_EQ(read_csv(directory_ + "/history.csv").columns,
             (std::vector<std::string>{"step", "broken_bonds", "load_factor", "load", "displacement",
                                       "strain_energy", "dissipated_energy", "external_work",
@@ -78,20 +91,52 @@ TEST_F(HistoryFileTest, ColumnsAreTheAgreedOnes) {
 
 TEST_F(HistoryFileTest, GaugesAreFurtherColumns) {
   {
-    HistoryFile file(directory_, {"mouth", "top"});
+    CaseFile input;
+    input.gauges.resize(2);
+    input.gauges[0].name = "mouth";
+    input.gauges[1].name = "top";
+    HistoryFile file(directory_, input);
     const std::vector<double> values = {0.1, -2.0};
     file.append(make_record(), values);
   }
   const CsvTable table = read_csv(directory_ + "/history.csv");
-  ASSERT_EQ(table.columns.size(), history_columns().size() + 2);
+  ASSERT_EQ(table.columns.size(), history_columns({}).size() + 2);
   EXPECT_EQ(table.columns.back(), "top");
   EXPECT_EQ(table.rows[0][table.column("mouth")], 0.1);
   EXPECT_EQ(table.rows[0][table.column("top")], -2.0);
   EXPECT_EQ(read_history(directory_ + "/history.csv")[0].load, 100000.0);
 }
 
+TEST_F(HistoryFileTest, RunsOverTimeHaveTheirOwnColumns) {
+  CaseFile input;
+  input.analysis.type = AnalysisType::explicit_;
+  input.body.model = BodyModel::lattice;
+  {
+    HistoryFile file(directory_, input);
+    file.append(moving_record());
+  }
+  const CsvTable table = read_csv(directory_ + "/history.csv");
+  EXPECT_EQ(table.columns, history_columns(input));
+  EXPECT_EQ(table.columns, (std::vector<std::string>{
+                               "step", "time", "load_factor", "load", "reaction", "displacement",
+                               "cracked_particles", "kinetic_energy", "strain_energy",
+                               "damped_energy", "dissipated_energy", "external_work"}));
+  EXPECT_EQ(table.rows, (std::vector<std::vector<double>>{{200.0, 0.125, 1.0 / 3.0, 60e3, -59e3,
+                                                           1e-4, 12.0, 1.0, 2.0, 7.0, 5.0, 15.5}}));
+  const CsvTable timing = read_csv(directory_ + "/timing.csv");
+  EXPECT_EQ(timing.columns, (std::vector<std::string>{"step", "seconds"}));
+  ASSERT_EQ(timing.rows.size(), 1u);
+  EXPECT_EQ(timing.rows[0][0], 200.0);
+  EXPECT_GE(timing.rows[0][1], 0.0);
+  input.body.model = BodyModel::bond_based;
+  for (const AnalysisType type : {AnalysisType::explicit_, AnalysisType::relaxation}) {
+    input.analysis.type = type;
+    EXPECT_EQ(history_columns(input)[6], "broken_bonds") << "bonds break, and not particles";
+  }
+}
+
 TEST_F(HistoryFileTest, FlushedRowsAreInTheFile) {
-  HistoryFile file(directory_);
+  HistoryFile file(directory_, {});
   file.append(make_record());
   file.finish();
   EXPECT_EQ(read_history(directory_ + "/history.csv").size(), 1u);
@@ -112,7 +157,7 @@ TEST_F(HistoryFileTest, TablesWithoutLoadAreRefused) {
   const std::string path = directory_ + "/other.csv";
   std::ofstream(path) << "step,displacement\n1,2\n";
   EXPECT_THROW(read_history(path), FileError);
-  EXPECT_THROW(HistoryFile("/no/such/folder"), FileError);
+  EXPECT_THROW(HistoryFile("/no/such/folder", {}), FileError);
 }
 
 }  // namespace

@@ -15,11 +15,15 @@ TEST(SummaryFile, SaysFromTheStartThatTheRunGoesOn) {
   const test::TemporaryDirectory work;
   CaseFile input;
   input.title = "Beam";
+  input.analysis.type = AnalysisType::elastic;
+  input.body.model = BodyModel::micropolar;
   write_running_summary(work.path(), input);
   const auto summary = read_summary_file(work.path());
   ASSERT_TRUE(summary.has_value());
   EXPECT_EQ(summary_text(*summary, "title", work.path()), "Beam");
   EXPECT_EQ(summary_text(*summary, "status", work.path()), "running");
+  EXPECT_EQ(summary_text(*summary, "analysis", work.path()), "elastic");
+  EXPECT_EQ(summary_text(*summary, "model", work.path()), "micropolar");
   EXPECT_GE(std::filesystem::file_size(work / "summary.json"), 8192u) << "room for the last one";
 }
 

@@ -4,16 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "analysis/dynamics/fundamental_period.hpp"
 #include "base/error.hpp"
-#include "io/fields/vtu.hpp"
-#include "io/text/csv.hpp"
 #include "solver/factor_routes.hpp"
-#include "support/temporary_directory.hpp"
+#include "support/whole_run.hpp"
 
 namespace perilink {
 namespace {
@@ -68,14 +64,6 @@ class BondRunTest : public testing::Test {
         model_(build_model(input_)),
         built_(build_bond_run(input_, model_)) {}
 
-  ExplicitResult run(BondRunFiles& files) {
-    ExplicitResult result =
-        run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, files);
-    files.finish();
-    return result;
-  }
-
-  test::TemporaryDirectory work_;
   CaseFile input_;
   Model model_;
   BondRunCase built_;
@@ -130,11 +118,10 @@ TEST_F(BondRunTest, UnstableAndEndlessRunsAreRefused) {
 }
 
 TEST_F(BondRunTest, HistoryHasARowForEveryRowAndTheGauge) {
-  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
-  const ExplicitResult result = run(files);
-  EXPECT_EQ(result.ending, Ending::completed);
-  const CsvTable table = read_csv((work_ / "history.csv").string());
-  EXPECT_EQ(static_cast<Index>(table.rows.size()), files.rows());
+  const test::WholeRun run(input_);
+  EXPECT_EQ(run.summary.json["status"], "completed");
+  const CsvTable table = run.history();
+  EXPECT_EQ(static_cast<Index>(table.rows.size()), run.run->files().rows());
   const int broken = table.column("broken_bonds"), gauge = table.column("elongation");
   const int displacement = table.column("displacement"), load = table.column("load");
   ASSERT_GE(gauge, 0);
@@ -144,26 +131,25 @@ TEST_F(BondRunTest, HistoryHasARowForEveryRowAndTheGauge) {
     EXPECT_NEAR(row[gauge], row[displacement], 1e-14) << "the top is driven, the bottom held";
     peak = std::max(peak, std::abs(row[load]));
   }
-  EXPECT_EQ(std::abs(files.peaks().highest().load), peak);
+  EXPECT_EQ(std::abs(run.summary.json["peak_load"].get<double>()), peak);
 }
 
 TEST_F(BondRunTest, FieldsShowTheMomentTheyAreOf) {
-  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
-  const ExplicitResult result = run(files);
-  const std::vector<PvdEntry> series = read_pvd((work_ / "fields.pvd").string());
+  const test::WholeRun run(input_);
+  const std::vector<PvdEntry> series = run.series();
   ASSERT_EQ(series.size(), 3U) << "the first row, the time asked for, the last";
   EXPECT_GE(series[1].time, 4.0 * (1.0 - 1e-9));
-  const VtuGrid last = read_vtu((work_ / series[2].file).string());
-  double largest = 0.0, damage = 0.0;
-  for (const VtuArray& data : last.point_data) {
-    for (const double value : data.values) {
-      if (data.name == "displacement") largest = std::max(largest, value);
-      if (data.name == "damage") damage = std::max(damage, value);
-    }
-  }
-  EXPECT_GE(largest, 0.05 * (1.0 - 1e-6)) << "as large as it is, not divided by a load factor";
-  EXPECT_GT(damage, 0.0);
-  EXPECT_GT(result.last.broken_bonds, 0);
+  const VtuGrid last = run.fields(2);
+  const auto largest = [&](const char* name) {
+    const std::vector<double>& values = last.find_point_data(name)->values;
+    return *std::max_element(values.begin(), values.end());
+  };
+  EXPECT_GE(largest("displacement"), 0.05 * (1.0 - 1e-6))
+      << "as large as it is, not divided by a load factor";
+  EXPECT_GT(largest("damage"), 0.0);
+  EXPECT_EQ(last.field("time", -1.0), series[2].time);
+  EXPECT_EQ(last.field("load_factor", -1.0), run.history().rows.back()[2]);
+  EXPECT_GT(run.summary.json["broken_bonds"], 0);
 }
 
 /// The crack grows for hundreds of steps between the field files.
@@ -178,12 +164,10 @@ TEST_F(BondRunTest, FieldsNumberBreaksInTheOrderOfTime) {
     }
     std::vector<Index> broken;
   } order;
-  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
-  run(files);
+  const test::WholeRun run(input_);
   built_.options.rows = 1000000;  // all steps
   run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, order);
-  const VtuGrid last =
-      read_vtu((work_ / read_pvd((work_ / "fields.pvd").string()).back().file).string());
+  const VtuGrid last = run.fields(run.series().size() - 1);
   const std::vector<double>& broken_at = last.find_cell_data("broken_at")->values;
   std::size_t next = 0;
   for (std::size_t cell = 0; cell < broken_at.size(); ++cell) {
@@ -200,10 +184,12 @@ TEST_F(BondRunTest, FieldsNumberBreaksInTheOrderOfTime) {
 
 /// The model may have taken factors to calibrate bonds; steps need none, nor do their preparations.
 TEST_F(BondRunTest, TakesNoFactor) {
+  const test::TemporaryDirectory work;
+  const auto run = make_bond_run(input_, 1, true);
   const int before = factors_made();
-  built_ = build_bond_run(input_, model_);
-  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
-  run(files);
+  build_bond_run(input_, model_);
+  run->open(work.path(), true);
+  run->analyse();
   EXPECT_EQ(factors_made(), before);
 }
 
@@ -211,20 +197,13 @@ TEST_F(BondRunTest, TakesNoFactor) {
 TEST_F(BondRunTest, DoubtsABodyThatFliesApart) {
   std::string text = replaced(pulled_block, "[[displacements]]", "[[loads]]");
   text = replaced(replaced(text, "y = 0.05", "force = [0, 4]"), "damping_rate = 0.5\n", "");
-  input_ = parse_case(replaced(text, "duration = 8", "duration = 16"), "");
-  model_ = build_model(input_);
-  built_ = build_bond_run(input_, model_);
-  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
-  const ExplicitResult result = run(files);
-  EXPECT_GT(result.last.energy.kinetic, 0.9 * result.last.energy.external_work);
-  EXPECT_THAT(files.doubts(result),
+  const test::WholeRun run(replaced(text, "duration = 8", "duration = 16"));
+  const auto& json = run.summary.json;
+  EXPECT_GT(json["kinetic_energy"].get<double>(), 0.9 * json["external_work"].get<double>());
+  EXPECT_THAT(run.summary.doubts,
               testing::Contains(testing::HasSubstr("a piece of the body is held by nothing")));
-  write_summary(work_.path(), input_, model_, result, files, {}, 1);
-  std::ifstream file(work_ / "summary.json");
-  EXPECT_EQ(nlohmann::json::parse(file)["doubts"], files.doubts(result));
-  testing::internal::CaptureStdout();
-  print_summary(work_.path(), input_, model_, result, files, {});
-  EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::HasSubstr("held by nothing"));
+  EXPECT_EQ(json["doubts"], run.summary.doubts);
+  EXPECT_THAT(run.summary.text, testing::HasSubstr("held by nothing"));
 }
 
 /// Springs hold a body as supports do, however far they give.
@@ -233,32 +212,23 @@ TEST_F(BondRunTest, ABodyOnSpringsIsHeld) {
   text = replaced(replaced(text, "fix = [\"x\", \"y\"]", "total = [1, 1]"), "[[displacements]]",
                   "[[loads]]");
   text = replaced(replaced(text, "y = 0.05", "force = [0, 1e-4]"), "damping_rate = 0.5\n", "");
-  text = replaced(replaced(text, "duration = 8", "duration = 2.5"), "[4]", "[1]");
-  input_ = parse_case(text, "");
-  model_ = build_model(input_);
-  built_ = build_bond_run(input_, model_);
-  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
-  const ExplicitResult result = run(files);
-  EXPECT_EQ(result.last.broken_bonds, 0);
-  const std::vector<std::string> doubts = files.doubts(result);
+  const test::WholeRun run(
+      replaced(replaced(text, "duration = 8", "duration = 2.5"), "[4]", "[1]"));
+  EXPECT_EQ(run.summary.json["broken_bonds"], 0);
+  const std::vector<std::string>& doubts = run.summary.doubts;
   EXPECT_THAT(doubts, testing::Contains(testing::HasSubstr("is kinetic energy at the end")));
   EXPECT_THAT(doubts, testing::Not(testing::Contains(testing::HasSubstr("held by nothing"))));
 }
 
 TEST_F(BondRunTest, SummaryTellsHowItEnded) {
-  BondRunFiles files(input_, model_, built_.steps, work_.path(), true);
-  const ExplicitResult result = run(files);
-  write_summary(work_.path(), input_, model_, result, files, {}, 2);
-  std::ifstream file(work_ / "summary.json");
-  const nlohmann::json json = nlohmann::json::parse(file);
+  const test::WholeRun run(input_);
+  const auto& json = run.summary.json;
   EXPECT_EQ(json["status"], "completed");
-  EXPECT_EQ(json["broken_bonds"], result.last.broken_bonds);
+  EXPECT_EQ(json["steps"], built_.steps);
   EXPECT_FALSE(json.contains("fundamental_period")) << "nothing asks for it";
   EXPECT_EQ(json["bonds"], model_.network.num_elements());
   EXPECT_LT(json["energy_error"], 1e-11) << "round-off of some hundred steps";
-  testing::internal::CaptureStdout();
-  print_summary(work_.path(), input_, model_, result, files, {});
-  EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::HasSubstr("broken bonds"));
+  EXPECT_THAT(run.summary.text, testing::HasSubstr("broken bonds"));
 }
 
 }  // namespace

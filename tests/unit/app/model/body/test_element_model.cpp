@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "app/results/field_file.hpp"
-#include "app/run/run_model.hpp"
+#include "app/run/quasistatic.hpp"
 #include "io/case/case_overrides.hpp"
 #include "support/program_cases.hpp"
 #include "support/strip_case.hpp"
@@ -16,11 +16,6 @@ namespace {
 CaseFile elements(const char* text, const std::string& more = "") {
   return parse_case(text + more, "case.toml", {body_key("method", std::string("linear_elements"))});
 }
-
-class Nobody final : public StepObserver {
- public:
-  void on_step(const StepRecord& /*record*/, StateSource& /*source*/) override {}
-};
 
 TEST(ElementModel, EdgesStandForTheCells) {
   const Model model = build_model(elements(test::tension_strip_case));
@@ -48,13 +43,12 @@ TEST(ElementModel, SolvesTheStripExactly) {
     text.replace(text.find(key), key.size(), key + "\npoissons_ratio = " + ratio);
     const CaseFile input = elements(text.c_str());
     const Model model = build_model(input);
-    Nobody nobody;
-    const ModelRun run = run_model(input, model, 1, nobody);
-    EXPECT_NEAR(run.elastic->strain_energy, 0.04, 1e-14);
+    const ElasticAnswer answer = solve_elastic(model, 1);
+    EXPECT_NEAR(answer.solution.strain_energy, 0.04, 1e-14);
     for (Index i = 0; i < model.network.particles.size(); ++i) {
       const auto x = model.network.particles.position(i);
-      EXPECT_NEAR(run.elastic->displacement[2 * i], 0.02 * x[0], 1e-14);
-      EXPECT_NEAR(run.elastic->displacement[2 * i + 1], -0.02 * std::stod(ratio) * x[1], 1e-14);
+      EXPECT_NEAR(answer.solution.displacement[2 * i], 0.02 * x[0], 1e-14);
+      EXPECT_NEAR(answer.solution.displacement[2 * i + 1], -0.02 * std::stod(ratio) * x[1], 1e-14);
     }
   }
 }
@@ -74,10 +68,10 @@ TEST(ElementModel, FreeRigidModesAreRefused) {
 TEST(ElementModel, FieldsOfTheStripAreUniform) {
   const CaseFile input = elements(test::tension_strip_case);
   const Model model = build_model(input);
-  Nobody nobody;
-  const ModelRun run = run_model(input, model, 1, nobody);
-  const VtuGrid grid = make_element_grid(*model.elements, model.network.particles,
-                                         run.elastic->displacement, run.result.last, 0.25);
+  const ElasticAnswer answer = solve_elastic(model, 1);
+  const VtuGrid grid =
+      make_element_grid(*model.elements, model.network.particles, answer.solution.displacement,
+                        {1, 0, 1.0, answer.row.load, 0.25});
   const std::size_t particles = model.network.particles.volumes.size();
   ASSERT_EQ(grid.types.size(), particles + model.elements->volumes.size());
   EXPECT_EQ(grid.types.back(), VtuCell::triangle);

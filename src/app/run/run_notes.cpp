@@ -1,10 +1,31 @@
-#include "app/run/peak_note.hpp"
+#include "app/run/run_notes.hpp"
 
 #include <fmt/format.h>
 
-#include "app/run/summary.hpp"
+#include <algorithm>
 
 namespace perilink {
+namespace {
+
+/// How many elements end at particles that supports or driven displacements hold.
+std::size_t count_at_grips(const Model& model, std::span<const Index> elements) {
+  const Bonds& bonds = model.network.bonds;
+  return std::count_if(elements.begin(), elements.end(), [&](Index e) {
+    return model.gripped[bonds.first[e]] != 0 || model.gripped[bonds.second[e]] != 0;
+  });
+}
+
+}  // namespace
+
+std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken) {
+  const std::size_t at_grip = count_at_grips(model, broken);
+  if (at_grip == 0) return std::nullopt;
+  return fmt::format(
+      "{} of {} broken bonds end at particles of [[supports]] or [[displacements]]; where the body "
+      "should not break there, give it a material with fracture_energy = \"infinite\"; hold planes "
+      "of symmetry by [[symmetry]], which this note leaves out",
+      at_grip, broken.size());
+}
 
 std::optional<std::string> note_of_peaks(const PeakWatch& peaks) {
   if (!peaks.climbed_again()) return std::nullopt;

@@ -1,11 +1,11 @@
-#include "app/run/run_observer.hpp"
+#include "app/run/damage_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <set>
 
-#include "app/run/run_model.hpp"
 #include "io/fields/vtu.hpp"
 #include "support/strip_case.hpp"
 #include "support/temporary_directory.hpp"
@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 
 /// A run that breaks the elements that a test names, one after another.
-class RunObserverTest : public testing::Test, protected StateSource {
+class DamageRunTest : public testing::Test, protected StateSource {
  protected:
-  RunObserverTest() : input_(test::strip_case()), model_(build_model(input_)) {
+  DamageRunTest() : input_(test::strip_case()), model_(build_model(input_)) {
     secants_.assign(static_cast<std::size_t>(model_.network.num_elements()), 1.0);
     displacement_.assign(model_.loads.forces.size(), 0.0);
   }
@@ -27,10 +27,14 @@ class RunObserverTest : public testing::Test, protected StateSource {
     ++looks_;
     return {model_.network, secants_, displacement_};
   }
-  RunObserver make_observer() { return {input_, model_, work_.path(), true}; }
+  std::unique_ptr<DamageRun> make_run() {
+    auto run = std::make_unique<DamageRun>(input_, 1, true);
+    files_ = &run->open(work_.path(), true);
+    return run;
+  }
 
   /// A row in the present state, at whose load `next` fails.
-  void row(RunObserver& observer, Index next) {
+  void row(DamageRun& observer, Index next) {
     ++record_.step;
     record_.element = next;
     observer.on_step(record_, *this);
@@ -40,14 +44,14 @@ class RunObserverTest : public testing::Test, protected StateSource {
     ++record_.broken_bonds;
   }
   /// Rows of a run by events in which these elements fail, one per row.
-  void run(RunObserver& observer, const std::vector<Index>& elements) {
+  void run(DamageRun& observer, const std::vector<Index>& elements) {
     for (const Index element : elements) {
       row(observer, element);
       fail(element);
     }
     row(observer, 99);
     observer.on_end(record_, *this);
-    observer.finish();
+    files_->finish();
   }
   std::vector<std::string> series() const {
     std::vector<std::string> files;
@@ -88,72 +92,73 @@ class RunObserverTest : public testing::Test, protected StateSource {
   std::vector<double> displacement_;
   StepRecord record_;
   int looks_ = 0;
+  RunFiles* files_ = nullptr;
 };
 
-TEST_F(RunObserverTest, FieldsAreWrittenAtTheCountsAskedForAndFirstAndLast) {
+TEST_F(DamageRunTest, FieldsAreWrittenAtTheCountsAskedForAndFirstAndLast) {
   input_.output.fields_at = {2, 4, 50};
-  RunObserver observer = make_observer();
-  run(observer, {7, 3, 11, 5, 2});
+  const auto observer = make_run();
+  run(*observer, {7, 3, 11, 5, 2});
   EXPECT_THAT(series(), ElementsAre("fields_000001.vtu", "fields_000003.vtu", "fields_000005.vtu",
                                     "fields_000006.vtu"));
   const std::vector<std::string> listed = series();
   EXPECT_EQ(field_files(), std::set<std::string>(listed.begin(), listed.end()));
-  EXPECT_GT(observer.seconds_writing(), 0.0);
+  EXPECT_GT(files_->seconds_writing(), 0.0);
 }
 
-TEST_F(RunObserverTest, FieldsAreWrittenAfterEverySoManyBreaks) {
+TEST_F(DamageRunTest, FieldsAreWrittenAfterEverySoManyBreaks) {
   input_.output.fields_at = {3};
   input_.output.fields_every = 2;
-  RunObserver observer = make_observer();
-  run(observer, {7, 3, 11, 5});
+  const auto observer = make_run();
+  run(*observer, {7, 3, 11, 5});
   EXPECT_THAT(series(), ElementsAre("fields_000001.vtu", "fields_000003.vtu", "fields_000004.vtu",
                                     "fields_000005.vtu"));
 }
 
-TEST_F(RunObserverTest, BrokenBondsKeepTheOrderOfBreaking) {
-  RunObserver observer = make_observer();
-  run(observer, {70, 3, 110, 5});
+TEST_F(DamageRunTest, BrokenBondsKeepTheOrderOfBreaking) {
+  const auto observer = make_run();
+  run(*observer, {70, 3, 110, 5});
   EXPECT_THAT(broken_bonds("fields_000005.vtu"),
               ElementsAre(ends_of(70), ends_of(3), ends_of(110), ends_of(5)));
   EXPECT_TRUE(broken_bonds("fields_000001.vtu").empty());
 }
 
-TEST_F(RunObserverTest, EventsAreFollowedWithoutLookingAtTheBody) {
-  RunObserver observer = make_observer();
-  run(observer, {70, 3, 110, 5});
+TEST_F(DamageRunTest, EventsAreFollowedWithoutLookingAtTheBody) {
+  const auto observer = make_run();
+  run(*observer, {70, 3, 110, 5});
   EXPECT_EQ(looks_, 2) << "the first and the last field file";
 }
 
-TEST_F(RunObserverTest, BreaksWithinALoadStepAreOrderedByNumber) {
+TEST_F(DamageRunTest, BreaksWithinALoadStepAreOrderedByNumber) {
   input_.analysis.control = LoadControl::steps;
-  RunObserver observer = make_observer();
-  row(observer, no_index);
+  const auto observer = make_run();
+  row(*observer, no_index);
   for (const Index element : {70, 3}) fail(element);
-  row(observer, 3);
+  row(*observer, 3);
   fail(20);
-  row(observer, 20);
-  observer.on_end(record_, *this);
+  row(*observer, 20);
+  observer->on_end(record_, *this);
   EXPECT_THAT(broken_bonds("fields_000003.vtu"), ElementsAre(ends_of(3), ends_of(70), ends_of(20)));
 }
 
-TEST_F(RunObserverTest, ALoadStepThatPassesACountWritesTheNextOne) {
+TEST_F(DamageRunTest, ALoadStepThatPassesACountWritesTheNextOne) {
   input_.analysis.control = LoadControl::steps;
   input_.output.fields_at = {2, 3, 5};
-  RunObserver observer = make_observer();
-  row(observer, no_index);
+  const auto observer = make_run();
+  row(*observer, no_index);
   for (const Index element : {4, 9, 13, 20}) fail(element);
-  row(observer, 20);
-  row(observer, no_index);  // nothing broke
+  row(*observer, 20);
+  row(*observer, no_index);  // nothing broke
   for (const Index element : {30, 31, 32}) fail(element);
-  row(observer, 32);
+  row(*observer, 32);
   fail(40);
-  row(observer, 40);
+  row(*observer, 40);
   EXPECT_THAT(series(), ElementsAre("fields_000001.vtu", "fields_000002.vtu", "fields_000004.vtu"));
-  observer.on_end(record_, *this);
+  observer->on_end(record_, *this);
   EXPECT_EQ(series().back(), "fields_000005.vtu");
 }
 
-TEST_F(RunObserverTest, YieldingBreaksNothing) {
+TEST_F(DamageRunTest, YieldingBreaksNothing) {
   RebarSection bar;
   bar.from = {22.0, 5.0, 0.0};
   bar.to = {22.0, 75.0, 0.0};
@@ -164,78 +169,34 @@ TEST_F(RunObserverTest, YieldingBreaksNothing) {
   model_ = build_model(input_);
   secants_.assign(static_cast<std::size_t>(model_.network.num_elements()), 1.0);
   displacement_.assign(model_.loads.forces.size(), 0.0);
-  RunObserver observer = make_observer();
-  row(observer, 17);
+  const auto observer = make_run();
+  row(*observer, 17);
   fail(17);
-  row(observer, model_.network.first_segment + 2);
+  row(*observer, model_.network.first_segment + 2);
   ++record_.yield_events;
-  row(observer, 8);
+  row(*observer, 8);
   fail(8);
-  row(observer, 99);
-  observer.on_end(record_, *this);
+  row(*observer, 99);
+  observer->on_end(record_, *this);
   EXPECT_THAT(broken_bonds("fields_000004.vtu"), ElementsAre(ends_of(17), ends_of(8)));
 }
 
-TEST_F(RunObserverTest, TellsWhatIsBrokenInTheOrderOfBreaking) {
-  RunObserver observer = make_observer();
-  EXPECT_TRUE(observer.broken().empty());
-  run(observer, {7, 3, 11});
-  EXPECT_THAT(observer.broken(), ElementsAre(7, 3, 11));
-}
-
-TEST_F(RunObserverTest, EveryRowGoesToTheHistory) {
-  RunObserver observer = make_observer();
-  run(observer, {7, 3, 11});
+TEST_F(DamageRunTest, EveryRowGoesToTheHistory) {
+  const auto observer = make_run();
+  run(*observer, {7, 3, 11});
   const std::vector<StepRecord> rows = read_history((work_ / "history.csv").string());
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[2].element, 11);
   EXPECT_EQ(rows[3].broken_bonds, 3);
 }
 
-TEST_F(RunObserverTest, ARunWithoutRowsLeavesNoFields) {
-  RunObserver observer = make_observer();
-  observer.on_end(record_, *this);
-  observer.finish();
+TEST_F(DamageRunTest, ARunWithoutRowsLeavesNoFields) {
+  const auto observer = make_run();
+  observer->on_end(record_, *this);
+  files_->finish();
   EXPECT_TRUE(field_files().empty());
   EXPECT_FALSE(fs::exists(work_ / "fields.pvd"));
-  EXPECT_FALSE(observer.stop_requested());
-}
-
-/// Platens that both move press with the same force, the load of the row.
-TEST(RunObserverPlaces, HaveTheForcesOfTheHighestRow) {
-  CaseFile input = test::strip_case();
-  input.analysis.type = AnalysisType::elastic;
-  input.loads.clear();
-  input.supports[0].fix = {true, false, false};
-  DisplacementSection platen;
-  platen.region = "upper end";
-  platen.value[1] = -0.2;
-  input.displacements.push_back(platen);
-  platen.region = "lower end";
-  platen.value[1] = 0.1;
-  input.displacements.push_back(platen);
-  const Model model = build_model(input);
-  const test::TemporaryDirectory work;
-  RunObserver observer(input, model, work.path(), true);
-  const StepRecord last = run_model(input, model, 1, observer).result.last;
-  EXPECT_NEAR(last.displacement, 0.3, 1e-12);
-  ASSERT_EQ(observer.places().size(), 2u);
-  EXPECT_EQ(observer.places()[0].name, "upper end");
-  // Round-off of sums over some hundred bonds.
-  EXPECT_NEAR(observer.places()[0].force[1], -last.load, 1e-10 * last.load);
-  EXPECT_NEAR(observer.places()[1].force[1], last.load, 1e-10 * last.load);
-}
-
-TEST(RunObserverPlaces, OfLoadsAreTheirForcesAtTheLoadFactor) {
-  CaseFile input = test::free_strip_case();
-  input.analysis.type = AnalysisType::elastic;
-  const Model model = build_model(input);
-  const test::TemporaryDirectory work;
-  RunObserver observer(input, model, work.path(), true);
-  EXPECT_DOUBLE_EQ(run_model(input, model, 1, observer).result.peak_load, 12.0);
-  ASSERT_EQ(observer.places().size(), 2u);
-  EXPECT_EQ(observer.places()[0].force, (std::vector<double>{0.0, 12.0}));
-  EXPECT_EQ(observer.places()[1].force, (std::vector<double>{0.0, -12.0}));
+  EXPECT_FALSE(observer->stop_requested());
 }
 
 }  // namespace

@@ -9,6 +9,11 @@
 
 namespace perilink {
 
+/// Where bonds broke at particles that supports or driven displacements hold: nothing of the body
+/// may be wrong with that, but often the grips are.
+/// \param broken  elements that broke
+std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken);
+
 /// Where the load climbed above its first peak after the body had given way: which peak is which.
 std::optional<std::string> note_of_peaks(const PeakWatch& peaks);
 

@@ -1,4 +1,4 @@
-#include "app/run/peak_note.hpp"
+#include "app/run/run_notes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,6 +30,23 @@ TEST(PeakNote, IsSilentWhereTheFirstPeakIsTheHighest) {
   EXPECT_FALSE(note_of_peaks(result_of({{0.1, 3320}, {0.2, 900}, {5.0, 3319}}).peaks));
   EXPECT_FALSE(note_of_peaks(result_of({{0.1, 3320}, {0.2, 1700}, {5.0, 11314}}).peaks))
       << "it never fell below half";
+}
+
+/// The lower end is held, the upper one pulled by a force.
+TEST(GripNote, CountsBondsThatBreakAtParticlesWithPrescribedDisplacements) {
+  const Model model = build_model(test::strip_case());
+  const Bonds& bonds = model.network.bonds;
+  std::vector<Index> at_grip, elsewhere;
+  for (Index b = 0; b < bonds.size(); ++b) {
+    const double lower = std::min(model.network.particles.position(bonds.first[b])[1],
+                                  model.network.particles.position(bonds.second[b])[1]);
+    (lower <= 20.0 ? at_grip : elsewhere).push_back(b);
+  }
+  EXPECT_EQ(note_of_grips(model, {}), std::nullopt);
+  EXPECT_EQ(note_of_grips(model, elsewhere), std::nullopt);
+  const std::vector<Index> broken = {elsewhere[0], at_grip[0], elsewhere[1], at_grip[1]};
+  EXPECT_THAT(note_of_grips(model, broken).value(),
+              HasSubstr("2 of 4 broken bonds end at particles of [[supports]]"));
 }
 
 /// The lower end of the strip is held; only bonds that broke after the body gave way count.

@@ -1,0 +1,120 @@
+#include "app/run/damage_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/model/gauges.hpp"
+#include "app/process/signals.hpp"
+#include "app/run/run_notes.hpp"
+#include "discretization/bonds.hpp"
+
+namespace perilink {
+
+DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
+    : NetworkRun(of_case, on_threads, quiet),
+      is_broken_(static_cast<std::size_t>(model_.network.num_elements()), 0) {
+  plan += fmt::format(", {} unknowns", model_.unknowns.count);
+}
+
+void DamageRun::tell(Summary& summary) const {
+  Equilibria found(result_);
+  found.places = places_;
+  summary.add_note(note_of_grips(model_, broken_));
+  summary.add_note(note_of_peaks(result_, model_, broken_));
+  tell_quasistatic(summary, input, model_, found, seconds.analysis);
+}
+
+/// The element of the last row has failed by now; where several failed in one load step their order
+/// within the step is that of their numbers.
+void DamageRun::note_broken(const StepRecord& record, StateSource& source) {
+  const std::size_t count = static_cast<std::size_t>(record.broken_bonds);
+  if (count == broken_.size()) return;
+  if (count == broken_.size() + 1 && last_element_ != no_index &&
+      input.analysis.control == LoadControl::events) {
+    broken_.push_back(last_element_);
+    is_broken_[last_element_] = 1;
+    return;
+  }
+  const std::span<const double> secants = source.secants();
+  for (Index e = 0; e < model_.network.num_elements(); ++e) {
+    if (secants[e] != 0.0 || is_broken_[e]) continue;
+    broken_.push_back(e);
+    is_broken_[e] = 1;
+  }
+}
+
+void DamageRun::note_places(const StepRecord& record, StateSource& source) {
+  if (!has_several_places(model_) || !(std::abs(record.load) > highest_)) return;
+  highest_ = std::abs(record.load);
+  if (model_.driven_places.empty()) {  // a look at the state may cost a solve
+    places_ = place_forces(model_, record.load_factor, {}, {});
+    return;
+  }
+  const StepState state = source.state();
+  places_ = place_forces(model_, record.load_factor, state.secants, state.displacement);
+}
+
+/// A load step may pass a number that the case asks for; the first row beyond it counts then.
+bool DamageRun::wants_fields(Index broken_bonds) const {
+  if (!files_->has_fields()) return true;
+  const Index last = broken_at_fields_;
+  if (broken_bonds == last) return false;
+  const std::vector<int>& at = input.output.fields_at;
+  if (std::any_of(at.begin(), at.end(), [&](int n) { return n > last && n <= broken_bonds; })) {
+    return true;
+  }
+  const std::optional<int>& every = input.output.fields_every;
+  return every && broken_bonds / *every != last / *every;
+}
+
+void DamageRun::write_state(const StepRecord& record, StateSource& source) {
+  const Network& network = model_.network;
+  files_->write_fields(record.step, record.step, [&] {
+    if (families_.rows() == 0) {
+      families_ = bonds_of_particles(network.bonds, network.particles.size());
+    }
+    const StepState state = source.state();
+    std::vector<double> motion(state.displacement.begin(), state.displacement.end());
+    for (double& u : motion) u *= record.load_factor;
+    return make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
+                           broken_, families_);
+  });
+  broken_at_fields_ = record.broken_bonds;
+}
+
+void DamageRun::show_progress(const StepRecord& record) {
+  if (!files_->bar().is_due()) return;
+  const StopSection& stop = input.stop;
+  std::optional<double> done;
+  if (stop.broken_bonds && *stop.broken_bonds > 0) {
+    done = static_cast<double>(record.broken_bonds) / *stop.broken_bonds;
+  }
+  if (stop.displacement && *stop.displacement > 0.0) {
+    done = std::max(done.value_or(0.0), std::abs(record.displacement) / *stop.displacement);
+  }
+  if (done) done = std::clamp(*done, 0.0, 1.0);
+  files_->bar().draw(
+      fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds, record.load_factor),
+      done);
+}
+
+void DamageRun::on_step(const StepRecord& record, StateSource& source) {
+  note_broken(record, source);
+  note_places(record, source);
+  files_->add_row(record, model_.gauges.empty() ? std::vector<double>{}
+                                                : gauge_values(model_, source.state().displacement,
+                                                               record.load_factor));
+  show_progress(record);
+  if (wants_fields(record.broken_bonds)) write_state(record, source);
+  last_element_ = record.element;
+}
+
+void DamageRun::on_end(const StepRecord& last, StateSource& source) {
+  if (last.step > 0) write_state(last, source);
+}
+
+bool DamageRun::stop_requested() { return stop_signal_received(); }
+
+}  // namespace perilink

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "app/run/quasistatic.hpp"
+#include "app/run/run_kind.hpp"
+#include "base/csr.hpp"
+
+namespace perilink {
+
+/// A run with type = "damage": every row goes into the history, the states that the case asks for
+/// (and the first and the last) into field files.
+class DamageRun final : public NetworkRun, public StepObserver {
+ public:
+  DamageRun(const CaseFile& of_case, int on_threads, bool quiet);
+
+  void analyse() override {
+    result_ = run_damage_analysis(model_, damage_options(input, threads), *this);
+  }
+  Verdict verdict() override { return {result_.ending, result_.reason}; }
+  void tell(Summary& summary) const override;
+
+  void on_step(const StepRecord& record, StateSource& source) override;
+  void on_end(const StepRecord& last, StateSource& source) override;
+  bool stop_requested() override;
+
+ private:
+  void note_places(const StepRecord& record, StateSource& source);
+  void note_broken(const StepRecord& record, StateSource& source);
+  bool wants_fields(Index broken_bonds) const;
+  void write_state(const StepRecord& record, StateSource& source);
+  void show_progress(const StepRecord& record);
+
+  DamageResult result_;
+  Csr families_;               ///< made with the first field file
+  std::vector<Index> broken_;  ///< bonds and ties, in the order of breaking
+  std::vector<std::uint8_t> is_broken_;
+  Index last_element_ = no_index;   ///< that failed at the end of the last row
+  Index broken_at_fields_ = 0;      ///< number of broken bonds in the last field file
+  double highest_ = 0.0;            ///< |load| so far
+  std::vector<PlaceForce> places_;  ///< in the row of the largest |load|, where there are several
+};
+
+}  // namespace perilink

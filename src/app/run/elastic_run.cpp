@@ -1,0 +1,70 @@
+#include "app/model/gauges.hpp"
+#include "app/run/quasistatic.hpp"
+#include "app/run/run_kind.hpp"
+#include "assembly/fields.hpp"
+#include "discretization/bonds.hpp"
+
+namespace perilink {
+namespace {
+
+VtuGrid make_grid(const Model& model, std::span<const double> displacement,
+                  const FieldMoment& moment) {
+  const Network& network = model.network;
+  const Csr families = bonds_of_particles(network.bonds, network.particles.size());
+  const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
+  VtuGrid grid = model.elements
+                     ? make_element_grid(*model.elements, network.particles, displacement, moment)
+                     : make_field_grid(network, intact, displacement, moment, {}, families);
+  grid.point_data.push_back(
+      {"stress", 6,
+       particle_stresses(stress_input(model, families), translations(network, displacement))});
+  return grid;
+}
+
+/// A run with type = "elastic".
+class ElasticRun final : public NetworkRun {
+ public:
+  ElasticRun(const CaseFile& of_case, int on_threads, bool quiet)
+      : NetworkRun(of_case, on_threads, quiet) {
+    plan += fmt::format(", {} unknowns", model_.unknowns.count);
+  }
+
+  void analyse() override {
+    answer_ = solve_elastic(model_, threads);
+    const ElasticSeconds& took = answer_.solution.seconds;
+    seconds.parts.insert(seconds.parts.end(), {{"assembly", took.assembly},
+                                               {"factorization", took.factorization},
+                                               {"solve", took.solve}});
+    const std::vector<double>& displacement = answer_.solution.displacement;
+    const StepRecord& row = answer_.row;
+    if (has_several_places(model_) && row.load != 0.0) {
+      const std::vector<double> intact(static_cast<std::size_t>(model_.network.num_elements()),
+                                       1.0);
+      places_ = place_forces(model_, row.load_factor, intact, displacement);
+    }
+    files_->add_row(row, gauge_values(model_, displacement, row.load_factor));
+    files_->write_fields(row.step, row.step, [&] {
+      return make_grid(model_, displacement, moment_of(row, input, model_));
+    });
+  }
+
+  Verdict verdict() override { return {answer_.ending, answer_.reason}; }
+
+  void tell(Summary& summary) const override {
+    Equilibria found(answer_);
+    found.places = places_;
+    tell_quasistatic(summary, input, model_, found, seconds.analysis);
+  }
+
+ private:
+  ElasticAnswer answer_;
+  std::vector<PlaceForce> places_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads, bool quiet) {
+  return std::make_unique<ElasticRun>(input, threads, quiet);
+}
+
+}  // namespace perilink

@@ -1,0 +1,84 @@
+#include "app/model/from_case/lattice_case.hpp"
+#include "app/model/gauges.hpp"
+#include "app/process/signals.hpp"
+#include "app/results/lattice_fields.hpp"
+#include "app/run/run_kind.hpp"
+#include "app/run/run_warnings.hpp"
+
+namespace perilink {
+namespace {
+
+/// A run with type = "explicit" of a body with model = "lattice".
+class LatticeRun final : public RunKind, private ExplicitObserver {
+ public:
+  LatticeRun(const CaseFile& of_case, int on_threads)
+      : RunKind(of_case, on_threads), built_(build_explicit_case(of_case)) {
+    built_.options.threads = threads;
+    notes = built_.notes;
+    plan = fmt::format("{} particles, {} bonds, {} steps of {:.4g} (critical {:.4g})",
+                       built_.model.lattice.particles(), built_.bonds, built_.steps,
+                       built_.time_step, built_.critical_time_step);
+  }
+
+  void analyse() override {
+    ExplicitState state(built_.model);
+    result_ = run_explicit_analysis(built_.model, state, built_.options, *this);
+  }
+
+  Verdict verdict() override { return {result_.ending, result_.reason}; }
+
+  void tell(Summary& summary) const override {
+    const LatticeRows& lattice = built_.model.lattice;
+    const double steps = 1.0 * lattice.particles() * result_.steps;
+    tell_motion(summary, input, files(), result_,
+                {built_.fundamental_period, built_.model.material.yields});
+    summary.add("particles", lattice.particles());
+    summary.add("bonds", built_.bonds);
+    summary.line("size", "{} particles, {} bonds", lattice.particles(), built_.bonds);
+    summary.add("spacing", lattice.spacing);
+    summary.add("particle_steps_per_second",
+                seconds.analysis > 0.0 ? steps / seconds.analysis : 0.0);
+    summary.rate = rate_text(steps, seconds.analysis, "particle-steps");
+    const double length = longest_side(lattice.dim, lattice.particles(), [&](Index i, int axis) {
+      return lattice.positions[lattice.at(axis, lattice.particle_slot[i])];
+    });
+    summary.doubts =
+        doubts_about(result_, run_facts(input, length, files().peaks().highest().load));
+  }
+
+ private:
+  void on_row(const ExplicitRecord& record, const ExplicitState& state) override {
+    const LatticeRows& lattice = built_.model.lattice;
+    std::vector<double> gauges;
+    for (const Gauge& gauge : built_.gauges) {
+      gauges.push_back(gauge_value(gauge, lattice.dim, [&](Index particle, int axis) {
+        return state.displacement[lattice.at(axis, lattice.particle_slot[particle])];
+      }));
+    }
+    files_->add_row(record, gauges);
+    if (files_->fields_are_due(record.time)) write_state(record, state);
+    files_->show_steps(record, built_.steps);
+  }
+
+  void on_end(const ExplicitRecord& last, const ExplicitState& state) override {
+    write_state(last, state);
+  }
+
+  bool stop_requested() override { return stop_signal_received(); }
+
+  void write_state(const ExplicitRecord& record, const ExplicitState& state) {
+    files_->write_fields(record.step, record.time,
+                         [&] { return make_lattice_grid(built_.model, state, record); });
+  }
+
+  ExplicitCase built_;
+  ExplicitResult result_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads) {
+  return std::make_unique<LatticeRun>(input, threads);
+}
+
+}  // namespace perilink

@@ -1,0 +1,112 @@
+#include "app/run/quasistatic.hpp"
+
+#include <fmt/ranges.h>
+
+#include "app/run/run_warnings.hpp"
+#include "assembly/internal_force.hpp"
+
+namespace perilink {
+
+ElasticAnswer solve_elastic(const Model& model, int threads) {
+  ElasticAnswer answer;
+  answer.solution =
+      model.elements ? run_elastic_analysis(*model.elements, model.unknowns, model.loads, threads)
+                     : run_elastic_analysis(model, threads);
+  answer.reason = "elastic equilibrium at load factor 1";
+  const double energy = answer.solution.strain_energy;
+  StepRecord& row = answer.row;
+  row.step = 1;
+  row.load_factor = 1.0;
+  row.strain_energy = row.external_work = energy;
+  row.load = model.reference.driven ? 2.0 * energy / model.reference.value : model.reference.value;
+  row.displacement = row.load != 0.0 ? 2.0 * energy / row.load : 0.0;
+  row.residual = answer.solution.residual;
+  row.factorizations = 1;
+  answer.peaks.add({row.displacement, row.load});
+  return answer;
+}
+
+std::vector<PlaceForce> place_forces(const Model& model, double load_factor,
+                                     std::span<const double> secants,
+                                     std::span<const double> motion) {
+  const std::size_t dim = model.network.dim(), width = model.network.width();
+  std::vector<PlaceForce> places;
+  for (const LoadedPlace& place : model.loaded_places) {
+    PlaceForce& at = places.emplace_back(PlaceForce{place.name, {}});
+    for (std::size_t a = 0; a < dim; ++a) at.force.push_back(load_factor * place.force[a]);
+  }
+  if (model.driven_places.empty()) return places;
+  const InternalForce internal = model.elements ? internal_force(*model.elements, motion)
+                                                : internal_force(model.network, secants, motion);
+  for (const DrivenPlace& place : model.driven_places) {
+    PlaceForce& at = places.emplace_back(PlaceForce{place.name, std::vector<double>(dim, 0.0)});
+    for (const std::size_t slot : place.slots) {
+      if (slot % width >= dim) continue;  // a moment
+      const double reaction = internal.forces[slot] - model.loads.forces[slot];
+      at.force[slot % width] += load_factor * reaction;
+    }
+  }
+  return places;
+}
+
+Equilibria::Equilibria(const DamageResult& result)
+    : last(result.last),
+      peaks(result.peaks),
+      factor(result.factor),
+      initial_stiffness(result.initial_stiffness),
+      largest_residual(result.largest_residual),
+      broken_bonds(result.broken_bonds),
+      energy_error(result.energy_error),
+      smoothed_peak_load(result.smoothed_peak_load) {}
+
+Equilibria::Equilibria(const ElasticAnswer& answer)
+    : last(answer.row),
+      peaks(answer.peaks),
+      factor(answer.solution.factor),
+      initial_stiffness(last.displacement != 0.0 ? last.load / last.displacement : 0.0),
+      largest_residual(answer.solution.residual) {}
+
+void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& found) {
+  const StepRecord& last = found.last;
+  tell_peaks(summary, input, found.peaks);
+  if (found.smoothed_peak_load) {
+    summary.add("smoothed_peak_load", *found.smoothed_peak_load);
+    summary.line("", "{:.6g} of the smooth curve through the events", *found.smoothed_peak_load);
+  }
+  for (const PlaceForce& place : found.places) {
+    summary.json["places"].push_back({{"name", place.name}, {"force", place.force}});
+    summary.line("", "({:.6g}) by {}", fmt::join(place.force, ", "), place.name);
+  }
+  summary.add("initial_stiffness", found.initial_stiffness);
+  summary.add("steps", last.step);
+  summary.add("broken_bonds", found.broken_bonds);
+  summary.add("yield_events", last.yield_events);
+  summary.line("events", "{} broken bonds, {} yield events, {} rows", found.broken_bonds,
+               last.yield_events, last.step);
+  summary.add("external_work", last.external_work);
+  summary.add("strain_energy", last.strain_energy);
+  summary.add("dissipated_energy", last.dissipated_energy);
+  summary.add("energy_error", found.energy_error);
+  summary.line("energy", "{:.6g} dissipated, balance to {:.1e}", last.dissipated_energy,
+               found.energy_error);
+  summary.add("largest_residual", found.largest_residual);
+}
+
+void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& model,
+                      const Equilibria& found, double seconds) {
+  const Index rows = found.last.step, factorizations = found.factor.factorizations;
+  tell_equilibria(summary, input, found);
+  summary.doubts = doubts_of_balance(found.energy_error, found.largest_residual);
+  summary.add("doubts", summary.doubts);
+  tell_body(summary, model, fmt::format(", {} unknowns", model.unknowns.count));
+  summary.add("notes", summary.notes);
+  summary.add("factorizations", factorizations);
+  summary.add("factor_bytes", found.factor.bytes);
+  summary.line("solver", "{} factorisations, largest residual {:.1e}", factorizations,
+               found.largest_residual);
+  summary.outcome = fmt::format("{} broken bonds, {} factorisations, largest residual {:.2e}",
+                                found.broken_bonds, factorizations, found.largest_residual);
+  summary.rate = fmt::format("{:.3g} ms per row", rows > 1 ? 1e3 * seconds / rows : 0.0);
+}
+
+}  // namespace perilink

@@ -1,0 +1,77 @@
+#include "app/run/run_files.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/timer.hpp"
+#include "io/case/sections/case_kinds.hpp"
+
+namespace perilink {
+namespace {
+
+/// The time of a step may fall short of the time that is wanted by this part of itself.
+constexpr double round_off = 1e-9;
+
+bool is_relaxation(const CaseFile& input) {
+  return input.analysis.type == AnalysisType::relaxation;
+}
+
+}  // namespace
+
+std::string cracks_text(const CaseFile& input, const ExplicitRecord& record) {
+  return has_state_based_particles(input.body)
+             ? fmt::format("{} cracked particles", record.cracked_particles)
+             : fmt::format("{} broken bonds", record.broken_bonds);
+}
+
+RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet)
+    : input_(input),
+      directory_(std::move(directory)),
+      bar_(quiet),
+      history_(directory_.string(), input),
+      peaks_(is_relaxation(input) ? 1 : vibrating_rows) {}
+
+void RunFiles::add_row(const StepRecord& record, std::span<const double> gauges) {
+  history_.append(record, gauges);
+  ++rows_;
+}
+
+void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gauges) {
+  history_.append(record, gauges);
+  ++rows_;
+  const bool intact = record.broken_bonds == 0 && record.cracked_particles == 0;
+  peaks_.add({record.displacement, record.load}, intact);
+}
+
+bool RunFiles::fields_are_due(double time) {
+  const std::vector<double>& times = input_.output.fields_times;
+  bool due = rows_ == 1 || is_relaxation(input_);
+  const double now = time * (1.0 + round_off);
+  for (; next_time_ < times.size() && times[next_time_] <= now; ++next_time_) due = true;
+  return due;
+}
+
+void RunFiles::write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid) {
+  const std::string name = fmt::format("fields_{:06}.vtu", step);
+  if (!series_.empty() && series_.back().file == name) return;
+  const Timer timer;
+  write_vtu((directory_ / name).string(), make_grid());
+  series_.push_back({at, name});
+  write_pvd((directory_ / "fields.pvd").string(), series_);
+  seconds_writing_ += timer.seconds();
+}
+
+void RunFiles::show_steps(const ExplicitRecord& record, Index steps) {
+  if (!bar_.is_due()) return;
+  bar_.draw(fmt::format("step {} of {}, load factor {:.4g}, {}", record.step, steps,
+                        record.load_factor, cracks_text(input_, record)),
+            static_cast<double>(record.step) / steps);
+}
+
+void RunFiles::finish() {
+  bar_.finish();
+  history_.finish();
+}
+
+}  // namespace perilink

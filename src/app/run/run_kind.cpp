@@ -1,0 +1,62 @@
+#include "app/run/run_kind.hpp"
+
+#include "app/process/progress.hpp"
+#include "app/results/calibration_text.hpp"
+#include "app/results/summary_file.hpp"
+#include "base/build_info.hpp"
+
+namespace perilink {
+
+NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, bool quiet)
+    : RunKind(of_case, on_threads), model_(build_model_visibly(of_case, quiet)) {
+  plan = size_text(model_);
+  notes = model_.notes;
+  if (!model_.network.calibration) return;
+  calibration = calibration_line(*model_.network.calibration);
+  seconds.parts.emplace_back("calibration", model_.network.calibration->seconds);
+}
+
+std::string NetworkRun::bond_rate(Index steps) const {
+  return rate_text(1.0 * model_.network.num_elements() * steps, seconds.analysis, "bond-steps");
+}
+
+std::string rate_text(double count, double seconds, const std::string& unit) {
+  return fmt::format("{:.3g} M {}/s", seconds > 0.0 ? count / seconds / 1e6 : 0.0, unit);
+}
+
+Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
+  const Verdict verdict = run.verdict();
+  const PhaseSeconds& seconds = run.seconds;
+  const std::string status = to_string(verdict.ending);
+  Summary summary;
+  summary.notes = run.notes;
+  summary.json = summary_head(run.input, status, verdict.reason);
+  summary.text = (run.input.title.empty() ? run.input.path : run.input.title) + "\n";
+  summary.line("ended", "{} ({})", status, verdict.reason);
+  run.tell(summary);
+
+  summary.add("notes", summary.notes);
+  summary.add("doubts", summary.doubts);
+  nlohmann::ordered_json phases = {
+      {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
+  for (const auto& [part, time] : seconds.parts) phases[part] = time;
+  summary.add("seconds", phases);
+  summary.line("time", "set-up {:.2f} s, analysis {:.2f} s ({}), output {:.2f} s", seconds.set_up,
+               seconds.analysis, summary.rate, seconds.output);
+  summary.add("peak_memory_bytes", peak_memory_bytes());
+  summary.add("threads", run.threads);
+  summary.add("version", program_version());
+  summary.add("commit", program_commit());
+  for (const std::string& note : summary.notes) summary.line("note", "{}", note);
+  for (const std::string& doubt : summary.doubts) summary.line("doubt", "{}", doubt);
+  summary.line("results", "{}", directory.string());
+  return summary;
+}
+
+Model build_model_visibly(const CaseFile& input, bool quiet) {
+  CalibrationProgress progress(quiet);
+  return build_model(input,
+                     [&](int search, double unbalanced) { progress.update(search, unbalanced); });
+}
+
+}  // namespace perilink

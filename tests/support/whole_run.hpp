@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/run/run_kind.hpp"
+#include "io/text/csv.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink::test {
+
+/// A run of any kind in a directory of its own, from its case to its summary.
+class WholeRun {
+ public:
+  explicit WholeRun(CaseFile of_case) : input(std::move(of_case)), run(make_run(input, 1, true)) {
+    RunFiles& files = run->open(work.path(), true);
+    run->analyse();
+    run->seconds.analysis = 2.0;
+    files.finish();
+    summary = summary_of(*run, work.path());
+  }
+  explicit WholeRun(const std::string& text) : WholeRun(parse_case(text, "")) {}
+
+  CsvTable history() const { return read_csv((work / "history.csv").string()); }
+  std::vector<PvdEntry> series() const { return read_pvd((work / "fields.pvd").string()); }
+  VtuGrid fields(std::size_t number) const {
+    return read_vtu((work / series().at(number).file).string());
+  }
+
+  TemporaryDirectory work;
+  CaseFile input;
+  std::unique_ptr<RunKind> run;
+  Summary summary;
+};
+
+}  // namespace perilink::test

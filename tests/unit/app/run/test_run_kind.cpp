@@ -1,0 +1,148 @@
+#include "app/run/run_kind.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/build_info.hpp"
+#include "support/program_cases.hpp"
+#include "support/strip_case.hpp"
+#include "support/whole_run.hpp"
+
+namespace perilink {
+namespace {
+
+using testing::HasSubstr;
+
+/// A run that does nothing but end.
+class Stub final : public RunKind {
+ public:
+  using RunKind::RunKind;
+  void analyse() override {}
+  Verdict verdict() override { return {ending, reason}; }
+  void tell(Summary& summary) const override {
+    summary.add("own", 1.5);
+    summary.line("own", "{} of its own", 1.5);
+    summary.add_note("known late");
+    summary.doubts = {"a doubt"};
+    summary.rate = "7 per s";
+  }
+  Ending ending = Ending::collapsed;
+  std::string reason = "the body \"separated\"";
+};
+
+TEST(RunKind, StandsInTheFrameOfAllSummaries) {
+  const CaseFile input = test::strip_case();
+  Stub run(input, 3);
+  run.notes = {"known early"};
+  run.seconds = {0.25, 0.5, 0.75, {{"solve", 0.125}}};
+  const Summary summary = summary_of(run, "results/strip");
+  const nlohmann::ordered_json expected = {
+      {"title", "A strip in tension"},
+      {"units", "kip, in"},
+      {"analysis", "damage"},
+      {"model", "bond_based"},
+      {"status", "collapsed"},
+      {"reason", "the body \"separated\""},
+      {"own", 1.5},
+      {"notes", {"known early", "known late"}},
+      {"doubts", {"a doubt"}},
+      {"seconds", {{"set_up", 0.25}, {"analysis", 0.5}, {"output", 0.75}, {"solve", 0.125}}},
+      {"peak_memory_bytes", summary.json["peak_memory_bytes"]},
+      {"threads", 3},
+      {"version", program_version()},
+      {"commit", program_commit()}};
+  EXPECT_EQ(summary.json.dump(2), expected.dump(2));
+  EXPECT_EQ(summary.text,
+            "A strip in tension\n"
+            "  ended          collapsed (the body \"separated\")\n"
+            "  own            1.5 of its own\n"
+            "  time           set-up 0.25 s, analysis 0.50 s (7 per s), output 0.75 s\n"
+            "  note           known early\n"
+            "  note           known late\n"
+            "  doubt          a doubt\n"
+            "  results        results/strip\n");
+}
+
+TEST(RunKind, NamesEveryEnding) {
+  const CaseFile input = test::strip_case();
+  Stub run(input, 1);
+  for (const auto& [ending, word] :
+       std::vector<std::pair<Ending, std::string>>{{Ending::completed, "completed"},
+                                                   {Ending::collapsed, "collapsed"},
+                                                   {Ending::nothing_breaks, "nothing_breaks"},
+                                                   {Ending::interrupted, "interrupted"},
+                                                   {Ending::failed, "failed"}}) {
+    run.ending = ending;
+    EXPECT_EQ(summary_of(run, "").json["status"], word);
+  }
+}
+
+/// One case of each kind that make_run() knows.
+std::vector<CaseFile> cases_of_all_kinds() {
+  std::vector<CaseFile> cases(4, test::strip_case());
+  cases[0].stop.broken_bonds = 3;
+  cases[1].analysis.type = AnalysisType::elastic;
+  cases[2].analysis.type = AnalysisType::relaxation;
+  cases[2].analysis.load_factors = {0.01};
+  cases[2].analysis.tolerance = 1e-2;
+  cases[3].analysis.type = AnalysisType::explicit_;
+  cases[3].analysis.duration = 1e-3;
+  cases[3].analysis.rows = 2;
+  cases[3].materials[0].density = 1.0;
+  cases.push_back(parse_case(test::lattice_bar_case(), ""));
+  return cases;
+}
+
+/// What is added in the frame is in the summaries of all kinds, under its key and in print.
+TEST(RunKind, QuantitiesOfTheFrameAreThoseOfAllKinds) {
+  for (const CaseFile& input : cases_of_all_kinds()) {
+    const test::WholeRun run(input);
+    const nlohmann::ordered_json& json = run.summary.json;
+    const std::string kind =
+        std::string(word_of(input.analysis.type)) + " " + std::string(word_of(input.body.model));
+    EXPECT_EQ(json["analysis"], word_of(input.analysis.type));
+    EXPECT_EQ(json["model"], word_of(input.body.model));
+    for (const char* key : {"title",
+                            "units",
+                            "status",
+                            "reason",
+                            "peak_load",
+                            "peak_displacement",
+                            "first_peak_load",
+                            "first_peak_displacement",
+                            "external_work",
+                            "strain_energy",
+                            "dissipated_energy",
+                            "particles",
+                            "bonds",
+                            "spacing",
+                            "notes",
+                            "doubts",
+                            "seconds",
+                            "peak_memory_bytes",
+                            "threads",
+                            "version",
+                            "commit"}) {
+      EXPECT_TRUE(json.contains(key)) << kind << ": " << key;
+    }
+    for (const char* label :
+         {"  ended  ", "  peak load  ", "  energy  ", "  size  ", "  time  ", "  results  "}) {
+      EXPECT_THAT(run.summary.text, HasSubstr(label)) << kind;
+    }
+    EXPECT_THAT(run.summary.text,
+                HasSubstr(fmt::format("  peak load      {:.6g} at displacement {:.6g}",
+                                      json["peak_load"].get<double>(),
+                                      json["peak_displacement"].get<double>())))
+        << kind;
+    EXPECT_THAT(run.summary.text,
+                HasSubstr(fmt::format("{} particles", json["particles"].get<Index>())));
+    EXPECT_FALSE(run.summary.outcome.empty()) << kind;
+    EXPECT_FALSE(run.run->plan.empty()) << kind;
+    EXPECT_EQ(run.history().columns, history_columns(run.input)) << kind;
+    EXPECT_EQ(run.run->files().rows(), static_cast<Index>(run.history().rows.size())) << kind;
+    EXPECT_FALSE(run.series().empty()) << kind;
+  }
+}
+
+}  // namespace
+}  // namespace perilink
