@@ -106,6 +106,47 @@ void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
   }
 }
 
+FactorStatistics measure_factor(const cholmod_factor& factor, double flops) {
+  FactorStatistics result;
+  result.size = static_cast<Index>(factor.n);
+  result.entries = static_cast<double>(factor.is_super ? factor.xsize : factor.nzmax);
+  result.bytes = factor.is_super ? 8.0 * result.entries + 4.0 * static_cast<double>(factor.ssize)
+                                 : 12.0 * result.entries;
+  result.flops = flops;
+  return result;
+}
+
+CholmodFactorPtr CholmodRoute::analyze(const SparseMatrix& matrix, std::span<const Index> groups) {
+  CholmodFactorPtr analysis = analyze_supernodal(session_, matrix, groups);
+  flops_ = session_.get()->fl;
+  return analysis;
+}
+
+void CholmodRoute::compute(const SparseMatrix& matrix) {
+  factorize_numerically(session_, matrix, factor_.get());
+  ++factorizations_;
+}
+
+std::vector<double> CholmodRoute::solve_system(int system, std::vector<double> rhs) {
+  cholmod_dense b = view_column(rhs);
+  cholmod_dense* x = cholmod_solve(system, factor_.get(), &b, session_.get());
+  if (x == nullptr) throw SolverError("out of memory while solving");
+  std::copy_n(static_cast<const double*>(x->x), rhs.size(), rhs.begin());
+  cholmod_free_dense(&x, session_.get());
+  return rhs;
+}
+
+void CholmodRoute::solve(std::span<const double> rhs, std::span<double> solution) {
+  std::ranges::copy(solve_system(CHOLMOD_A, {rhs.begin(), rhs.end()}), solution.begin());
+}
+
+FactorStatistics CholmodRoute::statistics() const {
+  if (!factor_) return {};
+  FactorStatistics result = measure_factor(*factor_, flops_);
+  result.factorizations = factorizations_;
+  return result;
+}
+
 PermutedColumn::PermutedColumn(const SparseVector& x, std::span<const Index> position, Index size)
     : sorted_(permute(x, position)), offsets_{0, static_cast<Index>(x.size())}, matrix_{} {
   matrix_.nrow = static_cast<std::size_t>(size);

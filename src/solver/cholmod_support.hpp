@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "solver/factor.hpp"
 
@@ -43,9 +44,39 @@ CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix&
 void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
                            cholmod_factor* factor);
 
+/// Size of a factor, supernodal or simplicial.
+/// \param flops  for one factorisation
+FactorStatistics measure_factor(const cholmod_factor& factor, double flops);
+
 /// Views without copying.
 cholmod_sparse view_lower(const SparseMatrix& lower);
 cholmod_dense view_column(std::span<double> values);
+
+/// A factor that CHOLMOD itself solves with.
+class CholmodRoute : public Factor {
+ public:
+  void solve(std::span<const double> rhs, std::span<double> solution) override;
+  int factorizations() const override { return factorizations_; }
+  FactorStatistics statistics() const override;
+
+ protected:
+  CholmodRoute() : factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
+  /// Analysis of a matrix, whose cost is noted.
+  CholmodFactorPtr analyze(const SparseMatrix& matrix, std::span<const Index> groups);
+  /// Numbers of a matrix of the pattern that was analysed, into factor_.
+  void compute(const SparseMatrix& matrix);
+  /// Solves with a part of the factor.
+  /// \param system  CHOLMOD_A, CHOLMOD_L, ...
+  /// \param rhs     in the factor's order unless the system is CHOLMOD_A
+  std::vector<double> solve_system(int system, std::vector<double> rhs);
+
+  CholmodSession session_;
+  CholmodFactorPtr factor_;
+
+ private:
+  int factorizations_ = 0;
+  double flops_ = 0.0;
+};
 
 /// One column n x 1 with the entries of x moved to the factor's order, rows ascending.
 class PermutedColumn {

@@ -1,14 +1,13 @@
 #include "solver/cholmod_updown_factor.hpp"
 
-#include <algorithm>
+#include <utility>
 
 #include "base/error.hpp"
 
 namespace perilink {
 
 CholmodUpdownFactor::CholmodUpdownFactor()
-    : symbolic_(nullptr, CholmodFactorDeleter{session_.get()}),
-      factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
+    : symbolic_(nullptr, CholmodFactorDeleter{session_.get()}) {}
 
 CholmodUpdownFactor::~CholmodUpdownFactor() {
   cholmod_free_dense(&solved_, session_.get());
@@ -18,9 +17,8 @@ CholmodUpdownFactor::~CholmodUpdownFactor() {
 }
 
 void CholmodUpdownFactor::factorize(const SparseMatrix& matrix, std::span<const Index> groups) {
-  symbolic_ = analyze_supernodal(session_, matrix, groups);
+  symbolic_ = analyze(matrix, groups);
   position_ = invert({static_cast<const Index*>(symbolic_->Perm), symbolic_->n});
-  flops_ = session_.get()->fl;
   refactorize(matrix);
 }
 
@@ -31,44 +29,25 @@ void CholmodUpdownFactor::refactorize(const SparseMatrix& matrix) {
   if (!factor_) {
     throw SolverError("out of memory while copying the analysis of the stiffness matrix");
   }
-  factorize_numerically(session_, matrix, factor_.get());
+  compute(matrix);
   // CHOLMOD would do this at the first downdate; doing it here keeps it out of the events.
   if (!cholmod_change_factor(CHOLMOD_REAL, false, false, false, true, factor_.get(),
                              session_.get())) {
     throw SolverError("out of memory while turning the factor into a simplicial one");
   }
-  ++factorizations_;
-}
-
-void CholmodUpdownFactor::solve(std::span<const double> rhs, std::span<double> solution) {
-  std::vector<double> copy(rhs.begin(), rhs.end());
-  cholmod_dense b = view_column(copy);
-  cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_.get(), &b, session_.get());
-  if (x == nullptr) throw SolverError("out of memory while solving");
-  std::copy_n(static_cast<const double*>(x->x), solution.size(), solution.begin());
-  cholmod_free_dense(&x, session_.get());
 }
 
 void CholmodUpdownFactor::follow_load(std::span<const double> load, std::span<double> solution) {
   std::vector<double> permuted(load.size());
   for (std::size_t k = 0; k < load.size(); ++k) permuted[position_[k]] = load[k];
-  cholmod_dense b = view_column(permuted);
-  cholmod_dense* y = cholmod_solve(CHOLMOD_L, factor_.get(), &b, session_.get());
-  if (y == nullptr) throw SolverError("out of memory while solving");
-  const double* values = static_cast<const double*>(y->x);
-  forward_.assign(values, values + load.size());
-  cholmod_free_dense(&y, session_.get());
+  forward_ = solve_system(CHOLMOD_L, std::move(permuted));
   backward(solution);
 }
 
 /// solution = P' (D L')^-1 forward_
 void CholmodUpdownFactor::backward(std::span<double> solution) {
-  cholmod_dense y = view_column(forward_);
-  cholmod_dense* u = cholmod_solve(CHOLMOD_DLt, factor_.get(), &y, session_.get());
-  if (u == nullptr) throw SolverError("out of memory while solving");
-  const double* values = static_cast<const double*>(u->x);
+  const std::vector<double> values = solve_system(CHOLMOD_DLt, forward_);
   for (std::size_t k = 0; k < solution.size(); ++k) solution[k] = values[position_[k]];
-  cholmod_free_dense(&u, session_.get());
 }
 
 double CholmodUpdownFactor::prepare_downdate(const SparseVector& x) {
@@ -117,17 +96,6 @@ void CholmodUpdownFactor::update(const SparseVector& x, std::span<const double> 
   double extension = 0.0;
   for (int k = 0; k < x.size(); ++k) extension += x.values[k] * solution[x.rows[k]];
   change(true, x, extension);
-}
-
-FactorStatistics CholmodUpdownFactor::statistics() const {
-  FactorStatistics result;
-  if (!factor_) return result;
-  result.size = static_cast<Index>(factor_->n);
-  result.entries = static_cast<double>(factor_->nzmax);
-  result.bytes = 12.0 * result.entries;
-  result.flops = flops_;
-  result.factorizations = factorizations_;
-  return result;
 }
 
 }  // namespace perilink

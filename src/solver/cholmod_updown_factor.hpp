@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "solver/cholmod_support.hpp"
-#include "solver/factor.hpp"
 
 namespace perilink {
 
@@ -11,30 +10,23 @@ namespace perilink {
 /// tests hold the in-place factor against. The forward solution of the load is changed together
 /// with the factor (updown_solve); one backward substitution per event gives the displacement, so
 /// nothing here rests on the Sherman–Morrison formula.
-class CholmodUpdownFactor final : public Factor {
+class CholmodUpdownFactor final : public CholmodRoute {
  public:
   CholmodUpdownFactor();
   ~CholmodUpdownFactor() override;
 
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
   void refactorize(const SparseMatrix& matrix) override;
-  void solve(std::span<const double> rhs, std::span<double> solution) override;
   void follow_load(std::span<const double> load, std::span<double> solution) override;
   double prepare_downdate(const SparseVector& x) override;
   void commit_downdate(double load_change, std::span<double> solution) override;
   void update(const SparseVector& x, std::span<const double> solution) override;
-  int factorizations() const override { return factorizations_; }
-  FactorStatistics statistics() const override;
 
  private:
   void change(bool add, const SparseVector& x, double load_change);
   void backward(std::span<double> solution);
 
-  CholmodSession session_;
-  CholmodFactorPtr symbolic_;  ///< supernodal analysis, used again by refactorize
-  CholmodFactorPtr factor_;    ///< simplicial L D L'
-  int factorizations_ = 0;
-  double flops_ = 0.0;
+  CholmodFactorPtr symbolic_;  ///< supernodal, used again by refactorize; factor_ is simplicial
   std::vector<Index> position_;
   SparseVector x_;
   std::vector<double> forward_;  ///< L^-1 P f of the load that is followed

@@ -29,12 +29,7 @@ std::unique_ptr<Factor> make_factor(FactorRoute route, int threads) {
 FactorStatistics estimate_factor(const SparseMatrix& matrix, std::span<const Index> groups) {
   CholmodSession session;
   const CholmodFactorPtr factor = analyze_supernodal(session, matrix, groups);
-  FactorStatistics result;
-  result.size = static_cast<Index>(factor->n);
-  result.entries = static_cast<double>(factor->xsize);
-  result.bytes = 8.0 * result.entries + 4.0 * static_cast<double>(factor->ssize);
-  result.flops = session.get()->fl;
-  return result;
+  return measure_factor(*factor, session.get()->fl);
 }
 
 }  // namespace perilink

@@ -6,28 +6,14 @@
 
 namespace perilink {
 
-RefactorizingFactor::RefactorizingFactor()
-    : factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
-
 void RefactorizingFactor::factorize(const SparseMatrix& matrix, std::span<const Index> groups) {
-  factor_ = analyze_supernodal(session_, matrix, groups);
-  flops_ = session_.get()->fl;
+  factor_ = analyze(matrix, groups);
   refactorize(matrix);
 }
 
 void RefactorizingFactor::refactorize(const SparseMatrix& matrix) {
   matrix_ = matrix;
-  factorize_numerically(session_, matrix_, factor_.get());
-  ++factorizations_;
-}
-
-void RefactorizingFactor::solve(std::span<const double> rhs, std::span<double> solution) {
-  std::vector<double> copy(rhs.begin(), rhs.end());
-  cholmod_dense b = view_column(copy);
-  cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_.get(), &b, session_.get());
-  if (x == nullptr) throw SolverError("out of memory while solving");
-  std::copy_n(static_cast<const double*>(x->x), solution.size(), solution.begin());
-  cholmod_free_dense(&x, session_.get());
+  compute(matrix_);
 }
 
 void RefactorizingFactor::follow_load(std::span<const double> load, std::span<double> solution) {
@@ -76,8 +62,7 @@ void RefactorizingFactor::downdate(std::span<const SparseVector> x,
     change_matrix(x[a], -1.0);
     add_to_load(x[a], load_changes[a]);
   }
-  factorize_numerically(session_, matrix_, factor_.get());
-  ++factorizations_;
+  compute(matrix_);
   solve(load_, solution);
 }
 
@@ -86,19 +71,7 @@ void RefactorizingFactor::update(const SparseVector& x, std::span<const double> 
   double extension = 0.0;
   for (int k = 0; k < x.size(); ++k) extension += x.values[k] * solution[x.rows[k]];
   add_to_load(x, extension);
-  factorize_numerically(session_, matrix_, factor_.get());
-  ++factorizations_;
-}
-
-FactorStatistics RefactorizingFactor::statistics() const {
-  FactorStatistics result;
-  if (!factor_) return result;
-  result.size = static_cast<Index>(factor_->n);
-  result.entries = static_cast<double>(factor_->xsize);
-  result.bytes = 8.0 * result.entries + 4.0 * static_cast<double>(factor_->ssize);
-  result.flops = flops_;
-  result.factorizations = factorizations_;
-  return result;
+  compute(matrix_);
 }
 
 }  // namespace perilink

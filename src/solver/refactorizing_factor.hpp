@@ -3,18 +3,14 @@
 #include <vector>
 
 #include "solver/cholmod_support.hpp"
-#include "solver/factor.hpp"
 
 namespace perilink {
 
 /// Factorises the changed matrix anew at every event: the yardstick for speed and exactness.
-class RefactorizingFactor final : public Factor {
+class RefactorizingFactor final : public CholmodRoute {
  public:
-  RefactorizingFactor();
-
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
   void refactorize(const SparseMatrix& matrix) override;
-  void solve(std::span<const double> rhs, std::span<double> solution) override;
   void follow_load(std::span<const double> load, std::span<double> solution) override;
   double prepare_downdate(const SparseVector& x) override;
   void commit_downdate(double load_change, std::span<double> solution) override;
@@ -22,20 +18,14 @@ class RefactorizingFactor final : public Factor {
   void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                 std::span<const double> pivots, std::span<double> solution) override;
   void update(const SparseVector& x, std::span<const double> solution) override;
-  int factorizations() const override { return factorizations_; }
-  FactorStatistics statistics() const override;
 
  private:
   void add_to_load(const SparseVector& x, double factor);
   void change_matrix(const SparseVector& x, double sign);
 
-  CholmodSession session_;
-  CholmodFactorPtr factor_;
   SparseMatrix matrix_;
   std::vector<double> load_;
   SparseVector x_;
-  int factorizations_ = 0;
-  double flops_ = 0.0;
 };
 
 }  // namespace perilink

@@ -1,40 +1,10 @@
 #pragma once
 
-#include "analysis/dynamics/bonds/explicit_bonds.hpp"
+#include "analysis/dynamics/bonds/moving_bonds.hpp"
 #include "analysis/dynamics/bonds/state_particles.hpp"
-#include "analysis/dynamics/explicit_run.hpp"
-#include "analysis/dynamics/inertia.hpp"
-#include "analysis/quasistatic/damage_analysis.hpp"
-#include "network/loaded_network.hpp"
+#include "analysis/dynamics/strain.hpp"
 
 namespace perilink {
-
-/// What observers of an explicit run of bonds may look at, valid during the call only.
-struct BondRunState {
-  const Network& network;
-  const BondMotion& motion;
-  const ExplicitBonds& bonds;
-  /// Bonds that broke, where particles crack and not bonds those that did: first ones first, those
-  /// of one step in the order of their numbers.
-  const std::vector<Index>& broken;
-};
-
-/// Watches a run.
-class BondRunObserver {
- public:
-  virtual ~BondRunObserver() = default;
-  virtual void on_row(const ExplicitRecord& record, const BondRunState& state) = 0;
-  /// Once, after the last row.
-  virtual void on_end(const ExplicitRecord& /*last*/, const BondRunState& /*state*/) {}
-  /// Every few hundred iterations of a dynamic relaxation.
-  virtual void on_iteration(Index /*load_step*/, Index /*iteration*/, double /*residual*/) {}
-  /// Asked before every row and every few hundred steps; after a yes comes one more row.
-  virtual bool stop_requested() { return false; }
-};
-
-/// Component whose prescribed motion or load is the largest, in which the reaction of supports is
-/// counted.
-int main_component(const Unknowns& unknowns, const Loads& loads);
 
 /// What a network with states is made of.
 struct StateBody {

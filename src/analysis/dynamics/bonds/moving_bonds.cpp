@@ -1,0 +1,107 @@
+#include "analysis/dynamics/bonds/moving_bonds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace perilink {
+namespace {
+
+/// Component whose prescribed motion or load is the largest.
+int main_component(const Unknowns& unknowns, const Loads& loads) {
+  std::vector<double> driven(unknowns.width, 0.0), loaded(unknowns.width, 0.0);
+  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+    double& largest = driven[slot % unknowns.width];
+    largest = std::max(largest, std::abs(unknowns.prescribed[slot]));
+    loaded[slot % unknowns.width] += loads.forces[slot];
+  }
+  const auto motion = std::max_element(driven.begin(), driven.end());
+  if (*motion > 0.0) return static_cast<int>(motion - driven.begin());
+  const auto force = std::max_element(loaded.begin(), loaded.end(),
+                                      [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return static_cast<int>(force - loaded.begin());
+}
+
+}  // namespace
+
+MovingBonds::MovingBonds(const LoadedNetwork& problem, const Inertia& masses,
+                         std::unique_ptr<ExplicitBonds> elements, double step_length)
+    : network(problem.network),
+      unknowns(problem.unknowns),
+      loads(problem.loads.forces),
+      reference(problem.reference),
+      mass(masses.mass),
+      bonds(std::move(elements)),
+      time_step(step_length),
+      component(main_component(unknowns, problem.loads)),
+      blocks(network.particles.size(), unknowns.width),
+      broken(blocks.count()),
+      force(unknowns.number.size(), 0.0),
+      sums(static_cast<std::size_t>(blocks.count())) {
+  motion.displacement = motion.velocity = force;
+}
+
+void MovingBonds::lose(Index block, Index step, const BondLosses& losses) {
+  sums[block].fractured += losses.fractured;
+  broken.add(block, step, losses.broken);
+}
+
+void MovingBonds::prepare(Index block, Index step) {
+  lose(block, step, bonds->prepare(blocks.begin(block), blocks.end(block), time_step, motion));
+}
+
+void MovingBonds::find_forces(Index block, Index step) {
+  lose(block, step,
+       bonds->forces(blocks.begin(block), blocks.end(block), time_step, motion, force));
+  if (network.support_stiffness.empty()) return;
+  blocks.for_slots(block, [&](std::size_t slot) {
+    force[slot] += network.support_stiffness[slot] * motion.displacement[slot];
+  });
+}
+
+double MovingBonds::stored(Index begin, Index end) const {
+  double energy = bonds->stored(begin, end, time_step, motion);
+  if (network.support_stiffness.empty()) return energy;
+  const auto width = static_cast<std::size_t>(unknowns.width);
+  for (std::size_t slot = begin * width; slot < end * width; ++slot) {
+    const double u = motion.displacement[slot];
+    energy += 0.5 * network.support_stiffness[slot] * u * (u - time_step * motion.velocity[slot]);
+  }
+  return energy;
+}
+
+void MovingBonds::add_reaction(std::size_t slot, double reaction, MotionSums& to) const {
+  to.driven += reaction * unknowns.prescribed[slot];
+  const bool is_support = unknowns.prescribed[slot] == 0.0;
+  if (is_support && static_cast<int>(slot % unknowns.width) == component) to.supports += reaction;
+}
+
+MotionSums MovingBonds::total() const {
+  MotionSums all;
+  for (const MotionSums& block : sums) {
+    all.fractured += block.fractured;
+    all.work.external += block.work.external;
+    all.work.damping += block.work.damping;
+    all.stored += block.stored;
+    all.kinetic += block.kinetic;
+    all.driven += block.driven;
+    all.supports += block.supports;
+    all.loaded += block.loaded;
+  }
+  return all;
+}
+
+void MovingBonds::note_reactions(const MotionSums& all, double load_factor,
+                                 ExplicitRecord& record) const {
+  record.load = reference.driven ? all.driven / reference.value : load_factor * reference.value;
+  record.support_reaction = all.supports;
+}
+
+void MovingBonds::note_motion(const MotionSums& all, double motion_factor, ExplicitRecord& record) {
+  record.displacement =
+      reference.driven ? motion_factor * reference.value : all.loaded / reference.value;
+  (bonds->has_states() ? record.cracked_particles : record.broken_bonds) =
+      static_cast<Index>(broken.so_far().size());
+}
+
+}  // namespace perilink
