@@ -8,10 +8,6 @@
 namespace perilink {
 namespace {
 
-Index other_end(const Bonds& bonds, Index element, Index particle) {
-  return bonds.first[element] == particle ? bonds.second[element] : bonds.first[element];
-}
-
 template <int Dim>
 Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double> values,
                                                           Index number) {
@@ -33,7 +29,7 @@ void fill_principal_strains(const Network& network, const Csr& families,
     Matrix moments = Matrix::Zero();
     for (const Index e : families.row(i)) {
       if (!(secants[e] > 0.0)) continue;
-      const Index j = other_end(bonds, e, i);
+      const Index j = bonds.other_end(e, i);
       const Eigen::Matrix<double, Dim, 1> xi = vector_at<Dim>(network.particles.positions, j) -
                                                vector_at<Dim>(network.particles.positions, i);
       shape += xi * xi.transpose();
@@ -98,7 +94,7 @@ std::vector<double> damage_index(const Network& network, const Csr& families,
     double all = 0.0;
     double lost = 0.0;
     for (const Index e : families.row(i)) {
-      const double volume = network.particles.volumes[other_end(network.bonds, e, i)];
+      const double volume = network.particles.volumes[network.bonds.other_end(e, i)];
       all += volume;
       if (!network.law(e).endless()) lost += (1.0 - secants[e]) * volume;
     }

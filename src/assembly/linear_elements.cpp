@@ -66,16 +66,11 @@ void fill_moduli(Problem problem, std::span<const IsotropicMaterial> materials,
 }
 
 Csr cells_of_particles(const LinearElements& elements) {
-  Csr rows;
-  rows.offsets.assign(static_cast<std::size_t>(elements.num_particles) + 1, 0);
-  for (const Index i : elements.cells.vertices) ++rows.offsets[i + 1];
-  for (Index i = 0; i < elements.num_particles; ++i) rows.offsets[i + 1] += rows.offsets[i];
-  rows.values.resize(elements.cells.vertices.size());
-  std::vector<Index> next(rows.offsets.begin(), rows.offsets.end() - 1);
-  for (Index number = 0; number < elements.cells.size(); ++number) {
-    for (const Index i : elements.cells.cell(number)) rows.values[next[i]++] = number;
-  }
-  return rows;
+  return sorted_into_rows(elements.num_particles, [&](auto&& act) {
+    for (Index number = 0; number < elements.cells.size(); ++number) {
+      for (const Index i : elements.cells.cell(number)) act(i, number);
+    }
+  });
 }
 
 /// Blocks of cells, see LowerTriangle: V (lambda g_j g_i' + mu g_i g_j' + mu (g_i g_j) 1).

@@ -126,7 +126,7 @@ class LowerTriangle {
   /// columns of a particle lie side by side, each without the first row of the one before.
   /// \param place  per particle: room for the number of rows above its own
   void fill_columns(Index i, std::vector<Index>& place, SparseMatrix& matrix) const {
-    std::array<double*, width> values{};  // of each column as if it had all rows; null: not free
+    std::array<double*, width> values{};  // columns as if they had all rows; null: held
     Index first = no_index, end = 0, skipped = 0;
     for (int col = 0; col < width; ++col) {
       const Index column = unknowns_.at(i, col);

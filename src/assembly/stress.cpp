@@ -21,8 +21,7 @@ std::vector<Index> neighbors_of(const StressInput& input, Index particle) {
   const auto append = [&](Index i) {
     for (const Index e : input.families.row(i)) {
       if (e >= network.first_tie) continue;
-      const Index j =
-          network.bonds.first[e] == i ? network.bonds.second[e] : network.bonds.first[e];
+      const Index j = network.bonds.other_end(e, i);
       if (j == particle || particles.kind[j] != ParticleKind::solid) continue;
       if (particles.material[j] == particles.material[particle]) found.push_back(j);
     }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "base/csr.hpp"
 #include "material/elasticity.hpp"
+#include "material/j2_plasticity.hpp"
 #include "network/network.hpp"
 
 /// \file
@@ -13,8 +13,8 @@
 
 namespace perilink {
 
-/// xx, yy, zz, xy, yz, xz [force/length^2], the order of VTK's symmetric tensors.
-using Stress = std::array<double, 6>;
+/// [force/length^2], in the order of VTK's symmetric tensors.
+using Stress = SymmetricTensor;
 
 /// What stresses at particles are found from.
 struct StressInput {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -18,5 +19,19 @@ struct Csr {
     return {values.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
   }
 };
+
+/// Items in rows, those of a row in the order in which they are visited.
+/// \param visit_items  calls act(row, item) for every item, twice the same way
+template <class VisitItems>
+Csr sorted_into_rows(Index num_rows, VisitItems visit_items) {
+  Csr rows;
+  rows.offsets.assign(static_cast<std::size_t>(num_rows) + 1, 0);
+  visit_items([&](Index row, Index) { ++rows.offsets[row + 1]; });
+  std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
+  rows.values.resize(rows.offsets.back());
+  std::vector<Index> next(rows.offsets.begin(), rows.offsets.end() - 1);
+  visit_items([&](Index row, Index item) { rows.values[next[row]++] = item; });
+  return rows;
+}
 
 }  // namespace perilink

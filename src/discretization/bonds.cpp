@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
 
 #include "discretization/neighbor_search.hpp"
 
@@ -13,38 +16,6 @@ Index num_before_bars(const Particles& particles) {
   const auto first_bar =
       std::find(particles.kind.begin(), particles.kind.end(), ParticleKind::rebar);
   return static_cast<Index>(first_bar - particles.kind.begin());
-}
-
-/// Particles up to the first reinforcing bar that bonds in fewer than dim independent directions
-/// hold. The Gram matrix of the directions is singular exactly there; its determinant over the
-/// power of its trace is free of scale.
-std::vector<std::uint8_t> loosely_held(const Bonds& bonds, Index num_particles) {
-  const int dim = bonds.dim;
-  const std::size_t block = static_cast<std::size_t>(dim) * dim;
-  std::vector<double> gram(num_particles * block, 0.0);
-  for (Index b = 0; b < bonds.size(); ++b) {
-    const auto n = bonds.direction(b);
-    for (const Index end : {bonds.first[b], bonds.second[b]}) {
-      double* g = gram.data() + end * block;
-      for (int row = 0; row < dim; ++row) {
-        for (int col = 0; col < dim; ++col) g[row * dim + col] += n[row] * n[col];
-      }
-    }
-  }
-  std::vector<std::uint8_t> loose(num_particles);
-  for (Index i = 0; i < num_particles; ++i) {
-    const double* g = gram.data() + i * block;
-    double trace = g[0] + g[3];
-    double determinant = g[0] * g[3] - g[1] * g[2];
-    if (dim == 3) {
-      trace = g[0] + g[4] + g[8];
-      determinant = g[0] * (g[4] * g[8] - g[5] * g[7]) - g[1] * (g[3] * g[8] - g[5] * g[6]) +
-                    g[2] * (g[3] * g[7] - g[4] * g[6]);
-    }
-    // Lattice directions that differ at all give more than 1e-4; round-off gives less than 1e-15.
-    loose[i] = !(determinant > 1e-10 * std::pow(trace, dim));
-  }
-  return loose;
 }
 
 }  // namespace
@@ -82,38 +53,39 @@ Bonds make_bonds(const Particles& particles, double horizon) {
 }
 
 Csr bonds_of_particles(const Bonds& bonds, Index num_particles) {
-  Csr families;
-  families.offsets.assign(static_cast<std::size_t>(num_particles) + 1, 0);
-  for (const Index i : bonds.first) ++families.offsets[i + 1];
-  for (const Index j : bonds.second) ++families.offsets[j + 1];
-  std::partial_sum(families.offsets.begin(), families.offsets.end(), families.offsets.begin());
-  families.values.resize(families.offsets.back());
-  std::vector<Index> next(families.offsets.begin(), families.offsets.end() - 1);
-  for (Index b = 0; b < bonds.size(); ++b) {
-    families.values[next[bonds.first[b]]++] = b;
-    families.values[next[bonds.second[b]]++] = b;
-  }
-  return families;
+  return sorted_into_rows(num_particles, [&](auto&& act) {
+    for (Index b = 0; b < bonds.size(); ++b) {
+      act(bonds.first[b], b);
+      act(bonds.second[b], b);
+    }
+  });
 }
 
-Index remove_loose_ghosts(Particles& particles, Bonds& bonds) {
-  const Index count = particles.size();
-  const int dim = particles.dim;
-  const std::vector<std::uint8_t> loose = loosely_held(bonds, count);
-  std::vector<Index> new_number(count, no_index);
+Index keep_bonds(const Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep) {
+  Bonds remaining;
+  remaining.dim = bonds.dim;
+  for (Index b = 0; b < bonds.size(); ++b) {
+    if (keep[b]) remaining.append(particles, bonds.first[b], bonds.second[b]);
+  }
+  const Index removed = bonds.size() - remaining.size();
+  if (removed > 0) bonds = std::move(remaining);
+  return removed;
+}
+
+void keep_particles(Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep) {
+  std::vector<Index> number(keep.size(), no_index);
   Index kept = 0;
-  for (Index i = 0; i < count; ++i) {
-    if (loose[i] && particles.kind[i] == ParticleKind::ghost) continue;
-    for (int axis = 0; axis < dim; ++axis) {
-      particles.positions[static_cast<std::size_t>(kept) * dim + axis] =
-          particles.positions[static_cast<std::size_t>(i) * dim + axis];
-    }
+  const int dim = particles.dim;
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (!keep[i]) continue;
+    const auto from = particles.position(i);
+    std::copy(from.begin(), from.end(),
+              particles.positions.begin() + static_cast<std::ptrdiff_t>(kept) * dim);
     particles.volumes[kept] = particles.volumes[i];
     particles.material[kept] = particles.material[i];
     particles.kind[kept] = particles.kind[i];
-    new_number[i] = kept++;
+    number[i] = kept++;
   }
-  if (kept == count) return 0;
   particles.positions.resize(static_cast<std::size_t>(kept) * dim);
   particles.volumes.resize(kept);
   particles.material.resize(kept);
@@ -122,12 +94,41 @@ Index remove_loose_ghosts(Particles& particles, Bonds& bonds) {
   Bonds remaining;
   remaining.dim = dim;
   for (Index b = 0; b < bonds.size(); ++b) {
-    const Index i = new_number[bonds.first[b]];
-    const Index j = new_number[bonds.second[b]];
+    const Index i = number[bonds.first[b]], j = number[bonds.second[b]];
     if (i != no_index && j != no_index) remaining.append(particles, i, j);
   }
   bonds = std::move(remaining);
-  return count - kept;
+}
+
+std::vector<std::uint8_t> loosely_held(const Bonds& bonds, Index num_particles,
+                                       std::span<const double> stiffness) {
+  std::vector<Eigen::Matrix3d> grams(static_cast<std::size_t>(num_particles),
+                                     Eigen::Matrix3d::Zero());
+  for (Index b = 0; b < bonds.size(); ++b) {
+    if (!stiffness.empty() && !(stiffness[b] > 0.0)) continue;
+    Eigen::Vector3d n = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < bonds.dim; ++axis) n[axis] = bonds.direction(b)[axis];
+    grams[bonds.first[b]] += n * n.transpose();
+    grams[bonds.second[b]] += n * n.transpose();
+  }
+  std::vector<std::uint8_t> loose;
+  for (Eigen::Matrix3d& gram : grams) {
+    const double trace = gram.trace();
+    if (bonds.dim == 2) gram(2, 2) = trace;  // the third direction is not asked for
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(gram, Eigen::EigenvaluesOnly);
+    // Squared sines between directions; round-off leaves 1e-15.
+    loose.push_back(!(solver.eigenvalues()[0] > 1e-10 * trace));
+  }
+  return loose;
+}
+
+Index remove_loose_ghosts(Particles& particles, Bonds& bonds) {
+  const auto is_ghost = [](ParticleKind kind) { return kind == ParticleKind::ghost; };
+  if (std::none_of(particles.kind.begin(), particles.kind.end(), is_ghost)) return 0;
+  std::vector<std::uint8_t> keep = loosely_held(bonds, particles.size());
+  for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = !(keep[i] && is_ghost(particles.kind[i]));
+  keep_particles(particles, bonds, keep);
+  return static_cast<Index>(keep.size()) - particles.size();
 }
 
 std::vector<Index> connected_parts(const Bonds& bonds, Index num_particles) {

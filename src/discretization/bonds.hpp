@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,18 @@ Bonds make_bonds(const Particles& particles, double horizon);
 
 /// Bonds at every particle (families): row i holds the numbers of the bonds that end at particle i.
 Csr bonds_of_particles(const Bonds& bonds, Index num_particles);
+
+/// Keeps the bonds that are marked, in their order. \return number of bonds taken out
+Index keep_bonds(const Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep);
+
+/// Keeps the particles that are marked, in their order, and the bonds between them.
+void keep_particles(Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep);
+
+/// Whether bonds in fewer than dim independent directions hold each particle: it could move for
+/// nothing.
+/// \param stiffness  per bond: those that have none do not count; empty: all do
+std::vector<std::uint8_t> loosely_held(const Bonds& bonds, Index num_particles,
+                                       std::span<const double> stiffness = {});
 
 /// Drops the ghosts that bonds in fewer than dim independent directions hold, with their bonds:
 /// they carry no force and would make the stiffness singular. To be called before bars are added.

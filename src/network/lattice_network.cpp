@@ -1,15 +1,11 @@
 #include "network/lattice_network.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <limits>
 #include <tuple>
 
 namespace perilink {
 namespace {
-
-/// Squared sines between directions of bonds below this are round-off.
-constexpr double in_line = 1e-10;
 
 /// A bond between two slots.
 struct LatticeBond {
@@ -37,38 +33,21 @@ std::vector<LatticeBond> bonds_of(const LatticeRows& lattice) {
   return bonds;
 }
 
-/// Whether bonds of these directions (sum of n n') leave a particle a direction to move in.
-bool is_loose(Eigen::Matrix3d directions, int dim) {
-  const double trace = directions.trace();
-  if (dim == 2) directions(2, 2) = trace;  // the third direction is not asked for
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(directions, Eigen::EigenvaluesOnly);
-  return !(solver.eigenvalues()[0] > in_line * trace);
-}
-
-/// Takes out loose particles until there are none. \return whether each slot stays
-std::vector<std::uint8_t> leave_out_loose(const LatticeRows& lattice,
-                                          std::vector<LatticeBond>& bonds) {
-  std::vector<std::uint8_t> stays(static_cast<std::size_t>(lattice.slots), 0);
-  for (const Index slot : lattice.particle_slot) stays[slot] = 1;
-  std::vector<Eigen::Matrix3d> directions(static_cast<std::size_t>(lattice.slots));
-  for (bool again = true; again;) {
-    std::fill(directions.begin(), directions.end(), Eigen::Matrix3d::Zero());
-    for (const LatticeBond& bond : bonds) {
-      const Eigen::Map<const Eigen::Vector3d> n(lattice.bonds[bond.own].direction.data());
-      directions[bond.first] += n * n.transpose();
-      directions[bond.second] += n * n.transpose();
+/// Takes out the bonds of loose particles until there are none. \return whether each particle stays
+std::vector<std::uint8_t> leave_out_loose(Network& network) {
+  for (;;) {
+    const auto loose = loosely_held(network.bonds, network.particles.size());
+    std::vector<std::uint8_t> keep;
+    for (Index e = 0; e < network.num_elements(); ++e) {
+      keep.push_back(!loose[network.bonds.first[e]] && !loose[network.bonds.second[e]]);
     }
-    again = false;
-    for (const Index slot : lattice.particle_slot) {
-      if (stays[slot] == 0 || !is_loose(directions[slot], lattice.dim)) continue;
-      stays[slot] = 0;
-      again = true;
+    if (std::find(keep.begin(), keep.end(), 0) == keep.end()) {
+      std::vector<std::uint8_t> stays;
+      for (const std::uint8_t is_loose : loose) stays.push_back(!is_loose);
+      return stays;
     }
-    std::erase_if(bonds, [&](const LatticeBond& bond) {
-      return stays[bond.first] == 0 || stays[bond.second] == 0;
-    });
+    keep_elements(network, keep);
   }
-  return stays;
 }
 
 }  // namespace
@@ -90,23 +69,22 @@ Particles lattice_particles(const LatticeRows& lattice, std::span<const Index> s
 
 LatticeNetwork lattice_network(const LatticeRows& lattice, std::span<const double> own_modulus,
                                double sum_modulus, std::span<const double> volumes) {
-  std::vector<LatticeBond> bonds = bonds_of(lattice);
-  const std::vector<std::uint8_t> stays = leave_out_loose(lattice, bonds);
   LatticeNetwork result;
-  std::vector<Index> number(static_cast<std::size_t>(lattice.slots), no_index);
-  for (const Index slot : lattice.particle_slot) {
-    if (stays[slot] == 0) continue;
-    number[slot] = static_cast<Index>(result.slots.size());
-    result.slots.push_back(slot);
-  }
-  result.left_out = lattice.particles() - static_cast<Index>(result.slots.size());
   Network& network = result.network;
-  network.particles = lattice_particles(lattice, result.slots, volumes);
+  network.particles = lattice_particles(lattice, lattice.particle_slot, volumes);
   network.bonds.dim = lattice.dim;
-  for (const LatticeBond& bond : bonds) {
+  std::vector<Index> number(static_cast<std::size_t>(lattice.slots), no_index);
+  for (Index i = 0; i < lattice.particles(); ++i) number[lattice.particle_slot[i]] = i;
+  for (const LatticeBond& bond : bonds_of(lattice)) {
     network.bonds.append(network.particles, number[bond.first], number[bond.second]);
     network.stiffness.push_back(own_modulus[bond.own] / lattice.bonds[bond.own].length);
   }
+  const std::vector<std::uint8_t> stays = leave_out_loose(network);
+  keep_particles(network.particles, network.bonds, stays);
+  for (Index i = 0; i < lattice.particles(); ++i) {
+    if (stays[i]) result.slots.push_back(lattice.particle_slot[i]);
+  }
+  result.left_out = lattice.particles() - network.particles.size();
   network.state_stiffness.assign(result.slots.size(), sum_modulus / (2.0 * lattice.spacing));
   network.critical_stretch.assign(network.stiffness.size(),
                                   std::numeric_limits<double>::infinity());

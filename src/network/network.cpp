@@ -1,7 +1,5 @@
 #include "network/network.hpp"
 
-#include "discretization/cuts/outside_bonds.hpp"
-
 namespace perilink {
 
 void keep_elements(Network& network, std::span<const std::uint8_t> keep) {

@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Eigenvalues>
-
 #include "discretization/cuts/bonds_across_gaps.hpp"
 #include "discretization/cuts/outside_bonds.hpp"
 #include "material/critical_stretch.hpp"
@@ -40,7 +38,13 @@ void check_input(const Body& body, const NetworkInput& input) {
   }
 }
 
-/// Moduli and critical stretch of every pair of materials.
+/// What a bond is made from.
+struct BondConstants {
+  MicropolarModuli moduli;  ///< means of those at its ends
+  double critical_stretch = 0.0;
+};
+
+/// The constants of every pair of materials.
 class PairConstants {
  public:
   PairConstants(const Body& body, const NetworkInput& input) : count_(input.materials.size()) {
@@ -61,53 +65,39 @@ class PairConstants {
                                    : lattice_critical_stretch(
                                          energy, lattice_fracture_sum(input.problem, family.offsets,
                                                                       body.lattice.cell_volume, c));
-        micromodulus_.push_back(c);
-        bending_modulus_.push_back(0.5 * (moduli[a].bending_modulus + moduli[b].bending_modulus));
-        critical_stretch_.push_back(stretch);
+        const double d = 0.5 * (moduli[a].bending_modulus + moduli[b].bending_modulus);
+        pairs_.push_back({{c, d}, stretch});
       }
     }
   }
 
-  double micromodulus(Index a, Index b) const { return micromodulus_[a * count_ + b]; }
-  double bending_modulus(Index a, Index b) const { return bending_modulus_[a * count_ + b]; }
-  double critical_stretch(Index a, Index b) const { return critical_stretch_[a * count_ + b]; }
+  const BondConstants& of(Index a, Index b) const { return pairs_[a * count_ + b]; }
 
  private:
   std::size_t count_;
-  std::vector<double> micromodulus_;
-  std::vector<double> bending_modulus_;
-  std::vector<double> critical_stretch_;
+  std::vector<BondConstants> pairs_;
 };
 
-void add_bonds(const PairConstants& constants, Network& network) {
+void add_bonds(const PairConstants& constants, BondModel model, Network& network) {
   const Particles& particles = network.particles;
+  const auto count = static_cast<std::size_t>(network.bonds.size());
+  network.stiffness.reserve(count);
+  network.critical_stretch.reserve(count);
+  if (model == BondModel::micropolar) network.bending.reserve(count);
   for (Index b = 0; b < network.bonds.size(); ++b) {
     const Index i = network.bonds.first[b];
     const Index j = network.bonds.second[b];
     const Index own = particles.material[i];  // a ghost is never first
     const bool ghost = particles.kind[j] == ParticleKind::ghost;
-    const Index other = ghost ? own : particles.material[j];
-    const double c = constants.micromodulus(own, other) * (ghost ? 0.5 : 1.0);
-    network.stiffness.push_back(c * particles.volumes[i] * particles.volumes[j] /
-                                network.bonds.lengths[b]);
-    network.critical_stretch.push_back(constants.critical_stretch(own, other));
-  }
-}
-
-/// Bending stiffness of the bonds between particles.
-void add_bending(const PairConstants& constants, Network& network) {
-  const Particles& particles = network.particles;
-  network.bending.reserve(static_cast<std::size_t>(network.bonds.size()));
-  for (Index b = 0; b < network.bonds.size(); ++b) {
-    const Index i = network.bonds.first[b];
-    const Index j = network.bonds.second[b];
-    const Index own = particles.material[i];
-    const bool ghost = particles.kind[j] == ParticleKind::ghost;
-    const double d =
-        constants.bending_modulus(own, ghost ? own : particles.material[j]) * (ghost ? 0.5 : 1.0);
+    const auto& [moduli, stretch] = constants.of(own, ghost ? own : particles.material[j]);
+    const double part = ghost ? 0.5 : 1.0;
     const double length = network.bonds.lengths[b];
-    network.bending.push_back(12.0 * d * particles.volumes[i] * particles.volumes[j] /
-                              (length * length * length));
+    network.stiffness.push_back(moduli.micromodulus * part * particles.volumes[i] *
+                                particles.volumes[j] / length);
+    network.critical_stretch.push_back(stretch);
+    if (model != BondModel::micropolar) continue;
+    network.bending.push_back(12.0 * (moduli.bending_modulus * part) * particles.volumes[i] *
+                              particles.volumes[j] / (length * length * length));
   }
 }
 
@@ -123,16 +113,6 @@ std::vector<std::uint8_t> perfectly_tied(const RebarMesh& mesh, const NetworkInp
   return perfect;
 }
 
-void append_elements(const Bonds& elements, Bonds& all) {
-  const auto extend = [](auto& to, const auto& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  extend(all.first, elements.first);
-  extend(all.second, elements.second);
-  extend(all.lengths, elements.lengths);
-  extend(all.directions, elements.directions);
-}
-
 void add_bars(const Body& body, const NetworkInput& input, const PairConstants& constants,
               Network& network) {
   Particles& particles = network.particles;
@@ -144,20 +124,25 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
   }
   const auto perfect = perfectly_tied(mesh, input, particles.size());
   const double least_length = shortest_tie * body.lattice.spacing;
+  const auto append = [&](const Bonds& elements) {
+    for (Index e = 0; e < elements.size(); ++e) {
+      network.bonds.append(particles, elements.first[e], elements.second[e]);
+    }
+  };
   network.first_tie = network.bonds.size();
-  append_elements(mesh.ties, network.bonds);
+  append(mesh.ties);
   for (Index tie = 0; tie < mesh.ties.size(); ++tie) {
     const Index solid = mesh.ties.first[tie];
     const Index node = mesh.ties.second[tie];
-    const Index material = particles.material[solid];
-    network.stiffness.push_back(constants.micromodulus(material, material) *
-                                particles.volumes[solid] * particles.volumes[node] /
+    const auto& [moduli, stretch] =
+        constants.of(particles.material[solid], particles.material[solid]);
+    network.stiffness.push_back(moduli.micromodulus * particles.volumes[solid] *
+                                particles.volumes[node] /
                                 std::max(mesh.ties.lengths[tie], least_length));
-    network.critical_stretch.push_back(
-        perfect[node] ? infinity : constants.critical_stretch(material, material));
+    network.critical_stretch.push_back(perfect[node] ? infinity : stretch);
   }
   network.first_segment = network.bonds.size();
-  append_elements(mesh.segments, network.bonds);
+  append(mesh.segments);
   for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
     const BarMaterial& bar = input.bar_materials[mesh.bar_of_segment[segment]];
     network.stiffness.push_back(bar.youngs_modulus * bar.area / mesh.segments.lengths[segment]);
@@ -184,13 +169,8 @@ Network build_network(const Body& body, const NetworkInput& input) {
   }
   remove_loose_ghosts(network.particles, network.bonds);
   network.facets = body.facets;
-  network.stiffness.reserve(static_cast<std::size_t>(network.bonds.size()));
-  network.critical_stretch.reserve(static_cast<std::size_t>(network.bonds.size()));
-  add_bonds(constants, network);
-  if (input.model == BondModel::micropolar) {
-    network.torsion = input.torsion;
-    add_bending(constants, network);
-  }
+  add_bonds(constants, input.model, network);
+  if (input.model == BondModel::micropolar) network.torsion = input.torsion;
   correct_surfaces(body, input, network);
   if (!input.cracks.empty()) {
     // After the calibration: a crack is not a surface on which a uniform strain finds its stress.
@@ -208,28 +188,12 @@ Network build_network(const Body& body, const NetworkInput& input) {
 }
 
 std::vector<Index> find_loose_particles(const Network& network) {
-  const int dim = network.dim();
-  const Bonds& bonds = network.bonds;
-  std::vector<Eigen::Matrix3d> grams(static_cast<std::size_t>(network.particles.size()),
-                                     Eigen::Matrix3d::Zero());
-  for (Index e = 0; e < network.num_elements(); ++e) {
-    if (!(network.stiffness[e] > 0.0)) continue;
-    Eigen::Vector3d n = Eigen::Vector3d::Zero();
-    for (int axis = 0; axis < dim; ++axis) n[axis] = bonds.direction(e)[axis];
-    grams[bonds.first[e]] += n * n.transpose();
-    grams[bonds.second[e]] += n * n.transpose();
-  }
+  const auto is_loose = loosely_held(network.bonds, network.particles.size(), network.stiffness);
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   std::vector<Index> loose;
   for (Index i = 0; i < network.particles.size(); ++i) {
-    if (!rotating.empty() && rotating[i]) continue;  // one frame holds every direction
-    Eigen::Matrix3d& gram = grams[i];
-    const double trace = gram.trace();
-    if (dim == 2) gram(2, 2) = trace;  // the third direction is not asked for
-    const Eigen::Vector3d eigenvalues =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly).eigenvalues();
-    // Squared sines between directions; round-off leaves 1e-15.
-    if (!(eigenvalues[0] > 1e-10 * trace)) loose.push_back(i);
+    // One frame holds every direction.
+    if (is_loose[i] && (rotating.empty() || !rotating[i])) loose.push_back(i);
   }
   return loose;
 }

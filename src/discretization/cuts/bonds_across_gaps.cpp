@@ -62,21 +62,15 @@ Index remove_bonds_across_gaps(const Particles& particles, Bonds& bonds, std::sp
   const Outline outline = make_outline(solid, particles.dim, tolerance);
   const auto full = [](std::uint8_t cell) { return cell != 0; };
   if (std::all_of(outline.occupied.begin(), outline.occupied.end(), full)) return 0;
-  Bonds remaining;
-  remaining.dim = bonds.dim;
+  std::vector<std::uint8_t> keep;
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
     const bool both_solid =
         particles.kind[i] == ParticleKind::solid && particles.kind[j] == ParticleKind::solid;
-    if (both_solid &&
-        !stays_inside(outline, particles.position(i), particles.position(j), tolerance)) {
-      continue;
-    }
-    remaining.append(particles, i, j);
+    keep.push_back(!both_solid ||
+                   stays_inside(outline, particles.position(i), particles.position(j), tolerance));
   }
-  const Index removed = bonds.size() - remaining.size();
-  bonds = std::move(remaining);
-  return removed;
+  return keep_bonds(particles, bonds, keep);
 }
 
 }  // namespace perilink

@@ -172,17 +172,6 @@ class Passage {
 
 }  // namespace
 
-Index keep_bonds(const Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep) {
-  Bonds remaining;
-  remaining.dim = bonds.dim;
-  for (Index b = 0; b < bonds.size(); ++b) {
-    if (keep[b]) remaining.append(particles, bonds.first[b], bonds.second[b]);
-  }
-  const Index removed = bonds.size() - remaining.size();
-  if (removed > 0) bonds = std::move(remaining);
-  return removed;
-}
-
 Index remove_bonds_outside(const Particles& particles, Bonds& bonds, const Facets& facets,
                            double spacing) {
   if (bonds.size() == 0) return 0;

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
-#include <span>
-
 #include "discretization/bonds.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
@@ -14,9 +10,6 @@ namespace perilink {
 /// are chords of its curve, and so are bonds between its vertices: a bond of m spacings h leaves a
 /// hole of radius R by about m^2 h^2 / (8 R), ever fewer spacings as the mesh gets finer.
 inline constexpr double allowed_excursion = 0.1;
-
-/// Keeps the bonds that are marked, in their order. \return number of bonds taken out
-Index keep_bonds(const Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep);
 
 /// Takes out the bonds of a mesh body that leave it: those that are farther than allowed_excursion
 /// from the body somewhere on their way, and those that cross a void, however narrow, whose flanks

@@ -64,6 +64,39 @@ TEST(Bonds, FamiliesListEveryBondAtBothEnds) {
   }
 }
 
+/// Particles at (0, 0), (1, 0), (2, 0) and (0, 1): the third one hangs on a line.
+Particles corner() {
+  Particles particles;
+  particles.positions = {0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 0.0, 1.0};
+  particles.volumes = {1.0, 2.0, 3.0, 4.0};
+  particles.material = {0, 1, 2, 3};
+  particles.kind.assign(4, ParticleKind::solid);
+  return particles;
+}
+
+TEST(Bonds, TellWhichParticlesTheyHoldLoosely) {
+  const Bonds bonds = make_bonds(corner(), 1.5);
+  ASSERT_EQ(bonds.size(), 4);  // 0-1, 0-3, 1-2, 1-3
+  EXPECT_EQ(loosely_held(bonds, 4), (std::vector<std::uint8_t>{0, 0, 1, 0}));
+  EXPECT_EQ(loosely_held(bonds, 4, std::vector<double>{1.0, 1.0, 1.0, 0.0}),
+            (std::vector<std::uint8_t>{0, 1, 1, 1}));
+}
+
+TEST(Bonds, FollowTheParticlesThatAreKept) {
+  Particles particles = corner();
+  Bonds bonds = make_bonds(particles, 1.5);
+  keep_particles(particles, bonds, std::vector<std::uint8_t>{0, 1, 1, 1});
+  EXPECT_EQ(particles.positions, (std::vector<double>{1.0, 0.0, 2.0, 0.0, 0.0, 1.0}));
+  EXPECT_EQ(particles.volumes, (std::vector<double>{2.0, 3.0, 4.0}));
+  EXPECT_EQ(particles.material, (std::vector<Index>{1, 2, 3}));
+  EXPECT_EQ(bonds.first, (std::vector<Index>{0, 0}));
+  EXPECT_EQ(bonds.second, (std::vector<Index>{1, 2}));
+  EXPECT_EQ(bonds.other_end(1, 0), 2);
+  EXPECT_EQ(bonds.other_end(1, 2), 0);
+  EXPECT_EQ(keep_bonds(particles, bonds, std::vector<std::uint8_t>{0, 1}), 1);
+  EXPECT_EQ(bonds.second, (std::vector<Index>{2}));
+}
+
 TEST(Bonds, LeaveOutTheNodesOfBars) {
   Body body = square(Surface::none);
   const Bonds before = make_bonds(body.particles, 0.3);
