@@ -76,11 +76,11 @@ class Calibration {
     return irregular_ && !in_space_ && !soft_moments_ ? report_.sum_after : unbalanced();
   }
   void soften_moments();
-  LeastChange seek(const PointEquations& equations, const LeastChangeOptions& options);
-  bool solve(double tolerance);
-  bool attempt();
-  void settle();
-  void search(Method method, double charge, double tolerance);
+  LeastChange find_least_change(const PointEquations& equations, const LeastChangeOptions& options);
+  bool fit_and_balance(double tolerance);
+  bool balance_dropping_bonds();
+  void fit_energies();
+  void balance_by(Method method, double charge, double tolerance);
   bool balance(double tolerance);
 
   bool in_space_, irregular_, tied_, moments_;
@@ -96,7 +96,8 @@ class Calibration {
 };
 
 /// One search, whose answer becomes the present state.
-LeastChange Calibration::seek(const PointEquations& equations, const LeastChangeOptions& options) {
+LeastChange Calibration::find_least_change(const PointEquations& equations,
+                                           const LeastChangeOptions& options) {
   ++searches_;
   if (on_search_) on_search_(searches_, unbalanced());
   LeastChange change = least_change(equations, options, kept_);
@@ -107,7 +108,7 @@ LeastChange Calibration::seek(const PointEquations& equations, const LeastChange
 
 /// Energies of dilatation, and forces beside them. In the plane a step of Newton's method is cheap,
 /// but it can get lost.
-void Calibration::settle() {
+void Calibration::fit_energies() {
   const CalibrationEquations::State start = equations_.save();
   LeastChangeOptions options;
   options.tolerance = settling_tolerance;
@@ -117,13 +118,13 @@ void Calibration::settle() {
     equations_.restore(start);
     options.method = method;
     kept_.reset();  // coefficients are those of the stiffnesses now
-    if (seek(equations_.settling(), options).converged) break;
+    if (find_least_change(equations_.settling(), options).converged) break;
   }
   kept_.reset();
 }
 
 /// One solution of the exact equations.
-void Calibration::search(Method method, double charge, double tolerance) {
+void Calibration::balance_by(Method method, double charge, double tolerance) {
   LeastChangeOptions options;
   options.tolerance = tolerance;
   options.iterations = most_iterations;
@@ -136,7 +137,7 @@ void Calibration::search(Method method, double charge, double tolerance) {
   options.preconditioner = !in_space_             ? Preconditioner::factor
                            : tight && !irregular_ ? Preconditioner::blocks_then_factor
                                                   : Preconditioner::blocks_then_boxes;
-  seek(equations, options);
+  find_least_change(equations, options);
   equations_.report_balance(report_);
 }
 
@@ -150,7 +151,7 @@ bool Calibration::balance(double tolerance) {
   const double before = left(), largest_before = unbalanced();
   const CalibrationEquations::State settled = equations_.save();
   const Method first = irregular_ && in_space_ ? Method::interior_point : Method::newton;
-  search(first, irregular_ && !in_space_ ? price : no_price, tolerance);
+  balance_by(first, irregular_ && !in_space_ ? price : no_price, tolerance);
   const bool solvable = moments_ || !in_space_;
   // The tolerance is that of the mean.
   const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
@@ -160,7 +161,7 @@ bool Calibration::balance(double tolerance) {
     const double reached = left();
     equations_.restore(settled);
     kept_.reset();
-    search(Method::interior_point, irregular_ ? price : no_price, tolerance);
+    balance_by(Method::interior_point, irregular_ ? price : no_price, tolerance);
     kept_.reset();
     if (left() > reached) {
       equations_.restore(climbed);
@@ -173,20 +174,20 @@ bool Calibration::balance(double tolerance) {
   return false;
 }
 
-bool Calibration::solve(double tolerance) {
+bool Calibration::fit_and_balance(double tolerance) {
   equations_.start_over();
-  if (energies_) settle();
+  if (energies_) fit_energies();
   settled_ = equations_.save();
   return balance(tolerance);
 }
 
 /// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
 /// all over) every bond keeps something to carry. \return whether the exact forces led anywhere
-bool Calibration::attempt() {
+bool Calibration::balance_dropping_bonds() {
   // Corners may have no solution: finding out takes few digits, where many are dear.
   const bool cautious = in_space_ && !tied_;
   const double coarse = cautious ? coarse_tolerance : tolerance_;
-  if (!solve(coarse)) return false;
+  if (!fit_and_balance(coarse)) return false;
   const double floored = unbalanced();
   const bool spread = in_space_ || !irregular_;  // is what cannot be met
   if (spread && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
@@ -195,7 +196,7 @@ bool Calibration::attempt() {
     balance(coarse);
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();
-      solve(tolerance_);
+      fit_and_balance(tolerance_);
       if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
     }
     equations_.take_all_back();
@@ -219,7 +220,7 @@ void Calibration::soften_moments() {
   equations_.take_all_back();
   equations_.soften_moments();
   soft_moments_ = true;
-  attempt();
+  balance_dropping_bonds();
   if (report_.residual_after <= reached) return;
   equations_.take_all_back();
   equations_.restore(best);
@@ -230,11 +231,11 @@ CalibrationReport Calibration::run() {
   equations_.report_balance(report_);
   report_.residual_before = report_.residual_after;
   const double start = unbalanced();
-  if (!attempt() && energies_) {
+  if (!balance_dropping_bonds() && energies_) {
     const CalibrationEquations::State settled = equations_.save();
     const double reached = left();
     energies_ = false;
-    attempt();
+    balance_dropping_bonds();
     if (left() > reached) {
       equations_.take_all_back();
       equations_.restore(settled);

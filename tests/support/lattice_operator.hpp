@@ -39,7 +39,8 @@ inline void weaken(const ExplicitModel& model, ExplicitState& state) {
     state.root_tension[slot] = 0.6 + 0.4 * std::sin(1.1 * static_cast<double>(slot));
     state.root_compression[slot] = 0.8 + 0.2 * std::cos(1.7 * static_cast<double>(slot));
   }
-  for (std::uint8_t& duty : state.duty) duty |= RowDuty::altered | RowDuty::weakened;
+  for (std::uint8_t& bond_changes : state.bond_changes)
+    bond_changes |= BondChanges::altered | BondChanges::weakened;
 }
 
 /// Damage and flow of a step, pass after pass over all rows.

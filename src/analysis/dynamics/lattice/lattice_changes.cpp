@@ -11,23 +11,23 @@ namespace perilink {
 
 void LatticeChanges::flow_at(ExplicitState& state, Index row, Index slot) const {
   const LatticeYielding::Change change = yielding_.flow(state, row, slot);
-  if (change.flowed) state.news[row] |= RowNews::flowed;
+  if (change.flowed) state.row_changes[row] |= RowChanges::flowed;
   state.flow.change[row] = std::max(state.flow.change[row], change.largest);
-  if (change.crushed) state.news[row] |= RowNews::damage_grew;
+  if (change.crushed) state.row_changes[row] |= RowChanges::damage_grew;
 }
 
 void LatticeChanges::look(ExplicitState& state, Index row) const {
-  state.news[row] &= static_cast<std::uint8_t>(~changed);
+  state.row_changes[row] &= static_cast<std::uint8_t>(~changed);
   if (!is_scan_due(model_, state, row)) return;
   thread_local DueParticles due;
   scan_row(model_, particles_, state, row, due);
   // Both see the stretches that were there before.
   for (const Index slot : due.damage) {
-    if (damage_.grow(state, row, slot)) state.news[row] |= RowNews::damage_grew;
+    if (damage_.grow(state, row, slot)) state.row_changes[row] |= RowChanges::damage_grew;
   }
   if (due.flow.empty()) return;
   if (flows_in_rows(model_)) {
-    if (flow_row(model_, state, row)) state.news[row] |= RowNews::flowed;
+    if (flow_row(model_, state, row)) state.row_changes[row] |= RowChanges::flowed;
   } else {
     for (const Index slot : due.flow) flow_at(state, row, slot);
   }
@@ -35,10 +35,10 @@ void LatticeChanges::look(ExplicitState& state, Index row) const {
 
 std::uint8_t LatticeChanges::outgoing(const ExplicitState& state, Index row) const {
   const LatticeRows& lattice = model_.lattice;
-  std::uint8_t bits = state.news[row];
+  std::uint8_t bits = state.row_changes[row];
   for (int k = 0; k < lattice.own_bonds(); ++k) {
     const Index out = lattice.row_out[row * lattice.own_bonds() + k];
-    if (out != no_index) bits |= state.news[out];
+    if (out != no_index) bits |= state.row_changes[out];
   }
   return bits & changed;
 }
@@ -48,52 +48,52 @@ std::uint8_t LatticeChanges::around(const ExplicitState& state, Index row) const
   std::uint8_t bits = outgoing(state, row);
   for (int k = 0; k < lattice.own_bonds(); ++k) {
     const Index in = lattice.row_in[row * lattice.own_bonds() + k];
-    if (in != no_index) bits |= state.news[in];
+    if (in != no_index) bits |= state.row_changes[in];
   }
   return bits & changed;
 }
 
 void LatticeChanges::commit(ExplicitState& state, Index r, double time_step) const {
-  state.near_news[r] = around(state, r);
-  if (state.near_news[r] == 0) return;
+  state.near_changes[r] = around(state, r);
+  if (state.near_changes[r] == 0) return;
   const double before = half_step_energy(model_, state, r, time_step);
-  const bool flows = (state.near_news[r] & RowNews::flowed) != 0;
+  const bool flows = (state.near_changes[r] & RowChanges::flowed) != 0;
   (flows ? state.sums[r].plastic : state.sums[r].fractured) += before;
-  if ((state.news[r] & RowNews::damage_grew) == 0) return;
+  if ((state.row_changes[r] & RowChanges::damage_grew) == 0) return;
   const LatticeRow& row = model_.lattice.rows[r];
   std::copy_n(state.next_damage.begin() + row.first, row.size, state.damage.begin() + row.first);
 }
 
 void LatticeChanges::update_plastic_bonds(ExplicitState& state, Index row) const {
-  if (state.near_news[row] == 0 || (outgoing(state, row) & RowNews::flowed) == 0) return;
+  if (state.near_changes[row] == 0 || (outgoing(state, row) & RowChanges::flowed) == 0) return;
   update_plastic_parts(model_, state, row);
   apply_factors(model_, state, row);
 }
 
 void LatticeChanges::update_plastic_sums(ExplicitState& state, Index row, double time_step) const {
-  const std::uint8_t bits = state.near_news[row];
-  if ((bits & RowNews::flowed) != 0) {
+  const std::uint8_t bits = state.near_changes[row];
+  if ((bits & RowChanges::flowed) != 0) {
     add_plastic_halves(model_, state, row);
     sum_stretches(model_, state, row);
     const double after = half_step_energy(model_, state, row, time_step);
     state.sums[row].plastic -= after;
-    if ((bits & RowNews::damage_grew) != 0) state.sums[row].fractured += after;
+    if ((bits & RowChanges::damage_grew) != 0) state.sums[row].fractured += after;
     state.slack[row] = 0.0;
   }
   // Not before: bonds of rows before this one were weighed with the old ones in the last stage, and
   // what flowed has lost its energy with them. Those bonds need the new ones in the next stage.
-  if ((state.news[row] & RowNews::damage_grew) != 0) damage_.update_roots(state, row);
+  if ((state.row_changes[row] & RowChanges::damage_grew) != 0) damage_.update_roots(state, row);
 }
 
 void LatticeChanges::update_factors(ExplicitState& state, Index row) const {
-  if (state.near_news[row] == 0 || (outgoing(state, row) & RowNews::damage_grew) == 0) return;
+  if (state.near_changes[row] == 0 || (outgoing(state, row) & RowChanges::damage_grew) == 0) return;
   damage_.update_factors(state, row);
   if (model_.material.yields) lock_energy(model_, state, row);
   apply_factors(model_, state, row);
 }
 
 void LatticeChanges::update_sums(ExplicitState& state, Index row, double time_step) const {
-  if ((state.near_news[row] & RowNews::damage_grew) == 0) return;
+  if ((state.near_changes[row] & RowChanges::damage_grew) == 0) return;
   if (model_.material.yields) add_plastic_halves(model_, state, row);
   sum_stretches(model_, state, row);
   state.sums[row].fractured -= half_step_energy(model_, state, row, time_step);

@@ -18,7 +18,7 @@ class LatticeChanges {
 
   /// Finds what happens to the particles of a row. Needs the sums of rows on both sides.
   void look(ExplicitState& state, Index row) const;
-  /// Notes in near_news whether bonds or sums of the row change: where they do not, the later
+  /// Notes in near_changes whether bonds or sums of the row change: where they do not, the later
   /// stages do nothing. Damage becomes what was noted, and the energy before the change is
   /// counted. Needs rows on both sides.
   void commit(ExplicitState& state, Index row, double time_step) const;
@@ -33,10 +33,10 @@ class LatticeChanges {
   void update_sums(ExplicitState& state, Index row, double time_step) const;
 
  private:
-  static constexpr std::uint8_t changed = RowNews::damage_grew | RowNews::flowed;
-  /// Bits of RowNews of the row and of those where its bonds end.
+  static constexpr std::uint8_t changed = RowChanges::damage_grew | RowChanges::flowed;
+  /// Bits of RowChanges of the row and of those where its bonds end.
   std::uint8_t outgoing(const ExplicitState& state, Index row) const;
-  /// Bits of RowNews of the row and of those next to it.
+  /// Bits of RowChanges of the row and of those next to it.
   std::uint8_t around(const ExplicitState& state, Index row) const;
   void flow_at(ExplicitState& state, Index row, Index slot) const;
 

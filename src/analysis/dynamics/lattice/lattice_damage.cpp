@@ -29,7 +29,7 @@ bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family
   }
   if (averaged && !has_weakened_rows(model_, state, row)) {
     const double rest = (strength / scale - principal.first) * volume;
-    state.wait[family.slot] = state.path[row] + rest / (count * stress_stiffness(model_));
+    state.quiet_until[family.slot] = state.path[row] + rest / (count * stress_stiffness(model_));
   }
   return false;
 }
@@ -99,8 +99,8 @@ bool LatticeDamage::grow(ExplicitState& state, Index row, Index slot) const {
     if (!begins(state, row, family, normal)) return false;
     state.crack_band[slot] = band_width(model_, normal);
     state.crack_at[slot] = never;
-    state.wait[slot] = -never;
-    state.news[row] |= RowNews::cracked;
+    state.quiet_until[slot] = -never;
+    state.row_changes[row] |= RowChanges::cracked;
   }
   const double strain = driving_strain(state, family);
   const double damage = damage_at(strain, state.crack_band[slot]);
@@ -148,7 +148,7 @@ void LatticeDamage::update_factors(ExplicitState& state, Index r) const {
       state.share_compression[at] = half_bond_share(mine_pressed, other_pressed);
     }
   }
-  state.duty[r] |= RowDuty::altered | RowDuty::weakened;
+  state.bond_changes[r] |= BondChanges::altered | BondChanges::weakened;
 }
 
 }  // namespace perilink

@@ -60,7 +60,7 @@ LatticeYielding::Change LatticeYielding::flow_consistently(ExplicitState& state,
   for (int c = 0; c < 6; ++c) state.flow.strain[model_.lattice.at(c, slot)] = plastic.strain[c];
   state.flow.equivalent[slot] = plastic.equivalent_strain;
   state.flow.yield[slot] = yield_stress(material.yielding, plastic.equivalent_strain);
-  state.flow.visit[slot] = state.flow.yield[slot];
+  state.flow.look_at[slot] = state.flow.yield[slot];
   if (model_.problem == Problem::plane_strain) state.flow.normal[slot] = e * plastic.strain[2];
   Change result{true, false, 0.0};
   const Halves stretch =
@@ -145,7 +145,7 @@ LatticeYielding::Change LatticeYielding::flow_as_in_2017(ExplicitState& state,
   if (result.crushed) state.flow.crushed[slot] = 1;
   state.flow.yield[slot] = yield;
   // The yield stress follows the strain and has to be asked for every time.
-  state.flow.visit[slot] = model_.material.yielding.yield;
+  state.flow.look_at[slot] = model_.material.yielding.yield;
   const Halves force = particles_.forces(state, family);
   const double mises = mises_stress(particles_.stress(state, family, force));
   if (mises <= yield) return result;
@@ -161,12 +161,12 @@ void LatticeYielding::harden_as_in_2018(ExplicitState& state, const Family& fami
   const double slope = (curve.ultimate - curve.yield) / curve.ultimate_strain;
   const double strain = present_plastic_strain(state, family);
   double& yield = state.flow.yield[family.slot];
-  double& visit = state.flow.visit[family.slot];
+  double& look_at = state.flow.look_at[family.slot];
   if (strain >= curve.ultimate_strain) {
     yield *= softening_per_step;
-    visit = -1.0;  // a yield stress that falls does so in every step
+    look_at = -1.0;  // a yield stress that falls does so in every step
   } else {
-    visit = yield = std::max(yield, curve.yield + slope * strain);
+    look_at = yield = std::max(yield, curve.yield + slope * strain);
   }
 }
 

@@ -19,7 +19,7 @@ LatticeFlow make_flow(const ExplicitModel& model) {
   flow.locked.assign(model.lattice.rows.size(), 0.0);
   flow.change.assign(model.lattice.rows.size(), 0.0);
   flow.yield.assign(slots, model.material.yielding.yield);
-  flow.visit = flow.yield;
+  flow.look_at = flow.yield;
   if (model.rules == LatticeRules::consistent) {
     flow.strain.assign(6 * slots, 0.0);
     flow.equivalent.assign(slots, 0.0);
@@ -68,9 +68,9 @@ ExplicitState::ExplicitState(const ExplicitModel& model)
   fastest.assign(rows, 0.0);
   slack.assign(rows, 0.0);
   path.assign(rows, 0.0);
-  duty.assign(rows, 0);
-  news.assign(rows, 0);
-  near_news.assign(rows, 0);
+  bond_changes.assign(rows, 0);
+  row_changes.assign(rows, 0);
+  near_changes.assign(rows, 0);
   if (!model.alters()) return;
   drag.assign(own * slots, 0.0);
   in_tension = in_compression = lattice.present;
@@ -80,7 +80,7 @@ ExplicitState::ExplicitState(const ExplicitModel& model)
   const LatticeMaterial& material = model.material;
   crack_at.assign(slots, never);
   grow_at.assign(slots, never);
-  wait.assign(slots, -never);
+  quiet_until.assign(slots, -never);
   if (!material.breakable) return;
   cracked_in.assign(slots, 0);
   for (const Index slot : lattice.particle_slot) {

@@ -32,13 +32,13 @@ struct RowReactions {
   double supports = 0.0;  ///< sum over supports along the load [force]
 };
 
-/// What a row needs beyond the elastic work: bits of ExplicitState::duty, which change with its
-/// bonds only, and of ExplicitState::news, which change while its own particles are looked at.
-struct RowDuty {
+/// What a row needs beyond the elastic work: bits of ExplicitState::bond_changes, which change with its
+/// bonds only, and of ExplicitState::row_changes, which change while its own particles are looked at.
+struct BondChanges {
   static constexpr std::uint8_t altered = 1;   ///< own bonds or sums have factors or plastic parts
   static constexpr std::uint8_t weakened = 2;  ///< own bonds have factors
 };
-struct RowNews {
+struct RowChanges {
   static constexpr std::uint8_t damage_grew = 1, flowed = 2;  ///< by its particles, in this step
   static constexpr std::uint8_t cracked = 4;                  ///< particles have damage
 };
@@ -54,7 +54,7 @@ struct LatticeFlow {
   std::vector<double> change;   ///< per row: largest change of a plastic stretch in a step
   std::vector<double> locked;   ///< per row: energy of `half` in its own bonds [force length]
   std::vector<double> yield;    ///< present yield stress of particles [force/length^2]
-  std::vector<double> visit;    ///< von Mises stress at which a particle has to be looked at
+  std::vector<double> look_at;  ///< von Mises stress at which a particle has to be looked at
   std::vector<double> normal;   ///< Young's modulus times plastic strain out of the plane
   /// Plastic, as a SymmetricTensor, shape (6, slots); consistent rules.
   std::vector<double> strain;
@@ -107,16 +107,17 @@ struct ExplicitState {
   std::vector<double> crack_band;         ///< width [length]; zero where no crack began
   std::vector<double> crack_at;  ///< first principal stress at which a particle is looked at
   std::vector<double> grow_at;   ///< the same for the strain that drives damage (papers' rules)
-  std::vector<double> wait;      ///< path of the row before which no crack can begin at a particle
+  std::vector<double>
+      quiet_until;  ///< path of the row before which no crack can begin at a particle
   LatticeFlow flow;
   std::vector<RowSums> sums;  ///< per row
   std::vector<RowReactions> reactions;
-  std::vector<double> fastest;          ///< per row: largest change of an elastic stretch in a step
-  std::vector<double> slack;            ///< per row: change of stretches that alters nothing yet
-  std::vector<double> path;             ///< per row: sum of all changes of stretches near it
-  std::vector<std::uint8_t> duty;       ///< per row, see RowDuty
-  std::vector<std::uint8_t> news;       ///< per row, see RowNews
-  std::vector<std::uint8_t> near_news;  ///< what grew or flowed in the row or next to it
+  std::vector<double> fastest;  ///< per row: largest change of an elastic stretch in a step
+  std::vector<double> slack;    ///< per row: change of stretches that alters nothing yet
+  std::vector<double> path;     ///< per row: sum of all changes of stretches near it
+  std::vector<std::uint8_t> bond_changes;  ///< per row, see BondChanges
+  std::vector<std::uint8_t> row_changes;   ///< per row, see RowChanges
+  std::vector<std::uint8_t> near_changes;  ///< what grew or flowed in the row or next to it
 };
 
 }  // namespace perilink

@@ -55,7 +55,7 @@ double half_step_energy(const ExplicitModel& model, const ExplicitState& state, 
 template <int Bonds>
 double half_step_energy(const ExplicitModel& model, const ExplicitState& state, Index row,
                         double dt) {
-  const bool weakened = (duty_of_bonds(model.lattice, state, row) & RowDuty::weakened) != 0;
+  const bool weakened = (changes_of_bonds(model.lattice, state, row) & BondChanges::weakened) != 0;
   if (!weakened) return half_step_energy<Bonds, false, false>(model, state, row, dt);
   return model.weighs_halves() ? half_step_energy<Bonds, true, true>(model, state, row, dt)
                                : half_step_energy<Bonds, true, false>(model, state, row, dt);

@@ -198,7 +198,7 @@ void settle(const ExplicitModel& model, const Scratch& trial, Index r, ExplicitS
   double* equivalent = state.flow.equivalent.data() + row.first;
   double* locked = state.flow.normal.data() + row.first;
   double* yield = state.flow.yield.data() + row.first;
-  double* visit = state.flow.visit.data() + row.first;
+  double* look_at = state.flow.look_at.data() + row.first;
 #pragma omp simd
   for (Index i = 0; i < row.size; ++i) {
     const double g = trial.multiplier[i];
@@ -224,7 +224,7 @@ void settle(const ExplicitModel& model, const Scratch& trial, Index r, ExplicitS
     equivalent[i] += grown;
     yield[i] = curve.stress(equivalent[i]);
     // The returned stress may be above the surface by round-off.
-    visit[i] = yield[i] * (1.0 + 10.0 * round_off);
+    look_at[i] = yield[i] * (1.0 + 10.0 * round_off);
     if constexpr (!Flat) locked[i] = e * strain[2][i];
   }
 }
@@ -308,7 +308,7 @@ void update_plastic_parts(const ExplicitModel& model, ExplicitState& state, Inde
     }
   }
   lock_energy(model, state, r);
-  state.duty[r] |= RowDuty::altered;
+  state.bond_changes[r] |= BondChanges::altered;
 }
 
 void lock_energy(const ExplicitModel& model, ExplicitState& state, Index r) {
@@ -327,7 +327,7 @@ void lock_energy(const ExplicitModel& model, ExplicitState& state, Index r) {
 }
 
 void add_plastic_halves(const ExplicitModel& model, ExplicitState& state, Index r) {
-  state.duty[r] |= RowDuty::altered;
+  state.bond_changes[r] |= BondChanges::altered;
   if (model.rules == LatticeRules::mean_2017) return;
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];

@@ -24,8 +24,8 @@ enum class Level {
 
 Level level_of(const ExplicitModel& model, const ExplicitState& state, Index row) {
   if (!model.alters()) return Level::elastic;
-  if ((state.duty[row] & RowDuty::weakened) != 0) return Level::weakened;
-  return (state.duty[row] & RowDuty::altered) != 0 ? Level::flowed : Level::watched;
+  if ((state.bond_changes[row] & BondChanges::weakened) != 0) return Level::weakened;
+  return (state.bond_changes[row] & BondChanges::altered) != 0 ? Level::flowed : Level::watched;
 }
 
 /// What measuring a group of own bonds of a row reads and writes.

@@ -49,7 +49,7 @@ void at_bonds(Field& field, const LatticeRows& lattice, int first, const Lattice
 
 /// Whether the stretches of a row's bonds have weights of their own in the sums.
 inline bool is_weighted(const ExplicitModel& model, const ExplicitState& state, Index row) {
-  return model.weighs_halves() && (state.duty[row] & RowDuty::weakened) != 0;
+  return model.weighs_halves() && (state.bond_changes[row] & BondChanges::weakened) != 0;
 }
 
 /// Weights of own bonds in the sums of their two ends (half_bond_weight).

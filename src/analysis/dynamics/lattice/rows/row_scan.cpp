@@ -32,7 +32,7 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   const double* sum = state.now.sum.data() + state.now.places.first[r];
   const double* volume = model.volume.data() + row.first;
   const double* crack_at = state.crack_at.data() + row.first;
-  const double* visit = Yields ? state.flow.visit.data() + row.first : nullptr;
+  const double* look_at = Yields ? state.flow.look_at.data() + row.first : nullptr;
   const PlaneProducts nn(model.lattice);
   const double own = model.moduli.own, modulus = model.moduli.sum;
   const double half_length = 0.5 * model.lattice.spacing;
@@ -40,7 +40,7 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   const double* root_compression = state.root_compression.data() + row.first;
   const double nu = model.problem == Problem::plane_strain ? model.material.poissons_ratio : 0.0;
   const double* normal = Yields ? state.flow.normal.data() + row.first : nullptr;
-  const double* wait = state.wait.data() + row.first;
+  const double* quiet_until = state.quiet_until.data() + row.first;
   const double path = path_of(model, state, r), stiffness = stress_stiffness(model);
   double least = never;
   double *damage = left.damage.data(), *flow = left.flow.data();
@@ -69,12 +69,12 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
     const double mean = 0.5 * (sxx + syy), difference = 0.5 * (sxx - syy);
     const double radius = std::sqrt(difference * difference + sxy * sxy);
     const double rest = std::max(crack_at[i] * volume[i] - half_length * (mean + radius),
-                                 (wait[i] - path) * stiffness);
+                                 (quiet_until[i] - path) * stiffness);
     if constexpr (Yields) {
       // Mean stress in the plane over that out of it.
       const double over = half_length * (1.0 - 2.0 * nu) * mean + normal[i] * volume[i];
       const double shear = half_length * radius;
-      const double other = visit[i] * volume[i] - std::sqrt(over * over + 3.0 * shear * shear);
+      const double other = look_at[i] * volume[i] - std::sqrt(over * over + 3.0 * shear * shear);
       flow[i] = other;
       least = std::min(least, other);
     }
@@ -92,8 +92,8 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
   const double* sum = state.now.sum.data() + state.now.places.first[r];
   const double* volume = model.volume.data() + row.first;
   const double* crack_at = state.crack_at.data() + row.first;
-  const double* visit = model.material.yields ? state.flow.visit.data() + row.first : nullptr;
-  const double* wait = state.wait.data() + row.first;
+  const double* look_at = model.material.yields ? state.flow.look_at.data() + row.first : nullptr;
+  const double* quiet_until = state.quiet_until.data() + row.first;
   const double path = path_of(model, state, r), stiffness = stress_stiffness(model);
   double least = never;
   for (Index i = 0; i < row.size; ++i) {
@@ -102,7 +102,7 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
     for (int j = 0; j < 18; ++j) {
       const int k = j % 9;
       const double half_length = 0.5 * model.lattice.bonds[k].length;
-      const double plastic = visit != nullptr ? std::abs(bond.half[j][i]) : 0.0;
+      const double plastic = look_at != nullptr ? std::abs(bond.half[j][i]) : 0.0;
       const double own = model.own_modulus(k) * bond.effective[j][i];
       const double part = bond.present[j][i] * shared;
       // Damage may weaken the shared part as well.
@@ -110,8 +110,8 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
       pull += half_length * std::max(0.0, std::max(own, own + part) + excess);
       size += half_length * (std::max(std::abs(own), std::abs(own + part)) + excess);
     }
-    left.damage[i] = std::max(crack_at[i] * volume[i] - pull, (wait[i] - path) * stiffness);
-    if (visit != nullptr) left.flow[i] = visit[i] * volume[i] - size;
+    left.damage[i] = std::max(crack_at[i] * volume[i] - pull, (quiet_until[i] - path) * stiffness);
+    if (look_at != nullptr) left.flow[i] = look_at[i] * volume[i] - size;
     least = std::min({least, left.damage[i], left.flow[i]});
   }
   return least;
@@ -168,34 +168,36 @@ void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
 }
 
 double scan_stress(const ExplicitModel& model, const ExplicitState& state, Index r,
-                   std::uint8_t duty, Left& left) {
+                   std::uint8_t bond_changes, Left& left) {
   if (model.lattice.dim == 3) return scan_space(model, state, r, left);
-  const bool weakened = (duty & RowDuty::weakened) != 0;
+  const bool weakened = (bond_changes & BondChanges::weakened) != 0;
   if (!model.material.yields) {
     return weakened ? scan_plane<RowBonds::weakened, false>(model, state, r, left)
                     : scan_plane<RowBonds::whole, false>(model, state, r, left);
   }
   if (weakened) return scan_plane<RowBonds::weakened, true>(model, state, r, left);
-  return (duty & RowDuty::altered) != 0 ? scan_plane<RowBonds::flowed, true>(model, state, r, left)
-                                        : scan_plane<RowBonds::whole, true>(model, state, r, left);
+  return (bond_changes & BondChanges::altered) != 0
+             ? scan_plane<RowBonds::flowed, true>(model, state, r, left)
+             : scan_plane<RowBonds::whole, true>(model, state, r, left);
 }
 
 }  // namespace
 
-std::uint8_t duty_of_bonds(const LatticeRows& lattice, const ExplicitState& state, Index row) {
-  std::uint8_t duty = state.duty[row];
+std::uint8_t changes_of_bonds(const LatticeRows& lattice, const ExplicitState& state, Index row) {
+  std::uint8_t bond_changes = state.bond_changes[row];
   for (int k = 0; k < lattice.own_bonds(); ++k) {
     const Index in = lattice.row_in[row * lattice.own_bonds() + k];
-    if (in != no_index) duty |= state.duty[in];
+    if (in != no_index) bond_changes |= state.bond_changes[in];
   }
-  return duty;
+  return bond_changes;
 }
 
 bool has_weakened_rows(const ExplicitModel& model, const ExplicitState& state, Index row) {
-  const Index reach = model.lattice.reach, rows = static_cast<Index>(state.duty.size());
-  const auto first = state.duty.begin() + std::max<Index>(0, row - 2 * reach);
-  const auto last = state.duty.begin() + std::min<Index>(rows - 1, row + reach) + 1;
-  return std::any_of(first, last, [](auto duty) { return (duty & RowDuty::weakened) != 0; });
+  const Index reach = model.lattice.reach, rows = static_cast<Index>(state.bond_changes.size());
+  const auto first = state.bond_changes.begin() + std::max<Index>(0, row - 2 * reach);
+  const auto last = state.bond_changes.begin() + std::min<Index>(rows - 1, row + reach) + 1;
+  return std::any_of(first, last,
+                     [](auto bond_changes) { return (bond_changes & BondChanges::weakened) != 0; });
 }
 
 bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row) {
@@ -229,9 +231,9 @@ void scan_row(const ExplicitModel& model, const LatticeParticles& particles, Exp
   thread_local Left left;
   left.damage.resize(row.size);
   left.flow.assign(row.size, never);
-  const std::uint8_t duty = duty_of_bonds(model.lattice, state, r);
-  const double least = scan_stress(model, state, r, duty, left);
-  const bool cracked = (state.news[r] & RowNews::cracked) != 0;
+  const std::uint8_t bond_changes = changes_of_bonds(model.lattice, state, r);
+  const double least = scan_stress(model, state, r, bond_changes, left);
+  const bool cracked = (state.row_changes[r] & RowChanges::cracked) != 0;
   if (cracked && model.lattice.dim == 2) {
     scan_cracks(model, particles, state, r, left.damage.data());
   }
@@ -243,7 +245,7 @@ void scan_row(const ExplicitModel& model, const LatticeParticles& particles, Exp
     if (left.flow[i] < 0.0) due.flow.push_back(row.first + i);
   }
   // Factors change with the sign of a stretch, at no distance that could be counted.
-  const bool weakened = (duty & RowDuty::weakened) != 0;
+  const bool weakened = (bond_changes & BondChanges::weakened) != 0;
   state.slack[r] = weakened ? 0.0 : least / stress_stiffness(model);
 }
 

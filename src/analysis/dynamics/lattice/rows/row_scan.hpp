@@ -15,8 +15,8 @@ namespace perilink {
 /// and their neighbours off its slack.
 bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row);
 
-/// Duties of the rows that own bonds of the particles of a row: bits of RowDuty.
-std::uint8_t duty_of_bonds(const LatticeRows& lattice, const ExplicitState& state, Index row);
+/// Duties of the rows that own bonds of the particles of a row: bits of BondChanges.
+std::uint8_t changes_of_bonds(const LatticeRows& lattice, const ExplicitState& state, Index row);
 
 /// Whether bonds of the particles of a row or of their neighbours have factors of damage.
 bool has_weakened_rows(const ExplicitModel& model, const ExplicitState& state, Index row);
@@ -29,7 +29,7 @@ double stress_stiffness(const ExplicitModel& model);
 struct DueParticles {
   std::vector<Index> damage;  ///< first principal stress above crack_at, or by the rules of the
                               ///< papers strain above grow_at
-  std::vector<Index> flow;    ///< von Mises stress above flow.visit
+  std::vector<Index> flow;    ///< von Mises stress above flow.look_at
 };
 
 /// Finds the particles that have reached the thresholds that the state has for them, exact in the

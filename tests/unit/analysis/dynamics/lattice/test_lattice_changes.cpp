@@ -81,7 +81,7 @@ TEST(LatticeChanges, FlowAndDamageLoseTheirOwnParts) {
   for (Index r = 0; r < rows; ++r) {
     plastic += state.sums[r].plastic;
     fractured += state.sums[r].fractured;
-    both += state.near_news[r] == (RowNews::flowed | RowNews::damage_grew) ? 1 : 0;
+    both += state.near_changes[r] == (RowChanges::flowed | RowChanges::damage_grew) ? 1 : 0;
   }
   EXPECT_GT(both, 5);
   EXPECT_GT(before - flowed, 1e-3 * before);

@@ -35,7 +35,7 @@ TEST_P(HalfSteps, LieBetweenTheTwoSteps) {
       state.root_tension[slot] = 0.6 + 0.4 * std::sin(1.1 * slot);
       state.root_compression[slot] = 0.8 + 0.2 * std::cos(1.7 * slot);
     }
-    state.duty[r] |= RowDuty::altered | RowDuty::weakened;
+    state.bond_changes[r] |= BondChanges::altered | BondChanges::weakened;
   }
   const double dt = 1e-7, size = 1e-9;  // so small that stretches are linear in displacements
   for (const Index slot : lattice.particle_slot) {

@@ -203,8 +203,8 @@ TEST(ExplicitKernels, FactorsOfOneChangeNothing) {
         shake(model, state, 1e-4 * model.lattice.spacing);
         state.velocity = state.displacement;
         for (double& v : state.velocity) v *= 1e4;
-        for (std::uint8_t& duty : state.duty) {
-          if (factors) duty |= RowDuty::altered | RowDuty::weakened;
+        for (std::uint8_t& bond_changes : state.bond_changes) {
+          if (factors) bond_changes |= BondChanges::altered | BondChanges::weakened;
         }
         result[factors ? 1 : 0] = two_steps(model, state, 1e-7);
       }

@@ -62,7 +62,7 @@ void alter(const ExplicitModel& model, ExplicitState& state, Past past) {
   for (Index r = 0; r < rows; ++r) update_plastic_parts(model, state, r);
   for (Index r = 0; r < rows; ++r) add_plastic_halves(model, state, r);
   if (past == Past::flowed) return;
-  for (std::uint8_t& duty : state.duty) duty |= RowDuty::weakened;
+  for (std::uint8_t& bond_changes : state.bond_changes) bond_changes |= BondChanges::weakened;
 }
 
 /// One by one, every particle above a threshold is due; in the plane no other is.
@@ -83,7 +83,7 @@ void expect_due_particles(const ExplicitModel& model, Past past) {
       if (model.inverse_mass[slot] == 0.0) continue;
       const SymmetricTensor stress = particles.stress(state, particles.family(state, row, slot));
       const bool cracked = principal_values(stress, model.lattice.dim).first > state.crack_at[slot];
-      const bool flowed = mises_stress(stress) > state.flow.visit[slot];
+      const bool flowed = mises_stress(stress) > state.flow.look_at[slot];
       (cracked ? above : below) += 1;
       (flowed ? above : below) += 1;
       if (model.lattice.dim == 2) {
