@@ -177,6 +177,40 @@ TEST_P(CarriedParticles, WorkIsStoredOrDissipated) {
   EXPECT_LT(result.energy_error, 10.0 * round_off);
 }
 
+/// From the twentieth row on both particles are free: displacements and events are then those of
+/// a free body with the same secants, and the energy of the freedom is neither lost nor called
+/// dissipation.
+TEST_P(CarriedParticles, MayBecomeFreeDuringARun) {
+  const AnalysisBody free = block_of(GetParam());
+  Index rows = 0;
+  DamageOptions options;
+  options.new_motion = [&](StateSource&) { return ++rows == 20 ? &free.unknowns : nullptr; };
+  double largest = 0.0, freed = 0.0;
+  Recorder recorder(
+      [&](const StepRecord& row, StateSource& source) {
+        const StepState state = source.state();
+        const double stored = row.load_factor * row.load_factor *
+                              stored_energy(state.network, state.secants, state.displacement);
+        largest = std::max(largest, row.external_work);
+        const double missing = row.external_work - stored - row.dissipated_energy;
+        if (row.step <= 20) {
+          EXPECT_NEAR(missing, 0.0, 10.0 * round_off * largest) << "row " << row.step;
+          return;
+        }
+        EXPECT_LT(difference(state.displacement, dense_displacement(free, state.secants)),
+                  round_off)
+            << "row " << row.step;
+        if (row.step == 21) freed = missing;
+        EXPECT_NEAR(missing, freed, 10.0 * round_off * largest) << "row " << row.step;
+      },
+      60);
+  const DamageResult result = run(body_, options, recorder);
+  ASSERT_EQ(recorder.rows.size(), 60U);
+  EXPECT_GT(freed, 1e-6 * largest);
+  EXPECT_NEAR(result.freed_energy, freed, 10.0 * round_off * largest);
+  EXPECT_LT(result.energy_error, 10.0 * round_off);
+}
+
 TEST_P(CarriedParticles, MoveAsTheirCarriersDo) {
   const ElasticResult result = run_elastic_analysis(body_, 1);
   EXPECT_LT(difference(result.displacement, dense_answer(intact(body_.network))), round_off);

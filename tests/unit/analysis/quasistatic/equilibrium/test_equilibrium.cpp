@@ -69,6 +69,52 @@ TEST(Equilibrium, UnbreakablePartsAreBroughtUpToDateWhenAsked) {
   }
 }
 
+/// A glance measures the forces where bonds can break, and leaves the other displacements as they
+/// are; where these are out of balance it becomes a look at the whole body.
+TEST(Equilibrium, AGlanceCostsNoSolve) {
+  const AnalysisBody body = make_partly_unbreakable(rectangular);
+  Equilibrium equilibrium(body, {});
+  EXPECT_FALSE(std::isnan(equilibrium.glance().stored_energy)) << "all is current at the start";
+  std::vector<double> first(equilibrium.displacement().begin(), equilibrium.displacement().end());
+  Index weakened = 0;
+  while (!body.network.has_limit(weakened)) ++weakened;
+  ASSERT_FALSE(equilibrium.weaken(weakened, 0.5).mechanism);
+  const Balance balance = equilibrium.glance();
+  EXPECT_TRUE(std::isnan(balance.stored_energy));
+  EXPECT_LT(balance.residual, 1e-12);
+  Index stale = 0;
+  const auto seen = equilibrium.where_elements_fail();
+  for (std::size_t slot = 0; slot < first.size(); ++slot) stale += seen[slot] == first[slot];
+  EXPECT_GT(stale, 10);
+  EquilibriumOptions strict;
+  strict.residual_tolerance = 1e-30;  // no arithmetic meets it
+  Equilibrium doubted(body, strict);
+  ASSERT_FALSE(doubted.weaken(weakened, 0.5).mechanism);
+  EXPECT_FALSE(std::isnan(doubted.glance().stored_energy));
+}
+
+/// The reactions of a driven body follow the events; they are those of the elements at any of them.
+TEST(Equilibrium, WorkOfADrivenBodyFollowsItsEvents) {
+  for (const bool micropolar : {false, true}) {
+    BlockCase block{rectangular, true};
+    block.columns = 10;
+    block.micropolar = micropolar;
+    const AnalysisBody body = make_block(block);
+    SingleEventEngine engine = make_engine(body);
+    for (int k = 0; k < 40; ++k) {
+      const Event event = engine.next_event();
+      ASSERT_NE(event.element, no_index);
+      const LoadWork work = engine.load_work();
+      const Eigen::VectorXd u = dense_displacement(body, engine.secants());
+      const double stored = stored_energy(body.network, engine.secants(),
+                                          {u.data(), static_cast<std::size_t>(u.size())});
+      // Round-off of 1e-16 times the condition number, some 1e4, per event.
+      EXPECT_NEAR(work.forces + work.supports, 2.0 * stored, 1e-10 * stored) << k;
+      if (engine.apply(event).mechanism) break;
+    }
+  }
+}
+
 TEST(Equilibrium, PartialDisplacementsFindTheSameEvents) {
   AnalysisBody body = make_partly_unbreakable(hexagonal);
   SingleEventEngine partial = make_engine(body);
