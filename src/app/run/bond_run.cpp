@@ -96,11 +96,11 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model) {
   return built;
 }
 
-MovingBonds::MovingBonds(const CaseFile& of_case, int on_threads, bool quiet)
+MovingBondsRun::MovingBondsRun(const CaseFile& of_case, int on_threads, bool quiet)
     : NetworkRun(of_case, on_threads, quiet),
       families_(bonds_of_particles(model_.network.bonds, model_.network.particles.size())) {}
 
-void MovingBonds::write_state(const ExplicitRecord& record, const BondRunState& state) {
+void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunState& state) {
   files_->write_fields(record.step, record.time, [&] {
     FieldMoment moment = moment_of(record, input, model_);
     moment.time = record.time;
@@ -117,34 +117,34 @@ void MovingBonds::write_state(const ExplicitRecord& record, const BondRunState& 
   });
 }
 
-void MovingBonds::on_row(const ExplicitRecord& record, const BondRunState& state) {
+void MovingBondsRun::on_row(const ExplicitRecord& record, const BondRunState& state) {
   files_->add_row(record, gauge_values(model_, state.motion.displacement, 1.0));
   if (files_->fields_are_due(record.time)) write_state(record, state);
   files_->show_steps(record, steps_);
 }
 
-void MovingBonds::on_end(const ExplicitRecord& last, const BondRunState& state) {
+void MovingBondsRun::on_end(const ExplicitRecord& last, const BondRunState& state) {
   write_state(last, state);
   if (!model_.network.has_states()) loose_pieces_ = count_loose_pieces(model_, state);
 }
 
-void MovingBonds::on_iteration(Index load_step, Index iteration, double residual) {
+void MovingBondsRun::on_iteration(Index load_step, Index iteration, double residual) {
   if (!files_->bar().is_due()) return;
   files_->bar().draw(fmt::format("load step {} of {}, iteration {}, residual {:.1e}", load_step,
                                  steps_, iteration, residual),
                      static_cast<double>(load_step - 1) / steps_);
 }
 
-bool MovingBonds::stop_requested() { return stop_signal_received(); }
+bool MovingBondsRun::stop_requested() { return stop_signal_received(); }
 
 namespace {
 
 /// A run with type = "explicit" of a body with bonds, which move instead of going from equilibrium
 /// to equilibrium.
-class BondRun final : public MovingBonds {
+class BondRun final : public MovingBondsRun {
  public:
   BondRun(const CaseFile& of_case, int on_threads, bool quiet)
-      : MovingBonds(of_case, on_threads, quiet), built_(build_bond_run(of_case, model_)) {
+      : MovingBondsRun(of_case, on_threads, quiet), built_(build_bond_run(of_case, model_)) {
     built_.options.threads = threads;
     steps_ = built_.steps;
     plan += fmt::format(", {} steps of {:.4g} (critical {:.4g})", steps_, built_.options.time_step,

@@ -20,9 +20,9 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model);
 
 /// A run whose bonds move: every row goes into the history, the states at the times that the case
 /// asks for (and the first and the last, in a dynamic relaxation all) into field files.
-class MovingBonds : public NetworkRun, protected BondRunObserver {
+class MovingBondsRun : public NetworkRun, protected BondRunObserver {
  public:
-  MovingBonds(const CaseFile& of_case, int on_threads, bool quiet);
+  MovingBondsRun(const CaseFile& of_case, int on_threads, bool quiet);
 
  protected:
   void on_row(const ExplicitRecord& record, const BondRunState& state) override;

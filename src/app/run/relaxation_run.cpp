@@ -31,10 +31,10 @@ double expected_iterations(const Model& model, const RelaxationOptions& options)
 namespace {
 
 /// A run with type = "relaxation": bonds that are brought to rest.
-class RelaxationRun final : public MovingBonds {
+class RelaxationRun final : public MovingBondsRun {
  public:
   RelaxationRun(const CaseFile& of_case, int on_threads, bool quiet)
-      : MovingBonds(of_case, on_threads, quiet) {
+      : MovingBondsRun(of_case, on_threads, quiet) {
     steps_ = static_cast<Index>(input.analysis.load_factors.size());
     plan += fmt::format(", {} load steps", steps_);
   }

@@ -2,7 +2,7 @@
 
 #include "analysis/dynamics/bonds/moving_bonds.hpp"
 #include "analysis/dynamics/bonds/state_particles.hpp"
-#include "analysis/dynamics/strain.hpp"
+#include "material/strain.hpp"
 
 namespace perilink {
 

@@ -95,7 +95,7 @@ TEST(Gauges, KnowTheirPlaces) {
   expect_refused(input, "gauges[1].name", "a column that every history has");
   input.gauges[0].name = "kinetic_energy";
   build_model(input);  // which only runs over time have
-  input.analysis.type = "relaxation";
+  input.analysis.type = AnalysisType::relaxation;
   expect_refused(input, "gauges[1].name", "a column that every history has");
 }
 
