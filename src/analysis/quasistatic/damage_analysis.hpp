@@ -46,8 +46,8 @@ struct DamageResult {
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;
   double freed_energy = 0.0;  ///< PathEnergy::freed() [force length]
-  /// Largest |work - stored - dissipated - freed| / work of all rows, the stored energy summed over the
-  /// elements wherever the residual was measured.
+  /// Largest |work - stored - dissipated - freed| / work of all rows, the stored energy summed over
+  /// the elements wherever the whole equilibrium was measured.
   double energy_error = 0.0;
   FactorStatistics factor;
 };

@@ -7,10 +7,10 @@ namespace perilink {
 /// Energies along the path drawn by straight lines through the rows of a history. Between two rows
 /// with load factors lambda_k and lambda_(k+1) the loads do the work of trapezoids; the event
 /// between them dissipates lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2, C the compliance f'u - R'd at
-/// load factor 1, and work = stored + dissipated holds exactly. Where particles become freer without
-/// an event, by unknowns of their own, C grows too; what that takes from the stored energy is no
-/// dissipation but an error of the unknowns before, and kept apart: work = stored + dissipated +
-/// freed.
+/// load factor 1, and work = stored + dissipated holds exactly. Where particles become freer
+/// without an event, by unknowns of their own, C grows too; what that takes from the stored energy
+/// is no dissipation but an error of the unknowns before, and kept apart: work = stored +
+/// dissipated + freed.
 class PathEnergy {
  public:
   /// Moves along the path to the next row.

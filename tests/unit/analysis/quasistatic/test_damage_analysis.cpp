@@ -38,7 +38,7 @@ AnalysisBody make_driven_chains() {
   return body;
 }
 
-/// make_square(): row by row what test_event_engine.cpp works out.
+/// make_square(): row by row what test_make_event_engine.cpp works out.
 TEST(DamageAnalysis, CollapsesExactlyWhenTheLastLoadPathGoes) {
   const AnalysisBody body = make_square();
   Recorder recorder;

@@ -32,8 +32,9 @@ struct RowReactions {
   double supports = 0.0;  ///< sum over supports along the load [force]
 };
 
-/// What a row needs beyond the elastic work: bits of ExplicitState::bond_changes, which change with its
-/// bonds only, and of ExplicitState::row_changes, which change while its own particles are looked at.
+/// What a row needs beyond the elastic work: bits of ExplicitState::bond_changes, which change with
+/// its bonds only, and of ExplicitState::row_changes, which change while its own particles are
+/// looked at.
 struct BondChanges {
   static constexpr std::uint8_t altered = 1;   ///< own bonds or sums have factors or plastic parts
   static constexpr std::uint8_t weakened = 2;  ///< own bonds have factors
