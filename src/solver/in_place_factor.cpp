@@ -74,7 +74,7 @@ void InPlaceFactor::adopt_pattern() {
   beta_.assign(size_, 0.0);
   w_.assign(size_, 0.0);
   on_path_.assign(count, 0);
-  path_.clear();  // of a former pattern
+  path_.clear();  // left by a former pattern
   wanted_.clear();
   local_.assign(static_cast<std::size_t>(longest_) * 2 * threads_, 0.0);
 }

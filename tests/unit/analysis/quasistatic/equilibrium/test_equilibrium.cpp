@@ -31,7 +31,7 @@ double force_work(const AnalysisBody& body, const Eigen::VectorXd& u) {
 }
 
 /// Only bonds in the middle can break, so the engine need not follow the ends.
-/// \param part  of the length in which they can
+/// \param part  where they can, over the length
 AnalysisBody make_partly_unbreakable(const LatticeCase& lattice, double part = 0.25) {
   AnalysisBody body = make_block({lattice, false, false, 12});
   Network& network = body.network;
