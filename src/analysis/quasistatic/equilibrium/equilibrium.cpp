@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
@@ -88,12 +89,20 @@ double Equilibrium::change_motion(const Unknowns& unknowns) {
   if (!ground_stiffness_.empty()) {
     throw SolverError("the unknowns cannot change while ground springs hold a loose part");
   }
+  if (unknowns.prescribed != unknowns_->prescribed) {
+    throw std::invalid_argument("prescribed motions do not change with the unknowns");
+  }
+  if (stale_) refresh();
   events_to_follow_ = 0;
-  const double before = work().compliance();
+  const LoadWork before = work();
   unknowns_ = &unknowns;
   adopt_motion();
   events_to_follow_ = 0;
-  return work().compliance() - before;
+  const LoadWork after = work();
+  if (before.separated || after.separated) {
+    throw SolverError("the unknowns change while the body does not resist what drives it");
+  }
+  return after.compliance() - before.compliance();
 }
 
 /// Under forces alone an event needs the displacements of elements that can fail, and no others:
@@ -136,6 +145,8 @@ void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
   for (std::size_t k = 0; k < slot_of_.size(); ++k) {
     glanced_[k] = inside[slot_of_[k] / static_cast<std::size_t>(network_.width())];
   }
+  const bool none = std::count(glanced_.begin(), glanced_.end(), 1) == 0;
+  if (none) glanced_elements_.clear();
 }
 
 std::vector<double> Equilibrium::present_load() const {
@@ -195,7 +206,7 @@ LoadWork Equilibrium::work() {
     work = sum_work();
     followed_from_ = work.forces + work.supports;
     followed_compliance_ = work.compliance();
-    events_to_follow_ = most_events_to_follow;
+    events_to_follow_ = work.separated ? 0 : most_events_to_follow;
   }
   last_work_ = work.forces + work.supports;
   return work;
@@ -251,7 +262,10 @@ double Equilibrium::residual_of_current() {
   for (std::size_t k = 0; k < solution_.size(); ++k) {
     if (glanced_[k] == 0) continue;
     const std::size_t slot = slot_of_[k];
-    const double missing = loads_.forces[slot] - internal_.forces[slot];
+    double missing = loads_.forces[slot] - internal_.forces[slot];
+    if (!network_.support_stiffness.empty()) {
+      missing -= network_.support_stiffness[slot] * displacement_[slot];
+    }
     square += missing * missing;
   }
   return std::sqrt(square) / load_norm_;

@@ -96,7 +96,9 @@ class Equilibrium {
   /// Particles move by other unknowns from now on; loads, secants and prescribed motions stay.
   /// \param unknowns  must outlive this
   /// \return growth of the compliance f'u - R'd, positive where particles became freer
-  /// \throws SolverError while ground springs hold something
+  /// \throws SolverError while ground springs hold something, and where something is not held by
+  ///         the new unknowns: the object is of no use then
+  /// \throws std::invalid_argument where prescribed motions differ
   double change_motion(const Unknowns& unknowns);
 
   const Factor& factor() const { return *factor_; }

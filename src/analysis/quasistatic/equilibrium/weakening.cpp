@@ -132,7 +132,7 @@ bool Equilibrium::hold_free_modes(Removal& removal, Index element, double unload
     for (int m = 0; m < removal.rank && removal.pivot[m] == 0.0; ++m) {
       energy += deformation[m] * deformation[m];
     }
-    if (energy > unloaded) return false;
+    if (!(energy <= unloaded)) return false;
     if (tries == most) {
       throw SolverError("a part that comes loose cannot be held by ground springs");
     }
@@ -204,8 +204,8 @@ int Equilibrium::cut(Index element) {
   measure_pivots(removal, element, 0.0);
   int springs = 0;
   // A force, as far as forces and moments compare: sqrt(k) times sqrt(k) times an extension.
-  const double unloaded =
-      std::pow(least_loaded_force * load_norm_, 2) / network_.stiffness[element];
+  const double unloaded = std::pow(least_loaded_force * load_norm_, 2) /
+                          (network_.stiffness[element] * secants_[element]);
   if (!hold_free_modes(removal, element, unloaded, springs)) {
     throw SolverError("the part that comes loose carries load: the body has separated");
   }
