@@ -208,7 +208,7 @@ LoadWork Equilibrium::work() {
     followed_compliance_ = work.compliance();
     events_to_follow_ = work.separated ? 0 : most_events_to_follow;
   }
-  last_work_ = work.forces + work.supports;
+  if (!work.separated) last_work_ = work.forces + work.supports;
   return work;
 }
 
