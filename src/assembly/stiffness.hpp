@@ -14,10 +14,9 @@
 namespace perilink {
 
 /// Lower triangle of K = sum over elements of k n n' (trusses) or of k_m b_m b_m' over the modes of
-/// a frame (network/frame.hpp) between its free ends (unknown by unknown), with c h h'
-/// of the particles' states where they have some: h u is the sum of the extensions of the
-/// particle's bonds, each times its secant, so that particles that share a neighbour are coupled
-/// (docs/theory/lattice_particles.md, section 6).
+/// a frame (network/frame.hpp) between its free ends (unknown by unknown). Particles with states
+/// add c h h': h u is the sum of the extensions of the particle's bonds, each times its secant, so
+/// that particles that share a neighbour are coupled (docs/theory/lattice_particles.md, section 6).
 /// \param secants  present stiffness of each element as a fraction of the intact one; broken
 ///                 elements keep their place in the pattern (as zeros), so that the pattern does
 ///                 not change while bonds break

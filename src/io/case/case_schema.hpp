@@ -9,8 +9,8 @@
 
 namespace perilink {
 
-/// Kinds of cases, as bits in three groups: bodies, their dimensions, analyses. A case has one bit
-/// of each group.
+/// Kinds of cases, as bits in three groups: bodies, their dimensions, analyses. Each group has one
+/// bit set in a case.
 using Kinds = unsigned;
 
 namespace kinds {

@@ -18,8 +18,8 @@ struct BondRunState {
   const Network& network;
   const BondMotion& motion;
   const ExplicitBonds& bonds;
-  /// Bonds that broke, where particles crack and not bonds those that did: first ones first, those
-  /// of one step in the order of their numbers.
+  /// Bonds that broke, or particles that cracked where bonds cannot break: in the order of time,
+  /// within a step in that of their numbers.
   const std::vector<Index>& broken;
 };
 
