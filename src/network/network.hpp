@@ -18,6 +18,16 @@ namespace perilink {
 /// Ends of a bond, as bits.
 enum BondEnd : std::uint8_t { first_end = 1, second_end = 2 };
 
+/// What the bonds of a material make of it.
+struct MaterialStrength {
+  double tensile_strength = 0.0;  ///< uniaxial [force/length^2]; 0: nothing can break
+  double fracture_energy = 0.0;   ///< that its bonds release [force/length]
+  double process_zone = 0.0;      ///< E G_F / f_t^2 [length]
+  double first_stretch = 0.0;     ///< where the force of a bond begins to fall, s_0 [-]
+  double last_stretch = 0.0;      ///< where it has fallen to zero, s_1 [-]
+  Index teeth = 0;                ///< events until a bond is broken
+};
+
 /// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds
 /// of the solid first, then ties between bars and solid, then the segments of the bars.
 struct Network {
@@ -49,6 +59,7 @@ struct Network {
   /// By which each element's law counts its stretches [-]: where brittle bonds break, the yield
   /// strain of bars; infinity: stays elastic.
   std::vector<double> critical_stretch;
+  std::vector<MaterialStrength> strengths;  ///< by material; empty where bonds were not asked
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: none.
   std::vector<double> support_stiffness;

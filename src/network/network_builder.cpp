@@ -10,6 +10,7 @@
 #include "discretization/cuts/outside_bonds.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
+#include "network/bond_softening.hpp"
 #include "network/surface_correction.hpp"
 #include "network/unknowns.hpp"
 
@@ -180,6 +181,7 @@ Network build_network(const Body& body, const NetworkInput& input) {
     network.cut_by_crack = cut.count;
   }
   add_bars(body, input, constants, network);
+  soften_bonds(body, input, network);
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
   }

@@ -13,6 +13,7 @@
 #include "material/elasticity.hpp"
 #include "material/micromodulus.hpp"
 #include "material/micropolar.hpp"
+#include "material/softening.hpp"
 
 namespace perilink {
 
@@ -22,12 +23,13 @@ enum class BondModel {
   micropolar,  ///< extension, shear and bending: a frame; particles rotate
 };
 
-/// A brittle elastic solid.
+/// An elastic solid whose bonds break or soften.
 struct SolidMaterial {
   double youngs_modulus = 0.0;                                       ///< E [force/length^2]
   double fracture_energy = std::numeric_limits<double>::infinity();  ///< G_F [force/length];
                                                                      ///< infinity: unbreakable
   double poissons_ratio = 0.0;  ///< nu of micropolar bonds; others have no choice
+  SofteningMaterial softening = {};
 };
 
 /// A reinforcing bar.

@@ -63,6 +63,21 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
   }
 }
 
+void print_strengths(const std::vector<MaterialStrength>& strengths) {
+  for (std::size_t m = 0; m < strengths.size(); ++m) {
+    const MaterialStrength& strength = strengths[m];
+    if (strength.teeth == 0) continue;
+    fmt::print("#   tensile strength   {:.5g}, process zone E G/f^2 = {:.4g}, material {}\n",
+               strength.tensile_strength, strength.process_zone, m + 1);
+    if (strength.teeth == 1) {
+      fmt::print("#                      by the horizon, as brittle bonds have it\n");
+    } else {
+      fmt::print("#   softening          at stretches from {:.5g} to {:.5g} in {} teeth\n",
+                 strength.first_stretch, strength.last_stretch, strength.teeth);
+    }
+  }
+}
+
 void print_elements(const Model& model) {
   if (model.elements) {
     fmt::print("#   linear elements    {}\n", model.elements->cells.size());
@@ -78,6 +93,7 @@ void print_elements(const Model& model) {
     fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
   }
   print_breakable(network, model.crack_cost);
+  print_strengths(network.strengths);
 }
 
 void print_spacing(const Model& model) {

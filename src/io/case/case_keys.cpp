@@ -63,11 +63,16 @@ const Without models = {
 const Without types = {{elements | explicit_, "is \"explicit\", but linear elements have no masses",
                         "set method = \"bonds\" in [body], or type = \"elastic\""}};
 
-const Without softening = {
+const Without softening = {{elements, no_bonds, bonds_instead}};
+const Without bond_softening = {
+    {elements, no_bonds, bonds_instead},
+    {lattice | particles, "is given, but only bonds that carry no states have it",
+     "delete it; `critical_opening` and the knee give the law of these particles"}};
+const Without crack_opening = {
     {bonds | elements,
      "is given, but only bodies with model = \"lattice\" or \"particles\" have it",
-     "delete it (bonds break by fracture_energy or critical_stretch), or set another model in "
-     "[body]"}};
+     "delete it (bonds break by fracture_energy, tensile_strength and softening), or set another "
+     "model in [body]"}};
 const Without lattice_material = {{bonds | elements | particles, only_lattices, lattice_instead}};
 const Without material_damping = {
     {particles, only_lattices,
@@ -170,11 +175,14 @@ const std::vector<KeySchema> material_keys = {"name",
                                               "fracture_energy",
                                               "density",
                                               {"tensile_strength", softening},
-                                              {"critical_opening", softening},
+                                              {"softening", bond_softening},
+                                              {"softening_error", bond_softening},
+                                              {"softening_stretches", bond_softening},
+                                              {"critical_opening", crack_opening},
                                               {"knee_stress_ratio", softening},
                                               {"knee_opening_ratio", softening},
-                                              {"compression_ratio", softening},
-                                              {"compression_threshold", softening},
+                                              {"compression_ratio", crack_opening},
+                                              {"compression_threshold", crack_opening},
                                               {"boundary_factor", lattice_material},
                                               {"yield_strength", lattice_material},
                                               {"ultimate_strength", lattice_material},

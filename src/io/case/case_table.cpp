@@ -157,6 +157,15 @@ std::optional<double> CaseTable::positive(const std::string& key) const {
   return value;
 }
 
+std::optional<double> CaseTable::fraction(const std::string& key) const {
+  const std::optional<double> value = positive(key);
+  if (value && *value >= 1.0) {
+    refuse(key, fmt::format("is {}, but must be less than 1", *value),
+           "give a number between 0 and 1");
+  }
+  return value;
+}
+
 const TomlValue* CaseTable::array(const std::string& key, const char* of) const {
   const TomlValue* value = table_.find(key);
   if (value != nullptr && value->kind != TomlValue::Kind::array) {

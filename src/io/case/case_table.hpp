@@ -46,6 +46,8 @@ class CaseTable {
   /// Integers count as numbers.
   std::optional<double> number(const std::string& key) const;
   std::optional<double> positive(const std::string& key) const;
+  /// A number above zero and below one.
+  std::optional<double> fraction(const std::string& key) const;
   std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// As many numbers as the body has dimensions.
   std::optional<Vector3> vector(const std::string& key, int dim) const;

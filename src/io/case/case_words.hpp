@@ -9,6 +9,7 @@
 #include "material/lattice_rules.hpp"
 #include "material/mass_scaling.hpp"
 #include "material/micromodulus.hpp"
+#include "material/softening.hpp"
 #include "material/strain.hpp"
 #include "solver/factor_route.hpp"
 
@@ -109,6 +110,8 @@ template <>
 inline constexpr auto words_of<Constants> = words("lattice", "continuum");
 template <>
 inline constexpr auto words_of<CriticalStretch> = words("dissipated", "lattice", "continuum");
+template <>
+inline constexpr auto words_of<Softening> = words("brittle", "linear", "bilinear", "exponential");
 template <>
 inline constexpr auto words_of<LatticeRules> = words("consistent", "2018", "2017");
 template <>

@@ -38,7 +38,9 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
   std::vector<double> costs;
   if (input.body.critical_stretch != CriticalStretch::dissipated) return costs;
   for (SolidMaterial& material : network.materials) {
-    costs.push_back(crack_cost(body, network, material));
+    // Bonds that soften do not snap.
+    const bool snaps = material.softening.shape.kind == Softening::brittle;
+    costs.push_back(snaps ? crack_cost(body, network, material) : 1.0);
     material.fracture_energy /= costs.back();
   }
   return costs;

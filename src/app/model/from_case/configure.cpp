@@ -19,7 +19,9 @@
 #include "discretization/lattices/make_body.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "io/case/sections/case_softening.hpp"
 #include "io/case/sections/case_unused.hpp"
+#include "network/bond_softening.hpp"
 #include "network/network_builder.hpp"
 
 namespace perilink {
@@ -211,8 +213,12 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
     network.solid.insert(network.solid.end(), boxes.begin(), boxes.end());
   }
   for (const MaterialSection& material : input.materials) {
-    network.materials.push_back(
-        {material.youngs_modulus, material.fracture_energy, material.poissons_ratio.value_or(0.0)});
+    // Stretches need no energy: any will do, and the network says what they take.
+    const double energy = has_stretches(material.softening) ? 1.0 : material.fracture_energy;
+    const bool elastic = input.analysis.type == AnalysisType::elastic;
+    network.materials.push_back({material.youngs_modulus, energy,
+                                 material.poissons_ratio.value_or(0.0),
+                                 elastic ? SofteningMaterial{} : material.softening});
   }
   for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
   for (const RebarSection& bar : input.rebar) {
@@ -257,6 +263,16 @@ void refuse_unbending_materials(const CaseFile& input, const NetworkInput& netwo
 Network build_case_network(const CaseFile& input, const Body& body, const NetworkInput& network) {
   try {
     return build_network(body, network);
+  } catch (const TooStrong& error) {
+    const double strength = network.materials[error.material].softening.tensile_strength;
+    throw InputError(
+        input.where(item_key("materials", error.material, "tensile_strength")),
+        fmt::format("is {:.6g}, but with a horizon of {:.6g} a bond would hold {:.3g} times the "
+                    "energy at this stress that fracture_energy lets it dissipate",
+                    strength, network.horizon, 1.0 / error.share),
+        fmt::format("take a horizon below {:.4g}, a strength below {:.4g} or a larger "
+                    "fracture_energy; brittle bonds have no strength of their own",
+                    network.horizon * error.share, strength * std::sqrt(error.share)));
   } catch (const std::invalid_argument& error) {
     refuse_unbending_materials(input, network);
     throw InputError(input.where(horizon_key(input.body)), error.what(),

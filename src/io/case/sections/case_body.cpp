@@ -10,6 +10,7 @@
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_softening.hpp"
 
 namespace perilink {
 namespace {
@@ -231,7 +232,9 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
     return material;
   }
   material.poissons_ratio = read_poissons_ratio(table, body);
-  material.fracture_energy = read_fracture_energy(table);
+  material.softening = read_softening(table);
+  material.fracture_energy = has_stretches(material.softening) ? 0.0 : read_fracture_energy(table);
+  if (std::isinf(material.fracture_energy)) refuse_softening(table);
   material.density = table.positive("density");
   return material;
 }

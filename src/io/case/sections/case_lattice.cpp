@@ -20,16 +20,6 @@ constexpr int most_rows = 1000000;
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
                                        "compression_threshold", "boundary_factor"};
-/// A number above zero and below one.
-std::optional<double> proper_fraction(const CaseTable& table, const std::string& key) {
-  const std::optional<double> value = table.positive(key);
-  if (value && *value >= 1.0) {
-    table.refuse(key, fmt::format("is {}, but must be less than 1", *value),
-                 "give a number between 0 and 1");
-  }
-  return value;
-}
-
 std::optional<double> not_negative(const CaseTable& table, const std::string& key) {
   const std::optional<double> value = table.number(key);
   if (value && *value < 0.0) {
@@ -39,18 +29,18 @@ std::optional<double> not_negative(const CaseTable& table, const std::string& ke
   return value;
 }
 
-void read_softening(const CaseTable& table, const BodySection& body,
+void read_crack_opening(const CaseTable& table, const BodySection& body,
                     LatticeMaterialSection& section) {
   section.tensile_strength = table.need("tensile_strength", table.positive("tensile_strength"),
                                         "the tensile strength at which damage begins");
   section.critical_opening = table.positive("critical_opening");
-  assign(section.knee_stress_ratio, proper_fraction(table, "knee_stress_ratio"));
-  assign(section.knee_opening_ratio, proper_fraction(table, "knee_opening_ratio"));
+  assign(section.knee_stress_ratio, table.fraction("knee_stress_ratio"));
+  assign(section.knee_opening_ratio, table.fraction("knee_opening_ratio"));
   assign(section.compression_ratio, table.positive("compression_ratio"));
   // What the papers of each variant have.
   section.compression_threshold = body.variant == LatticeRules::least_2018 ? 0.8 : 1.0 / 3.0;
   section.boundary_factor = body.variant == LatticeRules::consistent ? 1.0 : 0.2;
-  assign(section.compression_threshold, proper_fraction(table, "compression_threshold"));
+  assign(section.compression_threshold, table.fraction("compression_threshold"));
   assign(section.boundary_factor, table.positive("boundary_factor"));
 }
 
@@ -143,7 +133,7 @@ void read_state_material(const CaseTable& table, const BodySection& body,
                  "lets the material break, but the rules of 2018 have no damage in space",
                  "write fracture_energy = \"infinite\", or take another variant in [body]");
   }
-  if (breakable) read_softening(table, body, section);
+  if (breakable) read_crack_opening(table, body, section);
   for (const char* key : softening_keys) {
     if (breakable || !table.has(key)) continue;
     table.refuse(key, "is given, but the material is unbreakable",

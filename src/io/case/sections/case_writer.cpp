@@ -11,6 +11,7 @@
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_softening.hpp"
 #include "io/text/toml_writer.hpp"
 
 namespace perilink {
@@ -59,6 +60,7 @@ void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
     if (material.lattice) {
       write_state_material(out, material, is_lattice(input.body));
     } else {
+      write_softening(out, material.softening);
       out.write("density", material.density);
     }
   }

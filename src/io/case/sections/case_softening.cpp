@@ -1,0 +1,103 @@
+#include "io/case/sections/case_softening.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "io/case/case_words.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
+constexpr std::array keys = {"softening",       "tensile_strength",  "softening_stretches",
+                             "softening_error", "knee_stress_ratio", "knee_opening_ratio"};
+
+/// The first of the keys that is there; none: null.
+template <std::size_t count>
+const char* find_given(const CaseTable& table, const std::array<const char*, count>& names) {
+  for (const char* key : names) {
+    if (table.has(key)) return key;
+  }
+  return nullptr;
+}
+
+std::array<double, 2> read_stretches(const CaseTable& table, Softening kind) {
+  const std::string key = "softening_stretches";
+  const auto given = table.numbers(key);
+  if (!given) return {};
+  if (kind == Softening::exponential) {
+    table.refuse(key, "is given, but an exponential curve has no end",
+                 "give `tensile_strength` and `fracture_energy`");
+  }
+  if (table.has("fracture_energy")) {
+    table.refuse("fracture_energy", "is given beside `softening_stretches`",
+                 "delete one of the two: the stretches settle the energy");
+  }
+  if (given->size() != 2 || !((*given)[0] > 0.0) || !((*given)[1] > (*given)[0])) {
+    table.refuse(key, "must be two stretches that rise",
+                 "give where the force of a bond begins to fall and where it has fallen to zero: "
+                 "[1e-4, 1e-3]");
+  }
+  return {(*given)[0], (*given)[1]};
+}
+
+void refuse_beside_brittle(const CaseTable& table) {
+  for (const char* key : keys) {
+    if (std::string(key) == "softening" || !table.has(key)) continue;
+    table.refuse(key, "is given, but the bonds are brittle",
+                 "delete it, or set softening = \"linear\", \"bilinear\" or \"exponential\": the "
+                 "strength of brittle bonds follows from fracture_energy and the horizon");
+  }
+}
+
+}  // namespace
+
+SofteningMaterial read_softening(const CaseTable& table) {
+  SofteningMaterial material;
+  const auto kind = table.choice<Softening>("softening");
+  const bool named = kind || table.has("tensile_strength") || table.has("softening_stretches");
+  material.shape.kind = kind.value_or(named ? Softening::bilinear : Softening::brittle);
+  if (material.shape.kind == Softening::brittle) {
+    refuse_beside_brittle(table);
+    return material;
+  }
+  table.need_one_of({"tensile_strength", "softening_stretches"});
+  assign(material.tensile_strength, table.positive("tensile_strength"));
+  material.stretches = read_stretches(table, material.shape.kind);
+  const char* knee = find_given(table, knee_keys);
+  if (knee && material.shape.kind != Softening::bilinear) {
+    table.refuse(knee, "is given, but only bilinear softening has a knee",
+                 "delete it, or set softening = \"bilinear\"");
+  }
+  assign(material.shape.knee_force, table.fraction("knee_stress_ratio"));
+  assign(material.shape.knee_stretch, table.fraction("knee_opening_ratio"));
+  assign(material.error, table.fraction("softening_error"));
+  return material;
+}
+
+void write_softening(TomlWriter& out, const SofteningMaterial& material) {
+  if (material.shape.kind == Softening::brittle) return;
+  out.write("softening", word_of(material.shape.kind));
+  if (has_stretches(material)) {
+    out.write("softening_stretches",
+              std::vector<double>(material.stretches.begin(), material.stretches.end()));
+  } else {
+    out.write("tensile_strength", material.tensile_strength);
+  }
+  out.write("softening_error", material.error);
+  if (material.shape.kind != Softening::bilinear) return;
+  out.write("knee_stress_ratio", material.shape.knee_force);
+  out.write("knee_opening_ratio", material.shape.knee_stretch);
+}
+
+void refuse_softening(const CaseTable& table) {
+  if (const char* key = find_given(table, keys)) {
+    table.refuse(key, "is given, but the material is unbreakable",
+                 "delete it, or give a finite fracture_energy");
+  }
+}
+
+}  // namespace perilink

@@ -1,0 +1,172 @@
+#include "material/bond_cell.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace perilink {
+namespace {
+
+using Strain = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using Stiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+/// Bonds whose ratios differ by less are alike by symmetry and pass their teeth together.
+constexpr double alike = 1e-9;
+
+/// A cell this much softer than the intact one has failed.
+constexpr double failed = 1e-3;
+
+/// Directions of isotropic_cell(): over a half circle in the plane; in space over a half sphere
+/// about x, by equal parts of the axis and of the circles around it.
+constexpr int plane_directions = 60, polar_directions = 16, directions_around = 5;
+
+/// Bonds in tension, as the search of damage analyses has it.
+constexpr double least_tension = 1e-12;
+
+/// A symmetric tensor as the vector of its components, the shear ones times the square root of two,
+/// so that products of tensors are products of vectors.
+Strain vector_of(const Vector3& a, const Vector3& b, int dim) {
+  const double half = std::sqrt(0.5);
+  if (dim == 2) {
+    return Eigen::Vector3d(a[0] * b[0], a[1] * b[1], half * (a[0] * b[1] + a[1] * b[0]));
+  }
+  Strain result(6);
+  result << a[0] * b[0], a[1] * b[1], a[2] * b[2], half * (a[1] * b[2] + a[2] * b[1]),
+      half * (a[2] * b[0] + a[0] * b[2]), half * (a[0] * b[1] + a[1] * b[0]);
+  return result;
+}
+
+/// Cell whose bonds lose stiffness.
+class Cell {
+ public:
+  Cell(std::span<const CellBond> bonds, int dim, const Vector3& pull)
+      : bonds_(bonds), pull_(vector_of(pull, pull, dim)) {
+    const auto size = pull_.size();
+    for (const CellBond& bond : bonds) {
+      const Strain axial = vector_of(bond.direction, bond.direction, dim);
+      Stiffness square = Stiffness::Zero(size, size);  // of the strain times the direction
+      for (int a = 0; a < dim && bond.shear_ratio > 0.0; ++a) {
+        Vector3 axis{};
+        axis[a] = 1.0;
+        const Strain row = vector_of(axis, bond.direction, dim);
+        square += row * row.transpose();
+      }
+      axial_.push_back(axial);
+      square_.push_back((1.0 - bond.shear_ratio) * axial * axial.transpose() +
+                        bond.shear_ratio * square);
+    }
+    secants_.assign(bonds.size(), 1.0);
+  }
+
+  /// Strain per unit of stress. \return false when the cell has failed
+  bool solve() {
+    Stiffness sum = Stiffness::Zero(pull_.size(), pull_.size());
+    for (std::size_t b = 0; b < bonds_.size(); ++b) {
+      if (secants_[b] > 0.0) sum += secants_[b] * bonds_[b].weight * square_[b];
+    }
+    const Eigen::LDLT<Stiffness> factor(sum);
+    if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0)) return false;
+    strain_ = factor.solve(pull_);
+    const double softness = pull_.dot(strain_);
+    if (intact_ == 0.0) intact_ = softness;
+    return softness > 0.0 && softness * failed < intact_;
+  }
+
+  double intact_softness() const { return intact_; }
+  /// Equivalent stretch of a bond per unit of stress; zero in compression.
+  double stretch(std::size_t bond) const {
+    const double axial = axial_[bond].dot(strain_);
+    const double square = strain_.dot(square_[bond] * strain_);
+    return axial > 0.0 && axial * axial > least_tension * square ? std::sqrt(square) : 0.0;
+  }
+  void set_secant(std::size_t bond, double secant) { secants_[bond] = secant; }
+
+ private:
+  std::span<const CellBond> bonds_;
+  Strain pull_, strain_;
+  std::vector<Strain> axial_;
+  std::vector<Stiffness> square_;
+  std::vector<double> secants_;
+  double intact_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<CellBond> lattice_cell(std::span<const Vector3> offsets, std::span<const double> axial,
+                                   std::span<const double> shear_ratio, double cell_volume) {
+  std::vector<CellBond> cell;
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    const auto& [x, y, z] = offsets[k];
+    const bool first_of_pair = std::array{z, y, x} > Vector3{};
+    if (!first_of_pair) continue;
+    const double length = std::hypot(x, y, z);
+    cell.push_back({{x / length, y / length, z / length},
+                    axial[k] * length * length / cell_volume,
+                    shear_ratio.empty() ? 0.0 : shear_ratio[k]});
+  }
+  return cell;
+}
+
+std::vector<CellBond> isotropic_cell(Problem problem, double lame_ratio) {
+  const int dim = dimension_of(problem);
+  const double shear = dim == 2 ? (1.0 - lame_ratio) / (1.0 + lame_ratio)
+                                : 2.0 * (1.0 - lame_ratio) / (2.0 + 3.0 * lame_ratio);
+  // Bonds that do not bend are alike at every length. Otherwise the shells hold equal shares of the
+  // stiffness, which grows with the power dim + 1 of the length.
+  const int shells = shear > 1e-12 ? 3 : 1;
+  const auto shell_end = [&](int k) {
+    return std::pow(static_cast<double>(k) / shells, (dim - 1.0) / (dim + 1.0));
+  };
+  std::vector<CellBond> cell;
+  const auto add = [&](const Vector3& direction, double share) {
+    for (int k = 0; k < shells; ++k) {
+      cell.push_back(
+          {direction, share / shells, shear * shells * (shell_end(k + 1) - shell_end(k))});
+    }
+  };
+  if (dim == 2) {
+    for (int i = 0; i < plane_directions; ++i) {
+      const double angle = (i + 0.5) * std::numbers::pi / plane_directions;
+      add({std::cos(angle), std::sin(angle), 0.0}, 1.0 / plane_directions);
+    }
+    return cell;
+  }
+  for (int i = 0; i < polar_directions; ++i) {
+    const double x = (i + 0.5) / polar_directions, across = std::sqrt(1.0 - x * x);
+    for (int k = 0; k < directions_around; ++k) {
+      const double angle = (k + 0.5) * 2.0 * std::numbers::pi / directions_around;
+      add({x, across * std::cos(angle), across * std::sin(angle)},
+          1.0 / (polar_directions * directions_around));
+    }
+  }
+  return cell;
+}
+
+double cell_modulus(std::span<const CellBond> bonds, int dim, const Vector3& pull) {
+  Cell cell(bonds, dim, pull);
+  return cell.solve() ? 1.0 / cell.intact_softness() : 0.0;
+}
+
+double cell_strength(std::span<const CellBond> bonds, int dim, const Vector3& pull,
+                     const BondLaw& law) {
+  Cell cell(bonds, dim, pull);
+  std::vector<int> tooth(bonds.size(), 0);
+  std::vector<double> ratio(bonds.size());
+  double strength = 0.0;
+  while (cell.solve()) {
+    for (std::size_t b = 0; b < bonds.size(); ++b) {
+      ratio[b] = cell.stretch(b) / law.tooth(tooth[b]).limit;
+    }
+    const double largest = *std::max_element(ratio.begin(), ratio.end());
+    if (!(largest > 0.0)) break;
+    strength = std::max(strength, 1.0 / largest);
+    for (std::size_t b = 0; b < bonds.size(); ++b) {
+      if (ratio[b] >= (1.0 - alike) * largest) cell.set_secant(b, law.tooth(++tooth[b]).secant);
+    }
+  }
+  return strength * cell.intact_softness();
+}
+
+}  // namespace perilink

@@ -1,0 +1,89 @@
+#include "material/softening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace perilink {
+namespace {
+
+/// Force at which an exponential curve ends.
+constexpr double negligible_force = 1e-4;
+
+/// A tooth that leaves the curve at two points.
+struct ToothBetween {
+  double secant, next_secant, limit;
+
+  ToothBetween(const SofteningCurve& curve, double begin, double end)
+      : secant(curve.force(begin) / begin), next_secant(curve.force(end) / end) {
+    const double energy = curve.area(end) - curve.area(begin) +
+                          0.5 * (secant * begin * begin - next_secant * end * end);
+    limit = std::sqrt(2.0 * energy / (secant - next_secant));
+  }
+  double ripple(const SofteningCurve& curve) const { return secant * limit - curve.force(limit); }
+};
+
+}  // namespace
+
+double softening_energy(const SofteningShape& shape, double end) {
+  const bool knee = shape.kind == Softening::bilinear;
+  return 1.0 + (end - 1.0) * (knee ? shape.knee_force + shape.knee_stretch : 1.0);
+}
+
+SofteningCurve::SofteningCurve(const SofteningShape& shape, double energy)
+    : knee_(1.0), end_(energy), knee_force_(1.0), decay_(0.0) {
+  if (shape.kind == Softening::brittle || !(energy > 1.0)) {
+    throw std::invalid_argument("a bond that softens takes more than its elastic energy");
+  }
+  if (shape.kind == Softening::bilinear) {
+    const double length = (energy - 1.0) / (shape.knee_force + shape.knee_stretch);
+    end_ = 1.0 + length;
+    knee_ = 1.0 + shape.knee_stretch * length;
+    knee_force_ = shape.knee_force;
+  } else if (shape.kind == Softening::exponential) {
+    decay_ = 0.5 * (energy - 1.0);
+    end_ = 1.0 - decay_ * std::log(negligible_force);
+  }
+}
+
+double SofteningCurve::force(double x) const {
+  if (x <= 1.0) return x;
+  if (x >= end_) return 0.0;
+  if (decay_ > 0.0) return std::exp((1.0 - x) / decay_);
+  return x < knee_ ? 1.0 - (1.0 - knee_force_) * (x - 1.0) / (knee_ - 1.0)
+                   : knee_force_ * (end_ - x) / (end_ - knee_);
+}
+
+double SofteningCurve::area(double x) const {
+  if (x <= 1.0) return 0.5 * x * x;
+  // What lies below the end of an exponential curve counts as taken at its end.
+  if (decay_ > 0.0) return 0.5 + decay_ * (x < end_ ? 1.0 - force(x) : 1.0);
+  const double fallen = 0.5 * (std::min(x, knee_) - 1.0) * (1.0 + force(std::min(x, knee_)));
+  if (x <= knee_) return 0.5 + fallen;
+  const double reached = std::min(x, end_);
+  return 0.5 + fallen + 0.5 * (reached - knee_) * (knee_force_ + force(reached));
+}
+
+BondLaw saw_tooth_of(const SofteningCurve& curve, double ripple) {
+  if (!(ripple > 0.0)) throw std::invalid_argument("teeth rise above the curve");
+  std::vector<Tooth> teeth;
+  for (double begin = 1.0; begin < curve.end();) {
+    double low = begin, end = curve.end();
+    const auto rises_less = [&](double point) {
+      return ToothBetween(curve, begin, point).ripple(curve) <= ripple;
+    };
+    if (!rises_less(end)) {
+      for (double high = end; high - low > 1e-12 * high;) {
+        end = 0.5 * (low + high);
+        (rises_less(end) ? low : high) = end;
+      }
+    }
+    const ToothBetween tooth(curve, begin, end);
+    teeth.push_back({tooth.secant, tooth.limit});
+    begin = end;
+  }
+  return BondLaw::saw_tooth(std::move(teeth));
+}
+
+}  // namespace perilink

@@ -1,0 +1,211 @@
+#include "network/bond_softening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "material/bond_cell.hpp"
+#include "network/lattice_families.hpp"
+
+namespace perilink {
+namespace {
+
+/// Ripple of the teeth by which strengths are measured: they add 0.3 %.
+constexpr double fine_ripple = 0.02;
+
+/// Excess of the peak of a cell over the ripple of its teeth is a fifth (docs/theory/softening.md).
+constexpr double ripple_over_error = 5.0;
+
+/// Relative change of beta at which its iteration ends, and the most rounds: each brings a digit.
+constexpr double same_factor = 1e-4;
+constexpr int most_rounds = 30;
+
+/// Young's modulus in the body's kinematics, stresses across the pull zero in the plane.
+double uniaxial_modulus(const LameConstants& lame, int dim) {
+  const auto& [lambda, mu] = lame;
+  return dim == 2 ? 4.0 * mu * (lambda + mu) / (lambda + 2.0 * mu)
+                  : mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
+}
+
+/// The bonds of a particle inside the body, and the directions in which they are pulled.
+struct Pulled {
+  std::vector<CellBond> cell;
+  std::vector<Vector3> directions;
+  int dim;
+
+  /// cell_strength(), the mean over the directions.
+  double strength(const BondLaw& law) const {
+    double sum = 0.0;
+    for (const Vector3& direction : directions) sum += cell_strength(cell, dim, direction, law);
+    return sum / static_cast<double>(directions.size());
+  }
+};
+
+/// Stiffness of the bonds to the neighbours of a lattice particle of one material.
+FamilyStiffness bulk_stiffness(const Body& body, const NetworkInput& input,
+                               std::span<const Vector3> offsets) {
+  if (body.lattice.surface == Surface::calibrated) return LatticeFamilies(body, input).stiffness(0);
+  const MicropolarModuli moduli = moduli_of(body, input, input.materials.front());
+  FamilyStiffness stiffness;
+  for (const Vector3& x : offsets) {
+    const double length = std::hypot(x[0], x[1], x[2]);
+    const double share = std::pow(body.lattice.cell_volume, 2) / length;
+    stiffness.axial.push_back(moduli.micromodulus * share);
+    if (input.model != BondModel::micropolar) continue;
+    stiffness.bending.push_back(12.0 * moduli.bending_modulus * share / (length * length));
+  }
+  return stiffness;
+}
+
+/// Lattices are pulled along the axes, along which bodies lie and are loaded.
+Pulled pulled_cell(const Body& body, const NetworkInput& input, const SolidMaterial& material) {
+  const Lattice& lattice = body.lattice;
+  if (lattice.pattern == Pattern::irregular) {
+    const LameConstants lame = lame_constants(input, material);
+    return {isotropic_cell(input.problem, lame.lambda / lame.mu), {{1.0, 0.0, 0.0}}, lattice.dim};
+  }
+  NetworkInput alone = input;
+  alone.materials = {material};
+  const std::vector<Vector3> offsets = bulk_family(lattice, input.horizon).offsets;
+  FamilyStiffness stiffness = bulk_stiffness(body, alone, offsets);
+  for (std::size_t k = 0; k < stiffness.bending.size(); ++k) {
+    stiffness.bending[k] /= stiffness.axial[k];
+  }
+  Pulled pulled{lattice_cell(offsets, stiffness.axial, stiffness.bending, lattice.cell_volume),
+                {},
+                lattice.dim};
+  for (int axis = 0; axis < lattice.dim; ++axis) pulled.directions.emplace_back()[axis] = 1.0;
+  return pulled;
+}
+
+bool softens(const SolidMaterial& material) {
+  return material.softening.shape.kind != Softening::brittle;
+}
+
+/// Means of two materials, with the shape of the weaker one.
+SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
+  const SolidMaterial& weaker = b.softening.tensile_strength < a.softening.tensile_strength ? b : a;
+  SolidMaterial mean = softens(a) && softens(b) ? weaker : SolidMaterial{};
+  mean.youngs_modulus = 0.5 * (a.youngs_modulus + b.youngs_modulus);
+  mean.poissons_ratio = 0.5 * (a.poissons_ratio + b.poissons_ratio);
+  mean.fracture_energy = 0.5 * (a.fracture_energy + b.fracture_energy);
+  mean.softening.tensile_strength =
+      0.5 * (a.softening.tensile_strength + b.softening.tensile_strength);
+  for (int k = 0; k < 2; ++k) {
+    mean.softening.stretches[k] = 0.5 * (a.softening.stretches[k] + b.softening.stretches[k]);
+  }
+  return mean;
+}
+
+/// Tensile strength over the product of modulus and s_0.
+double strength_factor(const Pulled& pulled, const SofteningShape& shape, double energy) {
+  return pulled.strength(saw_tooth_of(SofteningCurve(shape, energy), fine_ripple));
+}
+
+/// 2 G_s / s_0^2 of bonds with the given strength.
+/// \param unit_energy  of bonds with beta = 1
+double find_energy(const Pulled& pulled, const SofteningShape& shape, double unit_energy) {
+  double factor = 1.0;
+  for (int round = 0; round < most_rounds; ++round) {
+    const double energy = unit_energy * factor * factor;
+    if (!(energy > 1.0)) throw TooStrong(no_index, energy);
+    const double next = strength_factor(pulled, shape, energy);
+    const bool same = std::abs(next - factor) < same_factor * next;
+    factor = next;
+    if (same) break;
+  }
+  return unit_energy * factor * factor;
+}
+
+Index count_teeth(const BondLaw& law) {
+  Index count = 0;
+  while (law.tooth(count).secant > 0.0) ++count;
+  return count;
+}
+
+}  // namespace
+
+TooStrong::TooStrong(Index number, double energy)
+    : std::invalid_argument("a bond would release more energy than it may dissipate"),
+      material(number),
+      share(energy) {}
+
+BondStrength bond_strength(const Body& body, const NetworkInput& input,
+                           const SolidMaterial& material, double brittle_stretch) {
+  const Pulled pulled = pulled_cell(body, input, material);
+  const double modulus = uniaxial_modulus(lame_constants(input, material), pulled.dim);
+  const auto& [shape, error, tensile_strength, stretches] = material.softening;
+  BondLaw law = BondLaw::brittle();
+  double factor = 0.0, energy = 1.0, first = brittle_stretch, end = 1.0;
+  if (softens(material)) {
+    if (stretches[0] > 0.0) {
+      first = stretches[0];
+      energy = softening_energy(shape, stretches[1] / first);
+    } else {
+      const double unit = tensile_strength / (modulus * brittle_stretch);
+      energy = find_energy(pulled, shape, 1.0 / (unit * unit));
+      first = brittle_stretch / std::sqrt(energy);
+    }
+    const SofteningCurve curve(shape, energy);
+    law = saw_tooth_of(curve, ripple_over_error * error);
+    end = curve.end();
+    factor = strength_factor(pulled, shape, energy);
+  } else {
+    factor = pulled.strength(law);
+  }
+  MaterialStrength strength;
+  strength.tensile_strength = factor * modulus * first;
+  strength.fracture_energy =
+      material.fracture_energy * energy * std::pow(first / brittle_stretch, 2);
+  strength.process_zone =
+      material.youngs_modulus * strength.fracture_energy / std::pow(strength.tensile_strength, 2);
+  strength.first_stretch = first;
+  strength.last_stretch = first * end;
+  strength.teeth = count_teeth(law);
+  return {std::move(law), strength};
+}
+
+void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
+  const Particles& particles = network.particles;
+  using Pair = std::pair<Index, Index>;
+  const auto pair_of = [&](Index element) -> Pair {
+    const Index own = particles.material[network.bonds.first[element]];
+    const Index j = network.bonds.second[element];
+    const bool solid = particles.kind[j] == ParticleKind::solid;
+    return std::minmax(own, solid ? particles.material[j] : own);
+  };
+  std::map<Pair, BondStrength> laws;
+  for (Index e = 0; e < network.first_tie; ++e) {
+    if (!network.has_limit(e)) continue;
+    const auto [a, b] = pair_of(e);
+    const bool soft = softens(input.materials[a]) && softens(input.materials[b]);
+    if (laws.contains({a, b}) || !(soft || input.draft)) continue;
+    try {
+      const SolidMaterial mean = mean_of(input.materials[a], input.materials[b]);
+      laws.insert({{a, b}, bond_strength(body, input, mean, network.critical_stretch[e])});
+    } catch (const TooStrong& error) {
+      throw TooStrong(a, error.share);
+    }
+  }
+  network.strengths.resize(input.materials.size());
+  for (const auto& [pair, bonds] : laws) {
+    if (pair.first == pair.second) network.strengths[pair.first] = bonds.strength;
+  }
+  for (auto& [pair, bonds] : laws) {
+    if (bonds.law.is_brittle()) continue;
+    const std::size_t law = network.laws.size();
+    network.laws.push_back(bonds.law);
+    network.law_of.resize(network.stiffness.size(), 0);
+    for (Index e = 0; e < network.first_segment; ++e) {
+      const bool its = network.has_limit(e) && pair == pair_of(e);
+      if (!its) continue;
+      network.law_of[e] = static_cast<std::uint8_t>(law);
+      network.critical_stretch[e] = bonds.strength.first_stretch;
+    }
+  }
+}
+
+}  // namespace perilink

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <stdexcept>
+
+#include "discretization/lattices/lattice.hpp"
+#include "network/network.hpp"
+#include "network/network_input.hpp"
+
+/// \file
+/// Bonds that soften (docs/theory/softening.md): the stretch s_0 where a bond's force begins to
+/// fall follows from the tensile strength, the stretch where it has fallen to zero from the
+/// fracture energy.
+
+namespace perilink {
+
+/// At the strength of a material a bond holds more energy than the fracture energy pays for.
+class TooStrong : public std::invalid_argument {
+ public:
+  TooStrong(Index material, double share);
+  Index material;  ///< number in NetworkInput::materials
+  double share;    ///< energy that the bond may dissipate over that which it holds; one or less
+};
+
+/// Law and strength of the bonds of one material.
+struct BondStrength {
+  BondLaw law;
+  MaterialStrength strength;
+};
+
+/// Bonds that would break at the stretch s_c if they were brittle may dissipate s_c^2 / 2 per
+/// stiffness and length; those that soften have 2 G_s / s_0^2 = (s_c / s_0)^2 and begin to at
+/// s_0 = f_t / (beta E), with beta by cell_strength(). It depends on that energy: a fixed point.
+/// \throws TooStrong where s_c does not exceed s_0
+BondStrength bond_strength(const Body& body, const NetworkInput& input,
+                           const SolidMaterial& material, double brittle_stretch);
+
+/// Gives bonds and ties between materials that soften their laws, in place of the brittle one and
+/// its critical stretch, and the network its strengths (a draft also those of brittle ones). Two materials have a law of their mean
+/// constants, with the shape of the weaker one; with a brittle material bonds stay brittle.
+/// \throws TooStrong
+void soften_bonds(const Body& body, const NetworkInput& input, Network& network);
+
+}  // namespace perilink
