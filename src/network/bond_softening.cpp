@@ -13,11 +13,11 @@
 namespace perilink {
 namespace {
 
-/// Ripple of the teeth by which strengths are measured: they add 0.3 %.
+/// Ripple of the teeth by which strengths are measured: they add less than 0.3 %.
 constexpr double fine_ripple = 0.02;
 
-/// Excess of the peak of a cell over the ripple of its teeth is a fifth (docs/theory/softening.md).
-constexpr double ripple_over_error = 5.0;
+/// Teeth with the ripple p raise the strength of strips by about 2 p^2 (docs/theory/softening.md).
+double ripple_of(double error) { return std::sqrt(0.5 * error); }
 
 /// Relative change of beta at which its iteration ends, and the most rounds: each brings a digit.
 constexpr double same_factor = 1e-4;
@@ -105,8 +105,8 @@ double strength_factor(const Pulled& pulled, const SofteningShape& shape, double
   return pulled.strength(saw_tooth_of(SofteningCurve(shape, energy), fine_ripple));
 }
 
-/// 2 G_s / s_0^2 of bonds with the given strength.
-/// \param unit_energy  of bonds with beta = 1
+/// Finds the energy 2 G_s / s_0^2 of bonds with the wanted strength.
+/// \param unit_energy  where beta = 1
 double find_energy(const Pulled& pulled, const SofteningShape& shape, double unit_energy) {
   double factor = 1.0;
   for (int round = 0; round < most_rounds; ++round) {
@@ -137,22 +137,22 @@ BondStrength bond_strength(const Body& body, const NetworkInput& input,
                            const SolidMaterial& material, double brittle_stretch) {
   const Pulled pulled = pulled_cell(body, input, material);
   const double modulus = uniaxial_modulus(lame_constants(input, material), pulled.dim);
-  const auto& [shape, error, tensile_strength, stretches] = material.softening;
+  const SofteningMaterial& softening = material.softening;
   BondLaw law = BondLaw::brittle();
-  double factor = 0.0, energy = 1.0, first = brittle_stretch, end = 1.0;
+  double energy = 1.0, first = brittle_stretch, end = 1.0, factor = 0.0;
   if (softens(material)) {
-    if (stretches[0] > 0.0) {
-      first = stretches[0];
-      energy = softening_energy(shape, stretches[1] / first);
+    if (softening.stretches[0] > 0.0) {
+      first = softening.stretches[0];
+      energy = softening_energy(softening.shape, softening.stretches[1] / first);
     } else {
-      const double unit = tensile_strength / (modulus * brittle_stretch);
-      energy = find_energy(pulled, shape, 1.0 / (unit * unit));
+      const double unit = softening.tensile_strength / (modulus * brittle_stretch);
+      energy = find_energy(pulled, softening.shape, 1.0 / (unit * unit));
       first = brittle_stretch / std::sqrt(energy);
     }
-    const SofteningCurve curve(shape, energy);
-    law = saw_tooth_of(curve, ripple_over_error * error);
+    const SofteningCurve curve(softening.shape, energy);
+    law = saw_tooth_of(curve, ripple_of(softening.error));
     end = curve.end();
-    factor = strength_factor(pulled, shape, energy);
+    factor = strength_factor(pulled, softening.shape, energy);
   } else {
     factor = pulled.strength(law);
   }
