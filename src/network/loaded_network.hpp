@@ -17,12 +17,21 @@ struct ReferenceLoad {
   double value = 0.0;   ///< load of all loaded places, or relative displacement of driven ones
 };
 
+/// Loads and prescribed motions that grow together in a stage, at load factor 1.
+struct LoadSet {
+  Loads loads;
+  std::vector<double> prescribed;  ///< Unknowns::prescribed
+  ReferenceLoad reference;
+};
+
 /// What an analysis solves: a network, how its particles may move, and what loads them.
 struct LoadedNetwork {
   Network network;
   Unknowns unknowns;
   Loads loads;
   ReferenceLoad reference;
+  /// Where a case has stages: what they load the body by. The members above are those of the first.
+  std::vector<LoadSet> sets = {};
 };
 
 }  // namespace perilink

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/quasistatic/path_energy.hpp"
+#include "analysis/quasistatic/event_run.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
-#include "base/timer.hpp"
 
 namespace perilink {
 namespace {
@@ -22,108 +21,73 @@ constexpr double exhausted_secant = 1e-2;
 /// body, and what it would write were noise.
 constexpr double lost_balance = 1e-2;
 
-/// Lets observers look at the equilibrium of the engine.
-class EngineState final : public StateSource {
- public:
-  EngineState(const Network& network, EventEngine& engine) : network_(network), engine_(engine) {}
-  StepState state() override { return {network_, engine_.secants(), engine_.displacement()}; }
-  std::span<const double> secants() override { return engine_.secants(); }
+}  // namespace
 
- private:
-  const Network& network_;
-  EventEngine& engine_;
-};
+EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options, StepObserver& observer)
+    : network_(problem.network),
+      reference_(&problem.reference),
+      options_(options),
+      stop_(&options.stop),
+      observer_(observer),
+      problem_(problem),
+      engine_(make_engine()),
+      state_(problem.network, *engine_) {
+  const LoadWork work = begin_work();
+  const double whole = work.forces + work.supports;
+  result_.initial_stiffness = reference_->driven
+                                  ? work.supports / (reference_->value * reference_->value)
+                                  : reference_->value * reference_->value / whole;
+}
 
-/// The run as it goes on: engine, path energies, the row being written and the result.
-class Run {
- public:
-  Run(const LoadedNetwork& problem, const DamageOptions& options, StepObserver& observer)
-      : network_(problem.network),
-        reference_(problem.reference),
-        options_(options),
-        observer_(observer),
-        engine_(make_event_engine(problem, options.engine)),
-        state_(problem.network, *engine_) {
-    const LoadWork work = engine_->load_work();
-    const double whole = work.forces + work.supports;
-    compliance_ = work.forces - work.supports;
-    if (!(whole > 0.0)) throw SolverError("the loads do no work on the body");
-    if (!std::isfinite(whole)) throw SolverError("the elastic solution is not finite");
-    result_.initial_stiffness = reference_.driven
-                                    ? work.supports / (reference_.value * reference_.value)
-                                    : reference_.value * reference_.value / whole;
+std::unique_ptr<EventEngine> EventRun::make_engine() {
+  if (options_.stages.empty()) return make_event_engine(problem_, options_.engine);
+  auto engine = std::make_unique<StagedEngine>(problem_, options_.engine);
+  staged_ = engine.get();
+  return engine;
+}
+
+/// Refuses loads that do no work.
+LoadWork EventRun::begin_work() {
+  const LoadWork work = engine_->load_work();
+  const double whole = work.forces + work.supports;
+  compliance_ = work.forces - work.supports;
+  if (!(whole > 0.0)) throw SolverError("the loads do no work on the body");
+  if (!std::isfinite(whole)) throw SolverError("the elastic solution is not finite");
+  return work;
+}
+
+/// A solver that cannot go on, no memory or a full disk of an observer end the run like any other
+/// ending: with all that was found so far.
+DamageResult EventRun::go() {
+  try {
+    return staged_ != nullptr              ? by_stages()
+           : options_.load_factors.empty() ? by_events()
+                                           : by_steps();
+  } catch (const std::exception& error) {
+    end(Ending::failed, failure_text(error));
+    if (!result_.stages.empty()) end_stage();
   }
-
-  /// A solver that cannot go on, no memory or a full disk of an observer end the run like any other
-  /// ending: with all that was found so far.
-  DamageResult go() {
-    try {
-      return options_.load_factors.empty() ? by_events() : by_steps();
-    } catch (const std::exception& error) {
-      end(Ending::failed, failure_text(error));
-    }
-    result_.last = row_;
-    result_.broken_bonds = broken_bonds_;
-    result_.freed_energy = energy_.freed();
-    result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
-    result_.factor = engine_->factor_statistics();
-    return result_;
-  }
-
- private:
-  DamageResult by_events();
-  DamageResult by_steps();
-  void record(double load_factor, const LoadWork& work, Index element);
-  void note_peaks();
-  void take_note_of(const Balance& balance);
-  void check() { take_note_of(engine_->check_equilibrium()); }
-  void look_after(const EventOutcome& outcome);
-  void follow_motion();
-  bool residual_may_be_large() const;
-  int check_interval() const;
-  bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }
-  void record_separated(double load_factor, const LoadWork& work);
-  bool pass(const Event& event);
-  bool stop_rule_met();
-  void end(Ending ending, std::string reason) {
-    result_.ending = ending;
-    result_.reason = std::move(reason);
-  }
-  DamageResult finish();
-
-  const Network& network_;
-  const ReferenceLoad& reference_;
-  const DamageOptions& options_;
-  StepObserver& observer_;
-  std::unique_ptr<EventEngine> engine_;
-  EngineState state_;
-  PathEnergy energy_;
-  Timer timer_;
-  double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...
-  double checked_compliance_ = 0.0;  ///< ... when the residual was last measured
-  double stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
-  int events_ = 0;
-  int looks_ = 0;       ///< at the residual, that nothing else asked for
-  int rows_below_ = 0;  ///< successive rows below the load fraction of the stop rule
-  Index broken_bonds_ = 0;
-  Index yield_events_ = 0;
-  StepRecord row_;
-  std::vector<StepRecord> rows_;  ///< history under control by events
-  DamageResult result_;
-};
+  result_.last = row_;
+  result_.broken_bonds = broken_bonds_;
+  result_.freed_energy = energy_.freed();
+  result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
+  result_.factor = engine_->factor_statistics();
+  return result_;
+}
 
 /// The residual and, where it was summed over the elements, the stored energy of the present
 /// equilibrium.
-void Run::take_note_of(const Balance& balance) {
+void EventRun::take_note_of(const Balance& balance) {
   row_.residual = balance.residual;
   stored_by_elements_ = balance.stored_energy;
+  stored_beside_ = balance.stored_beside;
   result_.largest_residual = std::max(result_.largest_residual, balance.residual);
   if (!std::isnan(balance.stored_energy)) checked_compliance_ = compliance_;
 }
 
 /// The whole equilibrium is measured where it may have suffered, and at every tenth look; otherwise
 /// a glance is enough.
-void Run::look_after(const EventOutcome& outcome) {
+void EventRun::look_after(const EventOutcome& outcome) {
   if (outcome.pivot < 1e-3 || residual_may_be_large()) {
     check();
   } else if (events_ % check_interval() == 0) {
@@ -133,7 +97,7 @@ void Run::look_after(const EventOutcome& outcome) {
 }
 
 /// Particles that an element carried may have become free.
-void Run::follow_motion() {
+void EventRun::follow_motion() {
   if (!options_.new_motion) return;
   const Unknowns* unknowns = options_.new_motion(state_);
   if (unknowns == nullptr) return;
@@ -146,16 +110,16 @@ void Run::follow_motion() {
 /// What round-off leaves grows in proportion to the displacements, which forces make without bound
 /// as a body comes apart (driven displacements do not: their compliance is negative). Looking again
 /// pays when it has grown by a tenth.
-bool Run::residual_may_be_large() const {
+bool EventRun::residual_may_be_large() const {
   return checked_compliance_ > 0.0 && compliance_ > 1.1 * checked_compliance_;
 }
 
 /// Events between looks at the residual.
-int Run::check_interval() const {
+int EventRun::check_interval() const {
   return meets_tolerance() ? options_.check_interval : std::max(1, options_.check_interval / 10);
 }
 
-void Run::record(double load_factor, const LoadWork& work, Index element) {
+void EventRun::record(double load_factor, const LoadWork& work, Index element) {
   const StepRecord last = row_;
   energy_.advance(load_factor, work);
   ++row_.step;
@@ -163,11 +127,12 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
   row_.yield_events = yield_events_;
   row_.load_factor = load_factor;
   row_.strain_energy = energy_.stored();
-  row_.load = reference_.driven ? load_factor * work.supports / reference_.value + 0.0  // no -0
-                                : load_factor * reference_.value;
-  row_.displacement = reference_.driven  ? load_factor * reference_.value
+  row_.load = reference_->driven ? load_factor * work.supports / reference_->value + 0.0  // no -0
+                                 : load_factor * reference_->value;
+  row_.displacement = reference_->driven ? load_factor * reference_->value
                       : row_.load != 0.0 ? 2.0 * row_.strain_energy / row_.load
                                          : 0.0;
+  if (staged_ != nullptr) measure_beside(work);
   row_.dissipated_energy = energy_.dissipated();
   row_.external_work = energy_.external_work();
   row_.released_energy = energy_.released();
@@ -176,13 +141,15 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
   row_.seconds = timer_.seconds();
   timer_.restart();
 
-  const double stored = std::isnan(stored_by_elements_)
-                            ? row_.strain_energy
-                            : load_factor * load_factor * stored_by_elements_;
+  const double stored =
+      std::isnan(stored_by_elements_)
+          ? row_.strain_energy
+          : load_factor * load_factor * stored_by_elements_ + stored_beside_.at(load_factor);
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
-  if (row_.external_work != 0.0) {
+  const double whole = staged_ != nullptr ? most_work_ : std::abs(row_.external_work);
+  if (whole != 0.0) {
     const double kept = stored + row_.dissipated_energy + energy_.freed();
-    const double error = std::abs(row_.external_work - kept) / std::abs(row_.external_work);
+    const double error = std::abs(row_.external_work - kept) / whole;
     result_.energy_error = std::max(result_.energy_error, error);
     if (!(error <= lost_balance)) {
       row_ = last;
@@ -193,25 +160,24 @@ void Run::record(double load_factor, const LoadWork& work, Index element) {
     }
   }
   note_peaks();
-  const bool below =
-      options_.stop.load_fraction &&
-      std::abs(row_.load) < *options_.stop.load_fraction * std::abs(result_.peak_load);
+  const bool below = stop_->load_fraction &&
+                     std::abs(row_.load) < *stop_->load_fraction * std::abs(result_.peak_load);
   rows_below_ = below ? rows_below_ + 1 : 0;
   observer_.on_step(row_, state_);
 }
 
-void Run::note_peaks() {
+void EventRun::note_peaks() {
   PeakWatch& peaks = result_.peaks;
   const bool held = !peaks.gave_way();
   peaks.add({row_.displacement, row_.load});
   if (held) result_.broken_as_gave_way = broken_bonds_;
   result_.peak_load = peaks.highest().load;
   result_.peak_displacement = peaks.highest().displacement;
-  if (options_.load_factors.empty()) rows_.push_back(row_);
+  if (options_.load_factors.empty() && staged_ == nullptr) rows_.push_back(row_);
 }
 
 /// Lets the element fail. \return false when that separates the body
-bool Run::pass(const Event& event) {
+bool EventRun::pass(const Event& event) {
   const EventOutcome outcome = engine_->apply(event);
   if (outcome.mechanism) {
     if (outcome.broke()) result_.broken_bonds = 1;  // beyond those of the last row
@@ -234,8 +200,8 @@ bool Run::pass(const Event& event) {
   return true;
 }
 
-bool Run::stop_rule_met() {
-  const StopRules& stop = options_.stop;
+bool EventRun::stop_rule_met() {
+  const StopRules& stop = *stop_;
   if (observer_.stop_requested()) {
     end(Ending::interrupted, "a signal asked the run to stop");
   } else if (stop.broken_bonds && broken_bonds_ >= *stop.broken_bonds) {
@@ -252,13 +218,13 @@ bool Run::stop_rule_met() {
 }
 
 /// The driven body lies in two: the last row shows that it no longer resists.
-void Run::record_separated(double load_factor, const LoadWork& work) {
+void EventRun::record_separated(double load_factor, const LoadWork& work) {
   end(Ending::collapsed, "the body no longer resists the displacements");
   record(load_factor, work, no_index);
 }
 
 /// From event to event: the load factor follows the body, up or down.
-DamageResult Run::by_events() {
+DamageResult EventRun::by_events() {
   check();
   while (true) {
     const LoadWork work = engine_->load_work();
@@ -282,15 +248,14 @@ DamageResult Run::by_events() {
 /// Within a step only two stop rules are looked at, the number of broken bonds and the signal; the
 /// others ask for equilibrium at the end of the step. A run that ends within a step reports the
 /// last equilibrium at the load that it can bear.
-DamageResult Run::by_steps() {
+DamageResult EventRun::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
     Event event = engine_->next_event();
     Index last = no_index;
     while (event.element != no_index && event.load_factor <= load_factor) {
       energy_.advance(load_factor, engine_->load_work());
-      const bool enough =
-          options_.stop.broken_bonds && broken_bonds_ >= *options_.stop.broken_bonds;
+      const bool enough = stop_->broken_bonds && broken_bonds_ >= *stop_->broken_bonds;
       if (observer_.stop_requested() || enough) {
         if (enough) {
           end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));
@@ -320,7 +285,7 @@ DamageResult Run::by_steps() {
   return finish();
 }
 
-DamageResult Run::finish() {
+DamageResult EventRun::finish() {
   observer_.on_end(row_, state_);
   result_.last = row_;
   result_.broken_bonds += broken_bonds_;
@@ -330,11 +295,9 @@ DamageResult Run::finish() {
   return result_;
 }
 
-}  // namespace
-
 DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptions& options,
                                  StepObserver& observer) {
-  Run run(problem, options, observer);
+  EventRun run(problem, options, observer);
   return run.go();
 }
 

@@ -23,11 +23,28 @@ struct StopRules {
   std::optional<double> displacement;  ///< |displacement| at or above this [length]
 };
 
+/// One of the stages of a run: a set of loads goes to a load factor, or by events until a stop rule
+/// is met.
+struct StageRules {
+  std::size_t set = 0;       ///< LoadedNetwork::sets: the loads that change
+  std::optional<double> to;  ///< load factor at which it ends; absent: by events
+  StopRules stop;
+};
+
+/// How a stage ended.
+struct StageResult {
+  Ending ending = Ending::completed;
+  std::string reason;
+  StepRecord last;  ///< row at its end
+  CurvePoint peak;  ///< largest |load| of its loads so far
+};
+
 struct DamageOptions {
   EngineOptions engine;
   std::vector<double> load_factors;  ///< control by steps when not empty, else by events
   StopRules stop;
-  int check_interval = 50;  ///< events between looks at the residual
+  std::vector<StageRules> stages;  ///< one after the other, in place of those two
+  int check_interval = 50;         ///< events between looks at the residual
   /// Asked after each row: unknowns that move the particles from now on, which must outlive the
   /// run; null: those of before. Empty: they never change.
   std::function<const Unknowns*(StateSource&)> new_motion;
@@ -35,7 +52,8 @@ struct DamageOptions {
 
 struct DamageResult {
   Ending ending = Ending::completed;
-  std::string reason;  ///< in words
+  std::string reason;               ///< in words
+  std::vector<StageResult> stages;  ///< those that began, where the run has any
   StepRecord last;
   Index broken_bonds = 0;  ///< with the one that separated the body, if it did
   double peak_load = 0.0;

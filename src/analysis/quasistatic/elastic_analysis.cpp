@@ -54,10 +54,11 @@ ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, int th
 }  // namespace
 
 ElasticResult run_elastic_analysis(const LoadedNetwork& problem, int threads) {
-  const auto& [network, unknowns, loads, reference] = problem;
+  const Network& network = problem.network;
   const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
   return solve_elastic(
-      unknowns, loads, threads, [&] { return assemble_stiffness(network, secants, unknowns); },
+      problem.unknowns, problem.loads, threads,
+      [&] { return assemble_stiffness(network, secants, problem.unknowns); },
       [&](std::span<const double> u) { return internal_force(network, secants, u); });
 }
 

@@ -26,6 +26,8 @@ struct StepRecord {
   double residual = 0.0;           ///< |f - K u| / |f| when last measured
   int factorizations = 0;
   Index element = no_index;  ///< fails at this load
+  Index stage = 0;           ///< number of the stage, from one; 0: the run has none
+  Index avalanche = 0;       ///< 1: the element was beyond its limit, at a load that does not move
   double seconds = 0.0;      ///< wall time of this step; goes to timing.csv only
 };
 
@@ -33,7 +35,8 @@ struct StepRecord {
 struct StepState {
   const Network& network;
   std::span<const double> secants;
-  std::span<const double> displacement;  ///< at load factor 1, shape (particles, width)
+  /// Shape (particles, width); at load factor 1, of runs by stages under all loads as they are.
+  std::span<const double> displacement;
 };
 
 /// How a run ended.

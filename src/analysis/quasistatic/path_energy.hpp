@@ -21,7 +21,14 @@ class PathEnergy {
                      (load_factor - load_factor_);
     dissipated_ += 0.5 * load_factor_ * load_factor * growth_;
     freed_ += 0.5 * load_factor_ * load_factor * freedom_;
+    advance_beside(load_factor, work.constant);
     growth_ = freedom_ = 0.0;
+    load_factor_ = load_factor;
+    work_ = work;
+  }
+
+  /// Other loads grow from here on, from a load factor of their own. The equilibrium stays.
+  void begin_stage(double load_factor, const LoadWork& work) {
     load_factor_ = load_factor;
     work_ = work;
   }
@@ -29,7 +36,10 @@ class PathEnergy {
   /// An event at the present row.
   void add_event(const EventOutcome& outcome) {
     growth_ += outcome.compliance_growth;
+    growth_beside_.linear += outcome.growth_beside.linear;
+    growth_beside_.constant += outcome.growth_beside.constant;
     released_ += load_factor_ * load_factor_ * outcome.released;
+    released_ += outcome.released_beside.at(load_factor_);
   }
 
   /// The compliance grew at the present row as particles became freer.
@@ -40,13 +50,31 @@ class PathEnergy {
   double released() const { return released_; }
   double freed() const { return freed_; }
   double stored() const {
-    return 0.5 * load_factor_ * load_factor_ * (work_.forces + work_.supports);
+    const ConstantWork& constant = work_.constant;
+    return 0.5 * load_factor_ * load_factor_ * (work_.forces + work_.supports) +
+           Beside{constant.forces_on_motion + constant.growing_supports,
+                  0.5 * (constant.forces + constant.supports)}
+               .at(load_factor_);
   }
 
  private:
+  /// What constant loads add: their own work, and that of the others on what they cause.
+  void advance_beside(double load_factor, const ConstantWork& after) {
+    const ConstantWork& before = work_.constant;
+    const double both = load_factor_ + load_factor;
+    external_ +=
+        (load_factor * after.forces_on_motion + after.forces) -
+        (load_factor_ * before.forces_on_motion + before.forces) +
+        0.5 * both * (after.growing_forces - before.growing_forces) +
+        0.5 * (load_factor - load_factor_) * (before.growing_supports + after.growing_supports);
+    dissipated_ += 0.5 * (0.5 * both * growth_beside_.linear + growth_beside_.constant);
+    growth_beside_ = {};
+  }
+
   double load_factor_ = 0.0;
   LoadWork work_;
   double growth_ = 0.0, freedom_ = 0.0;  ///< since the present row
+  Beside growth_beside_;
   double external_ = 0.0;
   double dissipated_ = 0.0;
   double freed_ = 0.0;

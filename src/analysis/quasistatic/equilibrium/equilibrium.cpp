@@ -31,12 +31,22 @@ double norm(const std::vector<double>& values) {
   return std::sqrt(square);
 }
 
+/// A force on a prescribed displacement is a part of the reaction there, whose work counts.
+std::vector<std::size_t> loaded_slots(const Unknowns& unknowns, const Loads& loads) {
+  std::vector<std::size_t> slots;
+  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+    if (unknowns.number[slot] == no_index) continue;
+    if (loads.forces[slot] != 0.0) slots.push_back(slot);
+  }
+  return slots;
+}
+
 }  // namespace
 
 Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options)
     : network_(problem.network),
       unknowns_(&problem.unknowns),
-      loads_(problem.loads),
+      loads_(&problem.loads),
       options_(options),
       factor_(make_factor(options.route, options.threads)),
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0) {
@@ -47,6 +57,8 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
 }
 
 void Equilibrium::find_driven_elements() {
+  driven_spring_work_ = 0.0;
+  driven_elements_.clear();
   const std::vector<double>& prescribed = unknowns_->prescribed;
   for (std::size_t slot = 0; slot < network_.support_stiffness.size(); ++slot) {
     driven_spring_work_ += network_.support_stiffness[slot] * prescribed[slot] * prescribed[slot];
@@ -68,21 +80,42 @@ void Equilibrium::adopt_motion() {
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
   displacement_ = unknowns_->prescribed;
-  loaded_slots_.clear();
-  for (std::size_t slot = 0; slot < unknowns_->number.size(); ++slot) {
-    // A force on a prescribed displacement is a part of the reaction there, whose work counts.
-    if (unknowns_->number[slot] == no_index) continue;
-    if (loads_.forces[slot] != 0.0) loaded_slots_.push_back(slot);
-  }
+  loaded_slots_ = loaded_slots(*unknowns_, *loads_);
   factor_->factorize(assemble_stiffness(network_, secants_, *unknowns_),
                      particle_of_unknown(*unknowns_));
+  choose_current_unknowns();
+  adopt_load();
+}
+
+/// Displacements under the load as it is.
+void Equilibrium::adopt_load() {
   load_norm_ = norm(present_load());
   residual_floor_ = factor_floor_ = 0.0;
-  choose_current_unknowns();
   refresh();
   std::vector<double> residual;
   measure_residual(residual);
   refine(residual);
+}
+
+void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
+                              ConstantField constant) {
+  keep_all_current();
+  // Springs hold what came loose where it is.
+  constant.ground_load = ground_load_;
+  for (std::size_t k = 0; constant_ && k < ground_load_.size(); ++k) {
+    constant.ground_load[k] = constant_->ground_load[k] + constant_->load_factor * ground_load_[k];
+  }
+  std::fill(ground_load_.begin(), ground_load_.end(), 0.0);
+  unknowns_ = &unknowns;
+  loads_ = &loads;
+  constant_ = std::move(constant);
+  find_driven_elements();
+  find_driven_slots();
+  displacement_ = unknowns.prescribed;
+  loaded_slots_ = loaded_slots(unknowns, loads);
+  events_to_follow_ = 0;
+  last_work_ = 0.0;
+  adopt_load();
 }
 
 double Equilibrium::change_motion(const Unknowns& unknowns) {
@@ -150,7 +183,7 @@ void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
 }
 
 std::vector<double> Equilibrium::present_load() const {
-  std::vector<double> load = assemble_right_hand_side(network_, secants_, *unknowns_, loads_);
+  std::vector<double> load = assemble_right_hand_side(network_, secants_, *unknowns_, *loads_);
   for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
   return load;
 }
@@ -161,11 +194,12 @@ void Equilibrium::refresh() {
   scatter_solution();
   stale_ = false;
   force_work_ = work_of_forces();
+  if (constant_) refresh_constant();
 }
 
 double Equilibrium::work_of_forces() const {
   double work = 0.0;
-  for (const std::size_t slot : loaded_slots_) work += loads_.forces[slot] * displacement_[slot];
+  for (const std::size_t slot : loaded_slots_) work += loads_->forces[slot] * displacement_[slot];
   return work;
 }
 
@@ -243,7 +277,7 @@ std::pair<double, double> Equilibrium::driven_work_of(Index element) const {
 double Equilibrium::measure_residual(std::vector<double>& residual) {
   internal_force(network_, secants_, displacement_, internal_);
   for (std::size_t slot = 0; slot < internal_.forces.size(); ++slot) {
-    internal_.forces[slot] = loads_.forces[slot] - internal_.forces[slot];
+    internal_.forces[slot] = loads_->forces[slot] - internal_.forces[slot];
   }
   residual = unknowns_->restrict(internal_.forces);
   double square = 0.0;
@@ -262,7 +296,7 @@ double Equilibrium::residual_of_current() {
   for (std::size_t k = 0; k < solution_.size(); ++k) {
     if (glanced_[k] == 0) continue;
     const std::size_t slot = slot_of_[k];
-    double missing = loads_.forces[slot] - internal_.forces[slot];
+    double missing = loads_->forces[slot] - internal_.forces[slot];
     if (!network_.support_stiffness.empty()) {
       missing -= network_.support_stiffness[slot] * displacement_[slot];
     }

@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "analysis/quasistatic/equilibrium/constant_field.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
 #include "assembly/internal_force.hpp"
 #include "network/loaded_network.hpp"
@@ -26,6 +28,7 @@ struct EventOutcome {
   /// lambda_k lambda_(k+1) / 2 times this along the path drawn through the events.
   double compliance_growth = 0.0;
   double released = 0.0;  ///< energy that left the element, at load factor 1 [force length]
+  Beside growth_beside = {}, released_beside = {};  ///< what constant loads add to both
 };
 
 /// Work products at load factor 1 [force length].
@@ -35,6 +38,7 @@ struct LoadWork {
   /// The body no longer resists what drives it: nothing does, and both are zero, or nothing but
   /// elastic supports that are weak beside what it was.
   bool separated = false;
+  ConstantWork constant = {};  ///< what constant loads add
   double compliance() const { return forces - supports; }
 };
 
@@ -42,6 +46,7 @@ struct LoadWork {
 struct Balance {
   double residual = 0.0;       ///< |f - K u| / |f|
   double stored_energy = 0.0;  ///< sum over elements of k e^2 / 2 at load factor 1 [force length]
+  Beside stored_beside = {};   ///< what constant loads add
 };
 
 /// How equilibrium is solved for.
@@ -103,8 +108,38 @@ class Equilibrium {
 
   const Factor& factor() const { return *factor_; }
 
+  // Constant loads beside those that grow: constant_loads.cpp.
+
+  /// Other loads and prescribed motions grow from now on, beside constant ones; all displacements
+  /// are kept current.
+  /// \param unknowns  the same but for what is prescribed; must outlive this, as the loads must
+  void begin_stage(const Unknowns& unknowns, const Loads& loads, ConstantField constant);
+
+  /// The load factor of the loads that grow, which tells what an element carries.
+  void move_to(double load_factor) { constant_->load_factor = load_factor; }
+
+  /// Displacements by constant loads alone, those at load factor 0.
+  std::span<const double> constant_displacement() const { return constant_->displacement; }
+
+  /// What constant loads add to work().
+  ConstantWork constant_work();
+
+  /// The same for check(): refines the displacements by constant loads where it must.
+  void check_constant(Balance& balance);
+
  private:
+  using Deformations = std::array<double, Removal::capacity>;
+  void refresh_constant();
+  void polish_constant();
+  void scatter_constant();
+  void find_driven_slots();
+  Removal removal_of(Index element, double fraction) const;
+  Deformations deformations_now(const Removal& removal, Index element) const;
+  double release_constant(const Removal& removal, Index element, EventOutcome& outcome) const;
+  void commit_both(const Removal& removal);
+  void move_constant(const Removal& removal);
   void adopt_motion();
+  void adopt_load();
   void find_driven_elements();
   void choose_current_unknowns();
   void choose_glanced(const std::vector<std::uint8_t>& current);
@@ -124,7 +159,6 @@ class Equilibrium {
   }
 
   // Events and cuts: weakening.cpp.
-  using Deformations = std::array<double, Removal::capacity>;
   Deformations deformations(const Removal& removal, Index element) const;
   double prepare(Removal& removal);
   void measure_pivots(Removal& removal, Index element, double kept);
@@ -160,7 +194,7 @@ class Equilibrium {
 
   const Network& network_;
   const Unknowns* unknowns_;
-  const Loads& loads_;
+  const Loads* loads_;
   EquilibriumOptions options_;
   std::unique_ptr<Factor> factor_;
 
@@ -179,6 +213,7 @@ class Equilibrium {
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_
   std::vector<double> ground_stiffness_;  ///< per unknown, empty until a fragment came loose
   std::vector<double> ground_load_;
+  std::optional<ConstantField> constant_;
   InternalForce internal_;
   ForcesAndEnergy<long double> fine_;
   double stiffness_sum_ = 0.0;        ///< sum over all elements and supports

@@ -43,11 +43,12 @@ void decouple(Removal& removal, std::span<const double> compliance) {
   const Removal old = removal;
   for (int m = 0; m < rank; ++m) {
     removal.pivot[m] = axes.eigenvalues()[m];
-    removal.prescribed[m] = 0.0;
+    removal.prescribed[m] = removal.constant[m] = 0.0;
     removal.x[m] = rows;
     for (int n = 0; n < rank; ++n) {
       const double share = axes.eigenvectors()(n, m);
       removal.prescribed[m] += share * old.prescribed[n];
+      removal.constant[m] += share * old.constant[n];
       const SparseVector& x = old.x[n];
       for (int k = 0; k < x.size(); ++k) removal.x[m].add(x.rows[k], share * x.values[k]);
     }

@@ -16,6 +16,7 @@ struct Removal {
   double fraction = 0.0;  ///< part of the intact stiffness that goes
   std::array<SparseVector, capacity> x;
   std::array<double, capacity> prescribed{};  ///< what prescribed motions add to x'u
+  std::array<double, capacity> constant{};    ///< x'u of the displacements by constant loads
   std::array<double, capacity> pivot{};       ///< 1 - x' K^-1 x, ascending; set by decouple()
 
   std::span<const SparseVector> vectors() const {

@@ -160,7 +160,7 @@ bool Equilibrium::rebuild_without(Index element, double kept) {
 Balance Equilibrium::polish() {
   look_closer_ = true;
   if (stale_) refresh();
-  std::vector<double> load = unknowns_->restrict(loads_.forces);
+  std::vector<double> load = unknowns_->restrict(loads_->forces);
   for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
   FineMotion motion{{solution_.begin(), solution_.end()},
                     {displacement_.begin(), displacement_.end()}};
@@ -184,6 +184,7 @@ Balance Equilibrium::polish() {
   result.stored_energy = static_cast<double>(fine_.energy);
   resists_ = 2.0 * result.stored_energy > clearly_there * refined.error;
   supports_alone_ = fine_.support_energy > 0.5L * fine_.energy;
+  if (constant_) polish_constant();
   return result;
 }
 

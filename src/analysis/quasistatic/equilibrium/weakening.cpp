@@ -124,10 +124,10 @@ void Equilibrium::measure_pivots(Removal& removal, Index element, double kept) {
 /// \param unloaded  energy, twice, up to which a motion counts as unloaded
 /// \return false when the motion carries load: a mechanism
 bool Equilibrium::hold_free_modes(Removal& removal, Index element, double unloaded, int& springs) {
-  const Removal modes = make_removal(network_, *unknowns_, element, secants_[element]);
+  const Removal modes = removal_of(element, secants_[element]);
   const int most = network_.dim() == 2 ? 3 : 6;
   for (int tries = 0; removal.rank > 0 && removal.pivot[0] == 0.0; ++tries) {
-    const Deformations deformation = deformations(removal, element);
+    const Deformations deformation = deformations_now(removal, element);
     double energy = 0.0;
     for (int m = 0; m < removal.rank && removal.pivot[m] == 0.0; ++m) {
       energy += deformation[m] * deformation[m];
@@ -161,17 +161,23 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
   if (removal.rank == 1) {
     if (removal.x[0].size() == 0) return;  // nothing unknown is held by this element
     if (prepared_with_ != factor_->factorizations()) factor_->prepare_downdate(removal.x[0]);
-    factor_->commit_downdate(removal.prescribed[0], solution_);
+    if (constant_) {
+      commit_both(removal);
+    } else {
+      factor_->commit_downdate(removal.prescribed[0], solution_);
+    }
   } else {
+    if (constant_) move_constant(removal);
     factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
   }
   scatter_solution();
+  if (constant_) scatter_constant();
   stale_ = partial_;
   if (look_closer_) polish();
 }
 
 EventOutcome Equilibrium::weaken(Index element, double secant) {
-  Removal removal = make_removal(network_, *unknowns_, element, secants_[element] - secant);
+  Removal removal = removal_of(element, secants_[element] - secant);
   measure_pivots(removal, element, secant);
   EventOutcome outcome;
   outcome.secant = secant;
@@ -179,6 +185,7 @@ EventOutcome Equilibrium::weaken(Index element, double secant) {
   for (const double deformation : deformations(removal, element))
     energy += deformation * deformation;
   outcome.released = 0.5 * energy;
+  if (constant_) energy = release_constant(removal, element, outcome);
   int springs = 0;
   outcome.mechanism = outcome.broke()
                           ? !hold_free_modes(removal, element, least_loaded_share * energy, springs)
@@ -188,6 +195,10 @@ EventOutcome Equilibrium::weaken(Index element, double secant) {
   const Deformations deformation = deformations(removal, element);
   for (int m = 0; m < removal.rank; ++m) {
     outcome.compliance_growth += deformation[m] * deformation[m] / removal.pivot[m];
+    if (!constant_) continue;
+    const double held = removal.constant[m];
+    outcome.growth_beside.linear += 2.0 * deformation[m] * held / removal.pivot[m];
+    outcome.growth_beside.constant += held * held / removal.pivot[m];
   }
   outcome.mechanism = hangs_on_weak_supports(outcome.compliance_growth) ||
                       (must_rebuild_ && !rebuild_without(element, secant));
@@ -200,7 +211,7 @@ EventOutcome Equilibrium::weaken(Index element, double secant) {
 int Equilibrium::cut(Index element) {
   keep_all_current();
   if (secants_[element] == 0.0) return 0;
-  Removal removal = make_removal(network_, *unknowns_, element, secants_[element]);
+  Removal removal = removal_of(element, secants_[element]);
   measure_pivots(removal, element, 0.0);
   int springs = 0;
   // A force, as far as forces and moments compare: sqrt(k) times sqrt(k) times an extension.
@@ -251,6 +262,9 @@ void Equilibrium::add_ground_spring(Index unknown) {
   factor_->update(x, solution_);
   ground_stiffness_[unknown] += stiffness;
   ground_load_[unknown] += stiffness * solution_[unknown];
+  if (!constant_) return;
+  constant_->ground_load.resize(solution_.size());
+  constant_->ground_load[unknown] += stiffness * constant_->solution[unknown];
 }
 
 /// Springs act on displacements anywhere: from now on all of them are kept current.

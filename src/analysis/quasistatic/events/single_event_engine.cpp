@@ -23,10 +23,14 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
   const EventOutcome outcome = equilibrium_.weaken(event.element, next.secant);
   if (outcome.mechanism) return outcome;
   ++teeth_[event.element];
-  search_->set_limit(event.element, outcome.broke()
-                                        ? std::numeric_limits<double>::infinity()
-                                        : network_.critical_stretch[event.element] * next.limit);
+  search_->set_limit(event.element, limit_of(event.element));
   return outcome;
+}
+
+double SingleEventEngine::limit_of(Index element) const {
+  const Tooth tooth = network_.law(element).tooth(teeth_[element]);
+  return tooth.secant == 0.0 ? std::numeric_limits<double>::infinity()
+                             : network_.critical_stretch[element] * tooth.limit;
 }
 
 int SingleEventEngine::cut(std::span<const Index> elements) {

@@ -9,7 +9,7 @@
 namespace perilink {
 
 /// One event at a time: search all elements, weaken the one found, move the displacement.
-class SingleEventEngine final : public EventEngine {
+class SingleEventEngine : public EventEngine {
  public:
   SingleEventEngine(const LoadedNetwork& problem, const EngineOptions& options);
 
@@ -29,7 +29,10 @@ class SingleEventEngine final : public EventEngine {
   /// Equilibrium::cut() of several elements, which have no events any more.
   int cut(std::span<const Index> elements);
 
- private:
+ protected:
+  /// The stretch at which the element has its next event; infinity: it is broken.
+  double limit_of(Index element) const;
+
   const Network& network_;
   int threads_;
   Equilibrium equilibrium_;

@@ -1,0 +1,189 @@
+// Constant loads beside those that grow: a second field of displacements that follows the same
+// changes of the stiffness (docs/theory/events_and_energy.md, section 7).
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+#include "assembly/stiffness.hpp"
+
+namespace perilink {
+namespace {
+
+double norm(const std::vector<double>& values) {
+  double square = 0.0;
+  for (const double value : values) square += value * value;
+  return std::sqrt(square);
+}
+
+/// Over the slots that something but a prescription moves.
+double work_on(const Unknowns& unknowns, const Loads& loads, std::span<const double> motion) {
+  double work = 0.0;
+  for (std::size_t slot = 0; slot < motion.size(); ++slot) {
+    if (unknowns.number[slot] != no_index) work += loads.forces[slot] * motion[slot];
+  }
+  return work;
+}
+
+}  // namespace
+
+void Equilibrium::find_driven_slots() {
+  const auto width = static_cast<std::size_t>(network_.width());
+  std::vector<std::uint8_t> driven(static_cast<std::size_t>(network_.particles.size()), 0);
+  for (std::size_t slot = 0; slot < unknowns_->prescribed.size(); ++slot) {
+    if (unknowns_->prescribed[slot] == 0.0 && constant_->unknowns.prescribed[slot] == 0.0) continue;
+    constant_->driven_slots.push_back(slot);
+    driven[slot / width] = 1;
+  }
+  if (constant_->driven_slots.empty()) return;
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (driven[network_.bonds.first[e]] || driven[network_.bonds.second[e]]) {
+      constant_->driven_elements.push_back(e);
+    }
+  }
+}
+
+void Equilibrium::refresh_constant() {
+  ConstantField& field = *constant_;
+  std::vector<double> load =
+      assemble_right_hand_side(network_, secants_, field.unknowns, field.loads);
+  for (std::size_t k = 0; k < field.ground_load.size(); ++k) load[k] += field.ground_load[k];
+  field.load_norm = norm(load);
+  field.solution.assign(load.size(), 0.0);
+  const auto moves = [](double u) { return u != 0.0; };
+  field.rests = field.load_norm == 0.0 && std::none_of(field.unknowns.prescribed.begin(),
+                                                       field.unknowns.prescribed.end(), moves);
+  if (field.load_norm > 0.0) factor_->solve(load, field.solution);
+  scatter_constant();
+}
+
+void Equilibrium::scatter_constant() {
+  ConstantField& field = *constant_;
+  field.displacement = field.unknowns.expand(field.solution);
+}
+
+void Equilibrium::polish_constant() {
+  ConstantField& field = *constant_;
+  if (field.load_norm == 0.0) return;
+  std::vector<double> load = field.unknowns.restrict(field.loads.forces);
+  for (std::size_t k = 0; k < field.ground_load.size(); ++k) load[k] += field.ground_load[k];
+  FineMotion motion{{field.solution.begin(), field.solution.end()},
+                    {field.displacement.begin(), field.displacement.end()}};
+  refine_finely(load, motion);
+  for (std::size_t k = 0; k < load.size(); ++k) {
+    field.solution[k] = static_cast<double>(motion.unknowns[k]);
+  }
+  scatter_constant();
+}
+
+ConstantWork Equilibrium::constant_work() {
+  const ConstantField& field = *constant_;
+  ConstantWork work;
+  if (field.rests) return work;
+  work.forces = work_on(*unknowns_, field.loads, field.displacement);
+  work.forces_on_motion = work_on(*unknowns_, field.loads, displacement_);
+  work.growing_forces = work_on(*unknowns_, *loads_, field.displacement);
+  if (field.driven_slots.empty()) return work;
+  internal_force(network_, secants_, field.displacement, field.driven_elements, internal_);
+  for (const std::size_t slot : field.driven_slots) {
+    double force = internal_.forces[slot];
+    if (!network_.support_stiffness.empty()) {
+      force += network_.support_stiffness[slot] * field.displacement[slot];
+    }
+    work.supports += force * field.unknowns.prescribed[slot];
+    work.growing_supports += force * unknowns_->prescribed[slot];
+  }
+  return work;
+}
+
+void Equilibrium::check_constant(Balance& balance) {
+  const ConstantField& field = *constant_;
+  if (field.rests) return;
+  const auto measure = [&] {
+    internal_force(network_, secants_, field.displacement, internal_);
+    std::vector<double> missing(internal_.forces.size());
+    for (std::size_t slot = 0; slot < missing.size(); ++slot) {
+      missing[slot] = field.loads.forces[slot] - internal_.forces[slot];
+    }
+    std::vector<double> residual = field.unknowns.restrict(missing);
+    for (std::size_t k = 0; k < field.ground_load.size(); ++k) {
+      residual[k] += field.ground_load[k] - ground_stiffness_[k] * field.solution[k];
+    }
+    return field.load_norm > 0.0 ? norm(residual) / field.load_norm : 0.0;
+  };
+  double residual = measure();
+  if (!(residual <= options_.residual_tolerance)) {
+    polish_constant();
+    residual = measure();
+  }
+  balance.residual = std::max(balance.residual, residual);
+  balance.stored_beside.constant = internal_.energy;
+  for (std::size_t slot = 0; slot < displacement_.size(); ++slot) {
+    balance.stored_beside.linear += internal_.forces[slot] * displacement_[slot];
+  }
+}
+
+/// What goes with an element, and what constant loads do to it.
+Removal Equilibrium::removal_of(Index element, double fraction) const {
+  Removal removal = make_removal(network_, *unknowns_, element, fraction);
+  if (!constant_) return removal;
+  const Removal own = make_removal(network_, constant_->unknowns, element, fraction);
+  for (int m = 0; m < own.rank; ++m) removal.constant[m] = own.deformation(m, constant_->solution);
+  return removal;
+}
+
+/// Those of all loads at the present load factor; without constant loads at load factor 1.
+auto Equilibrium::deformations_now(const Removal& removal, Index element) const -> Deformations {
+  Deformations result = deformations(removal, element);
+  if (!constant_) return result;
+  for (int m = 0; m < removal.rank; ++m) {
+    result[m] = removal.constant[m] + constant_->load_factor * result[m];
+  }
+  return result;
+}
+
+/// \return twice the energy that leaves the element at the present load factor
+double Equilibrium::release_constant(const Removal& removal, Index element,
+                                     EventOutcome& outcome) const {
+  const Deformations growing = deformations(removal, element);
+  for (int m = 0; m < removal.rank; ++m) {
+    outcome.released_beside.linear += growing[m] * removal.constant[m];
+    outcome.released_beside.constant += 0.5 * removal.constant[m] * removal.constant[m];
+  }
+  const double now = constant_->load_factor;
+  return 2.0 * (now * now * outcome.released + outcome.released_beside.at(now));
+}
+
+/// One backward pass for both fields: that of the factor makes K^-1 x / pivot of a solution that is
+/// zero. Routes that follow a load of their own need a solve.
+void Equilibrium::commit_both(const Removal& removal) {
+  if (options_.route != FactorRoute::in_place) {
+    move_constant(removal);
+    factor_->prepare_downdate(removal.x[0]);
+    factor_->commit_downdate(removal.prescribed[0], solution_);
+    return;
+  }
+  const double growing = removal.deformation(0, solution_);
+  std::vector<double> motion(solution_.size(), 0.0);
+  factor_->commit_downdate(1.0, motion);
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    solution_[k] += growing * motion[k];
+    constant_->solution[k] += removal.constant[0] * motion[k];
+  }
+}
+
+/// Displacements by constant loads after a removal that the factor is still to make.
+void Equilibrium::move_constant(const Removal& removal) {
+  std::vector<double> load(solution_.size(), 0.0);
+  for (int m = 0; m < removal.rank; ++m) {
+    const SparseVector& x = removal.x[m];
+    const double scale = removal.constant[m] / removal.pivot[m];
+    for (int k = 0; k < x.size(); ++k) load[x.rows[k]] += scale * x.values[k];
+  }
+  if (constant_->rests) return;
+  factor_->solve(load, load);
+  for (std::size_t k = 0; k < load.size(); ++k) constant_->solution[k] += load[k];
+}
+
+}  // namespace perilink

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/quasistatic/damage_analysis.hpp"
+#include "analysis/quasistatic/events/staged_engine.hpp"
+#include "analysis/quasistatic/path_energy.hpp"
+#include "base/timer.hpp"
+
+/// \file
+/// The loop of the damage analysis: by events and by steps in damage_analysis.cpp, by stages in
+/// staged_run.cpp.
+
+namespace perilink {
+
+/// Lets observers look at the equilibrium of the engine.
+class EngineState final : public StateSource {
+ public:
+  EngineState(const Network& network, EventEngine& engine) : network_(network), engine_(engine) {}
+  StepState state() override { return {network_, engine_.secants(), engine_.displacement()}; }
+  std::span<const double> secants() override { return engine_.secants(); }
+
+ private:
+  const Network& network_;
+  EventEngine& engine_;
+};
+
+/// The run as it goes on: engine, path energies, the row being written and the result.
+class EventRun {
+ public:
+  EventRun(const LoadedNetwork& problem, const DamageOptions& options, StepObserver& observer);
+  EventRun(const EventRun&) = delete;
+
+  DamageResult go();
+
+ private:
+  std::unique_ptr<EventEngine> make_engine();
+  LoadWork begin_work();
+  DamageResult by_events();
+  DamageResult by_steps();
+  // By stages: staged_run.cpp.
+  DamageResult by_stages();
+  void begin_stage(std::size_t number);
+  void end_stage();
+  bool follow_stage(const StageRules& stage);
+  void measure_beside(const LoadWork& work);
+  void record(double load_factor, const LoadWork& work, Index element);
+  void note_peaks();
+  void take_note_of(const Balance& balance);
+  void check() { take_note_of(engine_->check_equilibrium()); }
+  void look_after(const EventOutcome& outcome);
+  void follow_motion();
+  bool residual_may_be_large() const;
+  int check_interval() const;
+  bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }
+  void record_separated(double load_factor, const LoadWork& work);
+  bool pass(const Event& event);
+  bool stop_rule_met();
+  void end(Ending ending, std::string reason) {
+    result_.ending = ending;
+    result_.reason = std::move(reason);
+  }
+  DamageResult finish();
+
+  const Network& network_;
+  const ReferenceLoad* reference_;  ///< of the present stage, if there are any
+  const DamageOptions& options_;
+  const StopRules* stop_;  ///< of the present stage, if there are any
+  StepObserver& observer_;
+  const LoadedNetwork& problem_;
+  StagedEngine* staged_ = nullptr;  ///< the engine, where there are stages
+  std::unique_ptr<EventEngine> engine_;
+  EngineState state_;
+  PathEnergy energy_;
+  Timer timer_;
+  double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...
+  double checked_compliance_ = 0.0;  ///< ... when the residual was last measured
+  double stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
+  Beside stored_beside_;    ///< where that was measured
+  double most_work_ = 0.0;  ///< largest of the work and the energies so far, of stages
+  int events_ = 0;
+  int looks_ = 0;       ///< at the residual, that nothing else asked for
+  int rows_below_ = 0;  ///< successive rows below the load fraction of the stop rule
+  Index broken_bonds_ = 0;
+  Index yield_events_ = 0;
+  StepRecord row_;
+  std::vector<StepRecord> rows_;  ///< history under control by events
+  DamageResult result_;
+};
+
+}  // namespace perilink

@@ -1,0 +1,251 @@
+#include "analysis/quasistatic/events/crossing_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "analysis/quasistatic/events/block_search.hpp"
+#include "analysis/quasistatic/events/break_search.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A bond that bends counts as stretched from this axial stretch on, over its limit, as round-off
+/// must not decide where symmetry keeps its length.
+constexpr double least_tension = 1e-6;
+
+/// Fewer blocks than this are searched faster by one thread.
+constexpr Index smallest_parallel_search = 100;
+
+/// The parts of the stretch over its limit whose squares add up, the axial one first.
+template <int Dim, bool Turns>
+struct Measure {
+  static constexpr int size = !Turns ? 1 : Dim == 2 ? 3 : 8;
+  double part[size];
+
+  double times(const Measure& other) const {
+    double sum = 0.0;
+    for (int k = 0; k < size; ++k) sum += part[k] * other.part[k];
+    return sum;
+  }
+};
+
+}  // namespace
+
+/// Whether what is asked for may lie at the low end of the interval.
+bool CrossingSearch::Query::asks_for(const Interval& interval) const {
+  if (interval.low == -infinity) return false;
+  return largest ? interval.high == infinity : interval.low >= -interval.margin;
+}
+
+void CrossingSearch::Found::add(const Found& other) {
+  low = std::min(low, other.low);
+  early = std::min(early, other.early);
+  needed = std::max(needed, other.needed);
+  lost = std::min(lost, other.lost);
+  islands.insert(islands.end(), other.islands.begin(), other.islands.end());
+}
+
+CrossingSearch::CrossingSearch(const Network& network)
+    : dim_(network.dim()), turns_(network.carries_moments()), torsion_(network.torsion) {
+  const int width = network.width();
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!network.has_limit(e)) continue;
+    Element element{};
+    element.number = e;
+    element.first = network.bonds.first[e] * width;
+    element.second = network.bonds.second[e] * width;
+    for (int a = 0; a < dim_; ++a) element.n[a] = network.bonds.direction(e)[a];
+    const double length = network.bonds.lengths[e];
+    if (turns_) {
+      element.first_arm = network.inflection_of(e) * length;
+      element.second_arm = (1.0 - network.inflection_of(e)) * length;
+      element.shear_share = std::sqrt(network.ratio_of_bending(e));
+      element.rotation_share = element.shear_share * length / std::sqrt(12.0);
+    }
+    element.length = length;
+    element.inverse = 1.0 / (length * network.critical_stretch[e] * network.law(e).tooth(0).limit);
+    element.both = network.law(e).sense() == Sense::both;
+    elements_.push_back(element);
+  }
+  blocks_.resize(num_search_blocks(elements_.size()));
+}
+
+namespace {
+
+template <int Dim, bool Turns, class Element>
+Measure<Dim, Turns> measure(const Element& bond, const double* u, double scale, double torsion) {
+  const double* i = u + bond.first;
+  const double* j = u + bond.second;
+  const double* n = bond.n;
+  Measure<Dim, Turns> result{};
+  double extension = 0.0;
+  for (int a = 0; a < Dim; ++a) extension += n[a] * (j[a] - i[a]);
+  result.part[0] = extension;
+  if constexpr (Turns && Dim == 2) {
+    const double shear = n[0] * (j[1] - i[1]) - n[1] * (j[0] - i[0]);
+    result.part[1] = bond.shear_share * (shear - (bond.first_arm * i[2] + bond.second_arm * j[2]));
+    result.part[2] = bond.rotation_share * (j[2] - i[2]);
+  } else if constexpr (Turns) {
+    double twist = 0.0;
+    for (int a = 0; a < 3; ++a) twist += n[a] * (j[3 + a] - i[3 + a]);
+    const auto arm = [&](int a) { return bond.first_arm * i[3 + a] + bond.second_arm * j[3 + a]; };
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      result.part[1 + a] =
+          bond.shear_share * (j[a] - i[a] - n[a] * extension + n[b] * arm(c) - n[c] * arm(b));
+      result.part[4 + a] = bond.rotation_share * (j[3 + a] - i[3 + a] - n[a] * twist);
+    }
+    result.part[7] = bond.rotation_share * std::sqrt(torsion) * twist;
+  }
+  for (double& part : result.part) part *= scale;
+  return result;
+}
+
+}  // namespace
+
+template <int Dim, bool Turns, class Sink>
+void CrossingSearch::visit(const Element& element, const Query& query, Sink&& sink) const {
+  if (element.inverse == 0.0) return;
+  const auto now = measure<Dim, Turns>(element, query.now, element.inverse, torsion_);
+  const auto growing =
+      measure<Dim, Turns>(element, query.growing, query.sense * element.inverse, torsion_);
+  const double square = now.times(now), rate = growing.times(growing);
+  if (!std::isfinite(square + rate)) return sink(Interval{infinity, -infinity, 0.0});
+  const double margin = rate > 0.0 ? query.tolerance / std::sqrt(rate) : 0.0;
+  const double stretch = now.part[0], stretching = growing.part[0];
+  double low = -infinity, high = infinity;  // between them the element is within its limit
+  bool never = false;                       // or nowhere
+  if (rate == 0.0) {
+    never = square > 1.0 + 2.0 * query.tolerance;
+  } else if constexpr (!Turns) {
+    const double one = (1.0 - stretch) / stretching, other = (-1.0 - stretch) / stretching;
+    low = std::min(one, other);
+    high = std::max(one, other);
+  } else {
+    const double half = now.times(growing);
+    const double rest = half * half - rate * (square - 1.0);
+    never = !(rest > 0.0);
+    const double sum = half >= 0.0 ? -(half + std::sqrt(rest)) : std::sqrt(rest) - half;
+    if (!never) std::tie(low, high) = std::minmax({sum / rate, (square - 1.0) / sum});
+  }
+  // Where the element is stretched, if it fails in tension alone.
+  double from = -infinity, to = infinity;
+  if (!element.both) {
+    const double least = Turns ? least_tension : 0.0;
+    if (stretching > 0.0) {
+      from = (least - stretch) / stretching;
+    } else if (stretching < 0.0) {
+      to = (least - stretch) / stretching;
+    } else if (!(stretch > least)) {
+      return;
+    }
+  }
+  if (never) return sink(Interval{from, to, margin});
+  const Interval above{std::max(high, from), to, margin};
+  const Interval below{from, std::min(low, to), margin};
+  if (above.low < above.high) sink(above);
+  if (below.low < below.high) sink(below);
+}
+
+template <class Sink>
+void CrossingSearch::visit(std::size_t place, const Query& query, Sink&& sink) const {
+  const Element& element = elements_[place];
+  if (dim_ == 3) {
+    turns_ ? visit<3, true>(element, query, sink) : visit<3, false>(element, query, sink);
+  } else {
+    turns_ ? visit<2, true>(element, query, sink) : visit<2, false>(element, query, sink);
+  }
+}
+
+auto CrossingSearch::find(const Query& query, int threads) -> Found {
+  const Index blocks = static_cast<Index>(blocks_.size());
+#pragma omp parallel for schedule(static) \
+    num_threads(threads) if (threads > 1 && blocks > smallest_parallel_search)
+  for (Index b = 0; b < blocks; ++b) {
+    Found found;
+    const std::size_t begin = static_cast<std::size_t>(b) * search_block_size;
+    const std::size_t end = std::min(begin + search_block_size, elements_.size());
+    for (std::size_t k = begin; k < end; ++k) {
+      visit(k, query, [&](const Interval& interval) {
+        if (interval.low > interval.high) {
+          found.lost = std::min(found.lost, elements_[k].number);
+        } else if (query.asks_for(interval)) {
+          found.low = std::min(found.low, interval.low);
+          found.early = std::min(found.early, interval.low - interval.margin);
+        } else if (query.largest && interval.low == -infinity) {
+          found.needed = std::max(found.needed, interval.high - interval.margin);
+        } else if (query.largest) {
+          found.islands.push_back({interval, elements_[k].number});
+        }
+      });
+    }
+    blocks_[b] = std::move(found);
+  }
+  Found all;
+  for (const Found& block : blocks_) all.add(block);
+  if (all.lost < std::numeric_limits<Index>::max()) {
+    finite_ratio(all.lost, std::numeric_limits<double>::quiet_NaN());
+  }
+  return all;
+}
+
+/// The lowest element that passes its limit at d, or comes near it.
+Index CrossingSearch::element_at(double distance, const Query& query) const {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (blocks_[b].early > distance) continue;
+    const std::size_t begin = b * search_block_size;
+    const std::size_t end = std::min(begin + search_block_size, elements_.size());
+    for (std::size_t k = begin; k < end; ++k) {
+      bool found = false;
+      visit(k, query, [&](const Interval& interval) {
+        found |= query.asks_for(interval) && interval.low - interval.margin <= distance;
+      });
+      if (found) return elements_[k].number;
+    }
+  }
+  return no_index;
+}
+
+auto CrossingSearch::ahead(std::span<const double> now, std::span<const double> growing, int sense,
+                           double tolerance, int threads) -> Crossing {
+  const Query query{now.data(), growing.data(), static_cast<double>(sense), tolerance, false};
+  const Found found = find(query, threads);
+  if (found.low == infinity) return {};
+  return {element_at(found.low, query), sense * std::max(found.low, 0.0)};
+}
+
+auto CrossingSearch::largest(std::span<const double> now, std::span<const double> growing,
+                             double tolerance, int threads) -> Crossing {
+  const Query query{now.data(), growing.data(), 1.0, tolerance, true};
+  const Found found = find(query, threads);
+  double distance = found.low;
+  Index element = no_index;
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const Found::Island& island : found.islands) {
+      const Interval& within = island.interval;
+      if (distance - within.low <= within.margin || within.high - distance <= within.margin)
+        continue;
+      distance = within.low;
+      element = island.element;
+      moved = true;
+    }
+  }
+  if (distance < found.needed) return {no_index, -infinity};
+  if (element == no_index && distance < infinity) element = element_at(distance, query);
+  return {element, distance};
+}
+
+void CrossingSearch::set_limit(Index element, double limit) {
+  const auto found =
+      std::lower_bound(elements_.begin(), elements_.end(), element,
+                       [](const Element& entry, Index number) { return entry.number < number; });
+  if (found == elements_.end() || found->number != element) return;
+  found->inverse = std::isinf(limit) ? 0.0 : 1.0 / (found->length * limit);
+}
+
+}  // namespace perilink

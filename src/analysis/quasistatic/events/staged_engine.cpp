@@ -1,0 +1,101 @@
+#include "analysis/quasistatic/events/staged_engine.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace perilink {
+
+StagedEngine::StagedEngine(const LoadedNetwork& problem, const EngineOptions& options)
+    : SingleEventEngine(problem, options),
+      problem_(problem),
+      crossings_(problem.network),
+      unknowns_(problem.unknowns),
+      load_factors_(problem.sets.size(), 0.0) {
+  begin_stage(0);
+}
+
+void StagedEngine::begin_stage(std::size_t set) {
+  load_factors_[set_] = load_factor_;
+  set_ = set;
+  load_factor_ = load_factors_[set];
+  ConstantField constant;
+  constant.unknowns = problem_.unknowns;
+  constant.unknowns.prescribed.assign(problem_.unknowns.prescribed.size(), 0.0);
+  constant.loads.forces.assign(problem_.loads.forces.size(), 0.0);
+  constant.load_factor = load_factor_;
+  for (std::size_t other = 0; other < problem_.sets.size(); ++other) {
+    const double factor = load_factors_[other];
+    if (other == set || factor == 0.0) continue;
+    const LoadSet& loads = problem_.sets[other];
+    for (std::size_t slot = 0; slot < loads.prescribed.size(); ++slot) {
+      constant.loads.forces[slot] += factor * loads.loads.forces[slot];
+      constant.unknowns.prescribed[slot] += factor * loads.prescribed[slot];
+    }
+  }
+  unknowns_.prescribed = problem_.sets[set].prescribed;
+  equilibrium_.begin_stage(unknowns_, problem_.sets[set].loads, std::move(constant));
+}
+
+void StagedEngine::move_to(double load_factor) {
+  load_factor_ = load_factor;
+  equilibrium_.move_to(load_factor);
+}
+
+std::span<const double> StagedEngine::displacement() {
+  const std::span<const double> growing = equilibrium_.where_elements_fail();
+  const std::span<const double> constant = equilibrium_.constant_displacement();
+  now_.resize(growing.size());
+  for (std::size_t slot = 0; slot < now_.size(); ++slot) {
+    now_[slot] = constant[slot] + load_factor_ * growing[slot];
+  }
+  return now_;
+}
+
+BreakSearch::Hit StagedEngine::worst() {
+  return search_->find(displacement(), tie_tolerance, threads_);
+}
+
+Event StagedEngine::next_event() {
+  const CrossingSearch::Crossing last = crossings_.largest(
+      displacement(), equilibrium_.where_elements_fail(), tie_tolerance, threads_);
+  if (last.element != no_index) return {last.element, load_factor_ + last.distance};
+  if (last.distance > 0.0) return {};
+  return {worst().element, load_factor_, true};
+}
+
+Event StagedEngine::next_event_towards(double target) {
+  const BreakSearch::Hit hit = worst();
+  if (hit.ratio > 1.0 + tie_tolerance) return {hit.element, load_factor_, true};
+  const CrossingSearch::Crossing next =
+      crossings_.ahead(now_, equilibrium_.where_elements_fail(), target < load_factor_ ? -1 : 1,
+                       tie_tolerance, threads_);
+  const bool reached =
+      next.element != no_index && std::abs(next.distance) <= std::abs(target - load_factor_);
+  return reached ? Event{next.element, load_factor_ + next.distance} : Event{};
+}
+
+EventOutcome StagedEngine::apply(const Event& event) {
+  const EventOutcome outcome = SingleEventEngine::apply(event);
+  if (!outcome.mechanism) crossings_.set_limit(event.element, limit_of(event.element));
+  return outcome;
+}
+
+LoadWork StagedEngine::load_work() {
+  LoadWork work = equilibrium_.work();
+  work.constant = equilibrium_.constant_work();
+  return work;
+}
+
+Balance StagedEngine::check_equilibrium() {
+  Balance balance = equilibrium_.check();
+  equilibrium_.check_constant(balance);
+  return balance;
+}
+
+double StagedEngine::change_motion(const Unknowns& /*unknowns*/) {
+  throw SolverError("the unknowns cannot change in an analysis by stages");
+}
+
+}  // namespace perilink

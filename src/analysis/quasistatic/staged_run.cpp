@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/quasistatic/event_run.hpp"
+#include "base/error.hpp"
+
+namespace perilink {
+
+/// Stage after stage, until one ends the run: with the last one, a collapse, or a signal.
+DamageResult EventRun::by_stages() {
+  if (options_.new_motion) throw SolverError("particles stay as they are in a run by stages");
+  for (std::size_t k = 0; k < options_.stages.size(); ++k) {
+    begin_stage(k);
+    const bool goes_on = follow_stage(options_.stages[k]);
+    end_stage();
+    if (!goes_on) break;
+  }
+  return finish();
+}
+
+/// The equilibrium stays; what grows and what is constant change.
+void EventRun::begin_stage(std::size_t number) {
+  const StageRules& stage = options_.stages[number];
+  const bool others = number == 0 || stage.set != options_.stages[number - 1].set;
+  result_.stages.emplace_back();
+  row_.stage = static_cast<Index>(number + 1);
+  stop_ = &stage.stop;
+  rows_below_ = 0;
+  if (!others) return;
+  result_.peaks = {};
+  reference_ = &problem_.sets[stage.set].reference;
+  staged_->begin_stage(stage.set);
+  begin_work();
+  check();
+  energy_.begin_stage(staged_->load_factor(), engine_->load_work());
+}
+
+void EventRun::end_stage() {
+  StageResult& stage = result_.stages.back();
+  stage.ending = result_.ending;
+  stage.reason = result_.reason;
+  stage.last = row_;
+  stage.peak = result_.peaks.highest();
+}
+
+/// \return whether the run goes on after it
+bool EventRun::follow_stage(const StageRules& stage) {
+  while (true) {
+    const LoadWork work = engine_->load_work();
+    if (work.separated) {
+      record_separated(staged_->load_factor(), work);
+      return false;
+    }
+    const Event event = stage.to ? staged_->next_event_towards(*stage.to) : engine_->next_event();
+    const bool arrived = event.element == no_index;
+    if (arrived && !stage.to) {
+      end(Ending::nothing_breaks, "no bond can break under this load");
+      return false;
+    }
+    const double load_factor = arrived ? *stage.to : event.load_factor;
+    staged_->move_to(load_factor);
+    row_.avalanche = event.avalanche ? 1 : 0;
+    record(load_factor, work, event.element);
+    if (stop_rule_met()) return result_.ending == Ending::completed;
+    if (arrived) {
+      end(Ending::completed, fmt::format("the load factor reached {}", *stage.to));
+      return true;
+    }
+    if (!pass(event)) return false;
+  }
+}
+
+/// The axes of a row, and its energies, with what constant loads add.
+void EventRun::measure_beside(const LoadWork& work) {
+  const double growing = row_.load_factor * work.forces + work.constant.growing_forces;
+  if (reference_->driven) {
+    row_.load += work.constant.growing_supports / reference_->value;
+  } else {
+    row_.displacement = growing / reference_->value;
+  }
+  most_work_ = std::max(
+      {most_work_, std::abs(row_.external_work), row_.strain_energy, row_.dissipated_energy});
+}
+
+}  // namespace perilink
