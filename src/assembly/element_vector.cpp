@@ -34,22 +34,6 @@ ElementVectors frame_vectors(const Network& network, const Unknowns& unknowns, I
   return result;
 }
 
-ElementVectors truss_vector(const Network& network, const Unknowns& unknowns, Index element,
-                            double fraction) {
-  const double stiffness = network.stiffness[element] * fraction;
-  const double root = std::sqrt(stiffness);
-  const std::span<const double> n = network.bonds.direction(element);
-  const std::size_t i = static_cast<std::size_t>(network.bonds.first[element]) * unknowns.width;
-  const std::size_t j = static_cast<std::size_t>(network.bonds.second[element]) * unknowns.width;
-  ElementVectors result;
-  result.count = 1;
-  result.x[0] = element_vector(network, unknowns, element, stiffness);
-  for (int a = 0; a < network.dim(); ++a) {
-    result.prescribed[0] += root * n[a] * (unknowns.prescribed[j + a] - unknowns.prescribed[i + a]);
-  }
-  return result;
-}
-
 }  // namespace
 
 SparseVector element_vector(const Network& network, const Unknowns& unknowns, Index element,
@@ -70,10 +54,26 @@ SparseVector element_vector(const Network& network, const Unknowns& unknowns, In
   return x;
 }
 
+ElementVectors axial_vector(const Network& network, const Unknowns& unknowns, Index element,
+                            double fraction) {
+  const double stiffness = network.stiffness[element] * fraction;
+  const double root = std::sqrt(stiffness);
+  const std::span<const double> n = network.bonds.direction(element);
+  const std::size_t i = static_cast<std::size_t>(network.bonds.first[element]) * unknowns.width;
+  const std::size_t j = static_cast<std::size_t>(network.bonds.second[element]) * unknowns.width;
+  ElementVectors result;
+  result.count = 1;
+  result.x[0] = element_vector(network, unknowns, element, stiffness);
+  for (int a = 0; a < network.dim(); ++a) {
+    result.prescribed[0] += root * n[a] * (unknowns.prescribed[j + a] - unknowns.prescribed[i + a]);
+  }
+  return result;
+}
+
 ElementVectors element_vectors(const Network& network, const Unknowns& unknowns, Index element,
                                double fraction) {
   if (!network.carries_moments() || !(network.bending[element] > 0.0)) {
-    return truss_vector(network, unknowns, element, fraction);
+    return axial_vector(network, unknowns, element, fraction);
   }
   return network.dim() == 2 ? frame_vectors<2>(network, unknowns, element, fraction)
                             : frame_vectors<3>(network, unknowns, element, fraction);

@@ -24,6 +24,10 @@ struct ElementVectors {
   std::array<double, capacity> prescribed{};
 };
 
+/// That of the axial mode alone.
+ElementVectors axial_vector(const Network& network, const Unknowns& unknowns, Index element,
+                            double fraction);
+
 /// One vector per mode that has stiffness: one of a truss; three of a micropolar bond in two
 /// dimensions and six in three (network/frame.hpp), the axial one first.
 /// \param fraction  part of the intact stiffness that is meant

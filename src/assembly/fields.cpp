@@ -16,9 +16,8 @@ Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double
 }
 
 template <int Dim>
-void fill_principal_strains(const Network& network, const Csr& families,
-                            std::span<const double> secants, std::span<const double> displacement,
-                            std::vector<double>& strains) {
+void fill_principal_strains(const Network& network, const Csr& families, Secants secants,
+                            std::span<const double> displacement, std::vector<double>& strains) {
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
   const Bonds& bonds = network.bonds;
   const Index num_particles = families.rows();
@@ -49,7 +48,7 @@ void fill_principal_strains(const Network& network, const Csr& families,
   }
 }
 
-std::vector<double> truss_energies(const Network& network, std::span<const double> secants,
+std::vector<double> truss_energies(const Network& network, Secants secants,
                                    std::span<const double> displacement) {
   const Bonds& bonds = network.bonds;
   const int dim = network.dim();
@@ -61,13 +60,13 @@ std::vector<double> truss_energies(const Network& network, std::span<const doubl
       extension += n[axis] * (displacement[static_cast<std::size_t>(bonds.second[e]) * dim + axis] -
                               displacement[static_cast<std::size_t>(bonds.first[e]) * dim + axis]);
     }
-    energies[e] = 0.5 * network.stiffness[e] * secants[e] * extension * extension;
+    energies[e] = 0.5 * network.stiffness[e] * secants.axial(e) * extension * extension;
   }
   return energies;
 }
 
 template <int Dim>
-std::vector<double> frame_energies(const Network& network, std::span<const double> secants,
+std::vector<double> frame_energies(const Network& network, Secants secants,
                                    std::span<const double> motion) {
   using Modes = FrameModes<Dim>;
   std::vector<double> energies(static_cast<std::size_t>(network.num_elements()), 0.0);
@@ -79,7 +78,8 @@ std::vector<double> frame_energies(const Network& network, std::span<const doubl
         motion.data() + static_cast<std::size_t>(network.bonds.second[e]) * Modes::width;
     for (int m = 0; m < Modes::count; ++m) {
       const double deformation = modes.deformation(m, first, second);
-      energies[e] += 0.5 * modes.stiffness[m] * secants[e] * deformation * deformation;
+      const double secant = m == 0 ? secants.axial(e) : secants[e];
+      energies[e] += 0.5 * modes.stiffness[m] * secant * deformation * deformation;
     }
   }
   return energies;
@@ -87,8 +87,7 @@ std::vector<double> frame_energies(const Network& network, std::span<const doubl
 
 }  // namespace
 
-std::vector<double> damage_index(const Network& network, const Csr& families,
-                                 std::span<const double> secants) {
+std::vector<double> damage_index(const Network& network, const Csr& families, Secants secants) {
   std::vector<double> damage(static_cast<std::size_t>(families.rows()), 0.0);
   for (Index i = 0; i < families.rows(); ++i) {
     double all = 0.0;
@@ -124,8 +123,7 @@ std::vector<double> rotations(const Network& network, std::span<const double> mo
 }
 
 std::vector<double> strain_energy_density(const Network& network, const Csr& families,
-                                          std::span<const double> secants,
-                                          std::span<const double> motion) {
+                                          Secants secants, std::span<const double> motion) {
   const std::vector<double> energies =
       !network.carries_moments() ? truss_energies(network, secants, motion)
       : network.dim() == 2       ? frame_energies<2>(network, secants, motion)
@@ -142,8 +140,7 @@ std::vector<double> strain_energy_density(const Network& network, const Csr& fam
   return density;
 }
 
-std::vector<double> principal_strains(const Network& network, const Csr& families,
-                                      std::span<const double> secants,
+std::vector<double> principal_strains(const Network& network, const Csr& families, Secants secants,
                                       std::span<const double> displacement) {
   std::vector<double> strains(displacement.size(), 0.0);
   if (network.dim() == 2) {

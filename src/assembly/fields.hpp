@@ -13,8 +13,7 @@ namespace perilink {
 
 /// Damage index: the part of the stiffness that bonds have lost, weighted by the volumes at their
 /// other ends, per particle [-]. Bars that yield are not damaged.
-std::vector<double> damage_index(const Network& network, const Csr& families,
-                                 std::span<const double> secants);
+std::vector<double> damage_index(const Network& network, const Csr& families, Secants secants);
 
 /// The displacements without the rotations, shape (particles, dim).
 /// \param motion  shape (particles, width)
@@ -28,14 +27,12 @@ std::vector<double> rotations(const Network& network, std::span<const double> mo
 /// [force/length^2].
 /// \param motion  shape (particles, width)
 std::vector<double> strain_energy_density(const Network& network, const Csr& families,
-                                          std::span<const double> secants,
-                                          std::span<const double> motion);
+                                          Secants secants, std::span<const double> motion);
 
 /// Principal strains, largest first, of the least-squares displacement gradient over the intact
 /// bonds of each particle; shape (particles, dim). Zero where the bonds do not span the space.
 /// \param displacement  shape (particles, dim)
-std::vector<double> principal_strains(const Network& network, const Csr& families,
-                                      std::span<const double> secants,
+std::vector<double> principal_strains(const Network& network, const Csr& families, Secants secants,
                                       std::span<const double> displacement);
 
 }  // namespace perilink

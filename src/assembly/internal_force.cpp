@@ -14,7 +14,7 @@ struct AllElements {
 
 /// One thread: the sums then have one order, and reading the elements costs most of the time.
 template <int Dim, class Real, class Elements>
-void add_elements(const Network& network, const Elements& elements, std::span<const double> secants,
+void add_elements(const Network& network, const Elements& elements, Secants secants,
                   std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   const Bonds& bonds = network.bonds;
   const auto count = static_cast<Index>(elements.size());
@@ -27,7 +27,7 @@ void add_elements(const Network& network, const Elements& elements, std::span<co
     for (int axis = 0; axis < Dim; ++axis) {
       extension += n[axis] * (displacement[second + axis] - displacement[first + axis]);
     }
-    const Real tension = network.stiffness[e] * secants[e] * extension;
+    const Real tension = network.stiffness[e] * secants.axial(e) * extension;
     result.energy += 0.5 * tension * extension;
     for (int axis = 0; axis < Dim; ++axis) {
       result.forces[first + axis] -= tension * n[axis];
@@ -37,7 +37,7 @@ void add_elements(const Network& network, const Elements& elements, std::span<co
 }
 
 template <class Real>
-std::vector<Real> sums_of_extensions(const Network& network, std::span<const double> secants,
+std::vector<Real> sums_of_extensions(const Network& network, Secants secants,
                                      std::span<const Real> displacement) {
   const Bonds& bonds = network.bonds;
   const std::size_t dim = network.dim();
@@ -58,8 +58,8 @@ std::vector<Real> sums_of_extensions(const Network& network, std::span<const dou
 /// What the sums of the extensions add: the bond between i and j pulls with c_i s_i + c_j s_j more,
 /// where it counts in these sums.
 template <int Dim, class Real>
-void add_states(const Network& network, std::span<const double> secants,
-                std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
+void add_states(const Network& network, Secants secants, std::span<const Real> displacement,
+                ForcesAndEnergy<Real>& result) {
   const Bonds& bonds = network.bonds;
   std::vector<Real> tension = sums_of_extensions(network, secants, displacement);
   for (std::size_t i = 0; i < tension.size(); ++i) {
@@ -79,20 +79,21 @@ void add_states(const Network& network, std::span<const double> secants,
 }
 
 template <int Dim, class Real, class Elements>
-void add_frames(const Network& network, const Elements& elements, std::span<const double> secants,
+void add_frames(const Network& network, const Elements& elements, Secants secants,
                 std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   using Modes = FrameModes<Dim>;
   const auto count = static_cast<Index>(elements.size());
   for (Index k = 0; k < count; ++k) {
     const Index e = elements[k];
-    if (secants[e] == 0.0) continue;
+    if (secants.axial(e) == 0.0) continue;
     const Modes modes = frame_modes<Dim>(network, e);
     const std::size_t first = static_cast<std::size_t>(network.bonds.first[e]) * Modes::width;
     const std::size_t second = static_cast<std::size_t>(network.bonds.second[e]) * Modes::width;
     for (int m = 0; m < Modes::count; ++m) {
       const Real deformation =
           modes.deformation(m, displacement.data() + first, displacement.data() + second);
-      const Real tension = modes.stiffness[m] * secants[e] * deformation;
+      const double secant = m == 0 ? secants.axial(e) : secants[e];
+      const Real tension = modes.stiffness[m] * secant * deformation;
       result.energy += 0.5 * tension * deformation;
       for (int a = 0; a < Modes::width; ++a) {
         result.forces[first + a] += tension * modes.first[m][a];
@@ -103,7 +104,7 @@ void add_frames(const Network& network, const Elements& elements, std::span<cons
 }
 
 template <class Real, class Elements>
-void add_bonds(const Network& network, const Elements& elements, std::span<const double> secants,
+void add_bonds(const Network& network, const Elements& elements, Secants secants,
                std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   result.energy = result.support_energy = 0.0;
   result.forces.assign(displacement.size(), 0.0);
@@ -118,8 +119,8 @@ void add_bonds(const Network& network, const Elements& elements, std::span<const
 }
 
 template <class Real>
-void add_all(const Network& network, std::span<const double> secants,
-             std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
+void add_all(const Network& network, Secants secants, std::span<const Real> displacement,
+             ForcesAndEnergy<Real>& result) {
   add_bonds(network, AllElements{network.num_elements()}, secants, displacement, result);
   if (network.has_states()) {
     network.dim() == 2 ? add_states<2>(network, secants, displacement, result)
@@ -135,31 +136,30 @@ void add_all(const Network& network, std::span<const double> secants,
 
 }  // namespace
 
-void internal_force(const Network& network, std::span<const double> secants,
-                    std::span<const double> displacement, InternalForce& result) {
+void internal_force(const Network& network, Secants secants, std::span<const double> displacement,
+                    InternalForce& result) {
   add_all(network, secants, displacement, result);
 }
 
-void internal_force(const Network& network, std::span<const double> secants,
+void internal_force(const Network& network, Secants secants,
                     std::span<const long double> displacement,
                     ForcesAndEnergy<long double>& result) {
   add_all(network, secants, displacement, result);
 }
 
-void internal_force(const Network& network, std::span<const double> secants,
-                    std::span<const double> displacement, std::span<const Index> elements,
-                    InternalForce& result) {
+void internal_force(const Network& network, Secants secants, std::span<const double> displacement,
+                    std::span<const Index> elements, InternalForce& result) {
   add_bonds(network, elements, secants, displacement, result);
 }
 
-InternalForce internal_force(const Network& network, std::span<const double> secants,
+InternalForce internal_force(const Network& network, Secants secants,
                              std::span<const double> displacement) {
   InternalForce result;
   internal_force(network, secants, displacement, result);
   return result;
 }
 
-std::vector<double> extension_sums(const Network& network, std::span<const double> secants,
+std::vector<double> extension_sums(const Network& network, Secants secants,
                                    std::span<const double> displacement) {
   return sums_of_extensions(network, secants, displacement);
 }

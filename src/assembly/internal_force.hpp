@@ -18,27 +18,26 @@ struct ForcesAndEnergy {
 using InternalForce = ForcesAndEnergy<double>;
 
 /// \param displacement  all particles, rotations included; shape (particles, width)
-InternalForce internal_force(const Network& network, std::span<const double> secants,
+InternalForce internal_force(const Network& network, Secants secants,
                              std::span<const double> displacement);
 
 /// The same with memory that is used again from call to call.
-void internal_force(const Network& network, std::span<const double> secants,
-                    std::span<const double> displacement, InternalForce& result);
+void internal_force(const Network& network, Secants secants, std::span<const double> displacement,
+                    InternalForce& result);
 
 /// The same of some of the elements, without supports and states.
-void internal_force(const Network& network, std::span<const double> secants,
-                    std::span<const double> displacement, std::span<const Index> elements,
-                    InternalForce& result);
+void internal_force(const Network& network, Secants secants, std::span<const double> displacement,
+                    std::span<const Index> elements, InternalForce& result);
 
 /// In extended precision, for bodies that move so far that double precision takes away the
 /// digits of their strains. Three times the time.
-void internal_force(const Network& network, std::span<const double> secants,
+void internal_force(const Network& network, Secants secants,
                     std::span<const long double> displacement,
                     ForcesAndEnergy<long double>& result);
 
 /// Per particle of a truss: the sum of the extensions of its bonds, each times its secant [length];
 /// for a particle of a state-based lattice this is L_0 theta.
-std::vector<double> extension_sums(const Network& network, std::span<const double> secants,
+std::vector<double> extension_sums(const Network& network, Secants secants,
                                    std::span<const double> displacement);
 
 }  // namespace perilink

@@ -20,8 +20,9 @@ template <int Dim>
 struct Truss {
   static constexpr int width = Dim;
 
-  Truss(const Network& network, Index element, double secant)
-      : n(network.bonds.direction(element).data()), k(network.stiffness[element] * secant) {}
+  Truss(const Network& network, Index element, Secants secants)
+      : n(network.bonds.direction(element).data()),
+        k(network.stiffness[element] * secants.axial(element)) {}
 
   double entry(int row_end, int col_end, int row, int col) const {
     return (row_end == col_end ? k : -k) * n[row] * n[col];
@@ -38,9 +39,10 @@ struct Frame {
 
   /// Flat, so that the modes are rounded as in the rest of this file and not as in one that is
   /// compiled for more of the machine's instructions.
-  [[gnu::flatten]] Frame(const Network& network, Index element, double secant)
+  [[gnu::flatten]] Frame(const Network& network, Index element, Secants secants)
       : modes(frame_modes<Dim>(network, element)) {
-    for (double& k : modes.stiffness) k *= secant;
+    modes.stiffness[0] *= secants.axial(element);
+    for (int m = 1; m < Modes::count; ++m) modes.stiffness[m] *= secants[element];
   }
 
   double entry(int row_end, int col_end, int row, int col) const {
@@ -62,7 +64,7 @@ class NetworkBlocks {
  public:
   static constexpr int width = Element::width;
 
-  NetworkBlocks(const Network& network, std::span<const double> secants)
+  NetworkBlocks(const Network& network, Secants secants)
       : network_(network),
         secants_(secants),
         families_(bonds_of_particles(network.bonds, network.particles.size())) {}
@@ -76,7 +78,7 @@ class NetworkBlocks {
 
  protected:
   void visit_element(Index e, Index i, auto&& sink) const {
-    const Element element(network_, e, secants_[e]);
+    const Element element(network_, e, secants_);
     const int own = network_.bonds.first[e] == i ? 0 : 1;
     sink(i, [&](int row, int col) { return element.entry(own, own, row, col); });
     sink(own == 0 ? network_.bonds.second[e] : network_.bonds.first[e],
@@ -90,7 +92,7 @@ class NetworkBlocks {
   }
 
   const Network& network_;
-  std::span<const double> secants_;
+  Secants secants_;
   Csr families_;
 };
 
@@ -99,7 +101,7 @@ class NetworkBlocks {
 template <int Dim>
 class StateBlocks : public NetworkBlocks<Truss<Dim>> {
  public:
-  StateBlocks(const Network& network, std::span<const double> secants)
+  StateBlocks(const Network& network, Secants secants)
       : NetworkBlocks<Truss<Dim>>(network, secants),
         own_(static_cast<std::size_t>(network.particles.size()), Vector::Zero()) {
     for (Index e = 0; e < network.num_elements(); ++e) {
@@ -149,16 +151,14 @@ class StateBlocks : public NetworkBlocks<Truss<Dim>> {
 };
 
 template <class Blocks>
-SparseMatrix assemble(const Network& network, std::span<const double> secants,
-                      const Unknowns& unknowns) {
+SparseMatrix assemble(const Network& network, Secants secants, const Unknowns& unknowns) {
   const Blocks blocks(network, secants);
   return LowerTriangle(blocks, unknowns).build();
 }
 
 /// Sum of x x' over the modes of all elements and the springs of supports: for particles that
 /// something carries, whose elements couple any number of unknowns.
-SparseMatrix assemble_carried(const Network& network, std::span<const double> secants,
-                              const Unknowns& unknowns) {
+SparseMatrix assemble_carried(const Network& network, Secants secants, const Unknowns& unknowns) {
   if (network.has_states()) expect_nothing_carried(unknowns);
   std::vector<Eigen::Triplet<double, Index>> entries;
   const auto add = [&](const SparseVector& x, double factor) {
@@ -171,7 +171,7 @@ SparseMatrix assemble_carried(const Network& network, std::span<const double> se
   };
   for (Index e = 0; e < network.num_elements(); ++e) {
     const ElementVectors parts = element_vectors(network, unknowns, e, 1.0);
-    for (int m = 0; m < parts.count; ++m) add(parts.x[m], secants[e]);
+    for (int m = 0; m < parts.count; ++m) add(parts.x[m], m == 0 ? secants.axial(e) : secants[e]);
     // Modes that are taken together couple all unknowns of both ends, and the ordering asks for it.
     SparseVector all;
     for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
@@ -194,8 +194,7 @@ SparseMatrix assemble_carried(const Network& network, std::span<const double> se
 
 }  // namespace
 
-SparseMatrix assemble_stiffness(const Network& network, std::span<const double> secants,
-                                const Unknowns& unknowns) {
+SparseMatrix assemble_stiffness(const Network& network, Secants secants, const Unknowns& unknowns) {
   const bool plane = network.dim() == 2;
   if (unknowns.carries()) return assemble_carried(network, secants, unknowns);
   const auto build =
@@ -218,8 +217,7 @@ std::vector<double> right_hand_side(const Unknowns& unknowns, const Loads& loads
   return unknowns.restrict(forces);
 }
 
-std::vector<double> assemble_right_hand_side(const Network& network,
-                                             std::span<const double> secants,
+std::vector<double> assemble_right_hand_side(const Network& network, Secants secants,
                                              const Unknowns& unknowns, const Loads& loads) {
   return right_hand_side(unknowns, loads, [&](std::span<const double> u) {
     return internal_force(network, secants, u);

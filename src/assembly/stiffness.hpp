@@ -21,8 +21,9 @@ namespace perilink {
 ///                 elements keep their place in the pattern (as zeros), so that the pattern does
 ///                 not change while bonds break
 /// \throws std::length_error for more than 2^31 - 1 entries
-Eigen::SparseMatrix<double, Eigen::ColMajor, Index> assemble_stiffness(
-    const Network& network, std::span<const double> secants, const Unknowns& unknowns);
+Eigen::SparseMatrix<double, Eigen::ColMajor, Index> assemble_stiffness(const Network& network,
+                                                                       Secants secants,
+                                                                       const Unknowns& unknowns);
 
 /// K u and the energy for displacements of all particles.
 using InternalForceOf = std::function<InternalForce(std::span<const double> displacement)>;
@@ -34,8 +35,7 @@ std::vector<double> right_hand_side(const Unknowns& unknowns, const Loads& loads
                                     const InternalForceOf& internal_of);
 
 /// The same for a network.
-std::vector<double> assemble_right_hand_side(const Network& network,
-                                             std::span<const double> secants,
+std::vector<double> assemble_right_hand_side(const Network& network, Secants secants,
                                              const Unknowns& unknowns, const Loads& loads);
 
 /// Particle of every unknown, size unknowns.count.

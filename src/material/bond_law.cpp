@@ -28,6 +28,12 @@ BondLaw BondLaw::saw_tooth(std::vector<Tooth> teeth) {
   return {Sense::tension, std::move(teeth), 0.0};
 }
 
+BondLaw BondLaw::closing() const {
+  BondLaw law = *this;
+  law.closes_ = true;
+  return law;
+}
+
 Tooth BondLaw::tooth(int k) const {
   if (endless()) {
     const double growth = std::pow(ratio_, k);

@@ -45,12 +45,17 @@ class BondLaw {
   /// \throws std::invalid_argument where they do not
   static BondLaw saw_tooth(std::vector<Tooth> teeth);
 
+  /// The same law of bonds that close: once damaged they resist compression like intact ones. Shear
+  /// and bending stay as they are, or the energy would jump.
+  BondLaw closing() const;
+
   Tooth tooth(int k) const;
   Sense sense() const { return sense_; }
   /// Whether there is always another tooth: the bond never breaks.
   bool endless() const { return ratio_ > 0.0; }
-  /// Whether the first event breaks the bond.
-  bool is_brittle() const { return !endless() && teeth_.size() == 1; }
+  /// Whether the first event breaks the bond for good.
+  bool is_brittle() const { return !endless() && teeth_.size() == 1 && !closes_; }
+  bool closes() const { return closes_; }
 
  private:
   BondLaw(Sense sense, std::vector<Tooth> teeth, double ratio)
@@ -59,6 +64,7 @@ class BondLaw {
   Sense sense_;
   std::vector<Tooth> teeth_;  ///< before the bond breaks
   double ratio_;              ///< ratio of neighbouring teeth of a plateau; 0: another law
+  bool closes_ = false;
 };
 
 }  // namespace perilink

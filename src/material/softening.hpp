@@ -28,6 +28,7 @@ struct SofteningShape {
 /// How the bonds of a material soften.
 struct SofteningMaterial {
   SofteningShape shape;
+  bool closes = false;  ///< damaged bonds resist compression like intact ones
   double error = 0.01;  ///< by which the teeth may raise the strength [-]
   double tensile_strength = std::numeric_limits<double>::infinity();  ///< f_t [force/length^2]
   /// Where the force of a bond begins to fall and has fallen to zero, in place of f_t and fracture

@@ -89,6 +89,7 @@ bool softens(const SolidMaterial& material) {
 SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
   const SolidMaterial& weaker = b.softening.tensile_strength < a.softening.tensile_strength ? b : a;
   SolidMaterial mean = softens(a) && softens(b) ? weaker : SolidMaterial{};
+  mean.softening.closes = a.softening.closes && b.softening.closes;
   mean.youngs_modulus = 0.5 * (a.youngs_modulus + b.youngs_modulus);
   mean.poissons_ratio = 0.5 * (a.poissons_ratio + b.poissons_ratio);
   mean.fracture_energy = 0.5 * (a.fracture_energy + b.fracture_energy);
@@ -165,7 +166,7 @@ BondStrength bond_strength(const Body& body, const NetworkInput& input,
   strength.first_stretch = first;
   strength.last_stretch = first * end;
   strength.teeth = count_teeth(law);
-  return {std::move(law), strength};
+  return {material.softening.closes ? law.closing() : law, strength};
 }
 
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
@@ -181,10 +182,10 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
   for (Index e = 0; e < network.first_tie; ++e) {
     if (!network.has_limit(e)) continue;
     const auto [a, b] = pair_of(e);
-    const bool soft = softens(input.materials[a]) && softens(input.materials[b]);
-    if (laws.contains({a, b}) || !(soft || input.draft)) continue;
+    if (laws.contains({a, b})) continue;
+    const SolidMaterial mean = mean_of(input.materials[a], input.materials[b]);
+    if (!softens(mean) && !mean.softening.closes && !input.draft) continue;
     try {
-      const SolidMaterial mean = mean_of(input.materials[a], input.materials[b]);
       laws.insert({{a, b}, bond_strength(body, input, mean, network.critical_stretch[e])});
     } catch (const TooStrong& error) {
       throw TooStrong(a, error.share);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 #include "material/bond_law.hpp"
+#include "network/secants.hpp"
 
 namespace perilink {
 
@@ -89,6 +91,10 @@ struct Network {
   }
   Index num_elements() const { return bonds.size(); }
   const BondLaw& law(Index element) const { return laws[law_of.empty() ? 0 : law_of[element]]; }
+  /// Whether some elements close once they are damaged.
+  bool has_closing() const {
+    return std::any_of(laws.begin(), laws.end(), [](const BondLaw& law) { return law.closes(); });
+  }
   /// Whether its law has events, or it stays elastic.
   bool has_limit(Index element) const { return !std::isinf(critical_stretch[element]); }
   bool can_break(Index element) const { return has_limit(element) && !law(element).endless(); }

@@ -22,7 +22,7 @@ class EngineState final : public StateSource {
  public:
   EngineState(const Network& network, EventEngine& engine) : network_(network), engine_(engine) {}
   StepState state() override { return {network_, engine_.secants(), engine_.displacement()}; }
-  std::span<const double> secants() override { return engine_.secants(); }
+  Secants secants() override { return engine_.secants(); }
 
  private:
   const Network& network_;

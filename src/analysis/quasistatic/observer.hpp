@@ -34,7 +34,7 @@ struct StepRecord {
 /// State that observers may look at, valid during the call only.
 struct StepState {
   const Network& network;
-  std::span<const double> secants;
+  Secants secants;
   /// Shape (particles, width); at load factor 1, of runs by stages under all loads as they are.
   std::span<const double> displacement;
 };
@@ -55,7 +55,7 @@ class StateSource {
   virtual ~StateSource() = default;
   virtual StepState state() = 0;
   /// The secants alone, which cost nothing.
-  virtual std::span<const double> secants() { return state().secants; }
+  virtual Secants secants() { return state().secants; }
 };
 
 /// Watches an analysis. The analysis knows nothing of files.

@@ -80,9 +80,9 @@ std::vector<std::pair<std::string, double>> field_data_of(const FieldMoment& mom
 
 }  // namespace
 
-VtuGrid make_field_grid(const Network& network, std::span<const double> secants,
-                        std::span<const double> motion, const FieldMoment& moment,
-                        std::span<const Index> broken_elements_in_order, const Csr& families) {
+VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const double> motion,
+                        const FieldMoment& moment, std::span<const Index> broken_elements_in_order,
+                        const Csr& families) {
   const int dim = network.dim();
   const std::vector<double> displacement = translations(network, motion);
 

@@ -36,9 +36,9 @@ struct FieldMoment {
 /// \param motion                    at that moment, shape (particles, width) [length]
 /// \param broken_elements_in_order  bonds and ties that broke, first one first
 /// \param families                  bonds of each particle (bonds_of_particles)
-VtuGrid make_field_grid(const Network& network, std::span<const double> secants,
-                        std::span<const double> motion, const FieldMoment& moment,
-                        std::span<const Index> broken_elements_in_order, const Csr& families);
+VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const double> motion,
+                        const FieldMoment& moment, std::span<const Index> broken_elements_in_order,
+                        const Csr& families);
 
 /// Numbers the vertices of particles that crack, where no bonds break, in `broken_at`.
 /// \param cracked  particles, first one first

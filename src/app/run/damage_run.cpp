@@ -37,7 +37,7 @@ void DamageRun::note_broken(const StepRecord& record, StateSource& source) {
     is_broken_[last_element_] = 1;
     return;
   }
-  const std::span<const double> secants = source.secants();
+  const Secants secants = source.secants();
   for (Index e = 0; e < model_.network.num_elements(); ++e) {
     if (secants[e] != 0.0 || is_broken_[e]) continue;
     broken_.push_back(e);

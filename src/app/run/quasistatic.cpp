@@ -26,8 +26,7 @@ ElasticAnswer solve_elastic(const Model& model, int threads) {
   return answer;
 }
 
-std::vector<PlaceForce> place_forces(const Model& model, double load_factor,
-                                     std::span<const double> secants,
+std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Secants secants,
                                      std::span<const double> motion) {
   const std::size_t dim = model.network.dim(), width = model.network.width();
   std::vector<PlaceForce> places;

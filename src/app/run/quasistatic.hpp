@@ -41,8 +41,7 @@ inline bool has_several_places(const Model& model) {
 /// Forces of all places at a load factor.
 /// \param secants  one per element; this and the next only looked at where places are driven
 /// \param motion   at load factor 1, shape (particles, width) [length]
-std::vector<PlaceForce> place_forces(const Model& model, double load_factor,
-                                     std::span<const double> secants,
+std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Secants secants,
                                      std::span<const double> motion);
 
 /// What equilibria tell.

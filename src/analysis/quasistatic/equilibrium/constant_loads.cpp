@@ -47,7 +47,7 @@ void Equilibrium::find_driven_slots() {
 void Equilibrium::refresh_constant() {
   ConstantField& field = *constant_;
   std::vector<double> load =
-      assemble_right_hand_side(network_, secants_, field.unknowns, field.loads);
+      assemble_right_hand_side(network_, secants(), field.unknowns, field.loads);
   for (std::size_t k = 0; k < field.ground_load.size(); ++k) load[k] += field.ground_load[k];
   field.load_norm = norm(load);
   field.solution.assign(load.size(), 0.0);
@@ -85,7 +85,7 @@ ConstantWork Equilibrium::constant_work() {
   work.forces_on_motion = work_on(*unknowns_, field.loads, displacement_);
   work.growing_forces = work_on(*unknowns_, *loads_, field.displacement);
   if (field.driven_slots.empty()) return work;
-  internal_force(network_, secants_, field.displacement, field.driven_elements, internal_);
+  internal_force(network_, secants(), field.displacement, field.driven_elements, internal_);
   for (const std::size_t slot : field.driven_slots) {
     double force = internal_.forces[slot];
     if (!network_.support_stiffness.empty()) {
@@ -101,7 +101,7 @@ void Equilibrium::check_constant(Balance& balance) {
   const ConstantField& field = *constant_;
   if (field.rests) return;
   const auto measure = [&] {
-    internal_force(network_, secants_, field.displacement, internal_);
+    internal_force(network_, secants(), field.displacement, internal_);
     std::vector<double> missing(internal_.forces.size());
     for (std::size_t slot = 0; slot < missing.size(); ++slot) {
       missing[slot] = field.loads.forces[slot] - internal_.forces[slot];

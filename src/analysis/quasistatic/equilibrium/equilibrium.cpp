@@ -52,6 +52,7 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0) {
   for (const double stiffness : network_.stiffness) stiffness_sum_ += stiffness;
   for (const double stiffness : network_.support_stiffness) stiffness_sum_ += stiffness;
+  if (network_.has_closing()) axial_ = secants_;
   find_driven_elements();
   adopt_motion();
 }
@@ -81,7 +82,7 @@ void Equilibrium::adopt_motion() {
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
   displacement_ = unknowns_->prescribed;
   loaded_slots_ = loaded_slots(*unknowns_, *loads_);
-  factor_->factorize(assemble_stiffness(network_, secants_, *unknowns_),
+  factor_->factorize(assemble_stiffness(network_, secants(), *unknowns_),
                      particle_of_unknown(*unknowns_));
   choose_current_unknowns();
   adopt_load();
@@ -183,7 +184,7 @@ void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
 }
 
 std::vector<double> Equilibrium::present_load() const {
-  std::vector<double> load = assemble_right_hand_side(network_, secants_, *unknowns_, *loads_);
+  std::vector<double> load = assemble_right_hand_side(network_, secants(), *unknowns_, *loads_);
   for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
   return load;
 }
@@ -250,7 +251,7 @@ LoadWork Equilibrium::sum_work() {
   LoadWork work{work_of_forces(), driven_spring_work_};
   double sizes = driven_spring_work_;
   for (const Index e : driven_elements_) {
-    if (secants_[e] == 0.0) continue;
+    if (secants().axial(e) == 0.0) continue;
     const auto [share, size] = driven_work_of(e);
     work.supports += share;
     sizes += size;
@@ -261,21 +262,26 @@ LoadWork Equilibrium::sum_work() {
 /// Work at load factor 1 of the forces of an element on what it does at driven particles, and the
 /// same sum over the sizes of its terms.
 std::pair<double, double> Equilibrium::driven_work_of(Index element) const {
-  const Removal modes = make_removal(network_, *unknowns_, element, secants_[element]);
-  const Deformations deformation = deformations(modes, element);
   double work = 0.0, sizes = 0.0;
-  for (int m = 0; m < modes.rank; ++m) {
-    work += deformation[m] * modes.prescribed[m];
-    double size = std::abs(modes.prescribed[m]);
-    const SparseVector& x = modes.x[m];
-    for (int k = 0; k < x.size(); ++k) size += std::abs(x.values[k] * solution_[x.rows[k]]);
-    sizes += size * std::abs(modes.prescribed[m]);
+  const auto add = [&](const Removal& modes) {
+    const Deformations deformation = deformations(modes, element);
+    for (int m = 0; m < modes.rank; ++m) {
+      work += deformation[m] * modes.prescribed[m];
+      double size = std::abs(modes.prescribed[m]);
+      const SparseVector& x = modes.x[m];
+      for (int k = 0; k < x.size(); ++k) size += std::abs(x.values[k] * solution_[x.rows[k]]);
+      sizes += size * std::abs(modes.prescribed[m]);
+    }
+  };
+  add(make_removal(network_, *unknowns_, element, secants_[element]));
+  if (!axial_.empty() && is_closed(element)) {
+    add(make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]));
   }
   return {work, sizes};
 }
 
 double Equilibrium::measure_residual(std::vector<double>& residual) {
-  internal_force(network_, secants_, displacement_, internal_);
+  internal_force(network_, secants(), displacement_, internal_);
   for (std::size_t slot = 0; slot < internal_.forces.size(); ++slot) {
     internal_.forces[slot] = loads_->forces[slot] - internal_.forces[slot];
   }
@@ -291,7 +297,7 @@ double Equilibrium::measure_residual(std::vector<double>& residual) {
 }
 
 double Equilibrium::residual_of_current() {
-  internal_force(network_, secants_, displacement_, glanced_elements_, internal_);
+  internal_force(network_, secants(), displacement_, glanced_elements_, internal_);
   double square = 0.0;
   for (std::size_t k = 0; k < solution_.size(); ++k) {
     if (glanced_[k] == 0) continue;
@@ -352,7 +358,7 @@ Balance Equilibrium::restore() {
 }
 
 void Equilibrium::factorize() {
-  auto stiffness = assemble_stiffness(network_, secants_, *unknowns_);
+  auto stiffness = assemble_stiffness(network_, secants(), *unknowns_);
   for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
     const Index unknown = static_cast<Index>(k);
     stiffness.coeffRef(unknown, unknown) += ground_stiffness_[k];

@@ -69,7 +69,7 @@ class Equilibrium {
   Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options);
 
   /// Present stiffness of every element as a fraction of the intact one.
-  std::span<const double> secants() const { return secants_; }
+  Secants secants() const { return axial_.empty() ? Secants(secants_) : Secants(secants_, axial_); }
 
   /// Displacements at load factor 1, rotations included, shape (particles, width), right wherever
   /// an element can fail; elsewhere they may be those of an earlier event.
@@ -82,6 +82,12 @@ class Equilibrium {
 
   /// The element goes on with a smaller secant; zero: it breaks.
   EventOutcome weaken(Index element, double secant);
+
+  /// Lets damaged bonds close where they are compressed and open where they are pulled, after an
+  /// event; their share goes into the growth of the compliance. A mechanism: what held the body
+  /// last was a closed bond that opens.
+  /// \throws SolverError where that does not end
+  void settle_closing(EventOutcome& outcome);
 
   /// Removes an element whatever it holds: a part that comes loose without load is held by ground
   /// springs, one per rigid-body mode, added to the factor before the element goes. The rest of the
@@ -172,6 +178,13 @@ class Equilibrium {
   Index most_mobile_unknown(const SparseVector& x);
   void keep_all_current();
 
+  // Damaged bonds that close: closing.cpp.
+  bool is_closed(Index element) const { return axial_[element] > secants_[element]; }
+  double extension_of(Index element) const;
+  bool is_grounded(Index element) const;
+  std::vector<Index> on_wrong_side() const;
+  bool change_side(Index element);
+
   // Separation and extended precision: separation.cpp.
   struct Refined {
     double residual = 0.0;  ///< norm of the forces out of balance
@@ -198,7 +211,13 @@ class Equilibrium {
   EquilibriumOptions options_;
   std::unique_ptr<Factor> factor_;
 
+  void set_secant(Index element, double secant) {
+    secants_[element] = secant;
+    if (!axial_.empty()) axial_[element] = secant;
+  }
   std::vector<double> secants_;
+  std::vector<double> axial_;   ///< the same against a change of length; empty where nothing closes
+  std::vector<Index> damaged_;  ///< elements that close where they are compressed
   std::vector<Index> driven_elements_;  ///< elements that end at a driven particle
   std::vector<std::size_t> loaded_slots_;
   std::vector<Index> glanced_elements_;  ///< all elements of the unknowns glanced at

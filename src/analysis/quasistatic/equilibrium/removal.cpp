@@ -18,15 +18,27 @@ double Removal::deformation(int mode, std::span<const double> solution) const {
   return sum;
 }
 
-Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
-                     double fraction) {
-  const ElementVectors parts = element_vectors(network, unknowns, element, fraction);
+namespace {
+
+Removal removal_of(const ElementVectors& parts, double fraction) {
   Removal removal;
   removal.rank = parts.count;
   removal.fraction = fraction;
   removal.x = parts.x;
   removal.prescribed = parts.prescribed;
   return removal;
+}
+
+}  // namespace
+
+Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
+                     double fraction) {
+  return removal_of(element_vectors(network, unknowns, element, fraction), fraction);
+}
+
+Removal make_axial_removal(const Network& network, const Unknowns& unknowns, Index element,
+                           double fraction) {
+  return removal_of(axial_vector(network, unknowns, element, fraction), fraction);
 }
 
 void decouple(Removal& removal, std::span<const double> compliance) {

@@ -36,6 +36,10 @@ struct Removal {
 Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
                      double fraction);
 
+/// The same of the axial mode alone.
+Removal make_axial_removal(const Network& network, const Unknowns& unknowns, Index element,
+                           double fraction);
+
 /// Turns the modes into combinations that do not interact, x_a' K^-1 x_b = 0, and sets their
 /// pivots: with C = x_a' K^-1 x_b and I - C = V diag(pivot) V', the new vectors are X V and X X'
 /// stays. The removal leaves K positive definite exactly when all pivots are positive; det(K - X

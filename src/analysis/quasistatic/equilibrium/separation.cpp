@@ -45,7 +45,7 @@ Equilibrium::Refined Equilibrium::refine_finely(std::span<const double> load, Fi
   std::vector<double> residual(solution_.size());
   Refined result;
   auto measure = [&] {
-    internal_force(network_, secants_, motion.particles, fine_);
+    internal_force(network_, secants(), motion.particles, fine_);
     long double square = 0.0, ground = 0.0;
     std::vector<long double> internal(residual.size(), 0.0L);
     for (std::size_t slot = 0; slot < fine_.forces.size(); ++slot) {
@@ -116,9 +116,9 @@ auto Equilibrium::motion_of(const SparseVector& x) -> std::pair<FineMotion, doub
 double Equilibrium::pivot_by_energy(const SparseVector& x, Index element, double kept) {
   const auto [motion, error] = motion_of(x);
   const double before = secants_[element];
-  secants_[element] = kept;
-  internal_force(network_, secants_, motion.particles, fine_);
-  secants_[element] = before;
+  set_secant(element, kept);
+  internal_force(network_, secants(), motion.particles, fine_);
+  set_secant(element, before);
   double energy = static_cast<double>(2.0L * fine_.energy);
   for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
     const long double u = motion.unknowns[k];
@@ -143,13 +143,13 @@ bool Equilibrium::hangs_on_weak_supports(double compliance_growth) const {
 /// is none, since the matrix is not positive definite: then all is as it was
 bool Equilibrium::rebuild_without(Index element, double kept) {
   const double before = secants_[element];
-  secants_[element] = kept;
+  set_secant(element, kept);
   try {
     factorize();
     polish();
     return true;
   } catch (const NotPositiveDefinite&) {
-    secants_[element] = before;
+    set_secant(element, before);
     factorize();
     return false;
   }

@@ -156,7 +156,10 @@ void Equilibrium::follow(const EventOutcome& outcome) {
 }
 
 void Equilibrium::commit(const Removal& removal, Index element, double secant) {
-  secants_[element] = secant;
+  if (!axial_.empty() && secants_[element] == 1.0 && network_.law(element).closes()) {
+    damaged_.push_back(element);
+  }
+  set_secant(element, secant);
   if (must_rebuild_) return;  // done already
   if (removal.rank == 1) {
     if (removal.x[0].size() == 0) return;  // nothing unknown is held by this element

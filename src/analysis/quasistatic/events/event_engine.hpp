@@ -36,7 +36,7 @@ class EventEngine {
   virtual LoadWork load_work() = 0;
 
   /// Present stiffness of every element as a fraction of the intact one.
-  virtual std::span<const double> secants() const = 0;
+  virtual Secants secants() const = 0;
 
   /// Equilibrium::check() and Equilibrium::glance().
   virtual Balance check_equilibrium() = 0;

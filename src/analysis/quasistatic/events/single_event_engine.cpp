@@ -9,6 +9,7 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem, const EngineO
       threads_(options.threads),
       equilibrium_(problem, options),
       search_(make_break_search(network_)),
+      closes_(network_.has_closing()),
       teeth_(static_cast<std::size_t>(network_.num_elements()), 0) {}
 
 Event SingleEventEngine::next_event() {
@@ -20,10 +21,11 @@ Event SingleEventEngine::next_event() {
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
   const Tooth next = network_.law(event.element).tooth(teeth_[event.element] + 1);
-  const EventOutcome outcome = equilibrium_.weaken(event.element, next.secant);
+  EventOutcome outcome = equilibrium_.weaken(event.element, next.secant);
   if (outcome.mechanism) return outcome;
   ++teeth_[event.element];
   search_->set_limit(event.element, limit_of(event.element));
+  if (closes_) equilibrium_.settle_closing(outcome);
   return outcome;
 }
 

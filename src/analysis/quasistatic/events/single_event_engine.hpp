@@ -17,7 +17,7 @@ class SingleEventEngine : public EventEngine {
   EventOutcome apply(const Event& event) override;
   std::span<const double> displacement() override { return equilibrium_.displacement(); }
   LoadWork load_work() override { return equilibrium_.work(); }
-  std::span<const double> secants() const override { return equilibrium_.secants(); }
+  Secants secants() const override { return equilibrium_.secants(); }
   Balance check_equilibrium() override { return equilibrium_.check(); }
   Balance glance_at_equilibrium() override { return equilibrium_.glance(); }
   double change_motion(const Unknowns& unknowns) override {
@@ -37,6 +37,7 @@ class SingleEventEngine : public EventEngine {
   int threads_;
   Equilibrium equilibrium_;
   std::unique_ptr<BreakSearch> search_;
+  bool closes_;             ///< Network::has_closing()
   std::vector<int> teeth_;  ///< present tooth of each element
 };
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "io/case/case_words.hpp"
 
@@ -12,8 +14,9 @@ namespace perilink {
 namespace {
 
 constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
-constexpr std::array keys = {"softening",       "tensile_strength",  "softening_stretches",
-                             "softening_error", "knee_stress_ratio", "knee_opening_ratio"};
+constexpr std::array keys = {"softening",           "closing",         "tensile_strength",
+                             "softening_stretches", "softening_error", "knee_stress_ratio",
+                             "knee_opening_ratio"};
 
 /// The first of the keys that is there; none: null.
 template <std::size_t count>
@@ -46,7 +49,8 @@ std::array<double, 2> read_stretches(const CaseTable& table, Softening kind) {
 
 void refuse_beside_brittle(const CaseTable& table) {
   for (const char* key : keys) {
-    if (std::string(key) == "softening" || !table.has(key)) continue;
+    const bool its_own = std::string_view(key) == "softening" || std::string_view(key) == "closing";
+    if (its_own || !table.has(key)) continue;
     table.refuse(key, "is given, but the bonds are brittle",
                  "delete it, or set softening = \"linear\", \"bilinear\" or \"exponential\": the "
                  "strength of brittle bonds follows from fracture_energy and the horizon");
@@ -57,9 +61,11 @@ void refuse_beside_brittle(const CaseTable& table) {
 
 SofteningMaterial read_softening(const CaseTable& table) {
   SofteningMaterial material;
+  const auto closes = table.boolean("closing");
   const auto kind = table.choice<Softening>("softening");
   const bool named = kind || table.has("tensile_strength") || table.has("softening_stretches");
   material.shape.kind = kind.value_or(named ? Softening::bilinear : Softening::brittle);
+  material.closes = closes.value_or(material.shape.kind != Softening::brittle);
   if (material.shape.kind == Softening::brittle) {
     refuse_beside_brittle(table);
     return material;
@@ -79,6 +85,9 @@ SofteningMaterial read_softening(const CaseTable& table) {
 }
 
 void write_softening(TomlWriter& out, const SofteningMaterial& material) {
+  if (material.closes || material.shape.kind != Softening::brittle) {
+    out.write("closing", material.closes);
+  }
   if (material.shape.kind == Softening::brittle) return;
   out.write("softening", word_of(material.shape.kind));
   if (has_stretches(material)) {
