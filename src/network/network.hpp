@@ -70,6 +70,9 @@ struct Network {
   Facets facets;            ///< surface and interfaces, with the shares that the bonds balance
   std::optional<CalibrationReport> calibration;  ///< where bonds were calibrated
 
+  /// Bonds that pre-cracks have broken and that close where they are compressed, ascending; others
+  /// are taken out.
+  std::vector<Index> cut_elements;
   std::vector<Index> cut_by_crack;  ///< bonds that each pre-crack took out
 
   int dim() const { return particles.dim; }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "discretization/cuts/bonds_across_gaps.hpp"
 #include "discretization/cuts/outside_bonds.hpp"
@@ -155,6 +156,26 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
   network.laws.push_back(BondLaw::plateau());
 }
 
+/// Takes out the bonds that cross a pre-crack, but for those that close.
+void cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
+  CutBonds cut =
+      find_cut_bonds(network.particles, network.bonds, input.cracks, body.lattice.spacing);
+  network.cut_by_crack = std::move(cut.count);
+  const auto closes = [&](Index particle) {
+    const Index material = network.particles.material[particle];
+    return material != no_index && input.materials[material].softening.closes;
+  };
+  Index number = 0;
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    if (cut.keep[b] == 0 && closes(network.bonds.first[b]) && closes(network.bonds.second[b])) {
+      cut.keep[b] = 1;
+      network.cut_elements.push_back(number);
+    }
+    number += cut.keep[b];
+  }
+  keep_elements(network, cut.keep);
+}
+
 }  // namespace
 
 Network build_network(const Body& body, const NetworkInput& input) {
@@ -175,13 +196,11 @@ Network build_network(const Body& body, const NetworkInput& input) {
   correct_surfaces(body, input, network);
   if (!input.cracks.empty()) {
     // After the calibration: a crack is not a surface on which a uniform strain finds its stress.
-    const CutBonds cut =
-        find_cut_bonds(network.particles, network.bonds, input.cracks, body.lattice.spacing);
-    keep_elements(network, cut.keep);
-    network.cut_by_crack = cut.count;
+    cut_bonds(body, input, network);
   }
   add_bars(body, input, constants, network);
   soften_bonds(body, input, network);
+  for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
   }

@@ -18,6 +18,7 @@ enum class Limits {
   none,
   pulled,    ///< events come in tension only
   strained,  ///< events of some elements come in compression as well
+  closing,   ///< the same, and damaged elements may close
 };
 
 /// \tparam Half  TrussHalf, GreenHalf or FrameHalf
@@ -39,6 +40,8 @@ class Halves final : public ExplicitBonds {
   BondLosses forces_of(Index begin, Index end, double time_step, const BondMotion& motion,
                        std::span<double> force);
   double limit_of(Index element, int tooth) const;
+  bool may_close(std::size_t half) const;
+  Half closed_part(std::size_t half) const;
   void give_way(std::size_t half, double demand, const double* own, const double* own_speed,
                 const BondMotion& motion, double time_step, BondLosses& losses);
   void before(const double* now, const double* speed, double time_step, double* past) const;
@@ -72,6 +75,18 @@ Halves<Half>::Halves(const Network& network, const std::vector<Index>& elements)
     if (std::isinf(limit_[half])) continue;
     limits_ = std::max(limits_, both_[half] ? Limits::strained : Limits::pulled);
   }
+  if (network.has_closing()) limits_ = Limits::closing;
+}
+
+/// What a damaged element resists more where it is compressed.
+template <class Half>
+bool Halves<Half>::may_close(std::size_t half) const {
+  return secant_[half] < 1.0 && network_.law(element_[half]).closes();
+}
+
+template <class Half>
+Half Halves<Half>::closed_part(std::size_t half) const {
+  return halves_[half].axial_part(network_.stiffness[element_[half]] * (1.0 - secant_[half]));
 }
 
 template <class Half>
@@ -82,6 +97,10 @@ void Halves<Half>::add(const Network& network, Index element, bool first) {
   tooth_.push_back(0);
   both_.push_back(network.law(element).sense() == Sense::both);
   limit_.push_back(limit_of(element, 0));
+  const std::vector<Index>& cut = network.cut_elements;
+  if (!std::binary_search(cut.begin(), cut.end(), element)) return;
+  halves_.back().scale(0.0);
+  secant_.back() = 0.0;
 }
 
 /// That ends the tooth, in units of Half::demand().
@@ -136,7 +155,12 @@ BondLosses Halves<Half>::forces_of(Index begin, Index end, double time_step,
       const double* far = u + static_cast<std::size_t>(bond.other) * width;
       double demand = bond.add_force(own, far, sum);
       if constexpr (Kind == Limits::none) continue;
-      if constexpr (Kind == Limits::strained) {
+      if constexpr (Kind == Limits::closing) {
+        if (may_close(half) && bond.is_compressed(own, far)) {
+          closed_part(half).add_force(own, far, sum);
+        }
+      }
+      if constexpr (Kind >= Limits::strained) {
         if (both_[half]) demand = bond.size(own, far);
       }
       if (demand <= limit_[half]) continue;
@@ -155,9 +179,10 @@ BondLosses Halves<Half>::forces(Index begin, Index end, double time_step, const 
   switch (limits_) {
     case Limits::none: return forces_of<Limits::none>(begin, end, time_step, motion, force);
     case Limits::pulled: return forces_of<Limits::pulled>(begin, end, time_step, motion, force);
-    case Limits::strained: break;
+    case Limits::strained: return forces_of<Limits::strained>(begin, end, time_step, motion, force);
+    case Limits::closing: break;
   }
-  return forces_of<Limits::strained>(begin, end, time_step, motion, force);
+  return forces_of<Limits::closing>(begin, end, time_step, motion, force);
 }
 
 template <class Half>
@@ -174,6 +199,10 @@ double Halves<Half>::stored(Index begin, Index end, double time_step,
       const double* far = motion.displacement.data() + other;
       before(far, motion.velocity.data() + other, time_step, past_far);
       energy += 0.5 * halves_[half].energy(past_own, past_far, own, far);
+      if (limits_ != Limits::closing || !may_close(half)) continue;
+      if (!halves_[half].is_compressed(own, far)) continue;
+      if (!halves_[half].is_compressed(past_own, past_far)) continue;
+      energy += 0.5 * closed_part(half).energy(past_own, past_far, own, far);
     }
   }
   return energy;

@@ -53,6 +53,16 @@ struct TrussHalf {
   }
 
   void scale(double factor) { k *= factor; }
+
+  bool is_compressed(const double* own, const double* far) const {
+    return extension(own, far) < 0.0;
+  }
+  /// The same with another axial stiffness and no other.
+  TrussHalf axial_part(double stiffness) const {
+    TrussHalf part = *this;
+    part.k = stiffness;
+    return part;
+  }
 };
 
 /// An element that stretches by any amount and turns by any angle: with its present vector x, from
@@ -107,6 +117,13 @@ struct GreenHalf {
   }
 
   void scale(double factor) { k *= factor; }
+
+  bool is_compressed(const double* own, const double* far) const { return stretch(own, far) < 0.0; }
+  GreenHalf axial_part(double stiffness) const {
+    GreenHalf part = *this;
+    part.k = stiffness;
+    return part;
+  }
 };
 
 /// A micropolar bond: a frame element with the modes of network/frame.hpp, and the equivalent
@@ -232,6 +249,16 @@ struct FrameHalf {
     kb *= factor;
     rotational *= factor;
     twisting *= factor;
+  }
+
+  bool is_compressed(const double* own, const double* far) const {
+    return deformation(own, far).extension < 0.0;
+  }
+  FrameHalf axial_part(double stiffness) const {
+    FrameHalf part = *this;
+    part.scale(0.0);
+    part.k = stiffness;
+    return part;
   }
 };
 

@@ -117,4 +117,14 @@ void Equilibrium::settle_closing(EventOutcome& outcome) {
                   most_rounds));
 }
 
+/// Before the first event.
+void Equilibrium::open_cut_elements() {
+  if (damaged_.empty()) return;
+  EventOutcome outcome;
+  settle_closing(outcome);
+  if (outcome.mechanism) {
+    throw SolverError("the cracks have separated the body, and the loads pull it apart");
+  }
+}
+
 }  // namespace perilink

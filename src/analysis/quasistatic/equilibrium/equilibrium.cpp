@@ -53,8 +53,11 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
   for (const double stiffness : network_.stiffness) stiffness_sum_ += stiffness;
   for (const double stiffness : network_.support_stiffness) stiffness_sum_ += stiffness;
   if (network_.has_closing()) axial_ = secants_;
+  for (const Index element : network_.cut_elements) secants_[element] = 0.0;  // closed at first
+  damaged_ = network_.cut_elements;
   find_driven_elements();
   adopt_motion();
+  open_cut_elements();
 }
 
 void Equilibrium::find_driven_elements() {
@@ -150,6 +153,7 @@ void Equilibrium::choose_current_unknowns() {
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (network_.has_limit(e)) current[bonds.first[e]] = current[bonds.second[e]] = 1;
   }
+  for (const Index e : damaged_) current[bonds.first[e]] = current[bonds.second[e]] = 1;
   std::vector<std::uint8_t> wanted(solution_.size(), 0);
   const auto width = static_cast<std::size_t>(network_.width());
   for (std::size_t slot = 0; slot < displacement_.size(); ++slot) {

@@ -184,6 +184,7 @@ class Equilibrium {
   bool is_grounded(Index element) const;
   std::vector<Index> on_wrong_side() const;
   bool change_side(Index element);
+  void open_cut_elements();
 
   // Separation and extended precision: separation.cpp.
   struct Refined {
