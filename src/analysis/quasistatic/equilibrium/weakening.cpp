@@ -171,6 +171,7 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
 }
 
 EventOutcome Equilibrium::weaken(Index element, double secant) {
+  if (!network_.has_limit(element)) keep_all_current();
   Removal removal = make_removal(network_, *unknowns_, element, secants_[element] - secant);
   measure_pivots(removal, element, secant);
   EventOutcome outcome;
