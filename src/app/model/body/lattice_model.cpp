@@ -115,7 +115,7 @@ LatticeMaterial lattice_material(const CaseFile& input) {
   LatticeMaterial material;
   material.youngs_modulus = section.youngs_modulus;
   material.poissons_ratio = *section.poissons_ratio;
-  material.density = own.density;
+  material.density = *section.density;
   if (input.analysis.type == AnalysisType::elastic) return material;
   material.breakable = own.tensile_strength.has_value();
   material.softening = softening_of(section);

@@ -56,11 +56,8 @@ void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
     } else if (material.fracture_energy > 0.0) {
       out.write("fracture_energy", material.fracture_energy);
     }
-    if (material.lattice) {
-      write_state_material(out, material, is_lattice(input.body));
-    } else {
-      out.write("density", material.density);
-    }
+    out.write("density", material.density);
+    if (material.lattice) write_state_material(out, *material.lattice, is_lattice(input.body));
   }
 }
 
