@@ -124,7 +124,8 @@ class LowerTriangle {
 
   /// Numbers of unknowns rise with those of the particles, so that rows come out sorted and the
   /// columns of a particle lie side by side, each without the first row of the one before.
-  /// \param place  per particle: room for the number of rows above its own
+  /// \param place  per particle: room for the number of rows above its own; less one and negative
+  ///               where a component of it or of the particle i is held
   void fill_columns(Index i, std::vector<Index>& place, SparseMatrix& matrix) const {
     std::array<double*, width> values{};  // columns as if they had all rows; null: held
     Index first = no_index, end = 0, skipped = 0;
@@ -140,7 +141,7 @@ class LowerTriangle {
     Index* rows = matrix.innerIndexPtr() + first;
     Index count = 0;
     for (const Index j : coupled_.row(i)) {
-      place[j] = count;
+      place[j] = (free_[i] & free_[j]).all() ? count : -1 - count;
       for (int row = 0; row < width; ++row) {
         if (free_[j][row]) rows[count++] = unknowns_.at(j, row);
       }
@@ -157,7 +158,7 @@ class LowerTriangle {
         return;
       }
       const Index above = place[j];
-      if ((free_[i] & free_[j]).all()) {
+      if (above >= 0) {
         for (int col = 0; col < width; ++col) {
           for (int row = 0; row < width; ++row) values[col][above + row] += block(row, col);
         }
@@ -165,7 +166,7 @@ class LowerTriangle {
       }
       for (int col = 0; col < width; ++col) {
         if (values[col] == nullptr) continue;
-        double* value = values[col] + above;
+        double* value = values[col] - 1 - above;
         for (int row = 0; row < width; ++row) {
           if (free_[j][row]) *value++ += block(row, col);
         }

@@ -2,14 +2,23 @@
 
 namespace perilink {
 
-/// Cohesive stress over crack opening in two straight branches: from the strength at zero opening
-/// to `knee_ratio` times the strength at `knee_opening`, from there to zero at `critical_opening`.
+/// Where cracks begin, and cohesive stress over crack opening in two straight branches: from the
+/// strength at zero opening to `knee_ratio` times the strength at `knee_opening`, from there to
+/// zero at `critical_opening`.
 struct CrackOpeningLaw {
-  double strength = 0.0;          ///< f_t [force/length^2]
-  double knee_ratio = 0.25;       ///< gamma [-]
-  double knee_opening = 0.0;      ///< COD_1 [length]
-  double critical_opening = 0.0;  ///< COD_c [length]
+  double strength = 0.0;           ///< f_t [force/length^2]
+  double knee_ratio = 0.25;        ///< gamma [-]
+  double knee_opening = 0.0;       ///< COD_1 [length]
+  double critical_opening = 0.0;   ///< COD_c [length]
+  double compression_ratio = 6.0;  ///< compression over tensile strength that forbids damage
 };
+
+/// Whether a crack begins: where the first principal stress exceeds the strength and no other one
+/// is below minus `compression_ratio` times the strength.
+/// \param least  smallest of all three principal stresses, that out of the plane included
+inline bool begins_crack(const CrackOpeningLaw& law, double first, double least) {
+  return first > law.strength && least >= -law.compression_ratio * law.strength;
+}
 
 /// Area under the law [force/length].
 double fracture_energy(const CrackOpeningLaw& law);

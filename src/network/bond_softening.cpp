@@ -197,13 +197,13 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
   }
   for (auto& [pair, bonds] : laws) {
     if (bonds.law.is_brittle()) continue;
-    const std::size_t law = network.laws.size();
+    const Index law = static_cast<Index>(network.laws.size());
     network.laws.push_back(bonds.law);
     network.law_of.resize(network.stiffness.size(), 0);
     for (Index e = 0; e < network.first_segment; ++e) {
       const bool its = network.has_limit(e) && pair == pair_of(e);
       if (!its) continue;
-      network.law_of[e] = static_cast<std::uint8_t>(law);
+      network.law_of[e] = law;
       network.critical_stretch[e] = bonds.strength.first_stretch;
     }
   }

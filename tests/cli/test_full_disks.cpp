@@ -90,6 +90,21 @@ TEST_F(FullDisks, ARunThatCannotWriteItsHistoryTellsWhatItFound) {
   EXPECT_LE(fs::file_size(work() / "r/history.csv"), size);
 }
 
+/// Other faults than a full disk: of the files that are open together the last ones are refused.
+TEST_F(FullDisks, ARunWhoseFilesCannotBeOpenedDoesNotSeemToGoOn) {
+  write_text(work() / "damage.toml", damage_case());
+  bool told = false;
+  for (rlim_t most = 4; most < 12; ++most) {
+    const ProcessEnd end = run_program(work(), {"run", "damage.toml", "--out", "r", "--force"},
+                                       {{RLIMIT_NOFILE, most}});
+    if (end.exit_status == 0 || !fs::exists(work() / "r/summary.json")) continue;
+    if (end.err.find("summary.json: cannot be written") != std::string::npos) continue;
+    EXPECT_EQ(summary("r")["status"], "failed") << most << ": " << end.err;
+    told = true;
+  }
+  EXPECT_TRUE(told);
+}
+
 /// Where standard output is a file.
 TEST_F(FullDisks, WhatCannotBePrintedIsNoSuccess) {
   write_text(work() / "damage.toml", damage_case());

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "app/commands/commands.hpp"
 #include "app/model/body/mesh_input.hpp"
@@ -49,31 +48,30 @@ std::shared_ptr<spdlog::logger> open_log(const fs::path& directory) {
   return log;
 }
 
-/// Before the analysis begins.
-void write_first_files(const fs::path& directory, const CaseFile& input) {
-  write_running_summary(directory, input);
-  write_whole_file((directory / "case.toml").string(), write_case(input));
-}
-
-/// Writes the summary of a run that failed before it began. What goes wrong with that is not
-/// reported: the first failure is.
-void tell_of_failure(const fs::path& directory, const CaseFile& input, const DiskFull& error) {
+/// Writes the summary of a run that found nothing or cannot tell it. What goes wrong with that is
+/// not reported: the first failure is.
+void tell_of_failure(const fs::path& directory, const CaseFile& input,
+                     const std::exception& error) {
   try {
-    write_failed_summary(directory, input, error.what());
+    write_failed_summary(directory, input, failure_text(error));
   } catch (const std::exception&) {
   }
 }
 
-/// Does a part of a run. A full disk or no memory ends it as failed with what was found so far; the
-/// first failure is the one that is told.
+/// The first failure is the one that is told.
+void fail(const Verdict& verdict, const std::exception& error) {
+  if (verdict.ending == Ending::failed) return;
+  verdict.ending = Ending::failed;
+  verdict.reason = failure_text(error);
+}
+
+/// Does a part of a run. A full disk or no memory ends it as failed with what was found so far.
 template <class Action>
 void attempt(const Verdict& verdict, const Action& action) {
   try {
     action();
   } catch (const std::exception& error) {
-    if (verdict.ending == Ending::failed) return;
-    verdict.ending = Ending::failed;
-    verdict.reason = failure_text(error);
+    fail(verdict, error);
   }
 }
 
@@ -93,36 +91,53 @@ int exit_status_of(Ending ending) {
   return ending == Ending::failed ? exit_solver : exit_done;
 }
 
+/// Opens all files of a run. Where that fails nothing is computed, and the summary says why.
+std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directory, bool quiet) {
+  try {
+    const CaseFile seen = seen_from(run.input, directory);
+    write_running_summary(directory, seen);
+    write_whole_file((directory / "case.toml").string(), write_case(seen));
+    const auto log = open_log(directory);
+    log->info("{} : {}, {} threads", run.input.path, run.plan, run.threads);
+    if (run.calibration) log->info("calibration: {}", *run.calibration);
+    for (const std::string& note : run.notes) log->info("note: {}", note);
+    run.open(directory, quiet);
+    return log;
+  } catch (const std::exception& error) {
+    tell_of_failure(directory, run.input, error);
+    throw;
+  }
+}
+
 /// The frame of all kinds of runs.
-int run_in(const fs::path& directory, const RunOptions& options, const CaseFile& input, int threads,
-           std::optional<ResultDirectory>& hold) {
+int run_in(const fs::path& directory, const RunOptions& options, const CaseFile& input,
+           int threads) {
   Timer timer;
   const std::unique_ptr<RunKind> run = make_run(input, threads, options.quiet);
-  hold.emplace(directory, options.force);
+  const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
-  write_first_files(directory, seen_from(input, directory));
-  const auto log = open_log(directory);
-  log->info("{} : {}, {} threads", input.path, run->plan, threads);
-  if (run->calibration) log->info("calibration: {}", *run->calibration);
-  for (const std::string& note : run->notes) log->info("note: {}", note);
+  const auto log = open_files(*run, directory, options.quiet);
   run->seconds.set_up = timer.seconds();
 
   timer.restart();
-  RunFiles& files = run->open(directory, options.quiet);
   const Verdict verdict = run->verdict();
   attempt(verdict, [&] { run->analyse(); });
-  attempt(verdict, [&] { files.finish(); });
-  run->seconds.output = files.seconds_writing();
+  attempt(verdict, [&] { run->files().finish(); });
+  run->seconds.output = run->files().seconds_writing();
   run->seconds.analysis = timer.seconds() - run->seconds.output;
   if (verdict.ending == Ending::failed) complain(verdict.reason);
   Summary summary;
-  try {
+  const auto sum_up = [&] {
     summary = summary_of(*run, directory);
     write_summary_file(directory, summary.json);
+  };
+  try {
+    sum_up();
   } catch (const std::exception& error) {
     complain(failure_text(error));
-    verdict.ending = Ending::failed;
-    summary = summary_of(*run, directory);
+    fail(verdict, error);
+    tell_of_failure(directory, input, error);  // in case that more cannot be told
+    attempt(verdict, sum_up);
   }
   for (std::size_t k = run->notes.size(); k < summary.notes.size(); ++k) {
     log->info("note: {}", summary.notes[k]);
@@ -143,13 +158,7 @@ int run_case(const RunOptions& options) {
                                                : default_result_directory(options.case_path);
   refuse_own_case(directory, options.case_path);
   refuse_old_results(directory, options.force);  // at once: the model may take minutes
-  std::optional<ResultDirectory> hold;
-  try {
-    return run_in(directory, options, input, threads, hold);
-  } catch (const DiskFull& error) {  // among the first files: nothing is computed
-    if (hold) tell_of_failure(directory, input, error);
-    throw;
-  }
+  return run_in(directory, options, input, threads);
 }
 
 }  // namespace perilink

@@ -39,7 +39,7 @@ class RunKind {
   RunFiles& open(const std::filesystem::path& directory, bool quiet) {
     return *(files_ = std::make_unique<RunFiles>(input, directory, quiet));
   }
-  const RunFiles& files() const { return *files_; }
+  RunFiles& files() const { return *files_; }
   /// Runs the analysis; an ending that it tells itself is in verdict().
   virtual void analyse() = 0;
   virtual Verdict verdict() = 0;

@@ -47,8 +47,7 @@ void doubt_motion(const ExplicitResult& result, const RunFacts& facts,
 RunFacts run_facts(const CaseFile& input, double length, double peak_load) {
   double slowness = INFINITY;
   for (const MaterialSection& material : input.materials) {
-    const double density =
-        material.lattice ? material.lattice->density : material.density.value_or(INFINITY);
+    const double density = material.density.value_or(INFINITY);
     slowness = std::min(slowness, std::sqrt(density / material.youngs_modulus));
   }
   RunFacts facts;

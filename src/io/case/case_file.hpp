@@ -47,7 +47,6 @@ struct BodySection {
 
 /// Keys of [[materials]] of bodies with model = lattice; some also of those with particles.
 struct LatticeMaterialSection {
-  double density = 0.0;                    ///< [mass/length^3]
   std::optional<double> tensile_strength;  ///< [force/length^2]; absent: unbreakable
   /// Crack opening at which the stress has fallen to zero [length]; absent: from fracture_energy.
   std::optional<double> critical_opening;
@@ -79,7 +78,7 @@ struct MaterialSection {
   std::optional<double> poissons_ratio;
   double fracture_energy = 0.0;   ///< infinity: unbreakable ("infinite" in the file)
   SofteningMaterial softening;    ///< of bonds
-  std::optional<double> density;  ///< bonds in explicit analyses [mass/length^3]
+  std::optional<double> density;  ///< needed by what moves and by states [mass/length^3]
   std::optional<LatticeMaterialSection> lattice;  ///< state-based particles only
 };
 

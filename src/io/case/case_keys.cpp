@@ -56,8 +56,7 @@ constexpr std::string_view other_type =
     "set type = \"explicit\" or \"elastic\" in [analysis], or take another model";
 const Without models = {
     {elements, no_bonds, bonds_instead},
-    {lattice | damage, "is \"lattice\", but analysis.type is \"damage\"", other_type},
-    {particles | damage | relaxation, "is \"particles\", but analysis.type is \"{type}\"",
+    {lattice | particles | damage | relaxation, "is \"{model}\", but analysis.type is \"{type}\"",
      other_type},
 };
 const Without types = {{elements | explicit_, "is \"explicit\", but linear elements have no masses",

@@ -36,7 +36,7 @@ class CaseTable {
   /// The same, one of the words of an enumeration.
   template <class Enumeration>
   std::optional<Enumeration> choice(const std::string& key) const {
-    const auto& words = words_of<Enumeration>;
+    constexpr auto words = words_of(Enumeration{});
     const auto word = choice(key, {words.begin(), words.end()});
     if (!word) return std::nullopt;
     return static_cast<Enumeration>(std::find(words.begin(), words.end(), *word) - words.begin());

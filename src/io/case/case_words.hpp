@@ -91,56 +91,41 @@ constexpr std::array<std::string_view, sizeof...(Word)> words(Word... word) {
 
 /// The words of an enumeration in the order of its enumerators; the last enumerators may have none
 /// (Pattern::irregular is what a mesh has).
-template <class Enumeration>
-inline constexpr std::nullptr_t words_of{};
-template <>
-inline constexpr auto words_of<Problem> = words("plane_stress", "plane_strain",
-                                                "three_dimensional");
-template <>
-inline constexpr auto words_of<BodyMethod> = words("bonds", "linear_elements");
-template <>
-inline constexpr auto words_of<BodyModel> = words("bond_based", "micropolar", "lattice",
-                                                  "particles");
-template <>
-inline constexpr auto words_of<Pattern> = words("rectangular", "hexagonal", "cubic",
-                                                "face_centred");
-template <>
-inline constexpr auto words_of<Surface> = words("none", "ghost", "energy", "calibrated");
-template <>
-inline constexpr auto words_of<Constants> = words("lattice", "continuum");
-template <>
-inline constexpr auto words_of<CriticalStretch> = words("dissipated", "lattice", "continuum");
-template <>
-inline constexpr auto words_of<Softening> = words("brittle", "linear", "bilinear", "exponential");
-template <>
-inline constexpr auto words_of<LatticeRules> = words("consistent", "2018", "2017");
-template <>
-inline constexpr auto words_of<AnalysisType> = words("damage", "elastic", "explicit", "relaxation");
-template <>
-inline constexpr auto words_of<LoadControl> = words("events", "steps");
-template <>
-inline constexpr auto words_of<RigidBodyModes> = words("refuse", "pin");
-template <>
-inline constexpr auto words_of<FactorRoute> = words("in_place", "cholmod_updown", "refactorize");
-template <>
-inline constexpr auto words_of<MassScaling> = words("volume", "uniform");
-template <>
-inline constexpr auto words_of<Strain> = words("small", "green");
-template <>
-inline constexpr auto words_of<Refinement> = words("spacing", "columns", "mesh", "mesh_size");
-template <>
-inline constexpr auto words_of<Quantity> = words("strain_energy", "peak_load", "peak_displacement",
-                                                 "first_peak_load", "first_peak_displacement",
-                                                 "smoothed_peak_load", "initial_stiffness",
-                                                 "dissipated_energy");
-template <>
-inline constexpr auto words_of<Reference> = words("finest", "extrapolated");
-template <>
-inline constexpr auto words_of<RigidMotion> = words("kept", "removed");
+constexpr auto words_of(Problem) {
+  return words("plane_stress", "plane_strain", "three_dimensional");
+}
+constexpr auto words_of(BodyMethod) { return words("bonds", "linear_elements"); }
+constexpr auto words_of(BodyModel) {
+  return words("bond_based", "micropolar", "lattice", "particles");
+}
+constexpr auto words_of(Pattern) {
+  return words("rectangular", "hexagonal", "cubic", "face_centred");
+}
+constexpr auto words_of(Surface) { return words("none", "ghost", "energy", "calibrated"); }
+constexpr auto words_of(Constants) { return words("lattice", "continuum"); }
+constexpr auto words_of(CriticalStretch) { return words("dissipated", "lattice", "continuum"); }
+constexpr auto words_of(Softening) { return words("brittle", "linear", "bilinear", "exponential"); }
+constexpr auto words_of(LatticeRules) { return words("consistent", "2018", "2017"); }
+constexpr auto words_of(AnalysisType) {
+  return words("damage", "elastic", "explicit", "relaxation");
+}
+constexpr auto words_of(LoadControl) { return words("events", "steps"); }
+constexpr auto words_of(RigidBodyModes) { return words("refuse", "pin"); }
+constexpr auto words_of(FactorRoute) { return words("in_place", "cholmod_updown", "refactorize"); }
+constexpr auto words_of(MassScaling) { return words("volume", "uniform"); }
+constexpr auto words_of(Strain) { return words("small", "green"); }
+constexpr auto words_of(Refinement) { return words("spacing", "columns", "mesh", "mesh_size"); }
+constexpr auto words_of(Quantity) {
+  return words("strain_energy", "peak_load", "peak_displacement", "first_peak_load",
+               "first_peak_displacement", "smoothed_peak_load", "initial_stiffness",
+               "dissipated_energy");
+}
+constexpr auto words_of(Reference) { return words("finest", "extrapolated"); }
+constexpr auto words_of(RigidMotion) { return words("kept", "removed"); }
 
 template <class Enumeration>
 std::string_view word_of(Enumeration value) {
-  return words_of<Enumeration>[static_cast<std::size_t>(value)];
+  return words_of(value)[static_cast<std::size_t>(value)];
 }
 
 /// Whether the file of a mesh is a geometry that has to be meshed, by its name: .geo, .step, .stp

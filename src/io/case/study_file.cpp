@@ -74,7 +74,7 @@ template <class Enumeration>
 std::vector<Enumeration> choices(const CaseTable& table, const std::string& key) {
   std::vector<Enumeration> result;
   if (!table.has(key)) return result;
-  const auto& words = words_of<Enumeration>;
+  constexpr auto words = words_of(Enumeration{});
   for (const std::string& word : distinct(table, key, *table.texts(key))) {
     const auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end()) {
@@ -88,7 +88,7 @@ std::vector<Enumeration> choices(const CaseTable& table, const std::string& key)
 }
 
 void read_refinement(const CaseTable& table, VarySection& vary, const StudyFile& study) {
-  const auto& words = words_of<Refinement>;
+  constexpr auto words = words_of(Refinement{});
   table.need_one_of({words.begin(), words.end()});
   const auto given = std::find_if(words.begin(), words.end(), [&](std::string_view word) {
     return table.has(std::string(word));

@@ -6,7 +6,7 @@ namespace perilink {
 namespace {
 
 // Nikravesh & Gerstle 2018, Table 1 [N, m].
-constexpr CrackOpeningLaw concrete{2.62e6, 0.25, 2e-5, 2e-4};
+constexpr CrackOpeningLaw concrete{2.62e6, 0.25, 2e-5, 2e-4, 6.0};
 constexpr double youngs_modulus = 25e9;
 
 double band_stress(double strain, double width) {
@@ -16,6 +16,13 @@ double band_stress(double strain, double width) {
 TEST(CrackOpening, FractureEnergyIsTheAreaUnderTheLaw) {
   // f_t COD_1 (1 + gamma) / 2 + gamma f_t (COD_c - COD_1) / 2
   EXPECT_NEAR(fracture_energy(concrete), 2.62e6 * (2e-5 * 1.25 + 0.25 * 1.8e-4) / 2.0, 1e-9);
+}
+
+TEST(CrackOpening, BeginsAboveTheStrengthWhereNothingPressesTooMuch) {
+  const double limit = -6.0 * 2.62e6;
+  EXPECT_FALSE(begins_crack(concrete, 2.62e6, 0.0)) << "no more than the strength";
+  EXPECT_TRUE(begins_crack(concrete, 2.63e6, limit)) << "not below the limit";
+  EXPECT_FALSE(begins_crack(concrete, 2.63e6, 1.01 * limit));
 }
 
 TEST(CrackOpening, BandCarriesTheCohesiveStressOfItsOpening) {

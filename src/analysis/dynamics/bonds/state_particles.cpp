@@ -99,6 +99,7 @@ class StateParticles final : public ExplicitBonds {
   SymmetricTensor strain(Index i) const;
 
   const Network& network_;
+  Problem problem_;
   std::vector<StateMaterial> materials_;
   std::vector<HookeConstants> hooke_;  ///< per material
   bool breakable_ = false;
@@ -119,6 +120,7 @@ template <int Dim>
 StateParticles<Dim>::StateParticles(const Network& network, Problem problem,
                                     std::span<const StateMaterial> materials, double thickness)
     : network_(network),
+      problem_(problem),
       materials_(materials.begin(), materials.end()),
       sum_(static_cast<std::size_t>(network.particles.size()), 0.0),
       damage_(sum_.size(), 0.0),
@@ -228,8 +230,9 @@ void StateParticles<Dim>::grow(Index i) {
   const double first = spherical + 2.0 * hooke.mu * values.first;
   if (cracked_[i] == 0) {
     const double last = spherical + 2.0 * hooke.mu * values.last;
-    const double strength = own.softening.strength;
-    if (!(first > strength) || last < -own.tension_compression_ratio * strength) return;
+    const double normal =
+        problem_ == Problem::plane_stress ? 0.0 : spherical + 2.0 * hooke.mu * fitted[2];
+    if (!begins_crack(own.softening, first, std::min(last, normal))) return;
     cracked_[i] = 1;
   }
   const double damage =

@@ -16,9 +16,6 @@ struct StateMaterial {
   double poissons_ratio = 0.0;
   bool breakable = false;
   CrackOpeningLaw softening;
-  /// Damage begins where the first principal stress reaches the strength and no other one is below
-  /// minus this ratio times the strength.
-  double tension_compression_ratio = 6.0;
   /// Tensile damage at which damage in compression begins.
   double compressive_threshold = 1.0 / 3.0;
 };

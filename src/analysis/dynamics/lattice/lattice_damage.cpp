@@ -9,7 +9,6 @@ namespace perilink {
 bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family,
                            Vector3& normal) const {
   const LatticeMaterial& material = model_.material;
-  const double strength = material.softening.strength;
   // A particle that lacks bonds has a stress of its own only together with its neighbours: along a
   // jagged face the outer ones pull where the inner ones push.
   const bool consistent = model_.rules == LatticeRules::consistent;
@@ -21,14 +20,13 @@ bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family
                                      : particles_.stress(state, family);
   const PrincipalValues principal = principal_values(stress, model_.lattice.dim);
   const double scale = particles_.is_whole(family) ? 1.0 : material.boundary_factor;
-  double least = principal.last;
-  if (model_.lattice.dim == 2) least = std::min(least, stress[2]);
-  if (scale * principal.first > strength) {
+  const double least = std::min(principal.last, stress[2]);
+  if (begins_crack(material.softening, scale * principal.first, scale * least)) {
     normal = principal_direction(stress, model_.lattice.dim);
-    return scale * least > -material.tension_compression_ratio * strength;
+    return true;
   }
   if (averaged && !has_weakened_rows(model_, state, row)) {
-    const double rest = (strength / scale - principal.first) * volume;
+    const double rest = (material.softening.strength / scale - principal.first) * volume;
     state.quiet_until[family.slot] = state.path[row] + rest / (count * stress_stiffness(model_));
   }
   return false;

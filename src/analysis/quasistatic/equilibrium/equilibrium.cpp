@@ -132,14 +132,21 @@ double Equilibrium::change_motion(const Unknowns& unknowns) {
   if (stale_) refresh();
   events_to_follow_ = 0;
   const LoadWork before = work();
-  unknowns_ = &unknowns;
-  adopt_motion();
-  events_to_follow_ = 0;
-  const LoadWork after = work();
-  if (before.separated || after.separated) {
-    throw SolverError("the unknowns change while the body does not resist what drives it");
+  const Unknowns* const old = unknowns_;
+  try {
+    unknowns_ = &unknowns;
+    adopt_motion();
+    events_to_follow_ = 0;
+    const LoadWork after = work();
+    if (before.separated || after.separated) {
+      throw SolverError("the unknowns change while the body does not resist what drives it");
+    }
+    return after.compliance() - before.compliance();
+  } catch (const std::exception&) {
+    unknowns_ = old;
+    adopt_motion();
+    throw;
   }
-  return after.compliance() - before.compliance();
 }
 
 /// Under forces alone an event needs the displacements of elements that can fail, and no others:

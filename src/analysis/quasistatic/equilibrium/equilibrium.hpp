@@ -108,7 +108,7 @@ class Equilibrium {
   /// \param unknowns  must outlive this
   /// \return growth of the compliance f'u - R'd, positive where particles became freer
   /// \throws SolverError while ground springs hold something, and where something is not held by
-  ///         the new unknowns: the object is of no use then
+  ///         the new unknowns; particles then move as before
   /// \throws std::invalid_argument where prescribed motions differ
   double change_motion(const Unknowns& unknowns);
 

@@ -180,6 +180,7 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
 }
 
 EventOutcome Equilibrium::weaken(Index element, double secant) {
+  if (!network_.has_limit(element)) keep_all_current();
   Removal removal = removal_of(element, secants_[element] - secant);
   measure_pivots(removal, element, secant);
   EventOutcome outcome;

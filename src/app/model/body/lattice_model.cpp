@@ -115,11 +115,10 @@ LatticeMaterial lattice_material(const CaseFile& input) {
   LatticeMaterial material;
   material.youngs_modulus = section.youngs_modulus;
   material.poissons_ratio = *section.poissons_ratio;
-  material.density = own.density;
+  material.density = *section.density;
   if (input.analysis.type == AnalysisType::elastic) return material;
   material.breakable = own.tensile_strength.has_value();
   material.softening = softening_of(section);
-  material.tension_compression_ratio = own.compression_ratio;
   material.compressive_threshold = own.compression_threshold;
   material.boundary_factor = own.boundary_factor;
   material.yields = own.yield_strength.has_value();
@@ -186,6 +185,7 @@ ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape,
 CrackOpeningLaw softening_of(const MaterialSection& material) {
   const LatticeMaterialSection& own = *material.lattice;
   CrackOpeningLaw law;
+  law.compression_ratio = own.compression_ratio;
   law.knee_ratio = own.knee_stress_ratio;
   if (!own.tensile_strength) return law;
   law.strength = *own.tensile_strength;

@@ -38,7 +38,6 @@ StateBody state_body_of(const CaseFile& input) {
     material.poissons_ratio = *section.poissons_ratio;
     material.breakable = section.lattice->tensile_strength.has_value();
     material.softening = softening_of(section);
-    material.tension_compression_ratio = section.lattice->compression_ratio;
     material.compressive_threshold = section.lattice->compression_threshold;
     body.materials.push_back(material);
   }

@@ -30,7 +30,7 @@ std::optional<double> not_negative(const CaseTable& table, const std::string& ke
 }
 
 void read_crack_opening(const CaseTable& table, const BodySection& body,
-                    LatticeMaterialSection& section) {
+                        LatticeMaterialSection& section) {
   section.tensile_strength = table.need("tensile_strength", table.positive("tensile_strength"),
                                         "the tensile strength at which damage begins");
   section.critical_opening = table.positive("critical_opening");
@@ -69,21 +69,16 @@ void need_densities(const CaseFile& input) {
   }
 }
 
-void refuse_surface_region(const CaseFile& input, const std::string& key,
-                           const std::string& region) {
-  if (region != surface_region) return;
-  throw InputError(
-      input.where(key),
-      "is \"surface\", but the lattice of a body with model = \"lattice\" does not end "
-      "on the surface",
-      "name a region of the case");
-}
-
 template <class Section>
 void refuse_surfaces(const CaseFile& input, const std::string& table,
                      const std::vector<Section>& sections) {
   for (std::size_t i = 0; i < sections.size(); ++i) {
-    refuse_surface_region(input, item_key(table, i, "region"), sections[i].region);
+    if (sections[i].region != surface_region) continue;
+    throw InputError(
+        input.where(item_key(table, i, "region")),
+        "is \"surface\", but the lattice of a body with model = \"lattice\" does not end "
+        "on the surface",
+        "name a region of the case");
   }
 }
 
@@ -124,7 +119,7 @@ void read_state_material(const CaseTable& table, const BodySection& body,
   }
   material.poissons_ratio = ratio;
   LatticeMaterialSection& section = material.lattice.emplace();
-  section.density = table.need("density", table.positive("density"), "mass per volume");
+  material.density = table.need("density", table.positive("density"), "mass per volume");
   table.need_one_of({"fracture_energy", "critical_opening"});
   material.fracture_energy = table.has("fracture_energy") ? read_fracture_energy(table) : 0.0;
   const bool breakable = !std::isinf(material.fracture_energy);
@@ -139,7 +134,6 @@ void read_state_material(const CaseTable& table, const BodySection& body,
     table.refuse(key, "is given, but the material is unbreakable",
                  "delete it, or give a finite fracture_energy");
   }
-  material.density = section.density;
   if (!is_lattice(body)) return;
   read_lattice_yielding(table, body, section);
   read_damping(table, section);
@@ -178,9 +172,7 @@ void write_lattice_body(TomlWriter& out, const BodySection& body) {
   out.write("variant", word_of(body.variant));
 }
 
-void write_state_material(TomlWriter& out, const MaterialSection& material, bool on_lattice) {
-  const LatticeMaterialSection& section = *material.lattice;
-  out.write("density", section.density);
+void write_state_material(TomlWriter& out, const LatticeMaterialSection& section, bool on_lattice) {
   if (section.tensile_strength) {
     out.write("tensile_strength", section.tensile_strength);
     out.write("critical_opening", section.critical_opening);

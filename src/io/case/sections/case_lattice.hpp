@@ -24,7 +24,7 @@ void read_lattice_yielding(const CaseTable& table, const BodySection& body,
 void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis);
 
 void write_lattice_body(TomlWriter& out, const BodySection& body);
-void write_state_material(TomlWriter& out, const MaterialSection& material, bool on_lattice);
+void write_state_material(TomlWriter& out, const LatticeMaterialSection& section, bool on_lattice);
 void write_lattice_yielding(TomlWriter& out, const LatticeMaterialSection& section);
 void write_explicit_analysis(TomlWriter& out, const CaseFile& input);
 

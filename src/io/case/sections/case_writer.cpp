@@ -57,11 +57,11 @@ void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
     } else if (material.fracture_energy > 0.0) {
       out.write("fracture_energy", material.fracture_energy);
     }
+    out.write("density", material.density);
     if (material.lattice) {
-      write_state_material(out, material, is_lattice(input.body));
+      write_state_material(out, *material.lattice, is_lattice(input.body));
     } else {
       write_softening(out, material.softening);
-      out.write("density", material.density);
     }
   }
 }

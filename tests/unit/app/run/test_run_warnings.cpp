@@ -76,7 +76,7 @@ TEST(RunDoubts, TakeTheFastestMaterialForWaves) {
   input.materials[0].youngs_modulus = 9.0;
   input.materials[0].density = 1.0;
   input.materials[1].youngs_modulus = 4.0;
-  input.materials[1].lattice.emplace().density = 1.0;
+  input.materials[1].density = 1.0;
   EXPECT_DOUBLE_EQ(run_facts(input, 6.0, 0.0).wave_time, 4.0);
   EXPECT_FALSE(run_facts(input, 6.0, 0.0).impact);
   input.velocities.emplace_back();

@@ -162,6 +162,23 @@ TEST_P(ExplicitParticles, DoNotCrackUnderAStrongPressureAcross) {
   for (const double damage : bonds->damage()) EXPECT_GT(damage, 0.0);
 }
 
+/// With lambda = -11.1 and mu = 25 equal strains in the plane make 27.8 of each there, -22.2 normal
+/// to it.
+TEST_P(ExplicitParticles, DoNotCrackUnderAStrongPressureOutOfThePlane) {
+  if (GetParam() == 3) return;
+  StateMaterial material = concrete(true);
+  material.poissons_ratio = -0.4;
+  const double strain = 2.0 * strength / 27.8;
+  for (const auto& [ratio, cracks] : {std::pair{1.5, false}, {1.7, true}}) {
+    material.softening.compression_ratio = ratio;
+    const auto bonds =
+        make_explicit_particles(network_, Problem::plane_strain, std::vector{material}, 1.0);
+    step(*bonds, strained({strain, strain, 0.0}));
+    bonds->finish_step();
+    for (const double damage : bonds->damage()) EXPECT_EQ(damage > 0.0, cracks) << ratio;
+  }
+}
+
 TEST_P(ExplicitParticles, DamageIsThatOfTheBand) {
   const StateMaterial material = concrete(true);
   const auto bonds = make(true);

@@ -95,6 +95,38 @@ TEST(Equilibrium, AGlanceCostsNoSolve) {
   EXPECT_FALSE(std::isnan(doubted.glance().stored_energy));
 }
 
+/// Elements without a limit are where displacements may be those of an earlier event.
+TEST(Equilibrium, WeakensElementsWithoutALimitByPresentDisplacements) {
+  const AnalysisBody body = make_partly_unbreakable(rectangular);
+  Equilibrium equilibrium(body, {});
+  Index limited = 0, endless = 0;
+  while (!body.network.has_limit(limited)) ++limited;
+  while (body.network.has_limit(endless)) ++endless;
+  ASSERT_FALSE(equilibrium.weaken(limited, 0.0).mechanism);
+  const double before = force_work(body, dense_displacement(body, equilibrium.secants()));
+  const double growth = equilibrium.weaken(endless, 0.5).compliance_growth;
+  const double after = force_work(body, dense_displacement(body, equilibrium.secants()));
+  EXPECT_NEAR(growth, after - before, 1e-11 * after);  // round-off times the condition number, 1e4
+}
+
+TEST(Equilibrium, UnknownsThatHoldNothingAreNotTaken) {
+  for (const FactorRoute route : routes) {
+    const AnalysisBody body = make_partly_unbreakable(rectangular);
+    EquilibriumOptions options;
+    options.route = route;
+    Equilibrium equilibrium(body, options);
+    Index limited = 0;
+    while (!body.network.has_limit(limited)) ++limited;
+    ASSERT_FALSE(equilibrium.weaken(limited, 0.5).mechanism);
+    const std::vector<std::uint8_t> nothing(body.unknowns.number.size(), 0);
+    const Unknowns free = number_unknowns(2, nothing, body.unknowns.prescribed);
+    EXPECT_THROW(equilibrium.change_motion(free), SolverError);
+    ASSERT_FALSE(equilibrium.weaken(limited, 0.0).mechanism);
+    const Eigen::VectorXd expected = dense_displacement(body, equilibrium.secants());
+    EXPECT_LT(difference(equilibrium.displacement(), expected), 1e-11);
+  }
+}
+
 /// The reactions of a driven body follow the events; they are those of the elements at any of them.
 TEST(Equilibrium, WorkOfADrivenBodyFollowsItsEvents) {
   for (const bool micropolar : {false, true}) {
