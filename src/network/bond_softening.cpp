@@ -202,7 +202,7 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
     for (Index e = 0; e < network.first_segment; ++e) {
       const bool its = network.has_limit(e) && pair == pair_of(e);
       if (!its) continue;
-      network.law_of[e] = static_cast<std::uint8_t>(law);
+      network.law_of[e] = static_cast<std::uint16_t>(law);
       network.critical_stretch[e] = bonds.strength.first_stretch;
     }
   }

@@ -55,7 +55,7 @@ struct Network {
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   /// Laws of the elements, and the number of each element's; empty: all have the first one.
   std::vector<BondLaw> laws = {BondLaw::brittle()};
-  std::vector<std::uint8_t> law_of;
+  std::vector<std::uint16_t> law_of;
   /// By which each element's law counts its stretches [-]: where brittle bonds break, the yield
   /// strain of bars; infinity: stays elastic.
   std::vector<double> critical_stretch;

@@ -151,7 +151,7 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
   }
   if (mesh.segments.size() == 0) return;
   network.law_of.resize(static_cast<std::size_t>(network.first_segment), 0);
-  network.law_of.resize(network.stiffness.size(), static_cast<std::uint8_t>(network.laws.size()));
+  network.law_of.resize(network.stiffness.size(), static_cast<std::uint16_t>(network.laws.size()));
   network.laws.push_back(BondLaw::plateau());
 }
 
