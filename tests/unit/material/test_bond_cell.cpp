@@ -140,8 +140,7 @@ TEST(LatticeCells, HaveTheModulusOfTheLattice) {
     const std::vector<double> shear(q > 0.0 ? triangle.size() : 0, q);
     const auto cell = lattice_cell(triangle, axial, shear, triangle_area * thickness);
     EXPECT_EQ(cell.size(), 3U) << "one of each pair";
-    const double expected =
-        2.0 * std::numbers::sqrt3 * k / thickness * (1.0 + q) / (3.0 + q);
+    const double expected = 2.0 * std::numbers::sqrt3 * k / thickness * (1.0 + q) / (3.0 + q);
     for (const Vector3& pull : {along_x, Vector3{0.0, 1.0, 0.0}, Vector3{0.6, 0.8, 0.0}}) {
       EXPECT_NEAR(cell_modulus(cell, 2, pull), expected, 1e-13 * expected) << q;
     }
@@ -162,16 +161,16 @@ TEST(LatticeCells, OfSquaresHaveTheModulusOfTheLattice) {
 /// Along a row of a triangular lattice the row's bond has the strain s_c when it breaks; the other
 /// two with k' = 3 k / 4 across then bear less.
 TEST(LatticeCells, BreakWhereTheirRowsDo) {
-  const auto cell = lattice_cell(triangle, std::vector<double>(triangle.size(), 7.0), {},
-                                 triangle_area);
+  const auto cell =
+      lattice_cell(triangle, std::vector<double>(triangle.size(), 7.0), {}, triangle_area);
   EXPECT_NEAR(cell_strength(cell, 2, along_x, BondLaw::brittle()), 1.0, 1e-12);
 }
 
 /// In the intact triangle only the bonds at 30 degrees to the pull stretch, by 3/4 - nu / 4 = 2/3
 /// of the strain: they break at 3/2 s_c.
 TEST(LatticeCells, AreStrongerBetweenTheirRows) {
-  const auto cell = lattice_cell(triangle, std::vector<double>(triangle.size(), 7.0), {},
-                                 triangle_area);
+  const auto cell =
+      lattice_cell(triangle, std::vector<double>(triangle.size(), 7.0), {}, triangle_area);
   EXPECT_NEAR(cell_strength(cell, 2, {0.0, 1.0, 0.0}, BondLaw::brittle()), 1.5, 1e-12);
 }
 
