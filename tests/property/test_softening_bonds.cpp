@@ -83,8 +83,9 @@ TEST_P(SofteningBonds, FollowTheirCurveAndTakeItsEnergy) {
     before = force;
   }
   EXPECT_EQ(before, 0.0) << "broken";
-  EXPECT_NEAR(2.0 * pulled.dissipated(), GetParam().energy, 1e-11 * GetParam().energy);
-  // Each drop of a tooth falls anywhere in its step, which is 1e-3 long and less.
+  // A tooth drops at the end of the step in which its limit lies, and every step is 1e-3 of the
+  // critical stretch long or less.
+  EXPECT_NEAR(2.0 * pulled.dissipated(), GetParam().energy, 0.001 * GetParam().energy);
   EXPECT_NEAR(2.0 * work, GetParam().energy, 0.002 * GetParam().energy);
 }
 
@@ -115,7 +116,7 @@ TEST_P(SofteningBonds, ForceIsTheDerivativeOfTheEnergyAndStiffnessThatOfTheForce
     const Index particles = network.particles.size();
     const auto slots = body.unknowns.number.size();
     BondMotion motion{random_vector(slots, 4), std::vector<double>(slots, 0.0)};
-    for (double& u : motion.displacement) u *= 0.02;
+    for (double& u : motion.displacement) u *= 0.05;
     std::vector<double> force(slots, 0.0);
     bonds->forces(0, particles, 0.0, motion, force);
     const std::vector<double> secants = bonds->secants();

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "material/bond_cell.hpp"
+#include "material/strength/bond_cell.hpp"
 #include "network/network_builder.hpp"
 #include "support/clouds.hpp"
 #include "support/micropolar_networks.hpp"

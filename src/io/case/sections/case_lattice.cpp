@@ -30,7 +30,7 @@ std::optional<double> not_negative(const CaseTable& table, const std::string& ke
 }
 
 void read_crack_opening(const CaseTable& table, const BodySection& body,
-                    LatticeMaterialSection& section) {
+                        LatticeMaterialSection& section) {
   section.tensile_strength = table.need("tensile_strength", table.positive("tensile_strength"),
                                         "the tensile strength at which damage begins");
   section.critical_opening = table.positive("critical_opening");

@@ -1,4 +1,4 @@
-#include "material/bond_cell.hpp"
+#include "material/strength/bond_cell.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,9 +64,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// Bonds of all directions with shares w of k xi^2 / V that add up to one and the ratio q of shear:
 /// with the means of n n and n n n n over all directions lambda = (1 - q) / 8 and mu = (1 + q) / 8
-/// in the plane, lambda = (1 - q) / 15 and mu = (2 + 3 q) / 30 in space.
+/// in the plane, lambda = (1 - q) / 15 and mu = (2 + 3 q) / 30 in space. The plane is in plane
+/// stress.
 TEST(IsotropicCells, HaveTheModuliOfTheSolid) {
-  for (const double ratio : {-0.2, 0.0, 0.1, 0.2, 0.3, 1.0 / 3.0}) {  // of Poisson in plane stress
+  for (const double ratio : {-0.2, 0.0, 0.1, 0.2, 0.3, 1.0 / 3.0}) {
     const double r = 2.0 * ratio / (1.0 - ratio), q = (1.0 - r) / (1.0 + r);
     const double mu = (1.0 + q) / 8.0;
     const double expected = 2.0 * mu * (1.0 + ratio);

@@ -1,4 +1,4 @@
-#include "material/bond_cell.hpp"
+#include "material/strength/bond_cell.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
