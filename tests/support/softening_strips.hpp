@@ -20,7 +20,7 @@ struct SofteningStrip {
   double youngs_modulus = 30000.0;                   ///< [force/length^2]
   double tensile_strength = 3.0;                     ///< [force/length^2]
   double fracture_energy = 0.1;                      ///< [force/length]
-  double pull = 0.1;                                 ///< of the end at load factor one [length]
+  double pull = 0.1;                                 ///< driven displacement [length]
   std::string more;                                  ///< lines of [analysis] and sections behind it
 };
 
