@@ -174,7 +174,6 @@ class SofteningPath : public DamagePath {
     looks_.clear();
     go({});
     EXPECT_GT(result_.last.yield_events, 100);
-    EXPECT_GT(result_.last.broken_bonds, 0);
     expect_work_is_stored_or_dissipated();
     expect_damage_only_grows();
     expect_the_body_only_softens();

@@ -46,7 +46,8 @@ class Cell {
     const auto size = pull_.size();
     for (const CellBond& bond : bonds) {
       const Strain axial = vector_of(bond.direction, bond.direction, dim);
-      Stiffness square = Stiffness::Zero(size, size);  // of the strain times the direction
+      // The square of the strain times the direction.
+      Stiffness square = Stiffness::Zero(size, size);
       for (int a = 0; a < dim && bond.shear_ratio > 0.0; ++a) {
         Vector3 axis{};
         axis[a] = 1.0;
