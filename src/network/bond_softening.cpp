@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "material/bond_cell.hpp"
+#include "material/strength/bond_cell.hpp"
 #include "network/lattice_families.hpp"
 
 namespace perilink {

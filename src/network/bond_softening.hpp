@@ -35,8 +35,9 @@ BondStrength bond_strength(const Body& body, const NetworkInput& input,
                            const SolidMaterial& material, double brittle_stretch);
 
 /// Gives bonds and ties between materials that soften their laws, in place of the brittle one and
-/// its critical stretch, and the network its strengths (a draft also those of brittle ones). Two materials have a law of their mean
-/// constants, with the shape of the weaker one; with a brittle material bonds stay brittle.
+/// its critical stretch, and the network its strengths (a draft also those of brittle ones). Two
+/// materials have a law of their mean constants, with the shape of the weaker one; with a brittle
+/// material bonds stay brittle.
 /// \throws TooStrong
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "material/softening.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {
@@ -163,6 +164,35 @@ std::vector<BlockCase> cases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, DamagePath, testing::ValuesIn(cases()),
+                         [](const auto& test) { return to_string(test.param); });
+
+/// The toothed bodies above with the teeth of softening curves.
+class SofteningPath : public DamagePath {
+ protected:
+  void expect_path(const SofteningShape& shape) {
+    body_.network.laws.front() = saw_tooth_of(SofteningCurve(shape, 6.0), 0.15);
+    looks_.clear();
+    go({});
+    EXPECT_GT(result_.last.yield_events, 100);
+    expect_work_is_stored_or_dissipated();
+    expect_damage_only_grows();
+    expect_the_body_only_softens();
+  }
+};
+
+TEST_P(SofteningPath, EventByEvent) {
+  for (const Softening kind : {Softening::linear, Softening::bilinear, Softening::exponential}) {
+    expect_path({kind});
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, SofteningPath, testing::ValuesIn([] {
+                           std::vector<BlockCase> toothed;
+                           for (const BlockCase& block : cases()) {
+                             if (block.toothed) toothed.push_back(block);
+                           }
+                           return toothed;
+                         }()),
                          [](const auto& test) { return to_string(test.param); });
 
 }  // namespace

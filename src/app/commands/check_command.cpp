@@ -58,6 +58,7 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
                smallest, largest);
   }
   for (std::size_t m = 0; m < crack_cost.size() && breakable > 0; ++m) {
+    if (crack_cost[m] == 1.0) continue;  // bonds that soften have none
     fmt::print("#   cost of a crack    {:.4g} of what its bonds release, material {}\n",
                crack_cost[m], m + 1);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -17,6 +18,7 @@
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_softening.hpp"
 #include "io/text/toml_tree.hpp"
 
 namespace perilink {
@@ -65,6 +67,25 @@ void check_stiffness_ratio(const CaseFile& input) {
           stiff->youngs_modulus, ratio, quoted(soft->name), soft->youngs_modulus),
       fmt::format("at most {:.0e} times is possible; a thousand times is rigid to the eye",
                   largest_stiffness_ratio));
+}
+
+/// Bonds between two materials take the mean of what both give, so that all must give the same.
+void check_stretches(const CaseFile& input) {
+  const auto given = [](const MaterialSection& material) {
+    return has_stretches(material.softening);
+  };
+  const auto without = [&](const MaterialSection& material) {
+    return !given(material) && !std::isinf(material.fracture_energy);
+  };
+  const auto with = std::find_if(input.materials.begin(), input.materials.end(), given);
+  const auto other = std::find_if(input.materials.begin(), input.materials.end(), without);
+  if (with == input.materials.end() || other == input.materials.end()) return;
+  const auto m = static_cast<std::size_t>(with - input.materials.begin());
+  throw InputError(input.where(item_key("materials", m, "softening_stretches")),
+                   fmt::format("is given, but {} breaks by its fracture_energy: bonds between the "
+                               "two have no law",
+                               quoted(other->name)),
+                   "give softening_stretches to every material that can break, or to none");
 }
 
 /// Regions that need not be declared are for what holds and loads the body, not for materials.
@@ -243,6 +264,7 @@ void check_rules(const CaseFile& input) {
   check_groups(input);
   check_materials(input, names);
   check_stiffness_ratio(input);
+  check_stretches(input);
   check_references(input, names, "supports", input.supports);
   check_references(input, names, "displacements", input.displacements);
   check_references(input, names, "velocities", input.velocities);

@@ -207,8 +207,8 @@ TEST(CaseLattice, RefusesMaterials) {
         in_space,
         {"materials[1].fracture_energy", "the rules of 2018 have no damage in space"}}});
   expect_refusals(small_case, {{"fracture_energy",
-                                "tensile_strength = 1\nfracture_energy",
-                                {"materials[1].tensile_strength", "model = \"lattice\""}}});
+                                "compression_ratio = 1\nfracture_energy",
+                                {"materials[1].compression_ratio", "model = \"lattice\""}}});
 }
 
 TEST(CaseLattice, RefusesAnalyses) {

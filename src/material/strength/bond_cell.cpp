@@ -1,4 +1,4 @@
-#include "material/bond_cell.hpp"
+#include "material/strength/bond_cell.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr double alike = 1e-9;
 constexpr double failed = 1e-3;
 
 /// Directions of isotropic_cell(): over a half circle in the plane; in space over a half sphere
-/// about x, by equal parts of the axis and of the circles around it.
+/// about x, by equal angles to the axis, so that some come close to it, and around it.
 constexpr int plane_directions = 60, polar_directions = 16, directions_around = 5;
 
 /// Bonds in tension, as the search of damage analyses has it.
@@ -46,7 +46,8 @@ class Cell {
     const auto size = pull_.size();
     for (const CellBond& bond : bonds) {
       const Strain axial = vector_of(bond.direction, bond.direction, dim);
-      Stiffness square = Stiffness::Zero(size, size);  // of the strain times the direction
+      // The square of the strain times the direction.
+      Stiffness square = Stiffness::Zero(size, size);
       for (int a = 0; a < dim && bond.shear_ratio > 0.0; ++a) {
         Vector3 axis{};
         axis[a] = 1.0;
@@ -133,12 +134,13 @@ std::vector<CellBond> isotropic_cell(Problem problem, double lame_ratio) {
     }
     return cell;
   }
+  const double step = 0.5 * std::numbers::pi / polar_directions;
   for (int i = 0; i < polar_directions; ++i) {
-    const double x = (i + 0.5) / polar_directions, across = std::sqrt(1.0 - x * x);
+    const double x = std::cos((i + 0.5) * step), across = std::sin((i + 0.5) * step);
+    const double share = std::cos(i * step) - std::cos((i + 1) * step);  // between two cones
     for (int k = 0; k < directions_around; ++k) {
       const double angle = (k + 0.5) * 2.0 * std::numbers::pi / directions_around;
-      add({x, across * std::cos(angle), across * std::sin(angle)},
-          1.0 / (polar_directions * directions_around));
+      add({x, across * std::cos(angle), across * std::sin(angle)}, share / directions_around);
     }
   }
   return cell;

@@ -1,0 +1,122 @@
+#include "io/case/sections/case_softening.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/case_texts.hpp"
+
+namespace perilink {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string energy = "fracture_energy = 0.1";
+
+/// The small case with lines of its material, after or in place of the fracture energy.
+CaseFile with(const std::string& lines, bool keeps_energy = true) {
+  return parse_case(replaced(small_case, energy, (keeps_energy ? energy + "\n" : "") + lines), "");
+}
+
+SofteningMaterial material_of(const std::string& lines, bool keeps_energy = true) {
+  return with(lines, keeps_energy).materials.front().softening;
+}
+
+void expect_message(const std::string& lines, const std::string& text, bool keeps_energy = true) {
+  try {
+    with(lines, keeps_energy);
+    ADD_FAILURE() << "accepted: " << lines;
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(text)) << lines;
+  }
+}
+
+TEST(CaseSoftening, IsBrittleWhereNothingIsSaid) {
+  for (const char* lines : {"", "softening = \"brittle\""}) {
+    const SofteningMaterial material = material_of(lines);
+    EXPECT_EQ(material.shape.kind, Softening::brittle);
+    EXPECT_FALSE(has_stretches(material));
+    EXPECT_TRUE(std::isinf(material.tensile_strength));
+  }
+}
+
+TEST(CaseSoftening, IsBilinearWithAStrengthAlone) {
+  const CaseFile input = with("tensile_strength = 3");
+  const SofteningMaterial& material = input.materials.front().softening;
+  EXPECT_EQ(material.shape.kind, Softening::bilinear);
+  EXPECT_EQ(material.tensile_strength, 3.0);
+  EXPECT_EQ(material.shape.knee_force, 1.0 / 3.0) << "Petersson 1981";
+  EXPECT_EQ(material.shape.knee_stretch, 2.0 / 9.0) << "Petersson 1981";
+  EXPECT_EQ(material.error, 0.01);
+  EXPECT_EQ(input.materials.front().fracture_energy, 0.1);
+}
+
+TEST(CaseSoftening, ReadsEveryCurve) {
+  const std::pair<const char*, Softening> words[] = {{"linear", Softening::linear},
+                                                     {"bilinear", Softening::bilinear},
+                                                     {"exponential", Softening::exponential}};
+  for (const auto& [word, kind] : words) {
+    const std::string lines =
+        "softening = \"" + std::string(word) + "\"\ntensile_strength = 2.5\nsoftening_error = 0.3";
+    const SofteningMaterial material = material_of(lines);
+    EXPECT_EQ(material.shape.kind, kind);
+    EXPECT_EQ(material.tensile_strength, 2.5);
+    EXPECT_EQ(material.error, 0.3);
+  }
+}
+
+TEST(CaseSoftening, ReadsKnees) {
+  const SofteningMaterial material =
+      material_of("tensile_strength = 3\nknee_stress_ratio = 0.25\nknee_opening_ratio = 0.15");
+  EXPECT_EQ(material.shape.knee_force, 0.25);
+  EXPECT_EQ(material.shape.knee_stretch, 0.15);
+}
+
+TEST(CaseSoftening, ReadsStretchesInPlaceOfTheEnergy) {
+  const SofteningMaterial material =
+      material_of("softening = \"linear\"\nsoftening_stretches = [1e-4, 2e-3]", false);
+  EXPECT_TRUE(has_stretches(material));
+  EXPECT_EQ(material.stretches, (std::array{1e-4, 2e-3}));
+  EXPECT_EQ(material_of("softening_stretches = [1e-4, 2e-3]", false).shape.kind,
+            Softening::bilinear);
+}
+
+TEST(CaseSoftening, WritesWhatItReads) {
+  const std::pair<const char*, bool> cases[] = {
+      {"softening = \"linear\"\ntensile_strength = 2.7", true},
+      {"tensile_strength = 2.7\nknee_stress_ratio = 0.25\nsoftening_error = 0.1", true},
+      {"softening = \"exponential\"\ntensile_strength = 0.1", true},
+      {"softening_stretches = [1e-4, 2e-3]\nknee_opening_ratio = 0.2", false},
+      {"softening = \"brittle\"", true}};
+  for (const auto& [lines, keeps_energy] : cases) {
+    const CaseFile input = with(lines, keeps_energy);
+    const std::string written = write_case(input);
+    const CaseFile again = parse_case(written, "");
+    EXPECT_EQ(write_case(again), written);
+    const SofteningMaterial &a = input.materials[0].softening, &b = again.materials[0].softening;
+    EXPECT_EQ(a.shape.kind, b.shape.kind);
+    EXPECT_EQ(a.shape.knee_force, b.shape.knee_force) << "to the last bit";
+    EXPECT_EQ(a.shape.knee_stretch, b.shape.knee_stretch);
+    EXPECT_EQ(a.tensile_strength, b.tensile_strength);
+    EXPECT_EQ(a.stretches, b.stretches);
+    EXPECT_EQ(a.error, b.error);
+    EXPECT_EQ(input.materials[0].fracture_energy, again.materials[0].fracture_energy);
+  }
+}
+
+TEST(CaseSoftening, SaysWhatItRefuses) {
+  expect_message("softening = \"cubic\"\ntensile_strength = 3", "softening: is \"cubic\"");
+  expect_message("softening = \"linear\"", "tensile_strength");
+  expect_message("tensile_strength = -3", "must be greater than zero");
+  expect_message("tensile_strength = 3\nsoftening_error = 1", "must be less than 1");
+  expect_message("softening = \"brittle\"\ntensile_strength = 3", "but the bonds are brittle");
+  expect_message("softening_error = 0.1", "but the bonds are brittle");
+  expect_message("softening_stretches = [1e-4, 1e-3]", "is given beside `softening_stretches`");
+  expect_message("softening_stretches = [1e-3, 1e-4]", "must be two stretches that rise", false);
+  expect_message("softening_stretches = [1e-3]", "must be two stretches that rise", false);
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,215 @@
+#include "material/softening.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <stdexcept>
+#include <vector>
+
+namespace perilink {
+namespace {
+
+struct CurveCase {
+  const char* name;
+  SofteningShape shape;
+  double energy;
+};
+
+std::ostream& operator<<(std::ostream& out, const CurveCase& curve) {
+  return out << curve.name << ", energy " << curve.energy;
+}
+
+std::vector<CurveCase> curves() {
+  std::vector<CurveCase> result;
+  for (const double energy : {1.02, 1.5, 3.0, 12.0, 80.0}) {
+    result.push_back({"linear", {Softening::linear}, energy});
+    result.push_back({"bilinear", {Softening::bilinear}, energy});
+    result.push_back({"bilinear, knee above the line", {Softening::bilinear, 0.8, 0.5}, energy});
+    result.push_back({"exponential", {Softening::exponential}, energy});
+  }
+  return result;
+}
+
+constexpr double ripples[] = {0.005, 0.05, 0.3, 100.0};
+
+/// Area under a curve by the rule of the midpoint; error of the square of the step and of the
+/// step times the jump at the end of exponential curves.
+double midpoint_area(const SofteningCurve& curve, double x) {
+  constexpr int steps = 200000;
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) sum += curve.force((i + 0.5) * x / steps);
+  return sum * x / steps;
+}
+
+/// Where a secant meets the falling part of a curve: force over stretch falls there. The curve's
+/// end where it lies above the curve.
+double meeting_point(const SofteningCurve& curve, double secant) {
+  double low = 1.0, high = curve.end();
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    (curve.force(middle) > secant * middle ? low : high) = middle;
+  }
+  return low;
+}
+
+std::vector<Tooth> teeth_of(const BondLaw& law) {
+  std::vector<Tooth> teeth;
+  for (int k = 0; law.tooth(k).secant > 0.0; ++k) teeth.push_back(law.tooth(k));
+  return teeth;
+}
+
+double dissipated(const BondLaw& law, int tooth) {
+  const Tooth now = law.tooth(tooth);
+  return 0.5 * now.limit * now.limit * (now.secant - law.tooth(tooth + 1).secant);
+}
+
+TEST(SofteningCurves, RiseToOneAndFallToZero) {
+  for (const CurveCase& each : curves()) {
+    const SofteningCurve curve(each.shape, each.energy);
+    EXPECT_EQ(curve.force(0.25), 0.25) << each;
+    EXPECT_EQ(curve.force(1.0), 1.0) << each;
+    EXPECT_EQ(curve.force(curve.end()), 0.0) << each;
+    double before = 1.0;
+    for (int i = 1; i < 100; ++i) {
+      const double force = curve.force(1.0 + 0.01 * i * (curve.end() - 1.0));
+      EXPECT_LT(force, before) << each;
+      before = force;
+    }
+  }
+}
+
+TEST(SofteningCurves, AreaIsTheIntegralOfTheForce) {
+  for (const CurveCase& each : curves()) {
+    const SofteningCurve curve(each.shape, each.energy);
+    for (const double share : {0.3, 0.7, 0.95}) {
+      for (const double x : {share, 1.0 + share * (curve.end() - 1.0)}) {
+        EXPECT_NEAR(curve.area(x), midpoint_area(curve, x), 1e-8 * each.energy) << each << x;
+      }
+    }
+    // Twice the area, as the area of the elastic part is one half.
+    EXPECT_NEAR(2.0 * curve.area(curve.end()), each.energy, 1e-14 * each.energy) << each;
+    EXPECT_EQ(curve.area(2.0 * curve.end()), curve.area(curve.end())) << each;
+  }
+}
+
+TEST(SofteningCurves, KneesLieWhereTheyWereAskedFor) {
+  const SofteningCurve curve({Softening::bilinear, 0.25, 0.15}, 20.0);
+  EXPECT_NEAR(curve.force(1.0 + 0.15 * (curve.end() - 1.0)), 0.25, 1e-14);
+  EXPECT_NEAR(curve.force(1.0 + 0.575 * (curve.end() - 1.0)), 0.125, 1e-14) << "half way on";
+}
+
+TEST(SofteningCurves, ExponentialOnesFallInProportionToThemselves) {
+  const SofteningCurve curve({Softening::exponential}, 9.0);
+  // 2 G_s / s_0^2 = 1 + 2 w for a decay over w, here 4.
+  for (const double x : {1.0, 3.0, 11.0}) {
+    EXPECT_NEAR(curve.force(x + 4.0), curve.force(x) / std::exp(1.0), 1e-15);
+  }
+}
+
+TEST(SofteningCurves, EnergyFollowsFromTheEnd) {
+  for (const SofteningShape& shape :
+       {SofteningShape{Softening::linear}, SofteningShape{Softening::bilinear},
+        SofteningShape{Softening::bilinear, 0.8, 0.5}}) {
+    for (const double end : {1.001, 2.0, 70.0}) {
+      const double energy = softening_energy(shape, end);
+      EXPECT_NEAR(SofteningCurve(shape, energy).end(), end, 1e-12 * end);
+    }
+  }
+}
+
+TEST(SofteningCurves, RefuseToReleaseMoreThanTheyTake) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (const double energy : {1.0, 0.5, -2.0, nothing}) {
+    EXPECT_THROW(SofteningCurve({Softening::linear}, energy), std::invalid_argument);
+  }
+  EXPECT_THROW(SofteningCurve({Softening::brittle}, 2.0), std::invalid_argument);
+  const SofteningCurve curve({Softening::linear}, 2.0);
+  for (const double ripple : {0.0, -0.1, nothing}) {
+    EXPECT_THROW(saw_tooth_of(curve, ripple), std::invalid_argument);
+  }
+}
+
+TEST(Teeth, DissipateTheEnergyOfTheCurveInSum) {
+  for (const CurveCase& each : curves()) {
+    const SofteningCurve curve(each.shape, each.energy);
+    for (const double ripple : ripples) {
+      const BondLaw law = saw_tooth_of(curve, ripple);
+      double sum = 0.0;
+      for (std::size_t k = 0; k < teeth_of(law).size(); ++k) {
+        sum += dissipated(law, static_cast<int>(k));
+      }
+      // Round-off of a few hundred terms.
+      EXPECT_NEAR(2.0 * sum, each.energy, 1e-12 * each.energy) << each << ", ripple " << ripple;
+    }
+  }
+}
+
+/// Unloaded from the curve to zero, it has dissipated what lies above the secant.
+TEST(Teeth, DissipateTheEnergyOfTheCurveOneByOne) {
+  for (const CurveCase& each : curves()) {
+    const SofteningCurve curve(each.shape, each.energy);
+    for (const double ripple : ripples) {
+      const BondLaw law = saw_tooth_of(curve, ripple);
+      const std::vector<Tooth> teeth = teeth_of(law);
+      double sum = 0.0;
+      for (std::size_t k = 1; k < teeth.size(); ++k) {
+        sum += dissipated(law, static_cast<int>(k) - 1);
+        const double x = meeting_point(curve, teeth[k].secant);
+        EXPECT_NEAR(sum, curve.area(x) - 0.5 * teeth[k].secant * x * x, 1e-11 * each.energy)
+            << each << ", ripple " << ripple << ", tooth " << k;
+      }
+    }
+  }
+}
+
+TEST(Teeth, AllButTheLastRiseByTheRipple) {
+  for (const CurveCase& each : curves()) {
+    const SofteningCurve curve(each.shape, each.energy);
+    for (const double ripple : ripples) {
+      const std::vector<Tooth> teeth = teeth_of(saw_tooth_of(curve, ripple));
+      for (std::size_t k = 0; k < teeth.size(); ++k) {
+        const double rise = teeth[k].secant * teeth[k].limit - curve.force(teeth[k].limit);
+        // The ends of teeth are halved down to 1e-12 of themselves.
+        EXPECT_LT(rise, ripple * (1.0 + 1e-8)) << each << ", tooth " << k;
+        if (k + 1 < teeth.size()) {
+          EXPECT_NEAR(rise, ripple, 1e-8 * ripple) << each << ", tooth " << k;
+        }
+      }
+    }
+  }
+}
+
+/// Both of its points lie on one straight piece.
+TEST(Teeth, EndAtTheGeometricMeanOfTheirPoints) {
+  const SofteningCurve curve({Softening::linear}, 15.0);
+  const std::vector<Tooth> teeth = teeth_of(saw_tooth_of(curve, 0.05));
+  ASSERT_GT(teeth.size(), 4U);
+  for (std::size_t k = 0; k + 1 < teeth.size(); ++k) {
+    const double begin = meeting_point(curve, teeth[k].secant);
+    const double end = meeting_point(curve, teeth[k + 1].secant);
+    EXPECT_NEAR(teeth[k].limit, std::sqrt(begin * end), 1e-11 * end);
+  }
+}
+
+TEST(Teeth, OneAloneBreaksAsABrittleBondOfItsEnergy) {
+  for (const CurveCase& each : curves()) {
+    const BondLaw law = saw_tooth_of(SofteningCurve(each.shape, each.energy), 100.0);
+    EXPECT_TRUE(law.is_brittle()) << each;
+    EXPECT_NEAR(law.tooth(0).limit, std::sqrt(each.energy), 1e-14 * each.energy) << each;
+  }
+}
+
+TEST(Teeth, AreMoreWhereTheyMayRiseLess) {
+  const SofteningCurve curve({Softening::bilinear}, 12.0);
+  std::size_t before = 0;
+  for (const double ripple : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+    const std::size_t count = teeth_of(saw_tooth_of(curve, ripple)).size();
+    EXPECT_GT(count, before);
+    before = count;
+  }
+}
+
+}  // namespace
+}  // namespace perilink
