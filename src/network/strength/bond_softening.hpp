@@ -22,7 +22,7 @@ class TooStrong : public std::invalid_argument {
 };
 
 /// Law and strength of the bonds of one material.
-struct BondStrength {
+struct MaterialBonds {
   BondLaw law;
   MaterialStrength strength;
 };
@@ -31,8 +31,8 @@ struct BondStrength {
 /// stiffness and length; those that soften have 2 G_s / s_0^2 = (s_c / s_0)^2 and begin to at
 /// s_0 = f_t / (beta E), with beta by cell_strength(). It depends on that energy: a fixed point.
 /// \throws TooStrong where s_c does not exceed s_0
-BondStrength bond_strength(const Body& body, const NetworkInput& input,
-                           const SolidMaterial& material, double brittle_stretch);
+MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
+                                const SolidMaterial& material, double brittle_stretch);
 
 /// Gives bonds and ties between materials that soften their laws, in place of the brittle one and
 /// its critical stretch, and the network its strengths (a draft also those of brittle ones). Two

@@ -1,4 +1,4 @@
-#include "network/bond_softening.hpp"
+#include "network/strength/bond_softening.hpp"
 
 #include <gtest/gtest.h>
 
@@ -202,8 +202,8 @@ TEST(SofteningPairs, HaveTheMeanConstantsAndTheShapeOfTheWeaker) {
                 0.5 * std::pow(brittle.critical_stretch[e], 2),
                 1e-10 * std::pow(brittle.critical_stretch[e], 2));
     if (materials_of(network, e) != 1) continue;
-    const BondStrength expected =
-        bond_strength(halves.body, halves.input, mean, brittle.critical_stretch[e]);
+    const MaterialBonds expected =
+        bonds_of_material(halves.body, halves.input, mean, brittle.critical_stretch[e]);
     EXPECT_NEAR(expected.strength.tensile_strength, 0.7, sought * 0.7);
     EXPECT_EQ(network.critical_stretch[e], expected.strength.first_stretch);
     EXPECT_TRUE(alike(network.law(e), expected.law));

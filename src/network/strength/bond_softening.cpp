@@ -1,4 +1,4 @@
-#include "network/bond_softening.hpp"
+#include "network/strength/bond_softening.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -134,8 +134,8 @@ TooStrong::TooStrong(Index number, double energy)
       material(number),
       share(energy) {}
 
-BondStrength bond_strength(const Body& body, const NetworkInput& input,
-                           const SolidMaterial& material, double brittle_stretch) {
+MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
+                                const SolidMaterial& material, double brittle_stretch) {
   const Pulled pulled = pulled_cell(body, input, material);
   const double modulus = uniaxial_modulus(lame_constants(input, material), pulled.dim);
   const SofteningMaterial& softening = material.softening;
@@ -178,7 +178,7 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
     const bool solid = particles.kind[j] == ParticleKind::solid;
     return std::minmax(own, solid ? particles.material[j] : own);
   };
-  std::map<Pair, BondStrength> laws;
+  std::map<Pair, MaterialBonds> laws;
   for (Index e = 0; e < network.first_tie; ++e) {
     if (!network.has_limit(e)) continue;
     const auto [a, b] = pair_of(e);
@@ -186,7 +186,7 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
     const SolidMaterial mean = mean_of(input.materials[a], input.materials[b]);
     if (!softens(mean) && !mean.softening.closes && !input.draft) continue;
     try {
-      laws.insert({{a, b}, bond_strength(body, input, mean, network.critical_stretch[e])});
+      laws.insert({{a, b}, bonds_of_material(body, input, mean, network.critical_stretch[e])});
     } catch (const TooStrong& error) {
       throw TooStrong(a, error.share);
     }
