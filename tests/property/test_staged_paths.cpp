@@ -16,8 +16,8 @@ constexpr double tolerance = 1e-9;
 struct Look {
   StepRecord row;
   double stored = 0.0;
-  double worst = 0.0;   ///< largest stretch over its limit
-  double error = 0.0;   ///< of the displacements, against a dense solution
+  double worst = 0.0;  ///< largest stretch over its limit
+  double error = 0.0;  ///< of the displacements, against a dense solution
 };
 
 /// A block that a force across it loads first and what pulls or drives it along x then.
@@ -173,7 +173,7 @@ std::vector<BlockCase> cases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Blocks, StagedPath, testing::ValuesIn(cases()),
-                         [](const auto& info) { return to_string(info.param); });
+                         [](const auto& block) { return to_string(block.param); });
 
 }  // namespace
 }  // namespace perilink

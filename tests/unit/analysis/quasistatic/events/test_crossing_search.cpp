@@ -60,7 +60,7 @@ TEST_P(Crossings, AheadIsWhereTheFirstElementBeginsToFail) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     auto now = random_vector(slots_, seed);
     const auto growing = random_vector(slots_, seed + 100);
-    for (double& u : now) u *= 0.1;
+    for (double& u : now) u *= 0.01;
     const Scan scan{network_, now, growing};
     ASSERT_FALSE(scan.any_fails(0.0));
     for (const int sense : {1, -1}) {
@@ -81,7 +81,7 @@ TEST_P(Crossings, LargestIsTheLastWhereNoneFails) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     auto now = random_vector(slots_, seed);
     const auto growing = random_vector(slots_, seed + 100);
-    for (double& u : now) u *= 0.01 * seed;
+    for (double& u : now) u *= (seed < 40 ? 0.002 : 0.02) * seed;
     const Scan scan{network_, now, growing};
     const auto found = search.largest(now, growing, tie_tolerance, 1);
     const bool none = found.element == no_index;
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{"trusses_in_space", {"cubic", Pattern::cubic, Surface::none}, false},
                     Kind{"frames", {"hexagonal", Pattern::hexagonal, Surface::none}, true},
                     Kind{"frames_in_space", {"cubic", Pattern::cubic, Surface::none}, true}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& kind) { return std::string(kind.param.name); });
 
 /// Four bonds of unit length along x in make_square() order: u_x of the right ends are 1 d.
 TEST(CrossingSearch, BreaksTiesByNumberAndForgetsWhatIsBroken) {
