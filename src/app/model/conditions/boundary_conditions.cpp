@@ -172,6 +172,14 @@ void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
   }
 }
 
+void refuse_nothing_to_solve(const CaseFile& input, const Model& model) {
+  if (model.unknowns.count > 0) return;
+  throw InputError(
+      input.where(input.displacements.empty() ? "supports" : "displacements"),
+      "every displacement of every particle is prescribed, which leaves nothing to solve",
+      "prescribe those of fewer particles; the surface of the body is region = \"surface\"");
+}
+
 /// Forces on supports do no work.
 void refuse_idle_loads(const CaseFile& input, const Model& model, const std::string& stage) {
   if (model.reference.driven) return;
@@ -211,7 +219,7 @@ void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescrip
 
 /// The loads of all stages that have their own, in their order.
 void collect_sets(const CaseFile& input, Model& model) {
-  model.sets = {{model.loads, model.unknowns.prescribed, model.reference}};
+  model.sets = {{model.loads, model.unknowns, model.reference}};
   for (std::size_t k = 1; k < input.stages.size(); ++k) {
     const std::string& stage = input.stages[k].name;
     if (input.stages[k].loads != stage) continue;
@@ -221,13 +229,17 @@ void collect_sets(const CaseFile& input, Model& model) {
     of_stage.network.particles.dim = model.network.dim();
     of_stage.network.bending = model.network.bending;
     of_stage.network.support_stiffness = model.network.support_stiffness;
-    of_stage.unknowns = model.unknowns;
+    hold_idle_rotations(model.network, prescription.held);
+    of_stage.unknowns =
+        number_unknowns(model.network.width(), prescription.held, prescription.value);
+    refuse_nothing_to_solve(input, of_stage);
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
     refuse_mere_shift(input, of_stage, prescription, stage);
     refuse_idle_loads(input, of_stage, stage);
     model.sets.push_back(
-        {std::move(of_stage.loads), std::move(prescription.value), of_stage.reference});
+        {std::move(of_stage.loads), std::move(of_stage.unknowns), of_stage.reference});
+    model.gripped = std::move(prescription.gripped);
     model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
   }
 }
@@ -250,12 +262,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.gripped = std::move(prescription.gripped);
   model.unknowns =
       number_unknowns(model.network.width(), prescription.held, std::move(prescription.value));
-  if (model.unknowns.count == 0) {
-    throw InputError(
-        input.where(input.displacements.empty() ? "supports" : "displacements"),
-        "every displacement of every particle is prescribed, which leaves nothing to solve",
-        "prescribe those of fewer particles; the surface of the body is region = \"surface\"");
-  }
+  refuse_nothing_to_solve(input, model);
   refuse_idle_loads(input, model, first);
   if (!input.stages.empty()) collect_sets(input, model);
 }

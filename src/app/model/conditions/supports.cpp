@@ -116,6 +116,15 @@ void note_driven(const Network& network, Prescription& prescription,
   }
 }
 
+/// Whether a stage comes after another one.
+bool comes_after(const CaseFile& input, const std::string& stage, const std::string& other) {
+  for (const StageSection& section : input.stages) {
+    if (section.name == stage) return false;
+    if (section.name == other) return true;
+  }
+  return false;
+}
+
 /// \param factor  displacement over the values of the sections
 /// \param stage   see collect_prescriptions()
 void drive(const CaseFile& input, const Model& model, Prescription& prescription,
@@ -123,6 +132,7 @@ void drive(const CaseFile& input, const Model& model, Prescription& prescription
            double factor, const std::string& stage = "") {
   for (std::size_t k = 0; k < sections.size(); ++k) {
     const bool rests = !stage.empty() && sections[k].stage != stage;
+    if (rests && comes_after(input, sections[k].stage, stage)) continue;
     const std::vector<Index> particles =
         particles_of_region(input, model, sections[k].region, item_key(table, k, "region"));
     for (int entry = 0; entry < 6; ++entry) {

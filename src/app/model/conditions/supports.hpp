@@ -18,7 +18,8 @@ struct Prescription {
 };
 
 /// Supports, planes of symmetry, driven displacements and velocities of a case.
-/// \param stage  what other stages drive is held at zero; empty: all is driven
+/// \param stage  what earlier stages drive is held at zero, what later ones drive is free; empty:
+///               all is driven
 /// \throws InputError  for regions without particles and entries that contradict each other
 Prescription collect_prescriptions(const CaseFile& input, const Model& model,
                                    const std::string& stage = "");

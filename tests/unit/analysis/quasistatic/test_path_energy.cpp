@@ -99,7 +99,7 @@ TEST(PathEnergy, AnEventBesideAConstantForce) {
   EXPECT_DOUBLE_EQ(energy.external_work(), 2.0 * 3.0 + 0.5 * 4.0 * 3.0);
   EventOutcome outcome = event(0.5, 0.5 * 0.25);  // f'u is 1/2, then 1
   outcome.growth_beside = {2.0 * 1.0, 2.0};       // twice f_c'u_p, and f_c'u_c
-  outcome.released_beside = {0.5, 0.5};           // of e = 1 + lambda / 2
+  outcome.released_beside = {0.5, 0.5};           // e = 1 + lambda / 2
   energy.add_event(outcome);
   EXPECT_DOUBLE_EQ(energy.released(), 0.5 * 3.0 * 3.0);
   const double before = energy.external_work();

@@ -56,7 +56,7 @@ TEST(StagedRun, PullsABarUnderItsWeight) {
 TEST(StagedRun, LoadsAPrestressedTruss) {
   AnalysisBody body = make_chains(2, 2, true, 2.0, 0.01);
   LoadSet stretched = set_of(body), pushed = set_of(body);
-  std::fill(pushed.prescribed.begin(), pushed.prescribed.end(), 0.0);
+  std::fill(pushed.unknowns.prescribed.begin(), pushed.unknowns.prescribed.end(), 0.0);
   for (Index i = 0; i < body.network.particles.size(); ++i) {
     if (std::abs(body.network.particles.position(i)[0] - 1.0) > 0.1) continue;
     pushed.loads.forces[slot(body, i, 0)] = 1.0;
@@ -78,6 +78,28 @@ TEST(StagedRun, LoadsAPrestressedTruss) {
   EXPECT_NEAR(recorder.rows[2].strain_energy, 2.0 * 0.01 * 0.01, 1e-15);
   // 2 (0.01) (0.02) / 2: half the stiffness times the stretch before and that of the gap after.
   EXPECT_NEAR(recorder.rows[2].dissipated_energy, 0.0002, 1e-15);
+  EXPECT_LT(result.energy_error, 1e-12);
+}
+
+/// Chains of two bonds of stiffness 2 and limit 0.01 whose ends bear 0.01 each, are gripped where
+/// that moves them, and driven: bonds are at their limits after another 0.01.
+TEST(StagedRun, GripsABodyWhereItIs) {
+  AnalysisBody body = make_chains(2, 2, false, 2.0, 0.01);
+  const LoadSet dead = set_of(body);
+  body.sets = {dead, set_of(make_chains(2, 2, true, 2.0, 0.01))};
+  Recorder recorder;
+  const DamageResult result = run(body, in_stages({{0, 0.01, {}}, {1, {}, {}}}), recorder);
+  ASSERT_GE(recorder.rows.size(), 3u);
+  const StepRecord& gripped = recorder.rows[1];
+  EXPECT_NEAR(recorder.rows[0].displacement, 0.01, 1e-16);
+  EXPECT_NEAR(gripped.displacement, 0.01, 1e-15);
+  EXPECT_NEAR(gripped.load, 2.0 * (2.0 * 0.01 - 0.01), 1e-15) << "the dead load bears its part";
+  EXPECT_NEAR(gripped.strain_energy, 4.0 * 0.01 * 0.01, 1e-15);
+  EXPECT_NEAR(gripped.external_work, gripped.strain_energy, 1e-15);
+  // The other row reaches its limit at the same displacement, and then nothing resists.
+  EXPECT_NEAR(recorder.rows[2].displacement, 0.01, 1e-15);
+  EXPECT_NEAR(recorder.rows[2].load, 2.0 * 0.01 - 2.0 * 0.01, 1e-15);
+  EXPECT_EQ(result.ending, Ending::collapsed);
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
