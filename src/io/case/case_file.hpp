@@ -94,7 +94,7 @@ struct DisplacementSection {
   std::string region;
   /// At load factor 1 along x, y, z [length] and of rotations about x, y, z [-].
   std::array<std::optional<Expression>, 6> value;
-  std::string stage;  ///< [[displacements]]: name of the stage that it belongs to
+  std::string stage = {};  ///< [[displacements]]: name of the stage that it belongs to
 };
 
 /// [[loads]]: exactly one of force (total, shared by volume) and body_force (per volume).
@@ -102,7 +102,7 @@ struct LoadSection {
   std::string region;
   std::optional<Vector3> force;                ///< at load factor 1 [force]
   std::optional<ExpressionVector> body_force;  ///< at load factor 1 [force/length^3]
-  std::string stage;
+  std::string stage = {};
 };
 
 /// [[tractions]]: exactly one of traction and pressure, on facets of the surface.
@@ -110,7 +110,7 @@ struct TractionSection {
   std::string region;
   std::optional<ExpressionVector> traction;  ///< at load factor 1 [force/length^2]
   std::optional<Expression> pressure;  ///< at load factor 1, positive inwards [force/length^2]
-  std::string stage;
+  std::string stage = {};
 };
 
 /// [[point_loads]]: force on the particle nearest to a point; moment in micropolar bodies.
@@ -118,7 +118,7 @@ struct PointLoadSection {
   Vector3 at{};
   Vector3 force{};   ///< at load factor 1 [force]
   Vector3 moment{};  ///< at load factor 1 about x, y, z; in two dimensions z [force length]
-  std::string stage;
+  std::string stage = {};
 };
 
 /// [[symmetry]]: a plane across which the body is mirrored; exactly one of at and region.
