@@ -20,7 +20,9 @@ struct ReferenceLoad {
 /// Loads and prescribed motions that grow together in a stage, at load factor 1.
 struct LoadSet {
   Loads loads;
-  std::vector<double> prescribed;  ///< Unknowns::prescribed
+  /// What moves from the set's first stage on: slots that it drives were free until then, those of
+  /// earlier sets stay held.
+  Unknowns unknowns;
   ReferenceLoad reference;
 };
 

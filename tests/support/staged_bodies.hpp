@@ -11,7 +11,7 @@ namespace perilink::test {
 
 /// The loads of a body as a set.
 inline LoadSet set_of(const AnalysisBody& body) {
-  return {body.loads, body.unknowns.prescribed, body.reference};
+  return {body.loads, body.unknowns, body.reference};
 }
 
 inline DamageOptions in_stages(std::vector<StageRules> stages) {

@@ -23,7 +23,8 @@ constexpr double lost_balance = 1e-2;
 
 }  // namespace
 
-EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options, StepObserver& observer)
+EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options,
+                   StepObserver& observer)
     : network_(problem.network),
       reference_(&problem.reference),
       options_(options),

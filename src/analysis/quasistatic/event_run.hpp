@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/quasistatic/damage_analysis.hpp"
+#include "analysis/quasistatic/damage_options.hpp"
 #include "analysis/quasistatic/events/staged_engine.hpp"
 #include "analysis/quasistatic/path_energy.hpp"
 #include "base/timer.hpp"
@@ -67,9 +67,9 @@ class EventRun {
   DamageResult finish();
 
   const Network& network_;
-  const ReferenceLoad* reference_;  ///< of the present stage, if there are any
+  const ReferenceLoad* reference_;  ///< those of the present stage, if any
   const DamageOptions& options_;
-  const StopRules* stop_;  ///< of the present stage, if there are any
+  const StopRules* stop_;  ///< those of the present stage, if any
   StepObserver& observer_;
   const LoadedNetwork& problem_;
   StagedEngine* staged_ = nullptr;  ///< the engine, where there are stages

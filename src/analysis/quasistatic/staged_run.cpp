@@ -76,7 +76,8 @@ bool EventRun::follow_stage(const StageRules& stage) {
 void EventRun::measure_beside(const LoadWork& work) {
   const double growing = row_.load_factor * work.forces + work.constant.growing_forces;
   if (reference_->driven) {
-    row_.load += work.constant.growing_supports / reference_->value;
+    row_.load +=
+        (work.constant.growing_supports - work.constant.forces_on_grips) / reference_->value;
   } else {
     row_.displacement = growing / reference_->value;
   }

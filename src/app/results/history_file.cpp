@@ -56,6 +56,12 @@ constexpr std::array columns = {
     column<&StepRecord::element>("element"),
 };
 
+/// Beside them in cases with stages.
+constexpr std::array stage_columns = {
+    column<&StepRecord::stage>("stage"),
+    column<&StepRecord::avalanche>("avalanche"),
+};
+
 struct TimeColumn {
   enum class Of { every_body, bonds, particles };
   const char* name;
@@ -105,6 +111,9 @@ std::vector<std::string> history_columns(const CaseFile& input) {
   std::vector<std::string> names;
   if (!is_over_time(input)) {
     for (const Column& column : columns) names.emplace_back(column.name);
+    for (const Column& column : stage_columns) {
+      if (!input.stages.empty()) names.emplace_back(column.name);
+    }
     return names;
   }
   const bool bonds_break = !has_state_based_particles(input.body);
@@ -116,12 +125,16 @@ std::vector<std::string> history_columns(const CaseFile& input) {
 
 HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input)
     : bonds_break_(!has_state_based_particles(input.body)),
+      has_stages_(!input.stages.empty()),
       history_(directory + "/history.csv", all_columns(input)),
       timing_(directory + "/timing.csv", {"step", "seconds"}) {}
 
 void HistoryFile::append(const StepRecord& record, std::span<const double> gauges) {
   std::vector<double> row;
   for (const Column& column : columns) row.push_back(column.get(record));
+  for (const Column& column : stage_columns) {
+    if (has_stages_) row.push_back(column.get(record));
+  }
   write(std::move(row), gauges, record.seconds);
 }
 
@@ -161,7 +174,9 @@ std::vector<StepRecord> history_records(const CsvTable& table, const std::string
     }
   }
   std::vector<StepRecord> records(table.rows.size());
-  for (const Column& column : columns) {
+  std::vector<Column> all(columns.begin(), columns.end());
+  all.insert(all.end(), stage_columns.begin(), stage_columns.end());
+  for (const Column& column : all) {
     const int place = table.column(column.name);
     if (place < 0) continue;
     for (std::size_t row = 0; row < records.size(); ++row) {

@@ -24,6 +24,12 @@ void DamageRun::tell(Summary& summary) const {
   summary.add_note(note_of_grips(model_, broken_));
   summary.add_note(note_of_peaks(result_, model_, broken_));
   tell_quasistatic(summary, input, model_, found, seconds.analysis);
+  tell_stages(summary, input, result_.stages);
+}
+
+/// With which displacements are to be multiplied, StepState::displacement.
+double DamageRun::scale_of(const StepRecord& record) const {
+  return input.stages.empty() ? record.load_factor : 1.0;
 }
 
 /// The element of the last row has failed by now; where several failed in one load step their order
@@ -46,7 +52,8 @@ void DamageRun::note_broken(const StepRecord& record, StateSource& source) {
 }
 
 void DamageRun::note_places(const StepRecord& record, StateSource& source) {
-  if (!has_several_places(model_) || !(std::abs(record.load) > highest_)) return;
+  if (!input.stages.empty() || !has_several_places(model_) || !(std::abs(record.load) > highest_))
+    return;
   highest_ = std::abs(record.load);
   if (model_.driven_places.empty()) {  // a look at the state may cost a solve
     places_ = place_forces(model_, record.load_factor, {}, {});
@@ -77,7 +84,7 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     }
     const StepState state = source.state();
     std::vector<double> motion(state.displacement.begin(), state.displacement.end());
-    for (double& u : motion) u *= record.load_factor;
+    for (double& u : motion) u *= scale_of(record);
     return make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
                            broken_, families_);
   });
@@ -105,7 +112,7 @@ void DamageRun::on_step(const StepRecord& record, StateSource& source) {
   note_places(record, source);
   files_->add_row(record, model_.gauges.empty() ? std::vector<double>{}
                                                 : gauge_values(model_, source.state().displacement,
-                                                               record.load_factor));
+                                                               scale_of(record)));
   show_progress(record);
   if (wants_fields(record.broken_bonds)) write_state(record, source);
   last_element_ = record.element;

@@ -25,6 +25,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
   bool stop_requested() override;
 
  private:
+  double scale_of(const StepRecord& record) const;
   void note_places(const StepRecord& record, StateSource& source);
   void note_broken(const StepRecord& record, StateSource& source);
   bool wants_fields(Index broken_bonds) const;

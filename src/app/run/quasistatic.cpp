@@ -91,6 +91,26 @@ void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& 
   summary.add("largest_residual", found.largest_residual);
 }
 
+void tell_stages(Summary& summary, const CaseFile& input, const std::vector<StageResult>& stages) {
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const StageResult& stage = stages[k];
+    const std::string& name = input.stages[k].name;
+    summary.json["stages"].push_back({{"name", name},
+                                      {"status", to_string(stage.ending)},
+                                      {"reason", stage.reason},
+                                      {"load_factor", stage.last.load_factor},
+                                      {"load", stage.last.load},
+                                      {"displacement", stage.last.displacement},
+                                      {"peak_load", stage.peak.load},
+                                      {"peak_displacement", stage.peak.displacement},
+                                      {"broken_bonds", stage.last.broken_bonds},
+                                      {"steps", stage.last.step}});
+    summary.line(k == 0 ? "stages" : "", "{}: {}, load factor {:.6g}, load {:.6g}, {} broken bonds",
+                 name, stage.reason, stage.last.load_factor, stage.last.load,
+                 stage.last.broken_bonds);
+  }
+}
+
 void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& model,
                       const Equilibria& found, double seconds) {
   const Index rows = found.last.step, factorizations = found.factor.factorizations;

@@ -63,6 +63,9 @@ struct Equilibria {
 /// Curve, energies and errors.
 void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& found);
 
+/// How each stage ended; nothing where there are none.
+void tell_stages(Summary& summary, const CaseFile& input, const std::vector<StageResult>& stages);
+
 /// The same with the model and what its solution took.
 /// \param seconds  that the analysis took
 void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& model,

@@ -94,6 +94,7 @@ struct DisplacementSection {
   std::string region;
   /// At load factor 1 along x, y, z [length] and of rotations about x, y, z [-].
   std::array<std::optional<Expression>, 6> value;
+  std::string stage = {};  ///< [[displacements]]: name of the stage that it belongs to
 };
 
 /// [[loads]]: exactly one of force (total, shared by volume) and body_force (per volume).
@@ -101,6 +102,7 @@ struct LoadSection {
   std::string region;
   std::optional<Vector3> force;                ///< at load factor 1 [force]
   std::optional<ExpressionVector> body_force;  ///< at load factor 1 [force/length^3]
+  std::string stage = {};
 };
 
 /// [[tractions]]: exactly one of traction and pressure, on facets of the surface.
@@ -108,6 +110,7 @@ struct TractionSection {
   std::string region;
   std::optional<ExpressionVector> traction;  ///< at load factor 1 [force/length^2]
   std::optional<Expression> pressure;  ///< at load factor 1, positive inwards [force/length^2]
+  std::string stage = {};
 };
 
 /// [[point_loads]]: force on the particle nearest to a point; moment in micropolar bodies.
@@ -115,6 +118,7 @@ struct PointLoadSection {
   Vector3 at{};
   Vector3 force{};   ///< at load factor 1 [force]
   Vector3 moment{};  ///< at load factor 1 about x, y, z; in two dimensions z [force length]
+  std::string stage = {};
 };
 
 /// [[symmetry]]: a plane across which the body is mirrored; exactly one of at and region.
@@ -186,6 +190,16 @@ struct StopSection {
   std::optional<double> displacement;
 };
 
+/// [[stages]]: some loads grow, or fall, beside the others, which stay as they are. It ends at a
+/// load factor, or goes from event to event until the first of its rules is met (always at
+/// collapse).
+struct StageSection {
+  std::string name;
+  std::string loads;         ///< name of the stage whose loads change: its own, or an earlier one
+  std::optional<double> to;  ///< load factor at its end
+  StopSection stop;
+};
+
 /// [output]
 struct OutputSection {
   std::vector<int> fields_at;        ///< numbers of broken bonds at which fields are written
@@ -214,6 +228,7 @@ struct CaseFile {
   std::vector<GaugeSection> gauges;
   AnalysisSection analysis;
   StopSection stop;
+  std::vector<StageSection> stages;
   OutputSection output;
 
   /// Keys and tables that this type of analysis does not use; those of another, for which the case

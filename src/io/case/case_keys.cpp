@@ -19,6 +19,8 @@ constexpr std::string_view no_particle_table =
 constexpr std::string_view only_lattices =
     "is given, but only bodies with model = \"lattice\" have it";
 
+constexpr std::string_view damage_instead = "delete it, or set type = \"damage\" in [analysis]";
+
 constexpr Kinds bonds = bond_based | micropolar;
 constexpr Kinds still = damage | elastic | relaxation;
 
@@ -88,14 +90,18 @@ const Without turn_in_space = {
     resting, {plane, "is no rotation of a body in two dimensions", "Allowed: rotation"}};
 const Without moments = {
     {unturned, "is given, but {resting}", "apply a couple of forces, or {turning}"}};
-const std::vector<KeySchema> motions = {"region",
-                                        "x",
-                                        "y",
-                                        {"z", third_axis},
-                                        {"rotation", turn_in_plane},
-                                        {"rx", turn_in_space},
-                                        {"ry", turn_in_space},
-                                        {"rz", turn_in_space}};
+std::vector<KeySchema> motions(bool in_stages) {
+  std::vector<KeySchema> keys = {"region",
+                                 "x",
+                                 "y",
+                                 {"z", third_axis},
+                                 {"rotation", turn_in_plane},
+                                 {"rx", turn_in_space},
+                                 {"ry", turn_in_space},
+                                 {"rz", turn_in_space}};
+  if (in_stages) keys.emplace_back("stage");
+  return keys;
+}
 const Without velocities = {
     {still, "is given, but analysis.type is \"{type}\", which knows no time",
      "give [[displacements]], or set type = \"explicit\""},
@@ -141,6 +147,10 @@ const Without of_bonds_in_time = {{still, {}, {}}, no_lattice_key};
 const Without strains = {
     {damage | elastic, {}, {}},
     {lattice, "is given, but lattice particles stretch by their true lengths", delete_it}};
+
+const Without stages = {{elastic | explicit_ | relaxation,
+                         "is given, but type = \"{type}\" lets all loads grow together",
+                         damage_instead}};
 
 const std::vector<KeySchema> body_keys = {
     "problem",
@@ -224,11 +234,11 @@ const std::vector<TableSchema>& case_schema() {
       {"regions", true, {"name", "group", "x", "y", {"z", third_axis}, "center", "radius"}},
       {"materials", true, material_keys},
       {"supports", true, {"region", "fix"}},
-      {"displacements", true, motions},
-      {"velocities", true, motions, velocities},
-      {"loads", true, {"region", "force", "body_force"}},
-      {"tractions", true, {"region", "traction", "pressure"}, tractions},
-      {"point_loads", true, {"at", "force", {"moment", moments}}},
+      {"displacements", true, motions(true)},
+      {"velocities", true, motions(false), velocities},
+      {"loads", true, {"region", "force", "body_force", "stage"}},
+      {"tractions", true, {"region", "traction", "pressure", "stage"}, tractions},
+      {"point_loads", true, {"at", "force", {"moment", moments}, "stage"}},
       {"symmetry", true, {"axis", "at", "region"}, symmetry},
       {"springs", true, {"region", "stiffness", "total"}, springs},
       {"cracks", true, crack_keys, cracks},
@@ -239,6 +249,10 @@ const std::vector<TableSchema>& case_schema() {
       {"gauges", true, {"name", "between", "at", "region", "axis", "stress"}},
       {"analysis", false, analysis_keys},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_events},
+      {"stages",
+       true,
+       {"name", "loads", "to", "broken_bonds", "load_fraction", "displacement"},
+       stages},
       {"output",
        false,
        {{"fields_at", of_events}, {"fields_every", of_events}, {"fields_times", of_time}}},

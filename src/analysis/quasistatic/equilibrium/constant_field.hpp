@@ -21,6 +21,7 @@ struct ConstantWork {
   double supports = 0.0;          ///< R_c'd_c
   double growing_forces = 0.0;    ///< f_p'u_c
   double growing_supports = 0.0;  ///< R_c'd_p
+  double forces_on_grips = 0.0;   ///< f_c'd_p: what of that f_c does, and no grip
 };
 
 /// Loads and prescribed motions that stay while others grow, and the displacements that they alone
@@ -34,7 +35,7 @@ struct ConstantField {
   // Kept by Equilibrium.
   std::vector<double> solution;           ///< per unknown
   std::vector<double> displacement;       ///< shape (particles, width)
-  std::vector<double> ground_load;        ///< of ground springs, per unknown; empty without
+  std::vector<double> ground_load;        ///< that of ground springs, per unknown; empty: none
   std::vector<std::size_t> driven_slots;  ///< whose motion is prescribed to stay or grow
   std::vector<Index> driven_elements;     ///< that end there
   double load_norm = 0.0;

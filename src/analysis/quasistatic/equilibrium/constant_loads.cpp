@@ -93,6 +93,7 @@ ConstantWork Equilibrium::constant_work() {
     }
     work.supports += force * field.unknowns.prescribed[slot];
     work.growing_supports += force * unknowns_->prescribed[slot];
+    work.forces_on_grips += field.loads.forces[slot] * unknowns_->prescribed[slot];
   }
   return work;
 }

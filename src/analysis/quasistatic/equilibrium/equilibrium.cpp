@@ -79,14 +79,19 @@ void Equilibrium::find_driven_elements() {
   }
 }
 
-/// Equilibrium under the unknowns as they are, from a new factor.
-void Equilibrium::adopt_motion() {
+/// A new factor for the unknowns as they are.
+void Equilibrium::factorize_anew() {
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
-  displacement_ = unknowns_->prescribed;
-  loaded_slots_ = loaded_slots(*unknowns_, *loads_);
   factor_->factorize(assemble_stiffness(network_, secants(), *unknowns_),
                      particle_of_unknown(*unknowns_));
+}
+
+/// Equilibrium under the unknowns as they are, from a new factor.
+void Equilibrium::adopt_motion() {
+  displacement_ = unknowns_->prescribed;
+  loaded_slots_ = loaded_slots(*unknowns_, *loads_);
+  factorize_anew();
   choose_current_unknowns();
   adopt_load();
 }
@@ -104,6 +109,10 @@ void Equilibrium::adopt_load() {
 void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
                               ConstantField constant) {
   keep_all_current();
+  const bool fewer_move = static_cast<std::size_t>(unknowns.count) != solution_.size();
+  if (fewer_move && !ground_stiffness_.empty()) {
+    throw SolverError("nothing can be gripped while ground springs hold a loose part");
+  }
   // Springs hold what came loose where it is.
   constant.ground_load = ground_load_;
   for (std::size_t k = 0; constant_ && k < ground_load_.size(); ++k) {
@@ -117,6 +126,7 @@ void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
   find_driven_slots();
   displacement_ = unknowns.prescribed;
   loaded_slots_ = loaded_slots(unknowns, loads);
+  if (fewer_move) factorize_anew();
   events_to_follow_ = 0;
   last_work_ = 0.0;
   adopt_load();

@@ -118,7 +118,8 @@ class Equilibrium {
 
   /// Other loads and prescribed motions grow from now on, beside constant ones; all displacements
   /// are kept current.
-  /// \param unknowns  the same but for what is prescribed; must outlive this, as the loads must
+  /// \param unknowns  those of before, with other motions; some may be gripped that moved. Must
+  ///                  outlive this, as the loads must.
   void begin_stage(const Unknowns& unknowns, const Loads& loads, ConstantField constant);
 
   /// The load factor of the loads that grow, which tells what an element carries.
@@ -146,6 +147,7 @@ class Equilibrium {
   void move_constant(const Removal& removal);
   void adopt_motion();
   void adopt_load();
+  void factorize_anew();
   void find_driven_elements();
   void choose_current_unknowns();
   void choose_glanced(const std::vector<std::uint8_t>& current);

@@ -12,29 +12,43 @@ StagedEngine::StagedEngine(const LoadedNetwork& problem, const EngineOptions& op
       problem_(problem),
       crossings_(problem.network),
       unknowns_(problem.unknowns),
+      gripped_at_(problem.unknowns.prescribed.size(), 0.0),
       load_factors_(problem.sets.size(), 0.0) {
   begin_stage(0);
 }
 
+/// Slots that a set is the first to drive stay where they are, beside what it adds.
+void StagedEngine::grip(std::size_t set) {
+  const std::span<const double> motion = displacement();
+  const Unknowns& held = problem_.sets[set].unknowns;
+  for (std::size_t slot = 0; slot < motion.size(); ++slot) {
+    const bool is_new = held.number[slot] == no_index && unknowns_.number[slot] != no_index;
+    if (is_new) gripped_at_[slot] = motion[slot];
+  }
+  unknowns_ = held;
+  newest_ = set;
+}
+
 void StagedEngine::begin_stage(std::size_t set) {
+  if (set > newest_) grip(set);
   load_factors_[set_] = load_factor_;
   set_ = set;
   load_factor_ = load_factors_[set];
   ConstantField constant;
-  constant.unknowns = problem_.unknowns;
-  constant.unknowns.prescribed.assign(problem_.unknowns.prescribed.size(), 0.0);
+  constant.unknowns = unknowns_;
+  constant.unknowns.prescribed = gripped_at_;
   constant.loads.forces.assign(problem_.loads.forces.size(), 0.0);
   constant.load_factor = load_factor_;
   for (std::size_t other = 0; other < problem_.sets.size(); ++other) {
     const double factor = load_factors_[other];
     if (other == set || factor == 0.0) continue;
     const LoadSet& loads = problem_.sets[other];
-    for (std::size_t slot = 0; slot < loads.prescribed.size(); ++slot) {
+    for (std::size_t slot = 0; slot < gripped_at_.size(); ++slot) {
       constant.loads.forces[slot] += factor * loads.loads.forces[slot];
-      constant.unknowns.prescribed[slot] += factor * loads.prescribed[slot];
+      constant.unknowns.prescribed[slot] += factor * loads.unknowns.prescribed[slot];
     }
   }
-  unknowns_.prescribed = problem_.sets[set].prescribed;
+  unknowns_.prescribed = problem_.sets[set].unknowns.prescribed;
   equilibrium_.begin_stage(unknowns_, problem_.sets[set].loads, std::move(constant));
 }
 

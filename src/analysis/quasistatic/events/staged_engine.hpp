@@ -16,6 +16,7 @@ class StagedEngine final : public SingleEventEngine {
   StagedEngine(const LoadedNetwork& problem, const EngineOptions& options);
 
   /// A set of loads grows from its present load factor, 0 at first; the others stay as they are.
+  /// What the set drives is gripped where it is.
   void begin_stage(std::size_t set);
 
   /// That of the loads that grow.
@@ -43,9 +44,13 @@ class StagedEngine final : public SingleEventEngine {
 
   const LoadedNetwork& problem_;
   CrossingSearch crossings_;
+  void grip(std::size_t set);
+
   Unknowns unknowns_;                 ///< with the motions of the set that grows
+  std::vector<double> gripped_at_;    ///< displacements at which slots were gripped, shape of these
   std::vector<double> load_factors_;  ///< per set, where it does not grow
   std::size_t set_ = 0;
+  std::size_t newest_ = 0;  ///< last one of the sets that have grown
   double load_factor_ = 0.0;
   std::vector<double> now_;  ///< displacements at the present load factor
 };

@@ -131,17 +131,25 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
   }
 }
 
-/// The first table that loads the body.
-std::string key_of_loads(const CaseFile& input) {
-  if (!input.displacements.empty()) return "displacements[1]";
-  if (!input.velocities.empty()) return "velocities[1]";
-  if (!input.loads.empty()) return "loads[1]";
-  return input.tractions.empty() ? "point_loads[1]" : "tractions[1]";
+/// The first table that loads the body in a stage; empty: in all.
+std::string key_of_loads(const CaseFile& input, const std::string& stage) {
+  std::string key;
+  const auto look = [&](const char* table, const auto& sections) {
+    for (std::size_t k = 0; k < sections.size() && key.empty(); ++k) {
+      if (stage.empty() || sections[k].stage == stage) key = item_key(table, k);
+    }
+  };
+  look("displacements", input.displacements);
+  look("velocities", input.velocities);
+  look("loads", input.loads);
+  look("tractions", input.tractions);
+  look("point_loads", input.point_loads);
+  return key;
 }
 
 /// The load and displacement that stand for all places, and the places.
 void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
-                 Prescription& prescription) {
+                 Prescription& prescription, const std::string& stage) {
   std::array<bool, 6> held = prescription.kept;
   const std::vector<double>& springs = model.network.support_stiffness;
   for (std::size_t slot = 0; slot < springs.size(); ++slot) {
@@ -152,7 +160,7 @@ void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
   model.reference.value = model.reference.driven ? driven : total_load(applied.places);
   if (!(model.reference.value >= smallest_load)) {
     throw InputError(
-        input.where(key_of_loads(input)),
+        input.where(key_of_loads(input, stage)),
         "nothing loads the body: all formulas are zero on their particles, or too "
         "small to compute with",
         fmt::format("write a formula that is {:.0e} or more somewhere", smallest_load));
@@ -164,21 +172,29 @@ void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
   }
 }
 
+void refuse_nothing_to_solve(const CaseFile& input, const Model& model) {
+  if (model.unknowns.count > 0) return;
+  throw InputError(
+      input.where(input.displacements.empty() ? "supports" : "displacements"),
+      "every displacement of every particle is prescribed, which leaves nothing to solve",
+      "prescribe those of fewer particles; the surface of the body is region = \"surface\"");
+}
+
 /// Forces on supports do no work.
-void refuse_idle_loads(const CaseFile& input, const Model& model) {
+void refuse_idle_loads(const CaseFile& input, const Model& model, const std::string& stage) {
   if (model.reference.driven) return;
   for (std::size_t slot = 0; slot < model.loads.forces.size(); ++slot) {
     if (model.loads.forces[slot] != 0.0 && model.unknowns.number[slot] != no_index) return;
   }
-  throw InputError(input.where(key_of_loads(input)),
+  throw InputError(input.where(key_of_loads(input, stage)),
                    "loads nothing that can move: supports hold all particles along all forces on "
                    "them",
                    "load other particles, or hold fewer");
 }
 
 /// Values that a shift of the whole body meets strain nothing.
-void refuse_mere_shift(const CaseFile& input, const Model& model,
-                       const Prescription& prescription) {
+void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescription& prescription,
+                       const std::string& stage) {
   const auto not_zero = [](double value) { return value != 0.0; };
   const std::vector<double>& springs = model.network.support_stiffness;
   if (input.analysis.type == AnalysisType::explicit_ || !model.reference.driven ||
@@ -196,21 +212,49 @@ void refuse_mere_shift(const CaseFile& input, const Model& model,
     if (!known) known = value;
     if (*known != value) return;
   }
-  throw InputError(input.where(key_of_loads(input)),
+  throw InputError(input.where(key_of_loads(input, stage)),
                    "only moves the body as a whole, which strains nothing",
                    "hold another part of the body along the axis that is driven");
+}
+
+/// The loads of all stages that have their own, in their order.
+void collect_sets(const CaseFile& input, Model& model) {
+  model.sets = {{model.loads, model.unknowns, model.reference}};
+  for (std::size_t k = 1; k < input.stages.size(); ++k) {
+    const std::string& stage = input.stages[k].name;
+    if (input.stages[k].loads != stage) continue;
+    Prescription prescription = collect_prescriptions(input, model, stage);
+    AppliedLoads applied = collect_loads(input, model, model.network.width(), stage);
+    Model of_stage;
+    of_stage.network.particles.dim = model.network.dim();
+    of_stage.network.bending = model.network.bending;
+    of_stage.network.support_stiffness = model.network.support_stiffness;
+    hold_idle_rotations(model.network, prescription.held);
+    of_stage.unknowns =
+        number_unknowns(model.network.width(), prescription.held, prescription.value);
+    refuse_nothing_to_solve(input, of_stage);
+    of_stage.loads = std::move(applied.loads);
+    choose_axes(input, of_stage, applied, prescription, stage);
+    refuse_mere_shift(input, of_stage, prescription, stage);
+    refuse_idle_loads(input, of_stage, stage);
+    model.sets.push_back(
+        {std::move(of_stage.loads), std::move(of_stage.unknowns), of_stage.reference});
+    model.gripped = std::move(prescription.gripped);
+    model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
+  }
 }
 
 }  // namespace
 
 void apply_boundary_conditions(const CaseFile& input, Model& model) {
-  Prescription prescription = collect_prescriptions(input, model);
-  AppliedLoads applied = collect_loads(input, model, model.network.width());
+  const std::string first = input.stages.empty() ? "" : input.stages.front().loads;
+  Prescription prescription = collect_prescriptions(input, model, first);
+  AppliedLoads applied = collect_loads(input, model, model.network.width(), first);
   model.loads = std::move(applied.loads);
   model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
   model.network.support_stiffness = collect_springs(input, model);
-  choose_axes(input, model, applied, prescription);
-  refuse_mere_shift(input, model, prescription);
+  choose_axes(input, model, applied, prescription, first);
+  refuse_mere_shift(input, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
   refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);
@@ -218,13 +262,9 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.gripped = std::move(prescription.gripped);
   model.unknowns =
       number_unknowns(model.network.width(), prescription.held, std::move(prescription.value));
-  if (model.unknowns.count == 0) {
-    throw InputError(
-        input.where(input.displacements.empty() ? "supports" : "displacements"),
-        "every displacement of every particle is prescribed, which leaves nothing to solve",
-        "prescribe those of fewer particles; the surface of the body is region = \"surface\"");
-  }
-  refuse_idle_loads(input, model);
+  refuse_nothing_to_solve(input, model);
+  refuse_idle_loads(input, model, first);
+  if (!input.stages.empty()) collect_sets(input, model);
 }
 
 }  // namespace perilink

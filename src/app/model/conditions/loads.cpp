@@ -150,12 +150,15 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
 
 }  // namespace
 
-AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width) {
+AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width,
+                           const std::string& stage) {
+  const auto belongs = [&](const auto& section) { return stage.empty() || section.stage == stage; };
   const Particles& particles = model.network.particles;
   AppliedLoads all;
   all.loads.forces.assign(static_cast<std::size_t>(particles.size()) * width, 0.0);
   for (std::size_t k = 0; k < input.loads.size(); ++k) {
     const LoadSection& section = input.loads[k];
+    if (!belongs(section)) continue;
     const std::vector<Index> region =
         solid_particles_of(input, model, section.region, item_key("loads", k, "region"));
     LoadedPlace& place = place_named(all.places, section.region);
@@ -168,13 +171,14 @@ AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width)
     place.sizes += add_entry(particles, entry, all.loads, place);
   }
   for (std::size_t k = 0; k < input.tractions.size(); ++k) {
+    if (!belongs(input.tractions[k])) continue;
     Loads entry{std::vector<double>(all.loads.forces.size(), 0.0)};
     LoadedPlace& place = place_named(all.places, input.tractions[k].region);
     place.sizes += add_traction(input, model, k, entry);
     add_entry(particles, entry, all.loads, place);
   }
   for (std::size_t k = 0; k < input.point_loads.size(); ++k) {
-    add_point_load(input, model, k, all);
+    if (belongs(input.point_loads[k])) add_point_load(input, model, k, all);
   }
   return all;
 }

@@ -116,11 +116,23 @@ void note_driven(const Network& network, Prescription& prescription,
   }
 }
 
+/// Whether a stage comes after another one.
+bool comes_after(const CaseFile& input, const std::string& stage, const std::string& other) {
+  for (const StageSection& section : input.stages) {
+    if (section.name == stage) return false;
+    if (section.name == other) return true;
+  }
+  return false;
+}
+
 /// \param factor  displacement over the values of the sections
+/// \param stage   see collect_prescriptions()
 void drive(const CaseFile& input, const Model& model, Prescription& prescription,
            const std::string& table, const std::vector<DisplacementSection>& sections,
-           double factor) {
+           double factor, const std::string& stage = "") {
   for (std::size_t k = 0; k < sections.size(); ++k) {
+    const bool rests = !stage.empty() && sections[k].stage != stage;
+    if (rests && comes_after(input, sections[k].stage, stage)) continue;
     const std::vector<Index> particles =
         particles_of_region(input, model, sections[k].region, item_key(table, k, "region"));
     for (int entry = 0; entry < 6; ++entry) {
@@ -130,8 +142,12 @@ void drive(const CaseFile& input, const Model& model, Prescription& prescription
       const PositionField values(input, item_key(table, k, name), {&*value, 1});
       const int component = component_of(model.network, entry);
       prescribe(input, model, prescription, particles, item_key(table, k), component, values,
-                factor);
-      note_driven(model.network, prescription, particles, component, sections[k].region);
+                rests ? 0.0 : factor);
+      if (rests) {
+        prescription.kept[component] = true;
+      } else {
+        note_driven(model.network, prescription, particles, component, sections[k].region);
+      }
       grip(model.network, prescription, particles, component);
     }
   }
@@ -139,7 +155,8 @@ void drive(const CaseFile& input, const Model& model, Prescription& prescription
 
 }  // namespace
 
-Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
+Prescription collect_prescriptions(const CaseFile& input, const Model& model,
+                                   const std::string& stage) {
   const std::size_t width = model.network.width();
   Prescription prescription;
   prescription.held.assign(width * model.network.particles.size(), 0);
@@ -161,7 +178,7 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model) {
   for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
     hold_in_plane(input, model, k, prescription);
   }
-  drive(input, model, prescription, "displacements", input.displacements, 1.0);
+  drive(input, model, prescription, "displacements", input.displacements, 1.0, stage);
   drive(input, model, prescription, "velocities", input.velocities, input.analysis.duration);
   return prescription;
 }

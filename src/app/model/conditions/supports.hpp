@@ -18,8 +18,11 @@ struct Prescription {
 };
 
 /// Supports, planes of symmetry, driven displacements and velocities of a case.
+/// \param stage  what earlier stages drive is held at zero, what later ones drive is free; empty:
+///               all is driven
 /// \throws InputError  for regions without particles and entries that contradict each other
-Prescription collect_prescriptions(const CaseFile& input, const Model& model);
+Prescription collect_prescriptions(const CaseFile& input, const Model& model,
+                                   const std::string& stage = "");
 
 /// Stiffness of the elastic supports of a case, Network::support_stiffness; empty: none. Facets
 /// share their area equally among their corners, a total is shared in proportion to the volumes.

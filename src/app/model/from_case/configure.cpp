@@ -361,6 +361,14 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
   return model;
 }
 
+StopRules rules_of(const StopSection& section) {
+  StopRules stop;
+  stop.broken_bonds = section.broken_bonds;
+  stop.load_fraction = section.load_fraction;
+  stop.displacement = section.displacement;
+  return stop;
+}
+
 }  // namespace
 
 Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
@@ -375,9 +383,14 @@ DamageOptions damage_options(const CaseFile& input, int threads) {
   options.engine.route = input.analysis.factor;
   if (input.analysis.control == LoadControl::steps)
     options.load_factors = input.analysis.load_factors;
-  options.stop.broken_bonds = input.stop.broken_bonds;
-  options.stop.load_fraction = input.stop.load_fraction;
-  options.stop.displacement = input.stop.displacement;
+  options.stop = rules_of(input.stop);
+  std::vector<std::string> sets;  // in the order of LoadedNetwork::sets
+  for (const StageSection& stage : input.stages) {
+    if (stage.loads == stage.name) sets.push_back(stage.name);
+    const auto set = std::find(sets.begin(), sets.end(), stage.loads);
+    options.stages.push_back(
+        {static_cast<std::size_t>(set - sets.begin()), stage.to, rules_of(stage.stop)});
+  }
   return options;
 }
 

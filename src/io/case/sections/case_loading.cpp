@@ -45,6 +45,7 @@ TractionSection read_traction(const CaseTable& table, int dim) {
   table.need_one_of({"traction", "pressure"});
   section.traction = table.expressions("traction", dim);
   section.pressure = table.expression("pressure", dim);
+  assign(section.stage, table.text("stage"));
   if (section.traction ? section.traction->is_zero() : section.pressure->is_zero()) {
     table.refuse(section.traction ? "traction" : "pressure",
                  section.traction ? "is zero in every direction" : "is zero",
@@ -61,6 +62,7 @@ PointLoadSection read_point_load(const CaseTable& table, const BodySection& body
     section.force = table.need("force", table.vector("force", dim), "the force at load factor 1");
   }
   assign(section.force, table.vector("force", dim));
+  assign(section.stage, table.text("stage"));
   section.moment = read_moment(table, body);
   if (section.force == Vector3{} && section.moment == Vector3{}) {
     table.refuse(table.has("moment") ? "moment" : "force", "is zero in every direction",

@@ -10,6 +10,7 @@
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_rules.hpp"
 #include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/case_stages.hpp"
 #include "io/case/sections/case_unused.hpp"
 #include "io/text/input_text.hpp"
 #include "io/text/toml_tree.hpp"
@@ -163,7 +164,10 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.analysis = read_analysis(document.table("analysis"), input.analysis.type);
   const StopSection stop = read_stop(document.table("stop"));
   if (is_quasistatic(input.analysis.type)) input.stop = stop;
+  input.stages = document.list(
+      "stages", [](const CaseTable& table, std::size_t) { return read_stage(table); });
   input.output = read_output(document.table("output"), input.analysis.type);
+  resolve_stages(input);
   check_rules(input);
   return input;
 }

@@ -73,6 +73,7 @@ DisplacementSection read_displacement(const CaseTable& table, const BodySection&
   const int dim = dimension_of(body);
   DisplacementSection driven;
   driven.region = need_region(table, "that is driven");
+  assign(driven.stage, table.text("stage"));
   bool any = false;
   for (std::size_t component = 0; component < 6; ++component) {
     if (dim == 2 && component >= 2 && component != 5) continue;
@@ -92,6 +93,7 @@ LoadSection read_load(const CaseTable& table, int dim) {
   table.need_one_of({"force", "body_force"});
   load.force = table.vector("force", dim);
   load.body_force = table.expressions("body_force", dim);
+  assign(load.stage, table.text("stage"));
   if (load.force ? *load.force == Vector3{} : load.body_force->is_zero()) {
     table.refuse(load.force ? "force" : "body_force", "is zero in every direction",
                  "give the load at load factor 1, or delete the table");

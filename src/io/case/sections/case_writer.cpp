@@ -12,6 +12,7 @@
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/case/sections/case_softening.hpp"
+#include "io/case/sections/case_stages.hpp"
 #include "io/text/toml_writer.hpp"
 
 namespace perilink {
@@ -72,6 +73,7 @@ void write_driven(TomlWriter& out, const std::string& header,
     out.header(header);
     out.write("region", section.region);
     for (std::size_t c = 0; c < 6; ++c) out.write(motion_name(dim, c), section.value[c]);
+    write_stage_of(out, section.stage);
   }
 }
 
@@ -95,6 +97,7 @@ void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
     out.write("region", load.region);
     if (load.force) out.write("force", *load.force, dim);
     if (load.body_force) out.write("body_force", *load.body_force, dim);
+    write_stage_of(out, load.stage);
   }
 }
 
@@ -104,11 +107,13 @@ void write_more_loading(TomlWriter& out, const CaseFile& input, int dim) {
     out.write("region", section.region);
     if (section.traction) out.write("traction", *section.traction, dim);
     out.write("pressure", section.pressure);
+    write_stage_of(out, section.stage);
   }
   for (const PointLoadSection& section : input.point_loads) {
     out.header("[[point_loads]]");
     out.write("at", section.at, dim);
     out.write("force", section.force, dim);
+    write_stage_of(out, section.stage);
     if (section.moment == Vector3{}) continue;
     if (dim == 2) out.write("moment", section.moment[2]);
     if (dim == 3) out.write("moment", section.moment, dim);
@@ -162,10 +167,11 @@ void write_run(TomlWriter& out, const CaseFile& input) {
   }
   out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
   out.write("factor", word_of(input.analysis.factor));
-  out.header("[stop]");
-  out.write("broken_bonds", input.stop.broken_bonds);
-  out.write("load_fraction", input.stop.load_fraction);
-  out.write("displacement", input.stop.displacement);
+  if (input.stages.empty()) {
+    out.header("[stop]");
+    write_stop(out, input.stop);
+  }
+  for (const StageSection& stage : input.stages) write_stage(out, stage);
   out.header("[output]");
   out.write("fields_at", input.output.fields_at);
   out.write("fields_every", input.output.fields_every);

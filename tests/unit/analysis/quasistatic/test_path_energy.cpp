@@ -85,5 +85,29 @@ TEST(PathEnergy, ForcesAndDisplacementsTogether) {
   EXPECT_NEAR(energy.external_work(), energy.stored() + energy.dissipated(), 1e-15);
 }
 
+/// Springs of stiffness 1 and 1 in parallel under a constant force of 2 and a growing one of 1. One
+/// breaks at load factor 4 (extension 3); at load factor 3 the other one is at 5.
+TEST(PathEnergy, AnEventBesideAConstantForce) {
+  const auto work = [](double compliance) {
+    return LoadWork{
+        compliance, 0.0, false, {4.0 * compliance, 2.0 * compliance, 0.0, 2.0 * compliance, 0.0}};
+  };
+  PathEnergy energy;
+  energy.begin_stage(0.0, work(0.0));
+  energy.advance(4.0, work(0.5));
+  EXPECT_DOUBLE_EQ(energy.stored(), 9.0);
+  EXPECT_DOUBLE_EQ(energy.external_work(), 2.0 * 3.0 + 0.5 * 4.0 * 3.0);
+  EventOutcome outcome = event(0.5, 0.5 * 0.25);  // f'u is 1/2, then 1
+  outcome.growth_beside = {2.0 * 1.0, 2.0};       // twice f_c'u_p, and f_c'u_c
+  outcome.released_beside = {0.5, 0.5};           // e = 1 + lambda / 2
+  energy.add_event(outcome);
+  EXPECT_DOUBLE_EQ(energy.released(), 0.5 * 3.0 * 3.0);
+  const double before = energy.external_work();
+  energy.advance(3.0, work(1.0));
+  EXPECT_DOUBLE_EQ(energy.external_work() - before, 2.0 * 2.0 + 0.5 * (4.0 + 3.0) * 2.0);
+  EXPECT_DOUBLE_EQ(energy.stored(), 12.5);
+  EXPECT_DOUBLE_EQ(energy.dissipated(), 0.5 * 3.0 * 5.0);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -9,6 +9,7 @@
 #include "io/fields/vtu.hpp"
 #include "support/strip_case.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/whole_run.hpp"
 
 namespace perilink {
 namespace {
@@ -197,6 +198,47 @@ TEST_F(DamageRunTest, ARunWithoutRowsLeavesNoFields) {
   EXPECT_TRUE(field_files().empty());
   EXPECT_FALSE(fs::exists(work_ / "fields.pvd"));
   EXPECT_FALSE(observer->stop_requested());
+}
+
+/// The strip pulled by events, unloaded, and pulled again; a gauge follows its upper end.
+TEST(StagedDamageRun, WritesColumnsGaugesAndStages) {
+  const test::WholeRun run(std::string(test::strip_text) + R"(
+[[gauges]]
+name = "end"
+region = "upper end"
+axis = "y"
+
+[[stages]]
+name = "pull"
+broken_bonds = 3
+
+[[stages]]
+name = "unload"
+loads = "pull"
+to = 0
+
+[[stages]]
+name = "again"
+loads = "pull"
+broken_bonds = 5
+)");
+  const CsvTable history = run.history();
+  const auto stage = static_cast<std::size_t>(history.column("stage"));
+  const auto gauge = static_cast<std::size_t>(history.column("end"));
+  const auto displacement = static_cast<std::size_t>(history.column("displacement"));
+  ASSERT_GT(history.rows.size(), 6u);
+  for (const std::vector<double>& row : history.rows) {
+    // One place is loaded, and shares its force by volume: its mean deflection, to round-off.
+    EXPECT_NEAR(row[gauge], row[displacement], 1e-9);
+  }
+  EXPECT_EQ(history.rows.back()[stage], 3.0);
+  const auto& stages = run.summary.json["stages"];
+  ASSERT_EQ(stages.size(), 3u);
+  EXPECT_EQ(stages[0]["name"], "pull");
+  EXPECT_EQ(stages[0]["status"], "completed");
+  EXPECT_EQ(stages[1]["load_factor"], 0.0);
+  EXPECT_EQ(stages[2]["reason"], "5 bonds are broken");
+  EXPECT_FALSE(run.summary.json.contains("smoothed_peak_load"));
 }
 
 }  // namespace

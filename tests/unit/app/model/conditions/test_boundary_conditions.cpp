@@ -276,5 +276,57 @@ TEST(BoundaryConditions, RotationsInSpaceGoAboutTheAxesThatAreNamed) {
   }
 }
 
+/// The strip under its load, then gripped and driven at its upper end.
+TEST(BoundaryConditions, StagesHaveTheirOwnLoadsAndGrips) {
+  CaseFile input = strip_case();
+  input.loads[0].stage = "weight";
+  DisplacementSection driven;
+  driven.region = "upper end";
+  driven.value[1] = -0.2;
+  driven.stage = "push";
+  input.displacements.push_back(driven);
+  input.stages.resize(3);
+  input.stages[0].name = input.stages[0].loads = "weight";
+  input.stages[1].name = input.stages[1].loads = "push";
+  input.stages[2].name = "back";
+  input.stages[2].loads = "push";
+  const Model model = build_model(input);
+  ASSERT_EQ(model.sets.size(), 2u);
+  const LoadSet &weight = model.sets[0], &push = model.sets[1];
+  EXPECT_EQ(weight.unknowns.count, 2 * 45 - 2 * 15);
+  EXPECT_EQ(push.unknowns.count, weight.unknowns.count - 15);
+  EXPECT_EQ(model.unknowns.count, weight.unknowns.count);
+  EXPECT_DOUBLE_EQ(weight.reference.value, 12.0);
+  EXPECT_FALSE(weight.reference.driven);
+  EXPECT_DOUBLE_EQ(push.reference.value, 0.2);
+  EXPECT_TRUE(push.reference.driven);
+  double force = 0.0, rest = 0.0, lowest = 0.0;
+  for (std::size_t slot = 1; slot < weight.loads.forces.size(); slot += 2) {
+    force += weight.loads.forces[slot];
+    rest += std::abs(push.loads.forces[slot]) + std::abs(weight.unknowns.prescribed[slot]);
+    lowest = std::min(lowest, push.unknowns.prescribed[slot]);
+  }
+  EXPECT_NEAR(force, 12.0, 1e-12);
+  EXPECT_EQ(rest, 0.0);
+  EXPECT_EQ(lowest, -0.2);
+}
+
+TEST(BoundaryConditions, EveryStageMustLoadSomething) {
+  CaseFile input = strip_case();
+  input.loads.push_back(input.loads[0]);
+  input.loads[0].stage = "one";
+  input.loads[1].stage = "two";
+  input.loads[1].region = "lower end";
+  input.stages.resize(2);
+  input.stages[0].name = input.stages[0].loads = "one";
+  input.stages[1].name = input.stages[1].loads = "two";
+  try {
+    build_model(input);
+    FAIL() << "forces on supports do no work";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("loads[2]"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace perilink

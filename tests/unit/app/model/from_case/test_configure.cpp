@@ -320,5 +320,24 @@ TEST(Configure, DamageOptionsFollowTheCase) {
   EXPECT_EQ(damage_options(input, 1).engine.route, FactorRoute::cholmod_updown);
 }
 
+TEST(Configure, StagesFollowTheCase) {
+  CaseFile input = strip_case();
+  input.stages.resize(3);
+  input.stages[0].name = input.stages[0].loads = input.stages[2].loads = "weight";
+  input.stages[0].to = 1.0;
+  input.stages[1].name = input.stages[1].loads = "push";
+  input.stages[1].stop.displacement = 0.5;
+  input.stages[2].name = "less";
+  input.stages[2].to = 0.5;
+  const std::vector<StageRules> stages = damage_options(input, 1).stages;
+  ASSERT_EQ(stages.size(), 3u);
+  EXPECT_EQ(stages[0].set, 0u);
+  EXPECT_EQ(stages[0].to, 1.0);
+  EXPECT_EQ(stages[1].set, 1u);
+  EXPECT_FALSE(stages[1].to);
+  EXPECT_EQ(stages[1].stop.displacement, 0.5);
+  EXPECT_EQ(stages[2].set, 0u);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/quasistatic/events/event_engine.hpp"
+#include "analysis/quasistatic/load_curve.hpp"
+#include "analysis/quasistatic/observer.hpp"
+#include "network/network.hpp"
+#include "solver/factor.hpp"
+
+/// \file
+/// What a damage analysis is asked for, and what it finds.
+
+namespace perilink {
+
+/// When a run ends before collapse.
+struct StopRules {
+  std::optional<Index> broken_bonds;
+  std::optional<double> load_fraction;  ///< |load| below this fraction of its peak
+  int load_fraction_rows = 10;  ///< successive rows that have to lie below: between two events of a
+                                ///< growing crack the load may dip deep and come back
+  std::optional<double> displacement;  ///< |displacement| at or above this [length]
+};
+
+/// One of the stages of a run: a set of loads goes to a load factor, or by events until a stop rule
+/// is met.
+struct StageRules {
+  std::size_t set = 0;       ///< LoadedNetwork::sets: the loads that change
+  std::optional<double> to;  ///< load factor at which it ends; absent: by events
+  StopRules stop;
+};
+
+/// How a stage ended.
+struct StageResult {
+  Ending ending = Ending::completed;
+  std::string reason;
+  StepRecord last;  ///< row at its end
+  CurvePoint peak;  ///< largest |load| of its loads so far
+};
+
+struct DamageOptions {
+  EngineOptions engine;
+  std::vector<double> load_factors;  ///< control by steps when not empty, else by events
+  StopRules stop;
+  std::vector<StageRules> stages;  ///< one after the other, in place of those two
+  int check_interval = 50;         ///< events between looks at the residual
+  /// Asked after each row: unknowns that move the particles from now on, which must outlive the
+  /// run; null: those of before. Empty: they never change.
+  std::function<const Unknowns*(StateSource&)> new_motion;
+};
+
+struct DamageResult {
+  Ending ending = Ending::completed;
+  std::string reason;               ///< in words
+  std::vector<StageResult> stages;  ///< those that began, where the run has any
+  StepRecord last;
+  Index broken_bonds = 0;  ///< with the one that separated the body, if it did
+  double peak_load = 0.0;
+  double peak_displacement = 0.0;  ///< displacement at the peak load
+  PeakWatch peaks;                 ///< the same, and what the load did after its first peak
+  Index broken_as_gave_way = 0;    ///< bonds broken when the body first gave way
+  std::optional<double> smoothed_peak_load;  ///< where the path of events is long enough
+  double initial_stiffness = 0.0;            ///< load / displacement of the intact body
+  double largest_residual = 0.0;
+  double freed_energy = 0.0;  ///< PathEnergy::freed() [force length]
+  /// Largest |work - stored - dissipated - freed| / work of all rows, the stored energy summed over
+  /// the elements wherever the whole equilibrium was measured.
+  double energy_error = 0.0;
+  FactorStatistics factor;
+};
+
+}  // namespace perilink

@@ -1,0 +1,165 @@
+#include "io/case/sections/case_stages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "io/case/case_schema.hpp"
+#include "io/case/sections/case_sections.hpp"
+#include "io/text/toml_tree.hpp"
+
+namespace perilink {
+
+StageSection read_stage(const CaseTable& table) {
+  StageSection stage;
+  stage.name = table.need("name", table.text("name"), "a name for loads to refer to");
+  if (stage.name.empty()) table.refuse("name", "is empty", "give the stage a name");
+  stage.loads = table.text("loads").value_or(stage.name);
+  stage.to = table.number("to");
+  stage.stop = read_stop(table);
+  if (!stage.to) return stage;
+  for (const char* rule : {"broken_bonds", "load_fraction", "displacement"}) {
+    if (!table.has(rule)) continue;
+    table.refuse(rule, "is given beside `to`",
+                 "a stage goes to a load factor, or by events until a rule is met; delete one of "
+                 "the two");
+  }
+  return stage;
+}
+
+namespace {
+
+/// Calls visit(table, index, stage) for every entry that loads the body.
+template <class Input, class Visit>
+void for_each_load(Input& input, Visit visit) {
+  const auto all = [&](const char* table, auto& sections) {
+    for (std::size_t i = 0; i < sections.size(); ++i) visit(table, i, sections[i].stage);
+  };
+  all("loads", input.loads);
+  all("tractions", input.tractions);
+  all("point_loads", input.point_loads);
+  all("displacements", input.displacements);
+}
+
+void refuse_stages_of_loads(CaseFile& input) {
+  for_each_load(input, [&](const char* table, std::size_t i, const std::string& stage) {
+    if (stage.empty()) return;
+    throw InputError(input.where(item_key(table, i, "stage")),
+                     fmt::format("is {}, but the case has no [[stages]]", quoted(stage)),
+                     "delete it, or add [[stages]] with this name");
+  });
+}
+
+/// What stages have no use for.
+void refuse_beside_stages(const CaseFile& input) {
+  const StopSection& stop = input.stop;
+  if (stop.broken_bonds || stop.load_fraction || stop.displacement) {
+    throw InputError(input.where("stop"), "is given, but the case has [[stages]]",
+                     "move its rules to the stages that they end");
+  }
+  if (input.analysis.control == LoadControl::steps) {
+    throw InputError(
+        input.where("analysis.control"),
+        "is \"steps\", but the case has [[stages]], which say how loads grow",
+        "delete `control` and `load_factors`; a stage with `to` goes to a load factor");
+  }
+  if (input.analysis.rigid_body_modes == RigidBodyModes::pin) {
+    throw InputError(input.where("analysis.rigid_body_modes"),
+                     "is \"pin\", but the case has [[stages]], whose loads would each have to "
+                     "balance",
+                     "hold the body with [[supports]], [[symmetry]] or [[springs]]");
+  }
+}
+
+/// Names of stages that change loads of their own.
+std::vector<std::string_view> check_names(const CaseFile& input) {
+  std::vector<std::string_view> owners;
+  std::set<std::string_view> before;
+  for (std::size_t i = 0; i < input.stages.size(); ++i) {
+    const StageSection& stage = input.stages[i];
+    if (!before.insert(stage.name).second) {
+      throw InputError(input.where(item_key("stages", i, "name")),
+                       fmt::format("is {}, the name of another stage", quoted(stage.name)),
+                       "give every stage a name of its own; `loads` says whose loads it changes");
+    }
+    if (stage.loads == stage.name) {
+      owners.push_back(stage.name);
+    } else if (std::find(owners.begin(), owners.end(), stage.loads) == owners.end()) {
+      throw InputError(
+          input.where(item_key("stages", i, "loads")),
+          fmt::format("is {}, but no earlier stage of that name has loads", quoted(stage.loads)),
+          owners.empty() ? "delete it: the first stage changes loads of its own"
+                         : suggest(stage.loads, owners));
+    }
+  }
+  return owners;
+}
+
+/// Only the last stage may go on until the body collapses.
+void refuse_endless(const CaseFile& input, std::size_t i) {
+  const StageSection& stage = input.stages[i];
+  const StopSection& stop = stage.stop;
+  const bool ends = stage.to || stop.broken_bonds || stop.load_fraction || stop.displacement;
+  if (ends || i + 1 == input.stages.size()) return;
+  throw InputError(input.where(item_key("stages", i)),
+                   fmt::format("goes on until the body collapses, so that stage {} never begins",
+                               quoted(input.stages[i + 1].name)),
+                   "give it `to`, or one of `displacement`, `load_fraction`, `broken_bonds`");
+}
+
+}  // namespace
+
+void resolve_stages(CaseFile& input) {
+  if (input.stages.empty()) return refuse_stages_of_loads(input);
+  refuse_beside_stages(input);
+  const std::vector<std::string_view> owners = check_names(input);
+  std::set<std::string_view> loaded;
+  for_each_load(input, [&](const char* table, std::size_t i, std::string& stage) {
+    if (stage.empty() && owners.size() == 1) stage = owners.front();
+    if (stage.empty()) {
+      throw InputError(input.where(item_key(table, i)),
+                       "lacks `stage`, but several stages have loads of their own",
+                       suggest("", owners));
+    }
+    const auto owner = std::find(owners.begin(), owners.end(), stage);
+    if (owner == owners.end()) {
+      throw InputError(
+          input.where(item_key(table, i, "stage")),
+          fmt::format("is {}, but no stage of that name has loads of its own", quoted(stage)),
+          suggest(stage, owners));
+    }
+    loaded.insert(*owner);
+  });
+  for (std::size_t i = 0; i < input.stages.size(); ++i) {
+    refuse_endless(input, i);
+    const std::string& loads = input.stages[i].loads;
+    if (loaded.count(loads) > 0) continue;
+    throw InputError(
+        input.where(item_key("stages", i)),
+        fmt::format("has no loads: none has stage = {}", quoted(loads)),
+        "give loads this `stage`, or name those of an earlier stage: loads = \"NAME\"");
+  }
+}
+
+void write_stop(TomlWriter& out, const StopSection& stop) {
+  out.write("broken_bonds", stop.broken_bonds);
+  out.write("load_fraction", stop.load_fraction);
+  out.write("displacement", stop.displacement);
+}
+
+void write_stage(TomlWriter& out, const StageSection& stage) {
+  out.header("[[stages]]");
+  out.write("name", stage.name);
+  if (stage.loads != stage.name) out.write("loads", stage.loads);
+  out.write("to", stage.to);
+  write_stop(out, stage.stop);
+}
+
+void write_stage_of(TomlWriter& out, const std::string& stage) {
+  if (!stage.empty()) out.write("stage", stage);
+}
+
+}  // namespace perilink

@@ -1,0 +1,67 @@
+#include "analysis/quasistatic/events/staged_engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "support/staged_bodies.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+/// make_square() with a dead load of 1 at each end and the same as a growing one.
+AnalysisBody twice_loaded_square() {
+  AnalysisBody body = make_square();
+  body.sets = {set_of(body), set_of(body)};
+  return body;
+}
+
+/// Ends move by 2/3 of the load, bonds break at 0.01: at the load 0.015.
+TEST(StagedEngine, StartsFromTheConstantLoad) {
+  const AnalysisBody body = twice_loaded_square();
+  StagedEngine engine(body, {});
+  EXPECT_EQ(engine.next_event_towards(0.01).element, no_index);
+  engine.move_to(0.01);
+  EXPECT_NEAR(engine.displacement()[slot(body, 1, 0)] + engine.displacement()[slot(body, 3, 0)] +
+                  engine.displacement()[slot(body, 2, 0)],
+              2.0 * 0.02 / 3.0, 1e-16);
+  engine.begin_stage(1);
+  EXPECT_EQ(engine.load_factor(), 0.0);
+  const Event up = engine.next_event_towards(1.0);
+  EXPECT_NEAR(up.load_factor, 0.005, 1e-16);
+  EXPECT_FALSE(up.avalanche);
+  EXPECT_EQ(engine.next_event().element, up.element);
+  EXPECT_EQ(engine.next_event_towards(-1.0).element, no_index) << "nothing is stretched";
+  engine.begin_stage(0);
+  EXPECT_EQ(engine.load_factor(), 0.01) << "it was left there";
+}
+
+/// Without its bond an end moves by twice the load, and the diagonal bears 0.02: the load falls to
+/// 0.01, or the diagonal breaks at once.
+TEST(StagedEngine, FollowsTheLoadDownUnlessItIsGiven) {
+  const AnalysisBody body = twice_loaded_square();
+  StagedEngine engine(body, {});
+  engine.move_to(0.004);
+  engine.begin_stage(1);
+  const Event first = engine.next_event();
+  EXPECT_NEAR(first.load_factor, 0.011, 1e-16);
+  engine.move_to(first.load_factor);
+  engine.apply(first);
+  const Event next = engine.next_event();
+  EXPECT_NEAR(next.load_factor, 0.006, 1e-16);
+  EXPECT_FALSE(next.avalanche);
+  const Event at_once = engine.next_event_towards(1.0);
+  EXPECT_EQ(at_once.load_factor, first.load_factor);
+  EXPECT_TRUE(at_once.avalanche);
+  EXPECT_EQ(at_once.element, next.element);
+}
+
+TEST(StagedEngine, KnowsItsOwnUnknownsOnly) {
+  const AnalysisBody body = twice_loaded_square();
+  StagedEngine engine(body, {});
+  EXPECT_THROW(engine.change_motion(body.unknowns), SolverError);
+}
+
+}  // namespace
+}  // namespace perilink
