@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,10 @@ class Secants {
   Secants(const std::vector<double>& all) : all_(all), axial_(all) {}
   Secants(std::span<const double> all) : all_(all), axial_(all) {}
   Secants(std::span<const double> all, std::span<const double> axial) : all_(all), axial_(axial) {}
+
+  std::size_t size() const { return all_.size(); }
+  auto begin() const { return all_.begin(); }
+  auto end() const { return all_.end(); }
 
   /// What damage has left.
   double operator[](Index element) const { return all_[element]; }
