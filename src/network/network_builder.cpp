@@ -11,7 +11,7 @@
 #include "discretization/cuts/outside_bonds.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
-#include "network/strength/bond_softening.hpp"
+#include "network/bond_softening.hpp"
 #include "network/surface_correction.hpp"
 #include "network/unknowns.hpp"
 

@@ -8,7 +8,7 @@
 #include "base/timer.hpp"
 #include "calibration/calibration.hpp"
 #include "calibration/calibration_cost.hpp"
-#include "network/strength/bond_strength.hpp"
+#include "network/bond_strength.hpp"
 #include "network/lattice_families.hpp"
 
 namespace perilink {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "discretization/meshes/mesh_body.hpp"
-#include "network/particle_network.hpp"
+#include "network/states/particle_network.hpp"
 #include "support/simplex_meshes.hpp"
 
 /// \file

@@ -6,7 +6,7 @@
 
 #include "bodies.hpp"
 #include "discretization/lattices/make_body.hpp"
-#include "network/strength/crack_cost.hpp"
+#include "network/crack_cost.hpp"
 #include "strip.hpp"
 
 namespace perilink::verification {

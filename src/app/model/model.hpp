@@ -15,8 +15,8 @@
 #include "material/elasticity.hpp"
 #include "network/loaded_network.hpp"
 #include "network/network.hpp"
-#include "network/particle_network.hpp"
 #include "network/rigid_modes.hpp"
+#include "network/states/particle_network.hpp"
 
 namespace perilink {
 

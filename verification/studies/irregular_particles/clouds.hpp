@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "analysis/dynamics/lattice/lattice_analysis.hpp"
-#include "network/particle_network.hpp"
+#include "network/states/particle_network.hpp"
 #include "network/unknowns.hpp"
 
 namespace perilink::verification {

@@ -1,7 +1,7 @@
 // What long cracks cost: strips of every lattice, and whole cases with each rule of critical
 // stretches.
 //
-//   toughness table   measures the rows of src/network/strength/crack_cost.cpp, writes result_table.csv
+//   toughness table   measures the rows of src/network/crack_cost.cpp, writes result_table.csv
 //   toughness cases   clamped strips and double cantilevers as cases, writes result.csv
 //
 // Exit status 1 when a case misses its acceptance. Some minutes each.

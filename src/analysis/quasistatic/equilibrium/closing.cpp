@@ -3,6 +3,7 @@
 // found by changing the sides of those that are on the wrong one.
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
@@ -13,18 +14,18 @@ namespace perilink {
 namespace {
 
 /// So often all bonds on the wrong side change it together, which ends after a round or two; from
-/// then on the first one alone, which cannot go round in circles (Murty 1974).
-constexpr int rounds_together = 10, most_rounds = 100000;
+/// then on that with the lowest number alone, which cannot go round in circles (Murty 1974).
+constexpr int rounds_together = 10, most_rounds = 2000;
 
-/// Extensions within round-off of the motion of the ends have no sign.
-constexpr double round_off = 1e-14;
+/// Extensions that are so small beside the motion of the ends are round-off and have no sign.
+constexpr double round_off = 1e-11;
 
 /// An opening bond with a smaller pivot held the last load path.
 constexpr double no_pivot = 1e-12;
 
 }  // namespace
 
-/// Of an element; zero where it cannot be told from it.
+/// Extensions within round-off of zero are on the side to which the load moves them.
 auto Equilibrium::extension_of(Index element) const -> Extension {
   const auto width = static_cast<std::size_t>(network_.width());
   const std::size_t i = width * network_.bonds.first[element];
@@ -41,8 +42,9 @@ auto Equilibrium::extension_of(Index element) const -> Extension {
   const double load_factor = constant_ ? constant_->load_factor : 1.0;
   add(displacement_, load_factor, result.growing);
   if (constant_) add(constant_->displacement, 1.0, result.constant);
-  const double now = load_factor * result.growing + result.constant;
-  result.now = std::abs(now) > round_off * size ? now : 0.0;
+  result.now = load_factor * result.growing + result.constant;
+  if (std::abs(result.now) <= round_off * size) result.now = 0.0;
+  result.side = result.now != 0.0 ? result.now : direction_ * result.growing;
   return result;
 }
 
@@ -64,22 +66,23 @@ bool Equilibrium::is_grounded(Index element) const {
 std::vector<Index> Equilibrium::on_wrong_side() const {
   std::vector<Index> wrong;
   for (const Index element : damaged_) {
-    const double extension = extension_of(element).now;
+    const double extension = extension_of(element).side;
     const bool wants_change = is_closed(element) ? extension > 0.0 : extension < 0.0;
     if (wants_change && (is_closed(element) || !is_grounded(element))) wrong.push_back(element);
   }
   return wrong;
 }
 
-/// \return false where nothing but the bond held the body: then all is as it was
-bool Equilibrium::change_side(Index element) {
+void Equilibrium::close(Index element) {
+  const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
+  axial_[element] = 1.0;
+  if (axial.x[0].size() > 0) factor_->update(axial.x[0], solution_);
+}
+
+/// \return false where nothing but the bond holds the body: then all is as it was
+bool Equilibrium::open(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
   const SparseVector& x = axial.x[0];
-  if (!is_closed(element)) {
-    axial_[element] = 1.0;
-    if (x.size() > 0) factor_->update(x, solution_);
-    return true;
-  }
   const double pivot = x.size() > 0 ? factor_->prepare_downdate(x) : 1.0;
   axial_[element] = secants_[element];
   if (pivot > doubtful_pivot) {
@@ -97,6 +100,24 @@ bool Equilibrium::change_side(Index element) {
   }
 }
 
+/// What closes holds the body while others open. \return the bonds that have changed their side;
+/// none where all that ought to hold the body
+std::vector<Index> Equilibrium::change_sides(const std::vector<Index>& wrong) {
+  std::vector<Index> changed;
+  for (const Index element : wrong) {
+    if (is_closed(element)) continue;
+    close(element);
+    changed.push_back(element);
+  }
+  const std::size_t closed = changed.size();
+  for (const Index element : wrong) {
+    const bool is_new =
+        std::find(changed.begin(), changed.begin() + closed, element) != changed.begin() + closed;
+    if (!is_new && open(element)) changed.push_back(element);
+  }
+  return changed;
+}
+
 /// f'u - R'd grows by u_1' (K_1 - K_2) u_2 from one equilibrium to the other.
 void Equilibrium::add_growth(Index element, const Extension& before, EventOutcome& outcome) const {
   const Extension after = extension_of(element);
@@ -108,32 +129,44 @@ void Equilibrium::add_growth(Index element, const Extension& before, EventOutcom
 }
 
 void Equilibrium::settle_closing(EventOutcome& outcome) {
+  changed_sides_.clear();
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Index> wrong = on_wrong_side();
     if (wrong.empty()) return;
-    if (round >= rounds_together) wrong.erase(wrong.begin() + 1, wrong.end());
+    if (round >= rounds_together) wrong = {*std::min_element(wrong.begin(), wrong.end())};
     std::vector<Extension> before;
     for (const Index element : wrong) before.push_back(extension_of(element));
-    for (const Index element : wrong) {
-      if (change_side(element)) continue;
-      outcome.mechanism = true;
-      return;
-    }
+    const std::vector<Index> changed = change_sides(wrong);
+    outcome.mechanism = changed.empty();
+    if (outcome.mechanism) return;
+    changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
     refresh();
     events_to_follow_ = 0;
-    for (std::size_t k = 0; k < wrong.size(); ++k) add_growth(wrong[k], before[k], outcome);
+    for (std::size_t k = 0; k < wrong.size(); ++k) {
+      const bool same = std::find(changed.begin(), changed.end(), wrong[k]) == changed.end();
+      if (!same) add_growth(wrong[k], before[k], outcome);
+    }
   }
-  throw SolverError(
-      fmt::format("after {} changes it is not settled which of the damaged bonds are "
-                  "closed",
-                  most_rounds));
+  throw SolverError(fmt::format(
+      "after {} rounds it is not settled which of the damaged bonds are closed", most_rounds));
+}
+
+/// After an event that turned out to separate the body.
+void Equilibrium::take_back(Index element, double secant) {
+  if (secant == 1.0) std::erase(damaged_, element);
+  for (const Index other : changed_sides_) {
+    axial_[other] = is_closed(other) ? secants_[other] : 1.0;
+  }
+  set_secant(element, secant);
+  events_to_follow_ = 0;
+  factorize();
 }
 
 auto Equilibrium::next_side_change(double distance) const -> SideChange {
   SideChange next{no_index, distance};
   for (const Index element : damaged_) {
     const Extension extension = extension_of(element);
-    const double growth = distance > 0.0 ? extension.growing : -extension.growing;
+    const double growth = std::copysign(1.0, distance) * extension.growing;
     if (!(is_closed(element) ? growth > 0.0 : growth < 0.0)) continue;
     if (!is_closed(element) && is_grounded(element)) continue;
     const double change = -extension.now / extension.growing;
@@ -142,17 +175,13 @@ auto Equilibrium::next_side_change(double distance) const -> SideChange {
   return next;
 }
 
-EventOutcome Equilibrium::pass_side_change(Index element) {
+EventOutcome Equilibrium::pass_side_change(double direction) {
   EventOutcome outcome;
   outcome.secant = 1.0;
   outcome.changed_side = true;
-  const Extension before = extension_of(element);
-  outcome.mechanism = !change_side(element);
-  if (outcome.mechanism) return outcome;
-  refresh();
-  events_to_follow_ = 0;
-  add_growth(element, before, outcome);
+  direction_ = direction;
   settle_closing(outcome);
+  direction_ = 0.0;
   return outcome;
 }
 

@@ -57,7 +57,7 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
   damaged_ = network_.cut_elements;
   find_driven_elements();
   adopt_motion();
-  open_cut_elements();
+  if (problem.sets.empty()) open_cut_elements();  // stages open them as their loads begin to grow
 }
 
 void Equilibrium::find_driven_elements() {

@@ -81,14 +81,10 @@ class Equilibrium {
 
   LoadWork work();
 
-  /// The element goes on with a smaller secant; zero: it breaks.
+  /// The element goes on with a smaller secant; zero: it breaks. Damaged bonds close where they are
+  /// compressed then, and open where they are pulled.
+  /// \throws SolverError where the latter does not end
   EventOutcome weaken(Index element, double secant);
-
-  /// Lets damaged bonds close where they are compressed and open where they are pulled, after an
-  /// event; their share goes into the growth of the compliance. A mechanism: what held the body
-  /// last was a closed bond that opens.
-  /// \throws SolverError where that does not end
-  void settle_closing(EventOutcome& outcome);
 
   /// The first damaged bond that closes or opens as the load factor of a stage moves on, and how
   /// far it has to.
@@ -99,8 +95,10 @@ class Equilibrium {
   /// \param distance  to go, with its sign; may be infinite
   SideChange next_side_change(double distance) const;
 
-  /// Lets it.
-  EventOutcome pass_side_change(Index element);
+  /// At the present load factor all damaged bonds whose extension is zero take the side to which
+  /// the load moves them.
+  /// \param direction  of the load factor, 1 or -1
+  EventOutcome pass_side_change(double direction);
 
   /// Removes an element whatever it holds: a part that comes loose without load is held by ground
   /// springs, one per rigid-body mode, added to the factor before the element goes. The rest of the
@@ -198,12 +196,17 @@ class Equilibrium {
   /// At the present load factor, and the parts of loads that grow and that do not [length].
   struct Extension {
     double now = 0.0, growing = 0.0, constant = 0.0;
+    double side = 0.0;  ///< negative: in compression, or about to be
   };
   Extension extension_of(Index element) const;
   void add_growth(Index element, const Extension& before, EventOutcome& outcome) const;
   bool is_grounded(Index element) const;
   std::vector<Index> on_wrong_side() const;
-  bool change_side(Index element);
+  void close(Index element);
+  bool open(Index element);
+  std::vector<Index> change_sides(const std::vector<Index>& wrong);
+  void settle_closing(EventOutcome& outcome);
+  void take_back(Index element, double secant);
   void open_cut_elements();
 
   // Separation and extended precision: separation.cpp.
@@ -237,8 +240,10 @@ class Equilibrium {
     if (!axial_.empty()) axial_[element] = secant;
   }
   std::vector<double> secants_;
-  std::vector<double> axial_;   ///< the same against a change of length; empty where nothing closes
-  std::vector<Index> damaged_;  ///< elements that close where they are compressed
+  std::vector<double> axial_;  ///< the same against a change of length; empty where nothing closes
+  double direction_ = 0.0;     ///< in which the load factor moves on, while sides are settled
+  std::vector<Index> changed_sides_;    ///< in this order, when sides were settled last
+  std::vector<Index> damaged_;          ///< elements that close where they are compressed
   std::vector<Index> driven_elements_;  ///< elements that end at a driven particle
   std::vector<std::size_t> loaded_slots_;
   std::vector<Index> glanced_elements_;  ///< all elements of the unknowns glanced at

@@ -156,9 +156,8 @@ void Equilibrium::follow(const EventOutcome& outcome) {
 }
 
 void Equilibrium::commit(const Removal& removal, Index element, double secant) {
-  if (!axial_.empty() && secants_[element] == 1.0 && network_.law(element).closes()) {
-    damaged_.push_back(element);
-  }
+  const bool listed = std::find(damaged_.begin(), damaged_.end(), element) != damaged_.end();
+  if (!axial_.empty() && !listed && network_.law(element).closes()) damaged_.push_back(element);
   set_secant(element, secant);
   if (must_rebuild_) return;  // done already
   if (removal.rank == 1) {
@@ -180,6 +179,7 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
 }
 
 EventOutcome Equilibrium::weaken(Index element, double secant) {
+  const double before = secants_[element];
   if (!network_.has_limit(element)) keep_all_current();
   Removal removal = removal_of(element, secants_[element] - secant);
   measure_pivots(removal, element, secant);
@@ -209,11 +209,14 @@ EventOutcome Equilibrium::weaken(Index element, double secant) {
   if (outcome.mechanism) return outcome;
   follow(outcome);
   commit(removal, element, secant);
+  if (!axial_.empty()) settle_closing(outcome);
+  if (outcome.mechanism) take_back(element, before);
   return outcome;
 }
 
 int Equilibrium::cut(Index element) {
   keep_all_current();
+  if (!axial_.empty() && is_closed(element)) open(element);
   if (secants_[element] == 0.0) return 0;
   Removal removal = removal_of(element, secants_[element]);
   measure_pivots(removal, element, 0.0);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "network/strength/crack_cost.hpp"
+#include "network/crack_cost.hpp"
 
 namespace perilink {
 namespace {

@@ -21,7 +21,7 @@
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_softening.hpp"
 #include "io/case/sections/case_unused.hpp"
-#include "network/strength/bond_softening.hpp"
+#include "network/bond_softening.hpp"
 #include "network/network_builder.hpp"
 
 namespace perilink {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/dynamics/lattice/body/lattice_body.hpp"
-#include "network/lattice_network.hpp"
+#include "network/states/lattice_network.hpp"
 
 namespace perilink {
 

@@ -1,4 +1,4 @@
-#include "network/particle_network.hpp"
+#include "network/states/particle_network.hpp"
 
 #include <gtest/gtest.h>
 

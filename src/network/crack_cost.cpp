@@ -1,4 +1,4 @@
-#include "network/strength/crack_cost.hpp"
+#include "network/crack_cost.hpp"
 
 #include <algorithm>
 #include <array>

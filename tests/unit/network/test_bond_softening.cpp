@@ -1,4 +1,4 @@
-#include "network/strength/bond_softening.hpp"
+#include "network/bond_softening.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "network/lattice_network.hpp"
+#include "network/states/lattice_network.hpp"
 
 #include <gtest/gtest.h>
 

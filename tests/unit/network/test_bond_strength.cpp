@@ -1,4 +1,4 @@
-#include "network/strength/bond_strength.hpp"
+#include "network/bond_strength.hpp"
 
 #include <gtest/gtest.h>
 

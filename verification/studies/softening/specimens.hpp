@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+namespace perilink::verification {
+
+/// Concrete of the study: E = 30 000, f_t = 3, G_F = 0.1 in N and mm; E G_F / f_t^2 is 333 mm.
+inline constexpr double tensile_strength = 3.0, fracture_energy = 0.1;
+
+/// How the specimens are made up.
+struct Make {
+  std::string model = "bond_based";
+  std::string pattern = "rectangular";  ///< a cubic one makes the specimen three-dimensional
+  std::string softening = "bilinear";
+  double spacing = 5.0;        ///< [mm]
+  double horizon_ratio = 3.0;  ///< horizon over spacing
+};
+
+/// A strip 100 mm long and 50 mm wide (in space a bar 60 mm long and 20 mm square), driven apart
+/// along x, whose middle of two horizons may soften, as the text of a case.
+std::string strip(const Make& make);
+
+/// Area that a crack across strip() has [mm^2].
+double section_of(const Make& make);
+
+/// A beam of the depth D, 1 mm thick, on a span of 4 D with a load at mid-span.
+/// \param notch  depth of the pre-crack below the load over D; zero: none
+std::string beam(const Make& make, double depth, double notch);
+
+/// What a run of a case tells.
+struct Outcome {
+  double peak = 0.0;        ///< load, of the envelope of equal energy where there is one [N]
+  double dissipated = 0.0;  ///< [N mm]
+  double energy_error = 0.0;
+  int events = 0;
+  std::string ending;
+};
+Outcome run_text(const std::string& text);
+
+}  // namespace perilink::verification
