@@ -93,6 +93,8 @@ std::vector<double> damage_index(const Network& network, const Csr& families, Se
     double all = 0.0;
     double lost = 0.0;
     for (const Index e : families.row(i)) {
+      const std::vector<Index>& cut = network.cut_elements;
+      if (std::binary_search(cut.begin(), cut.end(), e)) continue;
       const double volume = network.particles.volumes[network.bonds.other_end(e, i)];
       all += volume;
       if (!network.law(e).endless()) lost += (1.0 - secants[e]) * volume;

@@ -87,7 +87,10 @@ bool softens(const SolidMaterial& material) {
 
 /// Means of two materials, with the shape of the weaker one.
 SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
-  const SolidMaterial& weaker = b.softening.tensile_strength < a.softening.tensile_strength ? b : a;
+  const auto strength = [](const SolidMaterial& material) {
+    return std::pair(material.softening.tensile_strength, material.softening.stretches[0]);
+  };
+  const SolidMaterial& weaker = strength(b) < strength(a) ? b : a;
   SolidMaterial mean = softens(a) && softens(b) ? weaker : SolidMaterial{};
   mean.softening.closes = a.softening.closes && b.softening.closes;
   mean.youngs_modulus = 0.5 * (a.youngs_modulus + b.youngs_modulus);

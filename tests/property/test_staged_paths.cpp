@@ -107,7 +107,8 @@ class StagedPath : public testing::TestWithParam<BlockCase> {
       EXPECT_NEAR(row.strain_energy, look.stored, tolerance * largest) << "row " << row.step;
       EXPECT_LT(look.error, 1e-8) << "row " << row.step;
       EXPECT_LT(look.wrong_side, 1e-10) << "row " << row.step;
-      if (row.avalanche == 0) {
+      // On the way to a load factor that every element bears bonds may close beyond a limit.
+      if (row.avalanche == 0 && row.side_change == 0) {
         EXPECT_LT(look.worst, 1.0 + 1e-8) << "row " << row.step;
       }
     }
@@ -156,10 +157,8 @@ TEST_P(StagedPath, TurnsRoundAndComesBackToTheSameEvent) {
   for (const Look& look : looks_) {
     if (look.row.stage == 2) stopped = look.row;
     if (look.row.stage == 3) turned = look.row;
-    changes += look.row.stage == 3 && look.row.element != no_index;
-    if (look.row.stage == 4 && look.row.load_factor <= stopped.load_factor * (1.0 + 1e-9)) {
-      again = look.row;
-    }
+    changes += look.row.stage == 3 && look.row.side_change == 1;
+    if (look.row.stage == 4 && look.row.side_change == 0 && again.step == 0) again = look.row;
   }
   EXPECT_NEAR(turned.dissipated_energy, stopped.dissipated_energy,
               tolerance * stopped.external_work);

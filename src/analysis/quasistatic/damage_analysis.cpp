@@ -44,6 +44,10 @@ std::unique_ptr<EventEngine> EventRun::make_engine() {
   if (options_.stages.empty()) return make_event_engine(problem_, options_.engine);
   auto engine = std::make_unique<StagedEngine>(problem_, options_.engine);
   staged_ = engine.get();
+  const std::optional<double>& to = options_.stages.front().to;
+  if (engine->open_for(to && *to < 0.0 ? -1.0 : 1.0).mechanism) {
+    throw SolverError("cracks have separated the body, and the loads pull it apart");
+  }
   return engine;
 }
 
@@ -163,7 +167,7 @@ void EventRun::record(double load_factor, const LoadWork& work, Index element) {
   note_peaks();
   const bool below = stop_->load_fraction &&
                      std::abs(row_.load) < *stop_->load_fraction * std::abs(result_.peak_load);
-  rows_below_ = below ? rows_below_ + 1 : 0;
+  if (row_.side_change == 0) rows_below_ = below ? rows_below_ + 1 : 0;
   observer_.on_step(row_, state_);
 }
 
@@ -182,8 +186,11 @@ bool EventRun::pass(const Event& event) {
   const EventOutcome outcome = engine_->apply(event);
   if (outcome.mechanism) {
     if (outcome.broke()) result_.broken_bonds = 1;  // beyond those of the last row
-    end(Ending::collapsed, fmt::format("the body separated when element {} failed (pivot {:.1e})",
-                                       event.element, outcome.pivot));
+    end(Ending::collapsed,
+        event.changes_side
+            ? fmt::format("the body separated when the closed element {} opened", event.element)
+            : fmt::format("the body separated when element {} failed (pivot {:.1e})", event.element,
+                          outcome.pivot));
     return false;
   }
   if (!outcome.changed_side) ++(outcome.broke() ? broken_bonds_ : yield_events_);

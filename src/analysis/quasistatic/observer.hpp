@@ -28,6 +28,7 @@ struct StepRecord {
   Index element = no_index;  ///< fails at this load
   Index stage = 0;           ///< number of the stage, from one; 0: the run has none
   Index avalanche = 0;       ///< 1: the element was beyond its limit, at a load that does not move
+  Index side_change = 0;     ///< 1: the element and others close or open, and nothing fails
   double seconds = 0.0;      ///< wall time of this step; goes to timing.csv only
 };
 

@@ -62,6 +62,7 @@ bool EventRun::follow_stage(const StageRules& stage) {
     const double load_factor = arrived ? *stage.to : event.load_factor;
     staged_->move_to(load_factor);
     row_.avalanche = event.avalanche ? 1 : 0;
+    row_.side_change = event.changes_side ? 1 : 0;
     record(load_factor, work, event.element);
     if (stop_rule_met()) return result_.ending == Ending::completed;
     if (arrived) {

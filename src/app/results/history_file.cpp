@@ -60,6 +60,7 @@ constexpr std::array columns = {
 constexpr std::array stage_columns = {
     column<&StepRecord::stage>("stage"),
     column<&StepRecord::avalanche>("avalanche"),
+    column<&StepRecord::side_change>("side_change"),
 };
 
 struct TimeColumn {

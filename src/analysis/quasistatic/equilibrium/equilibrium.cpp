@@ -146,6 +146,8 @@ double Equilibrium::change_motion(const Unknowns& unknowns) {
   try {
     unknowns_ = &unknowns;
     adopt_motion();
+    EventOutcome sides;
+    if (!axial_.empty()) settle_closing(sides);
     events_to_follow_ = 0;
     const LoadWork after = work();
     if (before.separated || after.separated) {

@@ -21,11 +21,10 @@ Event SingleEventEngine::next_event() {
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
   const Tooth next = network_.law(event.element).tooth(teeth_[event.element] + 1);
-  EventOutcome outcome = equilibrium_.weaken(event.element, next.secant);
+  const EventOutcome outcome = equilibrium_.weaken(event.element, next.secant);
   if (outcome.mechanism) return outcome;
   ++teeth_[event.element];
   search_->set_limit(event.element, limit_of(event.element));
-  if (closes_) equilibrium_.settle_closing(outcome);
   return outcome;
 }
 

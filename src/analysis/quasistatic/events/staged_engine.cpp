@@ -99,15 +99,16 @@ Event StagedEngine::next_event_towards(double target) {
 }
 
 /// Where a damaged bond closes or opens on the way.
-Event StagedEngine::side_change_within(double distance) const {
+Event StagedEngine::side_change_within(double distance) {
   if (!closes_ || distance == 0.0) return {};
   const Equilibrium::SideChange change = equilibrium_.next_side_change(distance);
   if (change.element == no_index) return {};
+  direction_ = std::copysign(1.0, distance);
   return {change.element, load_factor_ + change.distance, false, true};
 }
 
 EventOutcome StagedEngine::apply(const Event& event) {
-  if (event.changes_side) return equilibrium_.pass_side_change(event.element);
+  if (event.changes_side) return equilibrium_.pass_side_change(direction_);
   const EventOutcome outcome = SingleEventEngine::apply(event);
   if (!outcome.mechanism) crossings_.set_limit(event.element, limit_of(event.element));
   return outcome;

@@ -19,6 +19,10 @@ class StagedEngine final : public SingleEventEngine {
   /// What the set drives is gripped where it is.
   void begin_stage(std::size_t set);
 
+  /// Before the first event: damaged bonds take the sides that the loads will give them.
+  /// \param direction  in which the load factor moves first
+  EventOutcome open_for(double direction) { return equilibrium_.pass_side_change(direction); }
+
   /// That of the loads that grow.
   double load_factor() const { return load_factor_; }
   void move_to(double load_factor);
@@ -41,7 +45,7 @@ class StagedEngine final : public SingleEventEngine {
 
  private:
   BreakSearch::Hit worst();
-  Event side_change_within(double distance) const;
+  Event side_change_within(double distance);
 
   const LoadedNetwork& problem_;
   CrossingSearch crossings_;
@@ -53,6 +57,7 @@ class StagedEngine final : public SingleEventEngine {
   std::size_t set_ = 0;
   std::size_t newest_ = 0;  ///< last one of the sets that have grown
   double load_factor_ = 0.0;
+  double direction_ = 0.0;   ///< in which it moves when damaged bonds close or open next
   std::vector<double> now_;  ///< displacements at the present load factor
 };
 

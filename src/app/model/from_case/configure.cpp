@@ -319,6 +319,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   model.network = build_case_network(input, body, network);
   refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
+  if (input.analysis.type == AnalysisType::elastic) model.network.strengths.clear();
   for (const auto& text : {short_horizon_note(input, model), unmeasured_cost_note(input, model)}) {
     if (text) model.notes.push_back(*text);
   }

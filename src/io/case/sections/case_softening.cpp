@@ -13,6 +13,7 @@
 namespace perilink {
 namespace {
 
+constexpr double least_error = 1e-5;
 constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
 constexpr std::array keys = {"softening",           "closing",         "tensile_strength",
                              "softening_stretches", "softening_error", "knee_stress_ratio",
@@ -81,6 +82,12 @@ SofteningMaterial read_softening(const CaseTable& table) {
   assign(material.shape.knee_force, table.fraction("knee_stress_ratio"));
   assign(material.shape.knee_stretch, table.fraction("knee_opening_ratio"));
   assign(material.error, table.fraction("softening_error"));
+  if (material.error < least_error) {
+    table.refuse(
+        "softening_error", fmt::format("is {}", material.error),
+        fmt::format("give {} or more: bonds would have more teeth than anyone can wait for",
+                    least_error));
+  }
   return material;
 }
 
