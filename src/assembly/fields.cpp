@@ -95,7 +95,7 @@ std::vector<double> damage_index(const Network& network, const Csr& families, Se
     for (const Index e : families.row(i)) {
       const double volume = network.particles.volumes[network.bonds.other_end(e, i)];
       all += volume;
-      if (!network.law(e).endless()) lost += (1.0 - secants[e]) * volume;
+      if (!network.law(e).endless()) lost += (1.0 - secants.least(e)) * volume;
     }
     if (all > 0.0) damage[i] = lost / all;
   }

@@ -140,7 +140,8 @@ class Equilibrium {
   void polish_constant();
   void scatter_constant();
   void find_driven_slots();
-  Removal removal_of(Index element, double fraction) const;
+  Removal removal_of(Index element, double secant) const;
+  Removal removal_from(const Unknowns& unknowns, Index element, double secant) const;
   Deformations deformations_now(const Removal& removal, Index element) const;
   double release_constant(const Removal& removal, Index element, EventOutcome& outcome) const;
   void commit_both(const Removal& removal);
@@ -214,12 +215,18 @@ class Equilibrium {
   EquilibriumOptions options_;
   std::unique_ptr<Factor> factor_;
 
+  /// Whether its shear and bending stay as they are until it breaks.
+  bool keeps_shear(Index element) const { return has_kept_ && network_.law(element).keeps_shear(); }
+  double secant_of(Index element) const {
+    return keeps_shear(element) ? axial_[element] : secants_[element];
+  }
   void set_secant(Index element, double secant) {
-    secants_[element] = secant;
+    secants_[element] = secant > 0.0 && keeps_shear(element) ? 1.0 : secant;
     if (!axial_.empty()) axial_[element] = secant;
   }
   std::vector<double> secants_;
-  std::vector<double> axial_;   ///< the same against a change of length; empty where nothing closes
+  std::vector<double> axial_;   ///< the same against a change of length; empty where none differs
+  bool has_kept_;               ///< Network::has_kept_shear()
   std::vector<Index> damaged_;  ///< elements that close where they are compressed
   std::vector<Index> driven_elements_;  ///< elements that end at a driven particle
   std::vector<std::size_t> loaded_slots_;
