@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -19,11 +20,15 @@ class Secants {
   Secants(std::span<const double> all) : all_(all), axial_(all) {}
   Secants(std::span<const double> all, std::span<const double> axial) : all_(all), axial_(axial) {}
 
+  std::size_t size() const { return all_.size(); }
+  auto begin() const { return all_.begin(); }
+  auto end() const { return all_.end(); }
+
   /// What damage has left against shear and bending.
   double operator[](Index element) const { return all_[element]; }
   double axial(Index element) const { return axial_[element]; }
-  /// The smaller of the two: of a bond that closes what damage has left, of one that keeps its shear
-  /// the stiffness against a change of length.
+  /// The smaller of the two: of a bond that closes what damage has left, of one that keeps its
+  /// shear the stiffness against a change of length.
   double least(Index element) const { return std::min(all_[element], axial_[element]); }
 
  private:

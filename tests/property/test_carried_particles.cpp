@@ -111,7 +111,7 @@ class CarriedParticles : public testing::TestWithParam<CarriedCase> {
     return map;
   }
 
-  Eigen::VectorXd dense_answer(std::span<const double> secants) const {
+  Eigen::VectorXd dense_answer(Secants secants) const {
     const Eigen::MatrixXd matrix = dense_stiffness(body_.network, secants), map = dense_map();
     const auto vector = [&](const std::vector<double>& values) {
       return Eigen::Map<const Eigen::VectorXd>(values.data(), matrix.rows());

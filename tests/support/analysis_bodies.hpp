@@ -143,12 +143,13 @@ struct BlockCase {
   double scatter = 0.1;  ///< relative scatter of the critical stretches; 0: exact ties by symmetry
   bool micropolar = false;  ///< Poisson's ratio 0.1, torsion 1.3
   bool toothed = false;     ///< bonds lose their stiffness in three steps
+  bool closing = false;     ///< damaged ones resist compression like intact ones
 };
 
 inline std::string to_string(const BlockCase& block) {
   return (block.micropolar ? "micropolar_" : "") + block.lattice.name +
          (block.driven ? "_driven" : "_pulled") + (block.bar ? "_bar" : "") +
-         (block.toothed ? "_toothed" : "");
+         (block.toothed ? "_toothed" : "") + (block.closing ? "_closing" : "");
 }
 
 inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
@@ -178,6 +179,7 @@ inline AnalysisBody make_block(const BlockCase& block) {
     if (!body.network.is_segment(e)) body.network.critical_stretch[e] *= factor;
   }
   if (block.toothed) body.network.laws.front() = three_teeth();
+  if (block.closing) body.network.laws.front() = body.network.laws.front().closing();
 
   const Particles& particles = body.network.particles;
   // Cell-centred particles lie half a spacing inside the faces; ghosts carry no load.
@@ -208,13 +210,25 @@ inline AnalysisBody make_block(const BlockCase& block) {
   return body;
 }
 
+/// That of the change of length alone, for the motions of both ends.
+inline Eigen::MatrixXd axial_stiffness(const Network& network, Index e) {
+  const int width = network.width();
+  Eigen::VectorXd n = Eigen::VectorXd::Zero(2 * width);
+  for (int a = 0; a < network.dim(); ++a) {
+    n[width + a] = network.bonds.direction(e)[a];
+    n[a] = -n[width + a];
+  }
+  return network.stiffness[e] * n * n.transpose();
+}
+
 /// Stiffness over all components, supported ones and all, as a dense matrix.
-inline Eigen::MatrixXd dense_stiffness(const Network& network, std::span<const double> secants) {
+inline Eigen::MatrixXd dense_stiffness(const Network& network, Secants secants) {
   const int width = network.width();
   Eigen::MatrixXd matrix =
       Eigen::MatrixXd::Zero(network.particles.size() * width, network.particles.size() * width);
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const Eigen::MatrixXd block = secants[e] * element_stiffness(network, e);
+    const Eigen::MatrixXd block = secants[e] * element_stiffness(network, e) +
+                                  (secants.axial(e) - secants[e]) * axial_stiffness(network, e);
     const Index i = network.bonds.first[e] * width, j = network.bonds.second[e] * width;
     matrix.block(i, i, width, width) += block.topLeftCorner(width, width);
     matrix.block(j, j, width, width) += block.bottomRightCorner(width, width);
@@ -226,7 +240,7 @@ inline Eigen::MatrixXd dense_stiffness(const Network& network, std::span<const d
 
 /// Displacement at load factor 1 of the components whose flag in `left_out` is zero (all, when it
 /// is empty); the others stay zero.
-inline Eigen::VectorXd dense_displacement(const AnalysisBody& body, std::span<const double> secants,
+inline Eigen::VectorXd dense_displacement(const AnalysisBody& body, Secants secants,
                                           const std::vector<std::uint8_t>& left_out = {}) {
   const Eigen::MatrixXd matrix = dense_stiffness(body.network, secants);
   const Eigen::VectorXd prescribed =
@@ -264,16 +278,20 @@ inline double difference(std::span<const double> displacement, const Eigen::Vect
   return largest / reference.cwiseAbs().maxCoeff();
 }
 
+inline double extension_of(const Network& network, std::span<const double> displacement, Index e) {
+  double extension = 0.0;
+  for (int a = 0; a < network.dim(); ++a) {
+    extension += network.bonds.direction(e)[a] *
+                 (displacement[network.bonds.second[e] * network.width() + a] -
+                  displacement[network.bonds.first[e] * network.width() + a]);
+  }
+  return extension;
+}
+
 /// Extension of an element per length; of a micropolar bond in tension the stretch of equal energy.
 inline double stretch(const Network& network, std::span<const double> displacement, Index e) {
-  const int dim = network.dim(), width = network.width();
   const double length = network.bonds.lengths[e];
-  double extension = 0.0;
-  for (int a = 0; a < dim; ++a) {
-    extension +=
-        network.bonds.direction(e)[a] * (displacement[network.bonds.second[e] * width + a] -
-                                         displacement[network.bonds.first[e] * width + a]);
-  }
+  const double extension = extension_of(network, displacement, e);
   if (!network.carries_moments()) return extension / length;
   const double equivalent =
       std::sqrt(2.0 * element_energy(network, displacement, e) / network.stiffness[e]);
@@ -282,11 +300,13 @@ inline double stretch(const Network& network, std::span<const double> displaceme
 }
 
 /// Energy stored in all elements.
-inline double stored_energy(const Network& network, std::span<const double> secants,
+inline double stored_energy(const Network& network, Secants secants,
                             std::span<const double> displacement) {
   double energy = 0.0;
   for (Index e = 0; e < network.num_elements(); ++e) {
     energy += secants[e] * element_energy(network, displacement, e);
+    const double extension = extension_of(network, displacement, e);
+    energy += 0.5 * network.stiffness[e] * (secants.axial(e) - secants[e]) * extension * extension;
   }
   return energy;
 }

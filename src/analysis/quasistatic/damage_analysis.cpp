@@ -186,7 +186,7 @@ bool EventRun::pass(const Event& event) {
                                        event.element, outcome.pivot));
     return false;
   }
-  ++(outcome.broke() ? broken_bonds_ : yield_events_);
+  if (!outcome.changed_side) ++(outcome.broke() ? broken_bonds_ : yield_events_);
   energy_.add_event(outcome);
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // the old value no longer holds
   compliance_ += outcome.compliance_growth;

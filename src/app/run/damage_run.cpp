@@ -15,6 +15,8 @@ namespace perilink {
 DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
     : NetworkRun(of_case, on_threads, quiet),
       is_broken_(static_cast<std::size_t>(model_.network.num_elements()), 0) {
+  // Pre-cracks have broken these before.
+  for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
   plan += fmt::format(", {} unknowns", model_.unknowns.count);
 }
 

@@ -24,18 +24,26 @@ constexpr double no_pivot = 1e-12;
 
 }  // namespace
 
-/// At load factor 1; zero where it cannot be told from it.
-double Equilibrium::extension_of(Index element) const {
+/// Of an element; zero where it cannot be told from it.
+auto Equilibrium::extension_of(Index element) const -> Extension {
   const auto width = static_cast<std::size_t>(network_.width());
-  const double* i = displacement_.data() + width * network_.bonds.first[element];
-  const double* j = displacement_.data() + width * network_.bonds.second[element];
+  const std::size_t i = width * network_.bonds.first[element];
+  const std::size_t j = width * network_.bonds.second[element];
   const std::span<const double> n = network_.bonds.direction(element);
-  double extension = 0.0, size = 0.0;
-  for (int a = 0; a < network_.dim(); ++a) {
-    extension += n[a] * (j[a] - i[a]);
-    size += std::abs(n[a]) * (std::abs(j[a]) + std::abs(i[a]));
-  }
-  return std::abs(extension) > round_off * size ? extension : 0.0;
+  Extension result;
+  double size = 0.0;
+  const auto add = [&](const std::vector<double>& u, double factor, double& sum) {
+    for (int a = 0; a < network_.dim(); ++a) {
+      sum += n[a] * (u[j + a] - u[i + a]);
+      size += std::abs(factor * n[a]) * (std::abs(u[j + a]) + std::abs(u[i + a]));
+    }
+  };
+  const double load_factor = constant_ ? constant_->load_factor : 1.0;
+  add(displacement_, load_factor, result.growing);
+  if (constant_) add(constant_->displacement, 1.0, result.constant);
+  const double now = load_factor * result.growing + result.constant;
+  result.now = std::abs(now) > round_off * size ? now : 0.0;
+  return result;
 }
 
 /// Whether a ground spring holds one of its ends where it came loose.
@@ -56,7 +64,7 @@ bool Equilibrium::is_grounded(Index element) const {
 std::vector<Index> Equilibrium::on_wrong_side() const {
   std::vector<Index> wrong;
   for (const Index element : damaged_) {
-    const double extension = extension_of(element);
+    const double extension = extension_of(element).now;
     const bool wants_change = is_closed(element) ? extension > 0.0 : extension < 0.0;
     if (wants_change && (is_closed(element) || !is_grounded(element))) wrong.push_back(element);
   }
@@ -89,12 +97,22 @@ bool Equilibrium::change_side(Index element) {
   }
 }
 
+/// f'u - R'd grows by u_1' (K_1 - K_2) u_2 from one equilibrium to the other.
+void Equilibrium::add_growth(Index element, const Extension& before, EventOutcome& outcome) const {
+  const Extension after = extension_of(element);
+  const double lost =
+      network_.stiffness[element] * (1.0 - secants_[element]) * (is_closed(element) ? -1.0 : 1.0);
+  outcome.compliance_growth += lost * before.growing * after.growing;
+  outcome.growth_beside.linear += 2.0 * lost * before.constant * after.growing;
+  outcome.growth_beside.constant += lost * before.constant * after.constant;
+}
+
 void Equilibrium::settle_closing(EventOutcome& outcome) {
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Index> wrong = on_wrong_side();
     if (wrong.empty()) return;
     if (round >= rounds_together) wrong.erase(wrong.begin() + 1, wrong.end());
-    std::vector<double> before;
+    std::vector<Extension> before;
     for (const Index element : wrong) before.push_back(extension_of(element));
     for (const Index element : wrong) {
       if (change_side(element)) continue;
@@ -103,18 +121,39 @@ void Equilibrium::settle_closing(EventOutcome& outcome) {
     }
     refresh();
     events_to_follow_ = 0;
-    // f'u - R'd grows by u_1' (K_1 - K_2) u_2 from one equilibrium to the other.
-    for (std::size_t k = 0; k < wrong.size(); ++k) {
-      const Index element = wrong[k];
-      const double lost =
-          network_.stiffness[element] * (1.0 - secants_[element]) * (is_closed(element) ? -1 : 1);
-      outcome.compliance_growth += lost * before[k] * extension_of(element);
-    }
+    for (std::size_t k = 0; k < wrong.size(); ++k) add_growth(wrong[k], before[k], outcome);
   }
   throw SolverError(
       fmt::format("after {} changes it is not settled which of the damaged bonds are "
                   "closed",
                   most_rounds));
+}
+
+auto Equilibrium::next_side_change(double distance) const -> SideChange {
+  SideChange next{no_index, distance};
+  for (const Index element : damaged_) {
+    const Extension extension = extension_of(element);
+    const double growth = distance > 0.0 ? extension.growing : -extension.growing;
+    if (!(is_closed(element) ? growth > 0.0 : growth < 0.0)) continue;
+    if (!is_closed(element) && is_grounded(element)) continue;
+    const double change = -extension.now / extension.growing;
+    if (std::abs(change) < std::abs(next.distance)) next = {element, change};
+  }
+  return next;
+}
+
+EventOutcome Equilibrium::pass_side_change(Index element) {
+  EventOutcome outcome;
+  outcome.secant = 1.0;
+  outcome.changed_side = true;
+  const Extension before = extension_of(element);
+  outcome.mechanism = !change_side(element);
+  if (outcome.mechanism) return outcome;
+  refresh();
+  events_to_follow_ = 0;
+  add_growth(element, before, outcome);
+  settle_closing(outcome);
+  return outcome;
 }
 
 /// Before the first event.

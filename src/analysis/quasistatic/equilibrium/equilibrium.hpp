@@ -27,7 +27,8 @@ struct EventOutcome {
   /// Growth of f'u - R'd at load factor 1: k e^2 / pivot [force length]. The event dissipates
   /// lambda_k lambda_(k+1) / 2 times this along the path drawn through the events.
   double compliance_growth = 0.0;
-  double released = 0.0;  ///< energy that left the element, at load factor 1 [force length]
+  double released = 0.0;      ///< energy that left the element, at load factor 1 [force length]
+  bool changed_side = false;  ///< a damaged bond closed or opened
   Beside growth_beside = {}, released_beside = {};  ///< what constant loads add to both
 };
 
@@ -88,6 +89,18 @@ class Equilibrium {
   /// last was a closed bond that opens.
   /// \throws SolverError where that does not end
   void settle_closing(EventOutcome& outcome);
+
+  /// The first damaged bond that closes or opens as the load factor of a stage moves on, and how
+  /// far it has to.
+  struct SideChange {
+    Index element = no_index;
+    double distance = 0.0;
+  };
+  /// \param distance  to go, with its sign; may be infinite
+  SideChange next_side_change(double distance) const;
+
+  /// Lets it.
+  EventOutcome pass_side_change(Index element);
 
   /// Removes an element whatever it holds: a part that comes loose without load is held by ground
   /// springs, one per rigid-body mode, added to the factor before the element goes. The rest of the
@@ -183,7 +196,12 @@ class Equilibrium {
 
   // Damaged bonds that close: closing.cpp.
   bool is_closed(Index element) const { return axial_[element] > secants_[element]; }
-  double extension_of(Index element) const;
+  /// At the present load factor, and the parts of loads that grow and that do not [length].
+  struct Extension {
+    double now = 0.0, growing = 0.0, constant = 0.0;
+  };
+  Extension extension_of(Index element) const;
+  void add_growth(Index element, const Extension& before, EventOutcome& outcome) const;
   bool is_grounded(Index element) const;
   std::vector<Index> on_wrong_side() const;
   bool change_side(Index element);

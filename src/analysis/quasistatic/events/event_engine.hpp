@@ -10,9 +10,10 @@ namespace perilink {
 
 /// The next thing that happens under a growing load.
 struct Event {
-  Index element = no_index;  ///< it breaks or yields; no_index: nothing can break any more
-  double load_factor = 0.0;  ///< when it happens
-  bool avalanche = false;    ///< the element is beyond its limit, at a load that does not move
+  Index element = no_index;   ///< it breaks or yields; no_index: nothing can break any more
+  double load_factor = 0.0;   ///< when it happens
+  bool avalanche = false;     ///< the element is beyond its limit, at a load that does not move
+  bool changes_side = false;  ///< a damaged bond closes or opens, and nothing fails
 };
 
 /// Moves a network from event to event at unit load factor. The damage analysis sees no more of the

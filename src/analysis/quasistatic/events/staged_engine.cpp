@@ -1,6 +1,7 @@
 #include "analysis/quasistatic/events/staged_engine.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
@@ -74,9 +75,14 @@ BreakSearch::Hit StagedEngine::worst() {
 Event StagedEngine::next_event() {
   const CrossingSearch::Crossing last = crossings_.largest(
       displacement(), equilibrium_.where_elements_fail(), tie_tolerance, threads_);
-  if (last.element != no_index) return {last.element, load_factor_ + last.distance};
-  if (last.distance > 0.0) return {};
-  return {worst().element, load_factor_, true};
+  if (last.element == no_index && !(last.distance > 0.0)) {
+    return {worst().element, load_factor_, true};
+  }
+  const double distance =
+      last.element != no_index ? last.distance : std::numeric_limits<double>::infinity();
+  if (const Event change = side_change_within(distance); change.element != no_index) return change;
+  if (last.element == no_index) return {};
+  return {last.element, load_factor_ + last.distance};
 }
 
 Event StagedEngine::next_event_towards(double target) {
@@ -87,10 +93,21 @@ Event StagedEngine::next_event_towards(double target) {
                        tie_tolerance, threads_);
   const bool reached =
       next.element != no_index && std::abs(next.distance) <= std::abs(target - load_factor_);
+  const double distance = reached ? next.distance : target - load_factor_;
+  if (const Event change = side_change_within(distance); change.element != no_index) return change;
   return reached ? Event{next.element, load_factor_ + next.distance} : Event{};
 }
 
+/// Where a damaged bond closes or opens on the way.
+Event StagedEngine::side_change_within(double distance) const {
+  if (!closes_ || distance == 0.0) return {};
+  const Equilibrium::SideChange change = equilibrium_.next_side_change(distance);
+  if (change.element == no_index) return {};
+  return {change.element, load_factor_ + change.distance, false, true};
+}
+
 EventOutcome StagedEngine::apply(const Event& event) {
+  if (event.changes_side) return equilibrium_.pass_side_change(event.element);
   const EventOutcome outcome = SingleEventEngine::apply(event);
   if (!outcome.mechanism) crossings_.set_limit(event.element, limit_of(event.element));
   return outcome;

@@ -41,6 +41,7 @@ class StagedEngine final : public SingleEventEngine {
 
  private:
   BreakSearch::Hit worst();
+  Event side_change_within(double distance) const;
 
   const LoadedNetwork& problem_;
   CrossingSearch crossings_;

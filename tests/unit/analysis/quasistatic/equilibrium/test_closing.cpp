@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+#include "base/error.hpp"
+#include "support/analysis_bodies.hpp"
+#include "support/staged_bodies.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+/// Displacement over load of two chains of two bonds, of stiffness 2 and three teeth from the
+/// stretch 0.01 on, that are stretched by 0.021 and then let go, and pushed by 1. One bond of each
+/// chain passes one tooth and keeps 0.6 of its stiffness.
+std::pair<double, double> pull_and_push(bool closes) {
+  AnalysisBody body = make_chains(2, 2, true, 2.0, 0.01);
+  body.network.laws.front() = closes ? three_teeth().closing() : three_teeth();
+  body.sets = {set_of(body)};
+  double pulled = 0.0, pushed = 0.0;
+  Recorder recorder([&](const StepRecord& row, StateSource&) {
+    if (row.stage == 2 && row.load_factor == 0.01) pulled = row.displacement / row.load;
+    if (row.load_factor == -1.0) pushed = row.displacement / row.load;
+  });
+  const DamageResult result =
+      run(body, in_stages({{0, 0.021, {}}, {0, 0.01, {}}, {0, -1.0, {}}}), recorder);
+  EXPECT_EQ(result.ending, Ending::completed) << result.reason;
+  EXPECT_LT(result.energy_error, 1e-12);
+  return {pulled, pushed};
+}
+
+TEST(Closing, ADamagedBondIsWholeInCompression) {
+  const auto [pulled, pushed] = pull_and_push(true);
+  EXPECT_NEAR(pulled, 0.5 * (1.0 / 2.0 + 1.0 / 1.2), 1e-14);
+  EXPECT_NEAR(pushed, 0.5 * (1.0 / 2.0 + 1.0 / 2.0), 1e-14);
+}
+
+TEST(Closing, OneThatDoesNotCloseIsNot) {
+  const auto [pulled, pushed] = pull_and_push(false);
+  EXPECT_NEAR(pulled, 0.5 * (1.0 / 2.0 + 1.0 / 1.2), 1e-14);
+  EXPECT_NEAR(pushed, pulled, 1e-14);
+}
+
+/// The square of make_square() without its lower horizontal bond, which a pre-crack has broken: the
+/// right corner below moves by 2 where it is pulled and by 2/3 where it is pushed.
+TEST(Closing, CutBondsCarryCompressionOnly) {
+  for (const double sign : {1.0, -1.0}) {
+    AnalysisBody body = make_square();
+    for (double& force : body.loads.forces) force *= sign;
+    const Index cut = bond_between(body.network, {0, 0}, {1, 0});
+    body.network.laws = {BondLaw::brittle().closing()};
+    body.network.cut_elements = {cut};
+    body.network.critical_stretch[cut] = std::numeric_limits<double>::infinity();
+    Equilibrium equilibrium(body, {});
+    const double moved = equilibrium.displacement()[slot(body, body.network.bonds.second[cut], 0)];
+    EXPECT_NEAR(moved, sign > 0 ? 2.0 : -2.0 / 3.0, 1e-14);
+    EXPECT_EQ(equilibrium.secants()[cut], 0.0);
+    EXPECT_EQ(equilibrium.secants().axial(cut), sign > 0 ? 0.0 : 1.0);
+    EXPECT_LT(equilibrium.check().residual, 1e-14);
+  }
+}
+
+TEST(Closing, RefusesWhatTheLoadsPullApart) {
+  AnalysisBody body = make_chains(1, 2, false, 2.0, 0.01);
+  body.network.laws = {BondLaw::brittle().closing()};
+  body.network.cut_elements = {bonds_of_row(body.network, 0.0).front()};
+  EXPECT_THROW(Equilibrium(body, {}), SolverError);
+  for (double& force : body.loads.forces) force = -force;
+  EXPECT_NO_THROW(Equilibrium(body, {}));
+}
+
+}  // namespace
+}  // namespace perilink
