@@ -31,7 +31,7 @@ BondLaw concrete(bool keeps_shear) {
   const SofteningShape shape{Softening::concrete};
   const SofteningCurve tension(shape, softening_energy(shape, 2.0));
   const SofteningCurve compression(shape, softening_energy(shape, 3.0));
-  return saw_tooth_of(tension, 0.15).crushing(teeth_of(compression, 0.15), 3.0, keeps_shear);
+  return saw_tooth_of(tension, 0.15).crushing(teeth_of(compression, 0.15), 7.0, keeps_shear);
 }
 
 class ConcretePath : public testing::TestWithParam<ConcreteCase> {
