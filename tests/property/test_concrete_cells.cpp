@@ -28,7 +28,7 @@ std::vector<CellBond> cell_of(Problem constants) {
   const double lambda = constants == Problem::plane_stress
                             ? modulus * ratio / (1.0 - ratio * ratio)
                             : modulus * ratio / ((1.0 + ratio) * (1.0 - 2.0 * ratio));
-  // Of weights with the sum w and the ratio q of shear, mu = w (1 + q) / 8 and
+  // Weights with the sum w and the ratio q of shear have mu = w (1 + q) / 8 and
   // lambda = w (1 - q) / 8.
   std::vector<CellBond> cell;
   for (int i = 0; i < directions; ++i) {

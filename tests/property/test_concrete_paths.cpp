@@ -17,11 +17,14 @@ using namespace test;
 constexpr double tolerance = 1e-8;
 constexpr int rows = 250;
 
+/// Teeth on a branch that make the path one of that branch too.
+constexpr int few = 5;
+
 struct ConcreteCase {
   std::string name;
   LatticeCase lattice;
   int columns;
-  double drive;  ///< of the right face
+  double drive;  ///< displacement of the right face
   bool keeps_shear;
 };
 
@@ -120,9 +123,9 @@ TEST_P(ConcretePath, EventsAreWhereTheLawHasThemAndTakeTheEnergyOfTheirTeeth) {
   const DamageResult result = run(body_, {}, recorder);
   EXPECT_GT(recorder.rows.size(), 100U);
   EXPECT_GT(result.last.yield_events, 50);
-  EXPECT_GT(events_[false][false], 20) << "teeth in tension";
+  EXPECT_GT(events_[false][false], few) << "teeth in tension";
   if (GetParam().drive < 0.0) {
-    EXPECT_GT(events_[false][true], 20) << "teeth in compression";
+    EXPECT_GT(events_[false][true], few) << "teeth in compression";
   }
 }
 
