@@ -97,7 +97,7 @@ std::vector<double> damage_index(const Network& network, const Csr& families, Se
       if (std::binary_search(cut.begin(), cut.end(), e)) continue;
       const double volume = network.particles.volumes[network.bonds.other_end(e, i)];
       all += volume;
-      if (!network.law(e).endless()) lost += (1.0 - secants[e]) * volume;
+      if (!network.law(e).endless()) lost += (1.0 - secants.least(e)) * volume;
     }
     if (all > 0.0) damage[i] = lost / all;
   }

@@ -1,19 +1,14 @@
 #include "material/bond_law.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
 namespace perilink {
+namespace {
 
-BondLaw BondLaw::brittle() { return {Sense::tension, {{1.0, 1.0}}, 0.0}; }
-
-BondLaw BondLaw::plateau(double ratio) {
-  if (!(ratio > 1.0)) throw std::invalid_argument("teeth of a plateau have a ratio above one");
-  return {Sense::both, {}, ratio};
-}
-
-BondLaw BondLaw::saw_tooth(std::vector<Tooth> teeth) {
+void check_teeth(const std::vector<Tooth>& teeth) {
   Tooth last{2.0, 0.0};
   for (const Tooth& tooth : teeth) {
     const bool falls = tooth.secant > 0.0 && tooth.secant < last.secant;
@@ -25,6 +20,19 @@ BondLaw BondLaw::saw_tooth(std::vector<Tooth> teeth) {
   if (teeth.empty() || teeth.front().secant != 1.0) {
     throw std::invalid_argument("the first secant of a saw-tooth law is one");
   }
+}
+
+}  // namespace
+
+BondLaw BondLaw::brittle() { return {Sense::tension, {{1.0, 1.0}}, 0.0}; }
+
+BondLaw BondLaw::plateau(double ratio) {
+  if (!(ratio > 1.0)) throw std::invalid_argument("teeth of a plateau have a ratio above one");
+  return {Sense::both, {}, ratio};
+}
+
+BondLaw BondLaw::saw_tooth(std::vector<Tooth> teeth) {
+  check_teeth(teeth);
   return {Sense::tension, std::move(teeth), 0.0};
 }
 
@@ -34,12 +42,29 @@ BondLaw BondLaw::closing() const {
   return law;
 }
 
+BondLaw BondLaw::crushing(std::vector<Tooth> teeth, double scale, bool keeps_shear) const {
+  check_teeth(teeth);
+  if (!(scale > 0.0) || endless() || closes_) {
+    throw std::invalid_argument("bonds with teeth in compression neither yield nor close");
+  }
+  for (Tooth& tooth : teeth) tooth.limit *= scale;
+  BondLaw law = *this;
+  law.sense_ = Sense::each;
+  law.crushing_ = std::move(teeth);
+  law.keeps_shear_ = keeps_shear;
+  return law;
+}
+
+Tooth BondLaw::first_in_compression() const { return crushing_.front(); }
+
 Tooth BondLaw::tooth(int k) const {
   if (endless()) {
     const double growth = std::pow(ratio_, k);
     return {1.0 / growth, std::sqrt(ratio_) * growth};
   }
-  if (static_cast<std::size_t>(k) < teeth_.size()) return teeth_[static_cast<std::size_t>(k)];
+  const std::vector<Tooth>& branch = k < 0 ? crushing_ : teeth_;
+  const auto place = static_cast<std::size_t>(std::abs(k));
+  if (place < branch.size()) return branch[place];
   return {0.0, std::numeric_limits<double>::infinity()};
 }
 

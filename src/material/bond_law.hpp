@@ -9,6 +9,9 @@
 /// there its next event comes and the secant falls to a_(k+1). The tooth is the only state, and the
 /// caller owns it.
 ///
+/// A law may have teeth of its own in compression. A bond is on one branch or the other, the one of
+/// its first event: teeth below zero are those in compression, -k the k-th.
+///
 /// Stretches of a law are given over the bond's own critical stretch, so that bonds of one law may
 /// differ in strength.
 
@@ -24,6 +27,7 @@ struct Tooth {
 enum class Sense {
   tension,  ///< elongation
   both,     ///< elongation and shortening alike
+  each,     ///< elongation and shortening, by teeth of their own
 };
 
 class BondLaw {
@@ -49,13 +53,34 @@ class BondLaw {
   /// and bending stay as they are, or the energy would jump.
   BondLaw closing() const;
 
+  /// The same law of bonds with teeth in compression too, which sleep until a bond at one of their
+  /// particles has had its first event in tension (docs/theory/softening.md). Their events come by
+  /// the axial stretch alone.
+  /// \param teeth        the same rules as for saw_tooth()
+  /// \param scale        by which their limits count over the critical stretch
+  /// \param keeps_shear  only the stiffness against a change of length falls until the bond breaks
+  /// \throws std::invalid_argument as saw_tooth(), unless the scale is positive, for endless laws
+  ///         and for those that close
+  BondLaw crushing(std::vector<Tooth> teeth, double scale, bool keeps_shear) const;
+
+  /// \param k  below zero: in compression, of a law without teeth there a broken bond's
   Tooth tooth(int k) const;
+  /// The first tooth in compression, of an intact bond.
+  Tooth first_in_compression() const;
+  /// Where a bond on tooth k goes by an event.
+  static int after(int k, bool compressed) {
+    return k < 0 || (k == 0 && compressed) ? k - 1 : k + 1;
+  }
   Sense sense() const { return sense_; }
   /// Whether there is always another tooth: the bond never breaks.
   bool endless() const { return ratio_ > 0.0; }
   /// Whether the first event breaks the bond for good.
-  bool is_brittle() const { return !endless() && teeth_.size() == 1 && !closes_; }
+  bool is_brittle() const { return !endless() && teeth_.size() == 1 && !closes_ && !crushes(); }
   bool closes() const { return closes_; }
+  /// Whether it has teeth in compression of its own.
+  bool crushes() const { return sense_ == Sense::each; }
+  /// Whether shear and bending stay as they are until the bond breaks.
+  bool keeps_shear() const { return keeps_shear_; }
 
  private:
   BondLaw(Sense sense, std::vector<Tooth> teeth, double ratio)
@@ -65,6 +90,8 @@ class BondLaw {
   std::vector<Tooth> teeth_;  ///< before the bond breaks
   double ratio_;              ///< ratio of neighbouring teeth of a plateau; 0: another law
   bool closes_ = false;
+  std::vector<Tooth> crushing_;  ///< in compression, before the bond breaks
+  bool keeps_shear_ = false;
 };
 
 }  // namespace perilink

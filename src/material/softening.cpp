@@ -27,6 +27,7 @@ struct ToothBetween {
 }  // namespace
 
 double softening_energy(const SofteningShape& shape, double end) {
+  if (shape.kind == Softening::concrete) return 1.0 + 2.0 * (end - 1.0);
   const bool knee = shape.kind == Softening::bilinear;
   return 1.0 + (end - 1.0) * (knee ? shape.knee_force + shape.knee_stretch : 1.0);
 }
@@ -41,6 +42,8 @@ SofteningCurve::SofteningCurve(const SofteningShape& shape, double energy)
     end_ = 1.0 + length;
     knee_ = 1.0 + shape.knee_stretch * length;
     knee_force_ = shape.knee_force;
+  } else if (shape.kind == Softening::concrete) {
+    end_ = knee_ = 1.0 + 0.5 * (energy - 1.0);
   } else if (shape.kind == Softening::exponential) {
     decay_ = 0.5 * (energy - 1.0);
     end_ = 1.0 - decay_ * std::log(negligible_force);
@@ -59,13 +62,15 @@ double SofteningCurve::area(double x) const {
   if (x <= 1.0) return 0.5 * x * x;
   // What lies below the end of an exponential curve counts as taken at its end.
   if (decay_ > 0.0) return 0.5 + decay_ * (x < end_ ? 1.0 - force(x) : 1.0);
-  const double fallen = 0.5 * (std::min(x, knee_) - 1.0) * (1.0 + force(std::min(x, knee_)));
+  const bool drops = end_ == knee_ && x >= knee_;
+  const double at_knee = drops ? knee_force_ : force(std::min(x, knee_));
+  const double fallen = 0.5 * (std::min(x, knee_) - 1.0) * (1.0 + at_knee);
   if (x <= knee_) return 0.5 + fallen;
   const double reached = std::min(x, end_);
   return 0.5 + fallen + 0.5 * (reached - knee_) * (knee_force_ + force(reached));
 }
 
-BondLaw saw_tooth_of(const SofteningCurve& curve, double ripple) {
+std::vector<Tooth> teeth_of(const SofteningCurve& curve, double ripple) {
   if (!(ripple > 0.0)) throw std::invalid_argument("teeth rise above the curve");
   std::vector<Tooth> teeth;
   for (double begin = 1.0; begin < curve.end();) {
@@ -83,7 +88,11 @@ BondLaw saw_tooth_of(const SofteningCurve& curve, double ripple) {
     teeth.push_back({tooth.secant, tooth.limit});
     begin = end;
   }
-  return BondLaw::saw_tooth(std::move(teeth));
+  return teeth;
+}
+
+BondLaw saw_tooth_of(const SofteningCurve& curve, double ripple) {
+  return BondLaw::saw_tooth(teeth_of(curve, ripple));
 }
 
 }  // namespace perilink

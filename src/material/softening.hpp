@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <vector>
 
 #include "material/bond_law.hpp"
 
@@ -17,6 +18,8 @@ enum class Softening {
   linear,       ///< along a straight line (the same figure)
   bilinear,     ///< along two straight lines with a knee between them (Petersson 1981)
   exponential,  ///< in proportion to itself
+  concrete,     ///< at once after a plateau, in tension and in compression (Gerstle, Sau & Aguilera
+                ///< 2007, section 6)
 };
 
 struct SofteningShape {
@@ -34,6 +37,9 @@ struct SofteningMaterial {
   /// Where the force of a bond begins to fall and has fallen to zero, in place of f_t and fracture
   /// energy [-]; zeros: from these.
   std::array<double, 2> stretches{};
+  /// Concrete: where the force of a bond in compression ceases to grow and falls to zero [-].
+  std::array<double, 2> crushing{};
+  bool shear_softens = false;  ///< concrete: shear falls with the axial stiffness
 };
 
 /// Area under the curve of this shape that ends at s_1 over that of its elastic part,
@@ -42,6 +48,7 @@ struct SofteningMaterial {
 double softening_energy(const SofteningShape& shape, double end);
 
 /// Force over stretch of one bond: x up to x = 1, falling from there.
+/// Concrete has a plateau and a fall at once, which is a knee at the end.
 class SofteningCurve {
  public:
   /// \param energy  area under the curve over that of its elastic part, 2 G_s / s_0^2: more than
@@ -68,6 +75,7 @@ class SofteningCurve {
 /// \param ripple  most by which the force of a tooth rises above the curve [-]; all teeth but the
 ///     last rise so far
 /// \throws std::invalid_argument unless the ripple is positive
+std::vector<Tooth> teeth_of(const SofteningCurve& curve, double ripple);
 BondLaw saw_tooth_of(const SofteningCurve& curve, double ripple);
 
 }  // namespace perilink

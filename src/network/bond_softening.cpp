@@ -42,6 +42,18 @@ struct Pulled {
     for (const Vector3& direction : directions) sum += cell_strength(cell, dim, direction, law);
     return sum / static_cast<double>(directions.size());
   }
+  /// The same of a law with teeth in compression, pulled or compressed.
+  double strength(const BondLaw& law, bool compressed) const {
+    double sum = 0.0;
+    for (const Vector3& direction : directions) {
+      double most = 0.0;
+      for (const CellPoint& point : cell_path(cell, dim, {direction, compressed}, law, 1.0)) {
+        most = std::max(most, point.stress);
+      }
+      sum += most / cell_modulus(cell, dim, direction);
+    }
+    return sum / static_cast<double>(directions.size());
+  }
 };
 
 /// Stiffness of the bonds to the neighbours of a lattice particle of one material.
@@ -98,8 +110,10 @@ SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
   mean.fracture_energy = 0.5 * (a.fracture_energy + b.fracture_energy);
   mean.softening.tensile_strength =
       0.5 * (a.softening.tensile_strength + b.softening.tensile_strength);
+  mean.softening.shear_softens = a.softening.shear_softens && b.softening.shear_softens;
   for (int k = 0; k < 2; ++k) {
     mean.softening.stretches[k] = 0.5 * (a.softening.stretches[k] + b.softening.stretches[k]);
+    mean.softening.crushing[k] = 0.5 * (a.softening.crushing[k] + b.softening.crushing[k]);
   }
   return mean;
 }
@@ -130,6 +144,16 @@ Index count_teeth(const BondLaw& law) {
   return count;
 }
 
+/// The curve by teeth; concrete has them in compression too.
+BondLaw law_of(const SofteningMaterial& softening, double energy, double ripple) {
+  const BondLaw law = saw_tooth_of(SofteningCurve(softening.shape, energy), ripple);
+  if (softening.shape.kind != Softening::concrete) return law;
+  const auto& [limit, end] = softening.crushing;
+  const SofteningCurve crushing(softening.shape, softening_energy(softening.shape, end / limit));
+  return law.crushing(teeth_of(crushing, ripple), limit / softening.stretches[0],
+                      !softening.shear_softens);
+}
+
 }  // namespace
 
 TooStrong::TooStrong(Index number, double energy)
@@ -143,6 +167,7 @@ MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
   const double modulus = uniaxial_modulus(lame_constants(input, material), pulled.dim);
   const SofteningMaterial& softening = material.softening;
   BondLaw law = BondLaw::brittle();
+  MaterialStrength strength;
   double energy = 1.0, first = brittle_stretch, end = 1.0, factor = 0.0;
   if (softens(material)) {
     if (softening.stretches[0] > 0.0) {
@@ -153,14 +178,16 @@ MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
       energy = find_energy(pulled, softening.shape, 1.0 / (unit * unit));
       first = brittle_stretch / std::sqrt(energy);
     }
-    const SofteningCurve curve(softening.shape, energy);
-    law = saw_tooth_of(curve, ripple_of(softening.error));
-    end = curve.end();
-    factor = strength_factor(pulled, softening.shape, energy);
+    law = law_of(softening, energy, ripple_of(softening.error));
+    end = SofteningCurve(softening.shape, energy).end();
+    const BondLaw fine = law_of(softening, energy, fine_ripple);
+    factor = fine.crushes() ? pulled.strength(fine, false) : pulled.strength(fine);
+    if (fine.crushes()) {
+      strength.compressive_strength = pulled.strength(fine, true) * modulus * first;
+    }
   } else {
     factor = pulled.strength(law);
   }
-  MaterialStrength strength;
   strength.tensile_strength = factor * modulus * first;
   strength.fracture_energy =
       material.fracture_energy * energy * std::pow(first / brittle_stretch, 2);

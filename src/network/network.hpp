@@ -22,12 +22,13 @@ enum BondEnd : std::uint8_t { first_end = 1, second_end = 2 };
 
 /// What the bonds of a material make of it.
 struct MaterialStrength {
-  double tensile_strength = 0.0;  ///< uniaxial [force/length^2]; 0: nothing can break
-  double fracture_energy = 0.0;   ///< that its bonds release [force/length]
-  double process_zone = 0.0;      ///< E G_F / f_t^2 [length]
-  double first_stretch = 0.0;     ///< where the force of a bond begins to fall, s_0 [-]
-  double last_stretch = 0.0;      ///< where it has fallen to zero, s_1 [-]
-  Index teeth = 0;                ///< events until a bond is broken
+  double tensile_strength = 0.0;      ///< uniaxial [force/length^2]; 0: nothing can break
+  double compressive_strength = 0.0;  ///< uniaxial [force/length^2]; 0: not known
+  double fracture_energy = 0.0;       ///< that its bonds release [force/length]
+  double process_zone = 0.0;          ///< E G_F / f_t^2 [length]
+  double first_stretch = 0.0;         ///< where the force of a bond begins to fall, s_0 [-]
+  double last_stretch = 0.0;          ///< where it has fallen to zero, s_1 [-]
+  Index teeth = 0;                    ///< events until a bond is broken
 };
 
 /// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds
@@ -97,6 +98,15 @@ struct Network {
   /// Whether some elements close once they are damaged.
   bool has_closing() const {
     return std::any_of(laws.begin(), laws.end(), [](const BondLaw& law) { return law.closes(); });
+  }
+  /// Whether some elements have teeth in compression of their own.
+  bool has_crushing() const {
+    return std::any_of(laws.begin(), laws.end(), [](const BondLaw& law) { return law.crushes(); });
+  }
+  /// Whether some lose their stiffness against a change of length alone.
+  bool has_kept_shear() const {
+    return std::any_of(laws.begin(), laws.end(),
+                       [](const BondLaw& law) { return law.keeps_shear(); });
   }
   /// Whether its law has events, or it stays elastic.
   bool has_limit(Index element) const { return !std::isinf(critical_stretch[element]); }

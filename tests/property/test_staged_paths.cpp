@@ -134,8 +134,9 @@ TEST_P(StagedPath, UnloadsAndComesBackToTheSameEvent) {
   expect_balance();
   StepRecord stopped, again;
   for (const Look& look : looks_) {
-    if (look.row.stage == 2) stopped = look.row;
-    if (look.row.stage == 4 && again.step == 0) again = look.row;
+    if (look.row.stage == 2 && look.row.side_change == 0) stopped = look.row;
+    const bool fails = look.row.side_change == 0;
+    if (look.row.stage == 4 && fails && again.step == 0) again = look.row;
   }
   ASSERT_EQ(result_.stages.size(), 4u) << result_.reason;
   EXPECT_EQ(again.element, stopped.element);
@@ -155,7 +156,7 @@ TEST_P(StagedPath, TurnsRoundAndComesBackToTheSameEvent) {
   StepRecord stopped, turned, again;
   Index changes = 0;
   for (const Look& look : looks_) {
-    if (look.row.stage == 2) stopped = look.row;
+    if (look.row.stage == 2 && look.row.side_change == 0) stopped = look.row;
     if (look.row.stage == 3) turned = look.row;
     changes += look.row.stage == 3 && look.row.side_change == 1;
     if (look.row.stage == 4 && look.row.side_change == 0 && again.step == 0) again = look.row;

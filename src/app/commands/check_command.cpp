@@ -70,6 +70,10 @@ void print_strengths(const std::vector<MaterialStrength>& strengths) {
     if (strength.teeth == 0) continue;
     fmt::print("#   tensile strength   {:.5g}, process zone E G/f^2 = {:.4g}, material {}\n",
                strength.tensile_strength, strength.process_zone, m + 1);
+    if (strength.compressive_strength > 0.0) {
+      fmt::print("#   compression        strength {:.5g}; fracture energy {:.5g}\n",
+                 strength.compressive_strength, strength.fracture_energy);
+    }
     if (strength.teeth == 1) {
       fmt::print("#                      by the horizon, as brittle bonds have it\n");
     } else {

@@ -104,7 +104,9 @@ constexpr auto words_of(Pattern) {
 constexpr auto words_of(Surface) { return words("none", "ghost", "energy", "calibrated"); }
 constexpr auto words_of(Constants) { return words("lattice", "continuum"); }
 constexpr auto words_of(CriticalStretch) { return words("dissipated", "lattice", "continuum"); }
-constexpr auto words_of(Softening) { return words("brittle", "linear", "bilinear", "exponential"); }
+constexpr auto words_of(Softening) {
+  return words("brittle", "linear", "bilinear", "exponential", "concrete");
+}
 constexpr auto words_of(LatticeRules) { return words("consistent", "2018", "2017"); }
 constexpr auto words_of(AnalysisType) {
   return words("damage", "elastic", "explicit", "relaxation");

@@ -41,8 +41,8 @@ Strain vector_of(const Vector3& a, const Vector3& b, int dim) {
 /// Cell whose bonds lose stiffness.
 class Cell {
  public:
-  Cell(std::span<const CellBond> bonds, int dim, const Vector3& pull)
-      : bonds_(bonds), pull_(vector_of(pull, pull, dim)) {
+  Cell(std::span<const CellBond> bonds, int dim, const Vector3& pull, Across across = Across::free)
+      : bonds_(bonds), across_(across), pull_(vector_of(pull, pull, dim)) {
     const auto size = pull_.size();
     for (const CellBond& bond : bonds) {
       const Strain axial = vector_of(bond.direction, bond.direction, dim);
@@ -59,6 +59,7 @@ class Cell {
                         bond.shear_ratio * square);
     }
     secants_.assign(bonds.size(), 1.0);
+    lost_axial_.assign(bonds.size(), 0.0);
   }
 
   /// Strain per unit of stress. \return false when the cell has failed
@@ -66,31 +67,79 @@ class Cell {
     Stiffness sum = Stiffness::Zero(pull_.size(), pull_.size());
     for (std::size_t b = 0; b < bonds_.size(); ++b) {
       if (secants_[b] > 0.0) sum += secants_[b] * bonds_[b].weight * square_[b];
+      if (!(lost_axial_[b] > 0.0)) continue;
+      const double lost = lost_axial_[b] * bonds_[b].weight;
+      sum -= lost * axial_[b] * axial_[b].transpose();
     }
-    const Eigen::LDLT<Stiffness> factor(sum);
-    if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0)) return false;
-    strain_ = factor.solve(pull_);
+    if (across_ == Across::held) {
+      strain_ = pull_ / pull_.dot(sum * pull_);
+    } else {
+      const Eigen::LDLT<Stiffness> factor(sum);
+      if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0)) return false;
+      strain_ = factor.solve(pull_);
+    }
     const double softness = pull_.dot(strain_);
     if (intact_ == 0.0) intact_ = softness;
     return softness > 0.0 && softness * failed < intact_;
   }
 
   double intact_softness() const { return intact_; }
+  double softness() const { return pull_.dot(strain_); }
   /// Equivalent stretch of a bond per unit of stress; zero in compression.
   double stretch(std::size_t bond) const {
     const double axial = axial_[bond].dot(strain_);
     const double square = strain_.dot(square_[bond] * strain_);
     return axial > 0.0 && axial * axial > least_tension * square ? std::sqrt(square) : 0.0;
   }
+  /// Axial stretch per unit of stress.
+  double axial_stretch(std::size_t bond) const { return axial_[bond].dot(strain_); }
   void set_secant(std::size_t bond, double secant) { secants_[bond] = secant; }
+  /// A bond that keeps its shear until it breaks.
+  void set_axial_secant(std::size_t bond, double secant) {
+    secants_[bond] = secant > 0.0 ? 1.0 : 0.0;
+    lost_axial_[bond] = secant > 0.0 ? 1.0 - secant : 0.0;
+  }
 
  private:
   std::span<const CellBond> bonds_;
+  Across across_;
   Strain pull_, strain_;
   std::vector<Strain> axial_;
   std::vector<Stiffness> square_;
   std::vector<double> secants_;
+  std::vector<double> lost_axial_;  ///< part of the axial stiffness that went before the rest
   double intact_ = 0.0;
+};
+
+/// Bonds of one law with the tooth that each is on.
+class CellBonds {
+ public:
+  CellBonds(std::size_t count, const BondLaw& law, double critical_stretch)
+      : law_(law), critical_(critical_stretch), tooth_(count, 0) {}
+
+  /// Stretch over the limit of the next event at the stress of one [length^2/force].
+  double ratio(const Cell& cell, std::size_t bond, double sign) const {
+    if (!law_.crushes())
+      return sign * cell.stretch(bond) / (critical_ * law_.tooth(tooth_[bond]).limit);
+    const double stretch = sign * cell.axial_stretch(bond) / critical_;
+    const int tooth = tooth_[bond];
+    if (stretch > 0.0) return tooth < 0 ? 0.0 : stretch / law_.tooth(tooth).limit;
+    if (tooth > 0 || !awake_) return 0.0;
+    return -stretch / (tooth == 0 ? law_.first_in_compression() : law_.tooth(tooth)).limit;
+  }
+  void pass(Cell& cell, std::size_t bond, double sign) {
+    const bool compressed = law_.crushes() && sign * cell.axial_stretch(bond) < 0.0;
+    tooth_[bond] = BondLaw::after(tooth_[bond], compressed);
+    awake_ = awake_ || !compressed;
+    const double secant = law_.tooth(tooth_[bond]).secant;
+    law_.keeps_shear() ? cell.set_axial_secant(bond, secant) : cell.set_secant(bond, secant);
+  }
+
+ private:
+  const BondLaw& law_;
+  double critical_;
+  std::vector<int> tooth_;
+  bool awake_ = false;
 };
 
 }  // namespace
@@ -169,6 +218,32 @@ double cell_strength(std::span<const CellBond> bonds, int dim, const Vector3& pu
     }
   }
   return strength * cell.intact_softness();
+}
+
+std::vector<CellPoint> cell_path(std::span<const CellBond> bonds, int dim, const CellDrive& drive,
+                                 const BondLaw& law, double critical_stretch) {
+  Cell cell(bonds, dim, drive.direction, drive.across);
+  CellBonds states(bonds.size(), law, critical_stretch);
+  const double sign = drive.compressed ? -1.0 : 1.0;
+  std::vector<double> ratio(bonds.size());
+  std::vector<CellPoint> path;
+  while (cell.solve()) {
+    for (std::size_t b = 0; b < bonds.size(); ++b) ratio[b] = states.ratio(cell, b, sign);
+    const double largest = *std::max_element(ratio.begin(), ratio.end());
+    if (!(largest > 0.0)) break;
+    path.push_back({cell.softness() / largest, 1.0 / largest});
+    for (std::size_t b = 0; b < bonds.size(); ++b) {
+      if (ratio[b] >= (1.0 - alike) * largest) states.pass(cell, b, sign);
+    }
+  }
+  return path;
+}
+
+double stress_at(std::span<const CellPoint> path, double strain) {
+  const auto next = std::find_if(path.begin(), path.end(),
+                                 [&](const CellPoint& point) { return point.strain >= strain; });
+  if (next == path.end()) return std::numeric_limits<double>::quiet_NaN();
+  return strain * next->stress / next->strain;
 }
 
 }  // namespace perilink

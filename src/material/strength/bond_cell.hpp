@@ -42,7 +42,38 @@ double cell_modulus(std::span<const CellBond> cell, int dim, const Vector3& pull
 /// Largest stress of the cell pulled in one direction, stresses across it zero, over the product
 /// of cell_modulus() and the critical stretch [-]. The strain is uniform, particles do not rotate,
 /// and bonds pass the teeth of the law one after another as in a damage analysis.
+/// \param law  with teeth in tension alone
 double cell_strength(std::span<const CellBond> cell, int dim, const Vector3& pull,
                      const BondLaw& law);
+
+/// What a cell does across the direction in which it is driven.
+enum class Across {
+  free,  ///< no stress
+  held,  ///< no strain
+};
+
+/// How a cell is driven.
+struct CellDrive {
+  Vector3 direction;
+  bool compressed = false;
+  Across across = Across::free;
+};
+
+/// A cell before an event: strain and stress along the drive, both positive in compression too
+/// [-, force/length^2].
+struct CellPoint {
+  double strain, stress;
+};
+
+/// Every event of a cell whose bonds have the law until it has failed or no more events come. Bonds
+/// with teeth in compression of their own count by their axial stretch; all wake by the first event
+/// in tension, as they have one particle in common.
+/// \param critical_stretch  by which the law counts
+std::vector<CellPoint> cell_path(std::span<const CellBond> cell, int dim, const CellDrive& drive,
+                                 const BondLaw& law, double critical_stretch);
+
+/// The stress at a strain to which the cell is driven without return: between two events it is on
+/// the line from the origin to the second one. Not a number behind the last event.
+double stress_at(std::span<const CellPoint> path, double strain);
 
 }  // namespace perilink

@@ -54,6 +54,36 @@ TEST(BondLaws, SensesAreTensionButForPlateaus) {
   }
 }
 
+TEST(BondLaws, CrushByTeethOfTheirOwn) {
+  const BondLaw law = BondLaw::saw_tooth({{1.0, 1.1}, {0.5, 2.0}});
+  const BondLaw both = law.crushing({{1.0, 1.2}, {0.4, 3.0}}, 10.0, true);
+  EXPECT_EQ(both.sense(), Sense::each);
+  EXPECT_TRUE(both.crushes() && both.keeps_shear());
+  EXPECT_FALSE(law.crushes() || law.keeps_shear());
+  EXPECT_FALSE(BondLaw::brittle().crushing({{1.0, 1.0}}, 10.0, false).is_brittle());
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(both.tooth(k).secant, law.tooth(k).secant);
+  EXPECT_EQ(both.first_in_compression().limit, 12.0);
+  EXPECT_EQ(both.tooth(-1).secant, 0.4);
+  EXPECT_EQ(both.tooth(-1).limit, 30.0);
+  EXPECT_EQ(both.tooth(-2).secant, 0.0);
+  EXPECT_EQ(law.tooth(-1).secant, 0.0);
+}
+
+TEST(BondLaws, StayOnTheBranchOfTheirFirstEvent) {
+  EXPECT_EQ(BondLaw::after(0, false), 1);
+  EXPECT_EQ(BondLaw::after(0, true), -1);
+  EXPECT_EQ(BondLaw::after(-1, true), -2);
+  EXPECT_EQ(BondLaw::after(2, false), 3);
+}
+
+TEST(BondLaws, DoNotCrushWhereTheyYieldOrClose) {
+  const std::vector<Tooth> teeth = {{1.0, 1.2}};
+  EXPECT_THROW(BondLaw::plateau().crushing(teeth, 1.0, true), std::invalid_argument);
+  EXPECT_THROW(BondLaw::brittle().closing().crushing(teeth, 1.0, true), std::invalid_argument);
+  EXPECT_THROW(BondLaw::brittle().crushing(teeth, 0.0, true), std::invalid_argument);
+  EXPECT_THROW(BondLaw::brittle().crushing({}, 1.0, true), std::invalid_argument);
+}
+
 TEST(BondLaws, RefuseTeethThatRise) {
   EXPECT_THROW(BondLaw::saw_tooth({}), std::invalid_argument);
   EXPECT_THROW(BondLaw::saw_tooth({{0.9, 1.0}}), std::invalid_argument);

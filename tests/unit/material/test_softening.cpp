@@ -211,5 +211,37 @@ TEST(Teeth, AreMoreWhereTheyMayRiseLess) {
   }
 }
 
+/// The force is constant up to the end; every tooth but the last takes what lies between its
+/// unloading lines, sqrt(S_k S_(k+1)) its limit, and all together take the area.
+TEST(SofteningCurves, OfConcreteArePlateaus) {
+  for (const double end : {1.2, 2.0, 3.0, 20.0}) {
+    const SofteningShape shape{Softening::concrete};
+    const double energy = softening_energy(shape, end);
+    EXPECT_DOUBLE_EQ(energy, 2.0 * end - 1.0);
+    const SofteningCurve curve(shape, energy);
+    EXPECT_DOUBLE_EQ(curve.end(), end);
+    for (const double x : {1.0, 1.1, 0.999 * end}) {
+      EXPECT_EQ(curve.force(x), 1.0);
+      EXPECT_NEAR(curve.area(x), x - 0.5, 1e-14 * end);
+    }
+    EXPECT_EQ(curve.force(1.001 * end), 0.0);
+    EXPECT_NEAR(curve.area(2.0 * end), end - 0.5, 1e-14 * end);
+    for (const double ripple : ripples) {
+      const BondLaw law = saw_tooth_of(curve, ripple);
+      double sum = 0.0;
+      for (int k = 0; law.tooth(k).secant > 0.0; ++k) {
+        sum += dissipated(law, k);
+        const Tooth now = law.tooth(k), next = law.tooth(k + 1);
+        EXPECT_LE(now.limit, end * (1.0 + 1e-12));
+        EXPECT_LT(now.secant * now.limit, 1.0 + ripple * (1.0 + 1e-6));
+        if (next.secant > 0.0) {
+          EXPECT_NEAR(now.limit, std::sqrt(1.0 / (now.secant * next.secant)), 1e-12 * end);
+        }
+      }
+      EXPECT_NEAR(sum, end - 0.5, 1e-10 * end) << "end " << end << ", ripple " << ripple;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace perilink

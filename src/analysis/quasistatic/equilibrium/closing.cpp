@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "base/error.hpp"
@@ -13,9 +14,8 @@
 namespace perilink {
 namespace {
 
-/// So often all bonds on the wrong side change it together, which ends after a round or two; from
-/// then on that with the lowest number alone, which cannot go round in circles (Murty 1974).
-constexpr int rounds_together = 10, most_rounds = 2000;
+/// So often all bonds on the wrong side change it together before the energy is followed down.
+constexpr int rounds_together = 10, most_rounds = 1000;
 
 /// Extensions that are so small beside the motion of the ends are round-off and have no sign.
 constexpr double round_off = 1e-11;
@@ -128,24 +128,106 @@ void Equilibrium::add_growth(Index element, const Extension& before, EventOutcom
   outcome.growth_beside.constant += lost * before.constant * after.constant;
 }
 
+/// Changes the sides of bonds. \return false where all that ought to hold the body
+bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& outcome) {
+  std::vector<Extension> before;
+  for (const Index element : wrong) before.push_back(extension_of(element));
+  const std::vector<Index> changed = change_sides(wrong);
+  if (changed.empty()) return false;
+  changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
+  refresh();
+  events_to_follow_ = 0;
+  for (std::size_t k = 0; k < wrong.size(); ++k) {
+    const bool same = std::find(changed.begin(), changed.end(), wrong[k]) == changed.end();
+    if (!same) add_growth(wrong[k], before[k], outcome);
+  }
+  return true;
+}
+
+/// The motion of all particles that tells the sides: the present one or, where only bonds whose
+/// extension is zero may change, that to which the load moves on.
+std::vector<double> Equilibrium::telling_motion() const {
+  std::vector<double> motion = displacement_;
+  const double factor = direction_ != 0.0 ? direction_ : constant_ ? constant_->load_factor : 1.0;
+  for (double& value : motion) value *= factor;
+  if (direction_ != 0.0 || !constant_) return motion;
+  for (std::size_t k = 0; k < motion.size(); ++k) motion[k] += constant_->displacement[k];
+  return motion;
+}
+
+/// Those of damaged_ in such a motion; zero where a bond cannot change now.
+std::vector<double> Equilibrium::telling_extensions(std::span<const double> motion) const {
+  const auto width = static_cast<std::size_t>(network_.width());
+  std::vector<double> extensions;
+  for (const Index element : damaged_) {
+    const std::span<const double> n = network_.bonds.direction(element);
+    const std::size_t i = width * network_.bonds.first[element];
+    const std::size_t j = width * network_.bonds.second[element];
+    double sum = 0.0;
+    for (int a = 0; a < network_.dim(); ++a) sum += n[a] * (motion[j + a] - motion[i + a]);
+    const bool fixed =
+        is_grounded(element) || (direction_ != 0.0 && extension_of(element).now != 0.0);
+    extensions.push_back(fixed ? 0.0 : sum);
+  }
+  return extensions;
+}
+
+/// The part t of the way from one motion to another, which is the equilibrium of the sides as they
+/// are, at which the energy is least. Its derivative there is
+///
+///   -(1 - t) q + sum over bonds that have changed sides of +-k (1 - a) e(t) (e_to - e_from),
+///
+/// q twice the energy of the difference; it grows, and bends where an extension is zero.
+double Equilibrium::line_minimum(std::span<const double> from, std::span<const double> to) const {
+  std::vector<double> difference(to.begin(), to.end());
+  for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= from[k];
+  double slope = 2.0 * internal_force(network_, secants(), difference).energy;
+  double value = -slope;  // of the derivative at t = 0
+  const std::vector<double> begin = telling_extensions(from), end = telling_extensions(to);
+  std::vector<std::pair<double, double>> bends;  // where, and what the slope grows by
+  for (std::size_t k = 0; k < damaged_.size(); ++k) {
+    const double growth = end[k] - begin[k];
+    const bool changes = begin[k] * end[k] < 0.0;
+    if (!changes) continue;
+    const double stiffness = network_.stiffness[damaged_[k]] * (1.0 - secants_[damaged_[k]]);
+    const double sign = is_closed(damaged_[k]) ? -1.0 : 1.0;
+    bends.emplace_back(-begin[k] / growth, sign * stiffness * growth * growth);
+  }
+  std::sort(bends.begin(), bends.end());
+  double place = 0.0;
+  for (const auto& [next, bend] : bends) {
+    if (value + slope * (next - place) >= 0.0) break;
+    value += slope * (next - place);
+    slope += bend;
+    place = next;
+  }
+  return slope > 0.0 ? std::min(1.0, place - value / slope) : 1.0;
+}
+
+/// All bonds on the wrong side change it together, which ends after a round or two. Where it does
+/// not, the energy is followed down: along the way to the equilibrium of the present sides to its
+/// minimum, and on with the sides there.
 void Equilibrium::settle_closing(EventOutcome& outcome) {
   changed_sides_.clear();
+  std::vector<double> reached;  // on the way down
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Index> wrong = on_wrong_side();
     if (wrong.empty()) return;
-    if (round >= rounds_together) wrong = {*std::min_element(wrong.begin(), wrong.end())};
-    std::vector<Extension> before;
-    for (const Index element : wrong) before.push_back(extension_of(element));
-    const std::vector<Index> changed = change_sides(wrong);
-    outcome.mechanism = changed.empty();
-    if (outcome.mechanism) return;
-    changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
-    refresh();
-    events_to_follow_ = 0;
-    for (std::size_t k = 0; k < wrong.size(); ++k) {
-      const bool same = std::find(changed.begin(), changed.end(), wrong[k]) == changed.end();
-      if (!same) add_growth(wrong[k], before[k], outcome);
+    if (round >= rounds_together) {
+      const std::vector<double> aim = telling_motion();
+      if (reached.empty()) reached = aim;
+      const double part = round == rounds_together ? 1.0 : line_minimum(reached, aim);
+      for (std::size_t k = 0; k < aim.size(); ++k) reached[k] += part * (aim[k] - reached[k]);
+      const std::vector<double> extensions = telling_extensions(reached);
+      wrong.clear();
+      for (std::size_t k = 0; k < damaged_.size(); ++k) {
+        const bool closed = is_closed(damaged_[k]);
+        if (closed ? extensions[k] > 0.0 : extensions[k] < 0.0) wrong.push_back(damaged_[k]);
+      }
+      if (wrong.empty()) return;
     }
+    outcome.mechanism = !follow_sides(wrong, outcome);
+    if (outcome.mechanism) return;
   }
   throw SolverError(fmt::format(
       "after {} rounds it is not settled which of the damaged bonds are closed", most_rounds));

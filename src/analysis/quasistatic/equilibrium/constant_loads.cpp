@@ -125,11 +125,22 @@ void Equilibrium::check_constant(Balance& balance) {
   }
 }
 
-/// What goes with an element, and what constant loads do to it.
-Removal Equilibrium::removal_of(Index element, double fraction) const {
-  Removal removal = make_removal(network_, *unknowns_, element, fraction);
+/// What an element loses that goes on with this secant.
+Removal Equilibrium::removal_from(const Unknowns& unknowns, Index element, double secant) const {
+  if (!keeps_shear(element)) {
+    return make_removal(network_, unknowns, element, secants_[element] - secant);
+  }
+  const double axial = axial_[element] - secant;
+  return secant > 0.0 || secants_[element] == 0.0
+             ? make_axial_removal(network_, unknowns, element, axial)
+             : make_removal(network_, unknowns, element, 1.0, axial);
+}
+
+/// The same, and what constant loads do to it.
+Removal Equilibrium::removal_of(Index element, double secant) const {
+  Removal removal = removal_from(*unknowns_, element, secant);
   if (!constant_) return removal;
-  const Removal own = make_removal(network_, constant_->unknowns, element, fraction);
+  const Removal own = removal_from(constant_->unknowns, element, secant);
   for (int m = 0; m < own.rank; ++m) removal.constant[m] = own.deformation(m, constant_->solution);
   return removal;
 }

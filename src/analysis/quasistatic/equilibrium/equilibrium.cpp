@@ -49,10 +49,11 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
       loads_(&problem.loads),
       options_(options),
       factor_(make_factor(options.route, options.threads)),
-      secants_(static_cast<std::size_t>(network_.num_elements()), 1.0) {
+      secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
+      has_kept_(network_.has_kept_shear()) {
   for (const double stiffness : network_.stiffness) stiffness_sum_ += stiffness;
   for (const double stiffness : network_.support_stiffness) stiffness_sum_ += stiffness;
-  if (network_.has_closing()) axial_ = secants_;
+  if (network_.has_closing() || has_kept_) axial_ = secants_;
   for (const Index element : network_.cut_elements) secants_[element] = 0.0;  // closed at first
   damaged_ = network_.cut_elements;
   find_driven_elements();
@@ -296,7 +297,7 @@ std::pair<double, double> Equilibrium::driven_work_of(Index element) const {
       sizes += size * std::abs(modes.prescribed[m]);
     }
   };
-  add(make_removal(network_, *unknowns_, element, secants_[element]));
+  add(removal_from(*unknowns_, element, 0.0));
   if (!axial_.empty() && is_closed(element)) {
     add(make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]));
   }

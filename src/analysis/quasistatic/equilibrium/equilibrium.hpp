@@ -151,7 +151,8 @@ class Equilibrium {
   void polish_constant();
   void scatter_constant();
   void find_driven_slots();
-  Removal removal_of(Index element, double fraction) const;
+  Removal removal_of(Index element, double secant) const;
+  Removal removal_from(const Unknowns& unknowns, Index element, double secant) const;
   Deformations deformations_now(const Removal& removal, Index element) const;
   double release_constant(const Removal& removal, Index element, EventOutcome& outcome) const;
   void commit_both(const Removal& removal);
@@ -206,6 +207,10 @@ class Equilibrium {
   bool open(Index element);
   std::vector<Index> change_sides(const std::vector<Index>& wrong);
   void settle_closing(EventOutcome& outcome);
+  bool follow_sides(const std::vector<Index>& wrong, EventOutcome& outcome);
+  std::vector<double> telling_motion() const;
+  std::vector<double> telling_extensions(std::span<const double> motion) const;
+  double line_minimum(std::span<const double> from, std::span<const double> to) const;
   void take_back(Index element, double secant);
   void open_cut_elements();
 
@@ -235,12 +240,18 @@ class Equilibrium {
   EquilibriumOptions options_;
   std::unique_ptr<Factor> factor_;
 
+  /// Whether its shear and bending stay as they are until it breaks.
+  bool keeps_shear(Index element) const { return has_kept_ && network_.law(element).keeps_shear(); }
+  double secant_of(Index element) const {
+    return keeps_shear(element) ? axial_[element] : secants_[element];
+  }
   void set_secant(Index element, double secant) {
-    secants_[element] = secant;
+    secants_[element] = secant > 0.0 && keeps_shear(element) ? 1.0 : secant;
     if (!axial_.empty()) axial_[element] = secant;
   }
   std::vector<double> secants_;
-  std::vector<double> axial_;  ///< the same against a change of length; empty where nothing closes
+  std::vector<double> axial_;  ///< the same against a change of length; empty where none differs
+  bool has_kept_;              ///< Network::has_kept_shear()
   double direction_ = 0.0;     ///< in which the load factor moves on, while sides are settled
   std::vector<Index> changed_sides_;    ///< in this order, when sides were settled last
   std::vector<Index> damaged_;          ///< elements that close where they are compressed

@@ -1,6 +1,7 @@
 #include "analysis/quasistatic/equilibrium/removal.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Eigenvalues>
 
@@ -34,6 +35,16 @@ Removal removal_of(const ElementVectors& parts, double fraction) {
 Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
                      double fraction) {
   return removal_of(element_vectors(network, unknowns, element, fraction), fraction);
+}
+
+Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
+                     double fraction, double axial) {
+  Removal removal = make_removal(network, unknowns, element, fraction);
+  if (removal.rank == 1) return make_axial_removal(network, unknowns, element, axial);
+  const double root = std::sqrt(axial / fraction);
+  for (double& value : removal.x[0].values) value *= root;
+  removal.prescribed[0] *= root;
+  return removal;
 }
 
 Removal make_axial_removal(const Network& network, const Unknowns& unknowns, Index element,

@@ -36,6 +36,10 @@ struct Removal {
 Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
                      double fraction);
 
+/// The same with a part of its own of the axial mode, positive, as the fraction is.
+Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
+                     double fraction, double axial);
+
 /// The same of the axial mode alone.
 Removal make_axial_removal(const Network& network, const Unknowns& unknowns, Index element,
                            double fraction);

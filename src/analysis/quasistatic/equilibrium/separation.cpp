@@ -115,7 +115,7 @@ auto Equilibrium::motion_of(const SparseVector& x) -> std::pair<FineMotion, doub
 /// \return 0 where it cannot be told from zero
 double Equilibrium::pivot_by_energy(const SparseVector& x, Index element, double kept) {
   const auto [motion, error] = motion_of(x);
-  const double before = secants_[element];
+  const double before = secant_of(element);
   set_secant(element, kept);
   internal_force(network_, secants(), motion.particles, fine_);
   set_secant(element, before);
@@ -142,7 +142,7 @@ bool Equilibrium::hangs_on_weak_supports(double compliance_growth) const {
 /// Equilibrium without the element, or with less of it, from a new factor. \return false when there
 /// is none, since the matrix is not positive definite: then all is as it was
 bool Equilibrium::rebuild_without(Index element, double kept) {
-  const double before = secants_[element];
+  const double before = secant_of(element);
   set_secant(element, kept);
   try {
     factorize();

@@ -124,7 +124,7 @@ void Equilibrium::measure_pivots(Removal& removal, Index element, double kept) {
 /// \param unloaded  energy, twice, up to which a motion counts as unloaded
 /// \return false when the motion carries load: a mechanism
 bool Equilibrium::hold_free_modes(Removal& removal, Index element, double unloaded, int& springs) {
-  const Removal modes = removal_of(element, secants_[element]);
+  const Removal modes = removal_of(element, 0.0);
   const int most = network_.dim() == 2 ? 3 : 6;
   for (int tries = 0; removal.rank > 0 && removal.pivot[0] == 0.0; ++tries) {
     const Deformations deformation = deformations_now(removal, element);
@@ -181,7 +181,7 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
 EventOutcome Equilibrium::weaken(Index element, double secant) {
   const double before = secants_[element];
   if (!network_.has_limit(element)) keep_all_current();
-  Removal removal = removal_of(element, secants_[element] - secant);
+  Removal removal = removal_of(element, secant);
   measure_pivots(removal, element, secant);
   EventOutcome outcome;
   outcome.secant = secant;
@@ -218,12 +218,12 @@ int Equilibrium::cut(Index element) {
   keep_all_current();
   if (!axial_.empty() && is_closed(element)) open(element);
   if (secants_[element] == 0.0) return 0;
-  Removal removal = removal_of(element, secants_[element]);
+  Removal removal = removal_of(element, 0.0);
   measure_pivots(removal, element, 0.0);
   int springs = 0;
   // A force, as far as forces and moments compare: sqrt(k) times sqrt(k) times an extension.
   const double unloaded = std::pow(least_loaded_force * load_norm_, 2) /
-                          (network_.stiffness[element] * secants_[element]);
+                          (network_.stiffness[element] * secant_of(element));
   if (!hold_free_modes(removal, element, unloaded, springs)) {
     throw SolverError("the part that comes loose carries load: the body has separated");
   }

@@ -33,6 +33,9 @@ class BreakSearch {
   /// The stretch at which the element has its next event; infinity: there is none, as when it is
   /// broken. Elements that stay elastic from the start are not in the search: nothing happens.
   virtual void set_limit(Index element, double limit) = 0;
+
+  /// The same of an element with teeth in compression of its own.
+  virtual void set_limits(Index element, double tension, double compression) = 0;
 };
 
 /// The ratio of an element's measure to its limit. One that is not a number compares as nothing and

@@ -28,7 +28,8 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!network.has_limit(e)) continue;
     const double length = network.bonds.lengths[e];
-    const double share = network.ratio_of_bending(e);
+    const Sense sense = network.law(e).sense();
+    const double share = sense == Sense::each ? 0.0 : network.ratio_of_bending(e);
     Bond bond{network.bonds.first[e] * network.width(),
               network.bonds.second[e] * network.width(),
               {},
@@ -37,7 +38,8 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
               share,
               share * length * length / 12.0,
               inverse_of(e, network.critical_stretch[e] * network.law(e).tooth(0).limit),
-              network.law(e).sense() == Sense::both};
+              0.0};
+    if (sense == Sense::both) bond.compressed = bond.inverse;
     for (int a = 0; a < dim_; ++a) bond.n[a] = network.bonds.direction(e)[a];
     elements_.push_back(e);
     bonds_.push_back(bond);
@@ -83,9 +85,9 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const 
              bond.rotation_share * (bend_square + torsion_ * twist * twist);
   }
   square += extension * extension;
-  const bool stretched =
-      bond.both || (extension > 0.0 && extension * extension > least_tension * square);
-  return square * (stretched ? bond.inverse : 0.0);  // not a number where the square is none
+  const bool stretched = extension > 0.0 && extension * extension > least_tension * square;
+  // Not a number where the square is none.
+  return square * (stretched ? bond.inverse : bond.compressed);
 }
 
 template <int Dim>
@@ -127,7 +129,16 @@ std::vector<FrameLimitSearch::Hit> FrameLimitSearch::list(std::span<const double
 void FrameLimitSearch::set_limit(Index element, double limit) {
   const auto found = std::lower_bound(elements_.begin(), elements_.end(), element);
   if (found == elements_.end() || *found != element) return;
-  bonds_[found - elements_.begin()].inverse = inverse_of(element, limit);
+  Bond& bond = bonds_[found - elements_.begin()];
+  bond.inverse = inverse_of(element, limit);
+  const bool none = std::isinf(limit);
+  if (none || network_.law(element).sense() == Sense::both) bond.compressed = bond.inverse;
+}
+
+void FrameLimitSearch::set_limits(Index element, double tension, double compression) {
+  set_limit(element, tension);
+  const auto found = std::lower_bound(elements_.begin(), elements_.end(), element);
+  bonds_[found - elements_.begin()].compressed = inverse_of(element, compression);
 }
 
 }  // namespace perilink

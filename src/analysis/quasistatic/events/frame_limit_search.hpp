@@ -18,7 +18,8 @@ namespace perilink {
 /// needs the axial stiffness only; calibrated bonds, measured with the ratio of before the
 /// calibration, hold it in the mean (docs/theory/micropolar.md, section 5). s_eq grows in
 /// proportion to the load factor, which is therefore 1 / ratio as for trusses. Bonds without
-/// bending stiffness (ties, bars) have s alone.
+/// bending stiffness (ties, bars) have s alone, and so do bonds with teeth in compression of their
+/// own, which sleep at first: set_limits() wakes them.
 class FrameLimitSearch final : public BreakSearch {
  public:
   explicit FrameLimitSearch(const Network& network);
@@ -26,6 +27,7 @@ class FrameLimitSearch final : public BreakSearch {
   Hit find(std::span<const double> displacement, double tolerance, int threads) override;
   std::vector<Hit> list(std::span<const double> displacement, double least) const override;
   void set_limit(Index element, double limit) override;
+  void set_limits(Index element, double tension, double compression) override;
 
  private:
   struct Bond {
@@ -35,7 +37,7 @@ class FrameLimitSearch final : public BreakSearch {
     double bending_share;          ///< Network::ratio_of_bending()
     double rotation_share;         ///< kb xi^2 / (12 k)
     double inverse;                ///< 1 / (xi s)^2 of the limit s; zero without
-    bool both;                     ///< Sense::both
+    double compressed;             ///< the same of the limit in compression
   };
   template <int Dim>
   double squared_ratio(const Bond& bond, const double* u) const;

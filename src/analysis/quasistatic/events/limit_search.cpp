@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "analysis/quasistatic/events/block_search.hpp"
 
@@ -11,9 +12,13 @@ namespace {
 /// Fewer blocks than this are searched faster by one thread.
 constexpr Index smallest_parallel_search = 400;
 
+constexpr const char* no_crushing =
+    "elements that only stretch have no teeth in compression of their own";
+
 }  // namespace
 
 LimitSearch::LimitSearch(const Network& network) : network_(network), dim_(network.dim()) {
+  if (network.has_crushing()) throw std::invalid_argument(no_crushing);
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!network.has_limit(e)) continue;
     add(e, network.law(e).sense() == Sense::both ? strained_ : pulled_);
@@ -128,6 +133,10 @@ void LimitSearch::set_limit(Index element, double limit) {
   Group& group = network_.law(element).sense() == Sense::both ? strained_ : pulled_;
   const auto found = std::lower_bound(group.elements.begin(), group.elements.end(), element);
   set_gradient(group, static_cast<std::size_t>(found - group.elements.begin()), limit);
+}
+
+void LimitSearch::set_limits(Index /*element*/, double /*tension*/, double /*compression*/) {
+  throw std::logic_error(no_crushing);
 }
 
 }  // namespace perilink

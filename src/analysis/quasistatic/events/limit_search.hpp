@@ -14,11 +14,13 @@ namespace perilink {
 /// factor 1 / ratio. One pass costs about one nanosecond per element.
 class LimitSearch final : public BreakSearch {
  public:
+  /// \throws std::invalid_argument where elements have teeth in compression of their own
   explicit LimitSearch(const Network& network);
 
   Hit find(std::span<const double> displacement, double tolerance, int threads) override;
   std::vector<Hit> list(std::span<const double> displacement, double least) const override;
   void set_limit(Index element, double limit) override;
+  void set_limits(Index element, double tension, double compression) override;
 
  private:
   /// Elements whose events come in tension, or those that have them in compression as well.

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "analysis/quasistatic/events/break_search.hpp"
+#include "analysis/quasistatic/events/crushing_bonds.hpp"
 #include "analysis/quasistatic/events/event_engine.hpp"
 
 namespace perilink {
@@ -33,12 +35,16 @@ class SingleEventEngine : public EventEngine {
   /// The stretch at which the element has its next event; infinity: it is broken.
   double limit_of(Index element) const;
 
+  /// Tells the search the next limits of an element after its event.
+  void set_limits(Index element);
+
   const Network& network_;
   int threads_;
   Equilibrium equilibrium_;
   std::unique_ptr<BreakSearch> search_;
-  bool closes_;             ///< Network::has_closing()
-  std::vector<int> teeth_;  ///< present tooth of each element
+  bool closes_;                            ///< Network::has_closing()
+  std::optional<CrushingBonds> crushing_;  ///< where there are some
+  std::vector<int> teeth_;                 ///< present tooth of each element
 };
 
 }  // namespace perilink

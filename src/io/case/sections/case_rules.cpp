@@ -88,6 +88,36 @@ void check_stretches(const CaseFile& input) {
                    "give softening_stretches to every material that can break, or to none");
 }
 
+/// The law of concrete has two branches, which damage analyses of micropolar bodies know.
+void check_concrete(const CaseFile& input) {
+  for (std::size_t m = 0; m < input.materials.size(); ++m) {
+    if (input.materials[m].softening.shape.kind != Softening::concrete) continue;
+    const SourceLocation where = input.where(item_key("materials", m, "softening"));
+    if (input.body.model != BodyModel::micropolar) {
+      throw InputError(where, "is \"concrete\", a law of micropolar bonds",
+                       "set model = \"micropolar\" in [body], or take another softening");
+    }
+    const AnalysisType type = input.analysis.type;
+    if (type != AnalysisType::damage && type != AnalysisType::elastic) {
+      throw InputError(where, "is \"concrete\", which bonds that move in time do not have",
+                       "set type = \"damage\" in [analysis], or take another softening");
+    }
+    if (!input.stages.empty()) {
+      throw InputError(where, "is \"concrete\", a law for loads that grow together: not in stages",
+                       "delete the [[stages]], or take another softening");
+    }
+    for (const MaterialSection& other : input.materials) {
+      if (other.softening.shape.kind == Softening::concrete) continue;
+      if (std::isinf(other.fracture_energy)) continue;
+      throw InputError(where,
+                       fmt::format("is \"concrete\", but {} breaks by another law: bonds between "
+                                   "the two have none",
+                                   quoted(other.name)),
+                       "give all materials that can break this softening, or none");
+    }
+  }
+}
+
 /// Regions that need not be declared are for what holds and loads the body, not for materials.
 enum class Reserved { allowed, refused };
 
@@ -264,6 +294,7 @@ void check_rules(const CaseFile& input) {
   check_groups(input);
   check_materials(input, names);
   check_stiffness_ratio(input);
+  check_concrete(input);
   check_stretches(input);
   check_references(input, names, "supports", input.supports);
   check_references(input, names, "displacements", input.displacements);

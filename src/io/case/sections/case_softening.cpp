@@ -15,9 +15,14 @@ namespace {
 
 constexpr double least_error = 1e-5;
 constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
-constexpr std::array keys = {"softening",           "closing",         "tensile_strength",
-                             "softening_stretches", "softening_error", "knee_stress_ratio",
-                             "knee_opening_ratio"};
+constexpr std::array concrete_keys = {"tension_limit", "tension_factor", "compression_limit",
+                                      "compression_factor", "shear_softening"};
+constexpr std::array other_keys = {"tensile_strength", "softening_stretches", "fracture_energy",
+                                   "knee_stress_ratio", "knee_opening_ratio"};
+constexpr std::array keys = {
+    "softening",       "closing",           "tensile_strength",   "softening_stretches",
+    "softening_error", "knee_stress_ratio", "knee_opening_ratio", "tension_limit",
+    "tension_factor",  "compression_limit", "compression_factor", "shear_softening"};
 
 /// The first of the keys that is there; none: null.
 template <std::size_t count>
@@ -58,6 +63,35 @@ void refuse_beside_brittle(const CaseTable& table) {
   }
 }
 
+/// Where a force ceases to grow, and a larger stretch where it falls to zero.
+std::array<double, 2> read_plateau(const CaseTable& table, const std::string& sense) {
+  const std::string factor_key = sense + "_factor";
+  const double limit = table.need(sense + "_limit", table.positive(sense + "_limit"),
+                                  "the stretch at which the force of a bond ceases to grow");
+  const double factor = table.need(factor_key, table.positive(factor_key),
+                                   "the stretch at which it falls to zero over that limit");
+  if (!(factor > 1.0)) {
+    table.refuse(factor_key, "must be more than one: the force is constant up to there",
+                 "2 in tension and 3 in compression are those of the paper");
+  }
+  return {limit, factor * limit};
+}
+
+void read_concrete(const CaseTable& table, SofteningMaterial& material) {
+  if (const char* key = find_given(table, other_keys)) {
+    table.refuse(key, "is given, but softening = \"concrete\" has limits that settle the law",
+                 "delete it; `check` prints the strengths and the fracture energy");
+  }
+  if (material.closes) {
+    table.refuse("closing", "is true, but bonds with softening = \"concrete\" do not close",
+                 "delete it");
+  }
+  material.stretches = read_plateau(table, "tension");
+  material.crushing = read_plateau(table, "compression");
+  assign(material.shear_softens, table.boolean("shear_softening"));
+  assign(material.error, table.fraction("softening_error"));
+}
+
 }  // namespace
 
 SofteningMaterial read_softening(const CaseTable& table) {
@@ -66,10 +100,18 @@ SofteningMaterial read_softening(const CaseTable& table) {
   const auto kind = table.choice<Softening>("softening");
   const bool named = kind || table.has("tensile_strength") || table.has("softening_stretches");
   material.shape.kind = kind.value_or(named ? Softening::bilinear : Softening::brittle);
-  material.closes = closes.value_or(material.shape.kind != Softening::brittle);
+  const bool concrete = material.shape.kind == Softening::concrete;
+  material.closes = closes.value_or(material.shape.kind != Softening::brittle && !concrete);
   if (material.shape.kind == Softening::brittle) {
     refuse_beside_brittle(table);
     return material;
+  }
+  if (concrete) {
+    read_concrete(table, material);
+    return material;
+  }
+  if (const char* key = find_given(table, concrete_keys)) {
+    table.refuse(key, "is given, but only softening = \"concrete\" has it", "delete it");
   }
   table.need_one_of({"tensile_strength", "softening_stretches"});
   assign(material.tensile_strength, table.positive("tensile_strength"));
@@ -97,7 +139,13 @@ void write_softening(TomlWriter& out, const SofteningMaterial& material) {
   }
   if (material.shape.kind == Softening::brittle) return;
   out.write("softening", word_of(material.shape.kind));
-  if (has_stretches(material)) {
+  if (material.shape.kind == Softening::concrete) {
+    out.write("tension_limit", material.stretches[0]);
+    out.write("tension_factor", material.stretches[1] / material.stretches[0]);
+    out.write("compression_limit", material.crushing[0]);
+    out.write("compression_factor", material.crushing[1] / material.crushing[0]);
+    out.write("shear_softening", material.shear_softens);
+  } else if (has_stretches(material)) {
     out.write("softening_stretches",
               std::vector<double>(material.stretches.begin(), material.stretches.end()));
   } else {

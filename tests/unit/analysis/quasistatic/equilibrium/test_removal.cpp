@@ -22,6 +22,23 @@ Eigen::MatrixXd dense_columns(const Removal& removal, Index size) {
   return columns;
 }
 
+/// A bond that lost a part of its axial stiffness before takes the rest of it and all else along.
+TEST(Removal, HasAPartOfItsOwnOfTheAxialMode) {
+  const AnalysisBody body = make_block({rectangular, true, false, 5, 0.1, true});
+  for (Index e = 0; e < body.network.num_elements(); e += 7) {
+    const auto lost = [&](const Removal& removal) -> Eigen::MatrixXd {
+      const Eigen::MatrixXd columns = dense_columns(removal, body.unknowns.count);
+      return columns * columns.transpose();
+    };
+    const Eigen::MatrixXd expected = lost(make_removal(body.network, body.unknowns, e, 0.5)) -
+                                     lost(make_axial_removal(body.network, body.unknowns, e, 0.3));
+    const Removal removal = make_removal(body.network, body.unknowns, e, 0.5, 0.2);
+    EXPECT_LT((lost(removal) - expected).cwiseAbs().maxCoeff(), 1e-13 * body.network.stiffness[e]);
+    const Removal axial = make_axial_removal(body.network, body.unknowns, e, 0.2);
+    EXPECT_NEAR(removal.prescribed[0], axial.prescribed[0], 1e-13);
+  }
+}
+
 class MicropolarRemoval : public testing::TestWithParam<BlockCase> {};
 
 /// Every bond of a body of which some ends are held and driven.

@@ -102,6 +102,24 @@ TEST(FrameLimitSearch, BondsBreakInTensionOnly) {
   EXPECT_NEAR(hit.ratio, 1e3 * std::sqrt(1e-6 + 1.5 * 0.04 + 1.5 * 0.04 / 12.0), 1e-10);
 }
 
+/// By their axial stretch alone, whatever their shear; in compression once they are awake.
+TEST(FrameLimitSearch, BondsThatCrushHaveALimitInEachSense) {
+  Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
+  network.laws = {BondLaw::brittle().crushing({{1.0, 1.0}}, 7.0, true)};
+  const std::vector<double> pulled = {0, 0, 0.1, 1e-3, 0.2, -0.1};
+  const std::vector<double> pushed = {0, 0, 0.1, -1e-3, 0.2, -0.1};
+  FrameLimitSearch search(network);
+  EXPECT_NEAR(search.find(pulled, 0.0, 1).ratio, 1.0, 1e-12);
+  EXPECT_EQ(search.find(pushed, 0.0, 1).element, no_index) << "asleep";
+  search.set_limits(0, 2e-3, 5e-4);
+  EXPECT_NEAR(search.find(pulled, 0.0, 1).ratio, 0.5, 1e-12);
+  EXPECT_NEAR(search.find(pushed, 0.0, 1).ratio, 2.0, 1e-12);
+  search.set_limits(0, INFINITY, 5e-4);
+  EXPECT_EQ(search.find(pulled, 0.0, 1).element, no_index);
+  search.set_limit(0, INFINITY);
+  EXPECT_EQ(search.find(pushed, 0.0, 1).element, no_index) << "broken";
+}
+
 /// What a calibration left of a bond's stiffness does not decide how shear and bending count.
 TEST(FrameLimitSearch, BendingOfCalibratedBondsCountsByItsOwnRatio) {
   Network network = single_frame(2, {1.0, 0.0}, 0.02 * 2.0, 1.7 * 3.0);

@@ -142,6 +142,14 @@ TEST(LimitSearch, TiesWithinTheToleranceGoToTheLowestNumber) {
   EXPECT_EQ(LimitSearch(network).find(u, tie_tolerance, 1).element, row[4]);
 }
 
+TEST(LimitSearch, KnowsNoTeethInCompression) {
+  Network network = make_network(plane, 3);
+  LimitSearch search(network);
+  EXPECT_THROW(search.set_limits(0, 1.0, 1.0), std::logic_error);
+  network.laws = {BondLaw::brittle().crushing({{1.0, 1.0}}, 7.0, false)};
+  EXPECT_THROW(LimitSearch{network}, std::invalid_argument);
+}
+
 TEST(LimitSearch, LeavesOutWhatCannotBreak) {
   AnalysisBody body = make_chains(3, 2, false, 1.0, 0.01);
   Network& network = body.network;

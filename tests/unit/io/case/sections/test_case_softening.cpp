@@ -74,6 +74,28 @@ TEST(CaseSoftening, ReadsKnees) {
   EXPECT_EQ(material.shape.knee_stretch, 0.15);
 }
 
+TEST(CaseSoftening, ReadsTheLimitsOfConcrete) {
+  const std::string text =
+      "poissons_ratio = 0.2\nsoftening = \"concrete\"\ntension_limit = 1e-4\ntension_factor = 2\n"
+      "compression_limit = 1e-3\ncompression_factor = 3";
+  for (const bool shear : {false, true}) {
+    const std::string lines = text + (shear ? "\nshear_softening = true" : "");
+    const std::string micropolar = replaced(small_case, "[body]", "[body]\nmodel = \"micropolar\"");
+    const CaseFile input = parse_case(replaced(micropolar, energy, lines), "");
+    const CaseFile again = parse_case(write_case(input), "");
+    for (const CaseFile& each : {input, again}) {
+      const SofteningMaterial& material = each.materials.front().softening;
+      EXPECT_EQ(material.shape.kind, Softening::concrete);
+      EXPECT_DOUBLE_EQ(material.stretches[0], 1e-4);
+      EXPECT_DOUBLE_EQ(material.stretches[1], 2e-4);
+      EXPECT_DOUBLE_EQ(material.crushing[0], 1e-3);
+      EXPECT_DOUBLE_EQ(material.crushing[1], 3e-3);
+      EXPECT_EQ(material.shear_softens, shear);
+      EXPECT_FALSE(material.closes);
+    }
+  }
+}
+
 TEST(CaseSoftening, ReadsStretchesInPlaceOfTheEnergy) {
   const SofteningMaterial material =
       material_of("softening = \"linear\"\nsoftening_stretches = [1e-4, 2e-3]", false);
