@@ -77,7 +77,7 @@ struct MaterialSection {
   /// confirmed.
   std::optional<double> poissons_ratio;
   double fracture_energy = 0.0;   ///< infinity: unbreakable ("infinite" in the file)
-  SofteningMaterial softening;    ///< of bonds
+  SofteningMaterial softening;    ///< how bonds soften
   std::optional<double> density;  ///< needed by what moves and by states [mass/length^3]
   std::optional<LatticeMaterialSection> lattice;  ///< state-based particles only
 };

@@ -28,8 +28,8 @@ void check_bands(const Particles& particles, std::span<const StateMaterial> mate
                  double thickness);
 
 /// State-based particles with neighbours anywhere (SPPM, Nikravesh 2017, chapter 3; elastic
-/// constants: network/states/particle_network.hpp) in small strains, with the two-spring damage of the
-/// consistent rules of lattices: forces derive from
+/// constants: network/states/particle_network.hpp) in small strains, with the two-spring damage of
+/// the consistent rules of lattices: forces derive from
 ///   sum_bonds d k e^2 / 2 + sum_i c_i (sum_(j neighbour of i) d_ij e_ij)^2 / 2,
 /// e the extensions and d the factors of damage of the two ends.
 ///

@@ -182,7 +182,7 @@ double Equilibrium::line_minimum(std::span<const double> from, std::span<const d
   std::vector<double> difference(to.begin(), to.end());
   for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= from[k];
   double slope = 2.0 * internal_force(network_, secants(), difference).energy;
-  double value = -slope;  // of the derivative at t = 0
+  double value = -slope;  // derivative at t = 0
   const std::vector<double> begin = telling_extensions(from), end = telling_extensions(to);
   std::vector<std::pair<double, double>> bends;  // where, and what the slope grows by
   for (std::size_t k = 0; k < damaged_.size(); ++k) {

@@ -97,7 +97,7 @@ class Equilibrium {
 
   /// At the present load factor all damaged bonds whose extension is zero take the side to which
   /// the load moves them.
-  /// \param direction  of the load factor, 1 or -1
+  /// \param direction  1 where the load factor grows, -1 where it falls
   EventOutcome pass_side_change(double direction);
 
   /// Removes an element whatever it holds: a part that comes loose without load is held by ground
