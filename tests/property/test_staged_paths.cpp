@@ -130,7 +130,7 @@ TEST_P(StagedPath, UnloadsAndComesBackToTheSameEvent) {
   const double constant = 0.5 * first_event(0);
   StopRules some;
   some.broken_bonds = !GetParam().toothed ? 12 : GetParam().closing ? 1 : 2;
-  go(in_stages({{0, constant, {}}, {1, {}, some}, {1, 0.0, {}}, {1, {}, {}}}), 250);
+  go(in_stages({{0, constant, {}}, {1, {}, some}, {1, 0.0, {}}, {1, {}, {}}}), 1500);
   expect_balance();
   StepRecord stopped, again;
   for (const Look& look : looks_) {
@@ -151,7 +151,7 @@ TEST_P(StagedPath, TurnsRoundAndComesBackToTheSameEvent) {
   StopRules some;
   some.broken_bonds = !GetParam().toothed ? 12 : GetParam().closing ? 1 : 2;
   go(in_stages({{0, constant, {}}, {1, {}, some}, {1, -0.2 * first_event(1), {}}, {1, {}, {}}}),
-     500);
+     1500);
   expect_balance();
   StepRecord stopped, turned, again;
   Index changes = 0;

@@ -54,7 +54,7 @@ double section_of(const Make& make) { return in_space(make) ? 20.0 * 20.0 : 50.0
 std::string strip(const Make& make) {
   const bool space = in_space(make);
   const double length = space ? 60.0 : 100.0, width = space ? 20.0 : 50.0;
-  const double z = space ? width : 0.0, half = make.horizon_ratio * make.spacing;
+  const double z = space ? width : 0.0, half = (make.horizon_ratio + 1.0) * make.spacing;
   return body(make) + region("strip", 0, length, 0, width, z) +
          region("left part", 0, 0.5 * length - half, 0, width, z) +
          region("right part", 0.5 * length + half, length, 0, width, z) +

@@ -17,7 +17,7 @@ struct Make {
 };
 
 /// A strip 100 mm long and 50 mm wide (in space a bar 60 mm long and 20 mm square), driven apart
-/// along x, whose middle of two horizons may soften, as the text of a case.
+/// along x, whose middle of two horizons and two spacings may soften, as the text of a case.
 std::string strip(const Make& make);
 
 /// Area that a crack across strip() has [mm^2].

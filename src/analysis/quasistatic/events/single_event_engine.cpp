@@ -1,5 +1,6 @@
 #include "analysis/quasistatic/events/single_event_engine.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace perilink {
@@ -17,8 +18,25 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem, const EngineO
 Event SingleEventEngine::next_event() {
   const BreakSearch::Hit hit =
       search_->find(equilibrium_.where_elements_fail(), tie_tolerance, threads_);
-  if (hit.element == no_index) return {};
+  if (hit.element == no_index || is_noise(hit.element)) return {};
   return {hit.element, 1.0 / hit.ratio};
+}
+
+/// Whether the extension of the element that comes next is nothing but round-off of the motion of
+/// its ends: then no element is in tension at all, and the load factor would mean nothing.
+bool SingleEventEngine::is_noise(Index element) const {
+  constexpr double round_off = 1e-12;
+  const std::span<const double> u = equilibrium_.where_elements_fail();
+  const std::span<const double> n = network_.bonds.direction(element);
+  const std::size_t i = static_cast<std::size_t>(network_.bonds.first[element]) * network_.width();
+  const std::size_t j = static_cast<std::size_t>(network_.bonds.second[element]) * network_.width();
+  if (network_.carries_moments()) return false;  // the search compares with shear and bending
+  double extension = 0.0, size = 0.0;
+  for (int a = 0; a < network_.dim(); ++a) {
+    extension += n[a] * (u[j + a] - u[i + a]);
+    size += std::abs(n[a]) * (std::abs(u[j + a]) + std::abs(u[i + a]));
+  }
+  return std::abs(extension) <= round_off * size;
 }
 
 EventOutcome SingleEventEngine::apply(const Event& event) {

@@ -38,6 +38,8 @@ class SingleEventEngine : public EventEngine {
   /// Tells the search the next limits of an element after its event.
   void set_limits(Index element);
 
+  bool is_noise(Index element) const;
+
   const Network& network_;
   int threads_;
   Equilibrium equilibrium_;

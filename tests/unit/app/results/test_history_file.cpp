@@ -164,6 +164,7 @@ TEST_F(HistoryFileTest, StagesHaveColumns) {
   StepRecord record = make_record();
   record.stage = 2;
   record.avalanche = 1;
+  record.side_change = 1;
   {
     CaseFile input;
     input.stages.resize(2);
@@ -171,12 +172,13 @@ TEST_F(HistoryFileTest, StagesHaveColumns) {
     file.append(record);
   }
   const CsvTable table = read_csv(directory_ + "/history.csv");
-  ASSERT_EQ(table.columns.size(), 15u);
+  ASSERT_EQ(table.columns.size(), 16u);
   EXPECT_EQ(table.columns[13], "stage");
   EXPECT_EQ(table.columns[14], "avalanche");
   const StepRecord back = read_history(directory_ + "/history.csv").at(0);
   EXPECT_EQ(back.stage, 2);
   EXPECT_EQ(back.avalanche, 1);
+  EXPECT_EQ(back.side_change, 1);
 }
 
 }  // namespace
