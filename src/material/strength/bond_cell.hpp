@@ -39,8 +39,8 @@ std::vector<CellBond> isotropic_cell(Problem problem, double lame_ratio);
 /// Young's modulus of the cell in a direction, stresses across it zero [force/length^2].
 double cell_modulus(std::span<const CellBond> cell, int dim, const Vector3& pull);
 
-/// Largest stress of the cell pulled in one direction, stresses across it zero, over the product
-/// of cell_modulus() and the critical stretch [-]. The strain is uniform, particles do not rotate,
+/// Largest stress of the cell pulled in one direction, stresses across it zero, over cell_modulus()
+/// times the critical stretch [-]. The strain is uniform, particles do not rotate,
 /// and bonds pass the teeth of the law one after another as in a damage analysis.
 /// \param law  with teeth in tension alone
 double cell_strength(std::span<const CellBond> cell, int dim, const Vector3& pull,
