@@ -9,8 +9,8 @@
 
 namespace perilink {
 
-/// Search for load factors at which elements pass their limits, where the displacements are u + d v:
-/// the present ones, and d times those by loads that grow. The stretch over its limit of a truss is
+/// Search for load factors at which elements pass their limits. The displacements are u + d v, the
+/// present ones and d times those by loads that grow. The stretch over its limit of a truss is
 /// linear in d, the square of the equivalent one of a micropolar bond (FrameLimitSearch) quadratic.
 /// An element fails in one or two open intervals of d.
 class CrossingSearch {
