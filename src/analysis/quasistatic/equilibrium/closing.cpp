@@ -102,20 +102,13 @@ bool Equilibrium::open(Index element) {
 
 /// What closes holds the body while others open. \return the bonds that have changed their side;
 /// none where all that ought to hold the body
-std::vector<Index> Equilibrium::change_sides(const std::vector<Index>& wrong) {
-  std::vector<Index> changed;
-  for (const Index element : wrong) {
-    if (is_closed(element)) continue;
-    close(element);
-    changed.push_back(element);
-  }
-  const std::size_t closed = changed.size();
-  for (const Index element : wrong) {
-    const bool is_new =
-        std::find(changed.begin(), changed.begin() + closed, element) != changed.begin() + closed;
-    if (!is_new && open(element)) changed.push_back(element);
-  }
-  return changed;
+std::vector<Index> Equilibrium::change_sides(std::vector<Index> wrong) {
+  const auto opening = std::stable_partition(wrong.begin(), wrong.end(),
+                                             [&](Index element) { return !is_closed(element); });
+  for (auto element = wrong.begin(); element != opening; ++element) close(*element);
+  wrong.erase(std::remove_if(opening, wrong.end(), [&](Index element) { return !open(element); }),
+              wrong.end());
+  return wrong;
 }
 
 /// f'u - R'd grows by u_1' (K_1 - K_2) u_2 from one equilibrium to the other.
@@ -130,16 +123,16 @@ void Equilibrium::add_growth(Index element, const Extension& before, EventOutcom
 
 /// Changes the sides of bonds. \return false where all that ought to hold the body
 bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& outcome) {
-  std::vector<Extension> before;
-  for (const Index element : wrong) before.push_back(extension_of(element));
+  std::vector<std::pair<Extension, bool>> before;  // with whether it was closed
+  for (const Index element : wrong) before.emplace_back(extension_of(element), is_closed(element));
   const std::vector<Index> changed = change_sides(wrong);
   if (changed.empty()) return false;
   changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
   refresh();
   events_to_follow_ = 0;
   for (std::size_t k = 0; k < wrong.size(); ++k) {
-    const bool same = std::find(changed.begin(), changed.end(), wrong[k]) == changed.end();
-    if (!same) add_growth(wrong[k], before[k], outcome);
+    const auto& [extension, was_closed] = before[k];
+    if (is_closed(wrong[k]) != was_closed) add_growth(wrong[k], extension, outcome);
   }
   return true;
 }

@@ -205,7 +205,7 @@ class Equilibrium {
   std::vector<Index> on_wrong_side() const;
   void close(Index element);
   bool open(Index element);
-  std::vector<Index> change_sides(const std::vector<Index>& wrong);
+  std::vector<Index> change_sides(std::vector<Index> wrong);
   void settle_closing(EventOutcome& outcome);
   bool follow_sides(const std::vector<Index>& wrong, EventOutcome& outcome);
   std::vector<double> telling_motion() const;
