@@ -7,6 +7,7 @@
 
 #include "cracks.hpp"
 #include "io/case/case_file.hpp"
+#include "problems/handbook.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "io/case/case_words.hpp"
 #include "problems/block.hpp"
+#include "problems/handbook.hpp"
 
 namespace perilink::verification {
 namespace {
@@ -131,15 +132,6 @@ Specimen make_cracked_beam(double h, int horizon_ratio, Surface surface) {
 }  // namespace
 
 std::string surface_word(Surface surface) { return std::string(word_of(surface)); }
-
-double three_point_peak_load(double youngs_modulus, double fracture_energy, double height,
-                             double thickness, double crack) {
-  const double a = crack / height, span = 4.0 * height;
-  const double f = 3.0 * std::sqrt(a) * (1.99 - a * (1.0 - a) * (2.15 - 3.93 * a + 2.7 * a * a)) /
-                   (2.0 * (1.0 + 2.0 * a) * std::pow(1.0 - a, 1.5));
-  return std::sqrt(youngs_modulus * fracture_energy) * thickness * std::pow(height, 1.5) /
-         (span * f);
-}
 
 Specimen make_specimen(Shape shape, double spacing, Surface surface, int horizon_ratio) {
   Specimen specimen = shape == Shape::block ? make_block_in_tension(spacing, horizon_ratio, surface)

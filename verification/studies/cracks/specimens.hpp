@@ -40,12 +40,6 @@ struct Specimen {
 /// \param spacing  [in] of the block, [mm] of the beams; has to divide their measures
 Specimen make_specimen(Shape shape, double spacing, Surface surface, int horizon_ratio = 3);
 
-/// Load at which a crack of length `a` begins to grow in a beam of height W whose supports are 4 W
-/// apart: K = P S / (B W^(3/2)) f(a/W) = sqrt(E G_F) with Srawley's f (1976), good to 0.5 % for
-/// every a/W.
-double three_point_peak_load(double youngs_modulus, double fracture_energy, double height,
-                             double thickness, double crack);
-
 /// "calibrated", the word of the case file.
 std::string surface_word(Surface surface);
 

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+/// \file
+/// Particles of a rectangle: on a lattice of the case file, on a turned lattice, or a cloud.
+
+namespace perilink::verification {
+
+/// How the particles of a specimen lie.
+struct Arrangement {
+  enum class Kind {
+    lattice,  ///< of the case file, along the axes
+    turned,   ///< a mesh whose vertices are those of a turned lattice
+    cloud,    ///< a mesh of gmsh
+  };
+  Kind kind = Kind::lattice;
+  bool hexagonal = false;
+  double degrees = 0.0;  ///< by which a lattice is turned; no meaning for a cloud
+};
+
+/// "hexagonal turned 15", for tables.
+std::string name_of(const Arrangement& arrangement);
+
+/// Distance of the rows of a lattice over the spacing.
+double row_of(const Arrangement& arrangement);
+
+/// Keys of [body] for the rectangle [0, width] x [0, height] with the horizon of three spacings. A
+/// mesh is written into temporary_folder() and is read by build_model().
+std::string body_keys(const Arrangement& arrangement, double spacing, double width, double height);
+
+/// Folder of this process, which the program removes at its end.
+std::string temporary_folder();
+
+}  // namespace perilink::verification

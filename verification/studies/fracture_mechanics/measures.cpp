@@ -1,0 +1,79 @@
+#include "measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/model/from_case/configure.hpp"
+#include "base/error.hpp"
+#include "studies/toughness/bodies.hpp"
+
+namespace perilink::verification {
+namespace {
+
+class Recorder final : public StepObserver {
+ public:
+  void on_step(const StepRecord&, StateSource&) override { ++events; }
+  void on_end(const StepRecord&, StateSource& source) override {
+    const StepState state = source.state();
+    const Network& network = state.network;
+    const auto& cut = network.cut_elements;
+    for (Index b = 0; b < network.bonds.size(); ++b) {
+      if (state.secants[b] > 0.0 || std::binary_search(cut.begin(), cut.end(), b)) continue;
+      const auto x = network.particles.position(network.bonds.first[b]);
+      const auto y = network.particles.position(network.bonds.second[b]);
+      broken.push_back({0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1])});
+    }
+  }
+  int events = 0;
+  std::vector<Place> broken;
+};
+
+}  // namespace
+
+Crack run_specimen(const Specimen& specimen) {
+  const CaseFile input = parse_case(specimen.text, "specimen.toml");
+  const Model model = build_model(input);
+  Recorder recorder;
+  const DamageResult result = run_damage_analysis(model, damage_options(input, 1), recorder);
+  if (result.ending == Ending::failed) throw SolverError(result.reason);
+  return {std::abs(result.peak_load),
+          std::abs(result.smoothed_peak_load.value_or(0.0)),
+          result.energy_error,
+          static_cast<int>(model.unknowns.count),
+          recorder.events,
+          model.horizon,
+          std::move(recorder.broken)};
+}
+
+Direction direction_of(const Crack& crack, const Place& tip) {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const Place& place : crack.broken) {
+    const double dx = place[0] - tip[0], dy = place[1] - tip[1], r = std::hypot(dx, dy);
+    if (r < crack.horizon || r > 4.0 * crack.horizon) continue;
+    n += 1.0;
+    x += dx;
+    y += dy;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  }
+  if (n < 3.0) return {std::nan(""), std::nan("")};
+  xx = xx / n - x * x / (n * n);
+  xy = xy / n - x * y / (n * n);
+  yy = yy / n - y * y / (n * n);
+  double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  if (std::cos(angle) * x + std::sin(angle) * y < 0.0) angle += std::numbers::pi;
+  const double across = 0.5 * (xx + yy - std::hypot(xx - yy, 2.0 * xy));
+  return {std::remainder(angle, 2.0 * std::numbers::pi) * 180.0 / std::numbers::pi,
+          std::sqrt(std::max(across, 0.0)) / crack.horizon};
+}
+
+StripEnergy energy_of_strip(const Make& make) {
+  const auto [first, second, third] = tips_of_strip(make);
+  const PathEnergy energy =
+      measure_case([&](double tip) { return clamped_strip(make, tip); }, first, second, third);
+  return {energy.dissipated / fracture_energy, energy.events};
+}
+
+}  // namespace perilink::verification
