@@ -18,8 +18,8 @@ namespace {
 using Point = std::array<double, 2>;
 using Cell = std::array<int, 3>;
 
-/// A little above three: neighbours at three spacings count on every lattice.
-constexpr double horizon_ratio = 3.015;
+/// Neighbours right on the horizon count on every lattice.
+constexpr double beyond = 1.005;
 
 /// Vertices this near to a side of the rectangle move onto it, in spacings: less than half of the
 /// largest distance of two neighbours across it, or both would land on one point.
@@ -119,15 +119,16 @@ class TurnedLattice {
   std::vector<Cell> cells_;
 };
 
-std::string write_geometry(double width, double height) {
+std::string write_geometry(int algorithm, double width, double height) {
   const std::string name = temporary("geo");
   std::ofstream(name) << fmt::format(
-      "DefineConstant[ h = 1 ];\nPoint(1) = {{0, 0, 0, h}};\nPoint(2) = {{{0}, 0, 0, h}};\n"
+      "Mesh.Algorithm = 5;\nDefineConstant[ h = 1 ];\nPoint(1) = {{0, 0, 0, h}};\nPoint(2) = "
+      "{{{0}, 0, 0, h}};\n"
       "Point(3) = {{{0}, {1}, 0, h}};\nPoint(4) = {{0, {1}, 0, h}};\nLine(1) = {{1, 2}};\n"
       "Line(2) = {{2, 3}};\nLine(3) = {{3, 4}};\nLine(4) = {{4, 1}};\n"
       "Curve Loop(1) = {{1, 2, 3, 4}};\nPlane Surface(1) = {{1}};\n"
       "Physical Surface(\"plate\") = {{1}};\n",
-      width, height);
+      width, height, algorithm);
   return name;
 }
 
@@ -139,7 +140,8 @@ std::string temporary_folder() {
 }
 
 std::string name_of(const Arrangement& arrangement) {
-  if (arrangement.kind == Arrangement::Kind::cloud) return "cloud";
+  if (arrangement.kind == Arrangement::Kind::cloud)
+    return fmt::format("cloud {}", arrangement.algorithm);
   const std::string pattern = arrangement.hexagonal ? "hexagonal" : "rectangular";
   if (arrangement.kind == Arrangement::Kind::lattice) return pattern;
   return fmt::format("{} turned {}", pattern, arrangement.degrees);
@@ -149,8 +151,9 @@ double row_of(const Arrangement& arrangement) {
   return arrangement.hexagonal ? std::sqrt(0.75) : 1.0;
 }
 
-std::string body_keys(const Arrangement& arrangement, double spacing, double width, double height) {
-  const std::string horizon = fmt::format("horizon = {}\n", horizon_ratio * spacing);
+std::string body_keys(const Arrangement& arrangement, double spacing, double horizon_ratio,
+                      double width, double height) {
+  const std::string horizon = fmt::format("horizon = {}\n", beyond * horizon_ratio * spacing);
   switch (arrangement.kind) {
     case Arrangement::Kind::lattice:
       return fmt::format("pattern = \"{}\"\nspacing = {}\n{}",
@@ -162,8 +165,8 @@ std::string body_keys(const Arrangement& arrangement, double spacing, double wid
     }
     case Arrangement::Kind::cloud: break;
   }
-  return fmt::format("mesh = \"{}\"\nmesh_size = {}\nhorizon_ratio = 3\n",
-                     write_geometry(width, height), spacing);
+  return fmt::format("mesh = \"{}\"\nmesh_size = {}\nhorizon_ratio = {}\n",
+                     write_geometry(arrangement.algorithm, width, height), spacing, horizon_ratio);
 }
 
 }  // namespace perilink::verification

@@ -16,7 +16,8 @@ struct Arrangement {
   };
   Kind kind = Kind::lattice;
   bool hexagonal = false;
-  double degrees = 0.0;  ///< by which a lattice is turned; no meaning for a cloud
+  double degrees = 0.0;  ///< by which a lattice is turned
+  int algorithm = 5;     ///< of gmsh by which a cloud is meshed: 1 MeshAdapt, 5 Delaunay, 6 Frontal
 };
 
 /// "hexagonal turned 15", for tables.
@@ -25,9 +26,10 @@ std::string name_of(const Arrangement& arrangement);
 /// Distance of the rows of a lattice over the spacing.
 double row_of(const Arrangement& arrangement);
 
-/// Keys of [body] for the rectangle [0, width] x [0, height] with the horizon of three spacings. A
+/// Keys of [body] for the rectangle [0, width] x [0, height] . A
 /// mesh is written into temporary_folder() and is read by build_model().
-std::string body_keys(const Arrangement& arrangement, double spacing, double width, double height);
+std::string body_keys(const Arrangement& arrangement, double spacing, double horizon_ratio,
+                      double width, double height);
 
 /// Folder of this process, which the program removes at its end.
 std::string temporary_folder();

@@ -63,7 +63,7 @@ Svg draw_cracks(const std::vector<CrackPicture>& pictures) {
 Svg draw_kinks(const std::vector<Kink>& kinks) {
   constexpr double size = 260.0;
   Svg svg(4 * (size + 70) + 20, size + 130);
-  const std::array<std::string, 3> names = {"rectangular", "hexagonal", "cloud"};
+  const std::array<std::string, 3> names = {"rectangular", "hexagonal", "cloud 5"};
   const std::array<const char*, 3> colors = {"#2f5d9b", "#c1440e", "#3d7d3a"};
   for (int k = 0; k < 4; ++k) {
     const double x0 = 60 + k * (size + 70);

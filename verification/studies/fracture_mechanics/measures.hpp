@@ -30,7 +30,7 @@ struct Direction {
 };
 
 /// Line of least squares through the middles of those that broke farther than one horizon and
-/// nearer than four from the tip.
+/// nearer than five from the tip.
 Direction direction_of(const Crack& crack, const Place& tip);
 
 /// Energy that a long crack dissipates per area, over the fracture energy, in clamped_strip().

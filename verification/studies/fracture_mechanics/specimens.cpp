@@ -19,7 +19,7 @@ std::string region(const std::string& name, Range x, Range y) {
 
 std::string body(const Make& make, double width, double height) {
   return fmt::format("[body]\nmodel = \"{}\"\n{}", make.micropolar ? "micropolar" : "bond_based",
-                     body_keys(make.arrangement, make.spacing, width, height)) +
+                     body_keys(make.arrangement, make.spacing, make.horizon_ratio, width, height)) +
          region("whole", {0.0, width}, {0.0, height});
 }
 
@@ -29,8 +29,8 @@ std::string materials(const Make& make) {
   if (make.micropolar) elastic += fmt::format("poissons_ratio = {}\n", make.poissons_ratio());
   std::string law = fmt::format("fracture_energy = {}\n", fracture_energy);
   if (make.softens) {
-    const double zone = 2.0 * make.horizon();
-    law += fmt::format("tensile_strength = {}\nsoftening = \"bilinear\"\n",
+    const double zone = make.zone * make.horizon();
+    law += fmt::format("tensile_strength = {}\nsoftening = \"bilinear\"\nsoftening_error = 0.03\n",
                        std::sqrt(youngs_modulus * fracture_energy / zone));
   }
   return "[[materials]]\nregion = \"whole\"\n" + elastic +
@@ -69,7 +69,7 @@ std::string tension(const Make& make, double height) {
          region("upper", {0.0, width}, {height, height}) + materials(make) +
          "[[tractions]]\nregion = \"lower\"\ntraction = [0, -1]\n"
          "[[tractions]]\nregion = \"upper\"\ntraction = [0, 1]\n"
-         "[analysis]\nrigid_body_modes = \"pin\"\n[stop]\nload_fraction = 0.6\n";
+         "[analysis]\nrigid_body_modes = \"pin\"\n[stop]\nload_fraction = 0.75\n";
 }
 
 /// Load on the width at which K = stress sqrt(pi a) factor is critical.
@@ -133,7 +133,7 @@ Specimen bent_beam(const Make& make) {
       fmt::format("[[cracks]]\npoints = [[{0}, -9], [{0}, {1}]]\n", middle, a) +
       "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\"]\n"
       "[[supports]]\nregion = \"right\"\nfix = [\"y\"]\n" +
-      "[[loads]]\nregion = \"load\"\nforce = [0, -1]\n[stop]\nload_fraction = 0.6\n";
+      "[[loads]]\nregion = \"load\"\nforce = [0, -1]\n[stop]\nload_fraction = 0.75\n";
   return specimen;
 }
 
@@ -151,7 +151,7 @@ Specimen double_cantilever(const Make& make) {
       region("end", {length, length}, {0.0, height}) + materials(make) + crack(-9.0, a, y) +
       driven("lower arm", "y = -1.0\n") + driven("upper arm", "y = 1.0\n") +
       "[[supports]]\nregion = \"end\"\nfix = [\"x\", \"y\"]\n"
-      "[stop]\nload_fraction = 0.7\n";
+      "[stop]\nload_fraction = 0.75\n";
   return specimen;
 }
 
@@ -170,15 +170,14 @@ Specimen crack_tip_field(const Make& make, double mixity) {
               region("left", {0.0, rim}, {edge, height - edge}) +
               region("right", {side - rim, side}, {edge, height - edge}) + materials(make) +
               crack(-9.0, tip[0], tip[1]) + driven("lower", field) + driven("upper", field) +
-              driven("left", field) + driven("right", field) +
-              fmt::format("[stop]\nbroken_bonds = {}\n", 330),
+              driven("left", field) + driven("right", field) + "[stop]\nbroken_bonds = 320\n",
           tip, 0.0};
 }
 
 std::array<double, 3> tips_of_strip(const Make& make) {
   const double h = make.spacing, beside = h * std::ceil(6.0 * make.horizon() / h);
-  const double skipped = h * std::ceil(3.0 * make.horizon() / h);
-  return {beside, beside + skipped, beside + skipped + 24.0 * h};
+  const double skipped = h * std::ceil(5.0 * make.horizon() / h);
+  return {beside, beside + skipped, beside + skipped + 18.0 * h};
 }
 
 std::string clamped_strip(const Make& make, double tip) {
@@ -188,7 +187,7 @@ std::string clamped_strip(const Make& make, double tip) {
       make.spacing * std::round((tips_of_strip(make)[2] + 6.0 * make.horizon()) / make.spacing);
   const std::string held = make.micropolar ? "x = 0.0\nrotation = 0.0\n" : "x = 0.0\n";
   return body(make, length, height) +
-         region("zone", {0.0, length}, {2.0 * clamp, height - 2.0 * clamp}) +
+         region("zone", {0.0, length}, {1.5 * clamp, height - 1.5 * clamp}) +
          region("lower", {0.0, length}, {0.0, clamp}) +
          region("upper", {0.0, length}, {height - clamp, height}) + materials(make) +
          crack(-9.0, tip, between_rows(make, height)) + driven("lower", held + "y = -1.0\n") +

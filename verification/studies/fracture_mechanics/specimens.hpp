@@ -17,10 +17,12 @@ inline constexpr double youngs_modulus = 1000.0, fracture_energy = 1.0;
 struct Make {
   Arrangement arrangement;
   bool micropolar = false;  ///< Poisson's ratio 0.2
-  bool softens = false;     ///< bilinear, E G_F / f_t^2 of two horizons; else brittle
+  bool softens = false;     ///< bilinear; else brittle
   double spacing = 1.0;     ///< [length]
+  double horizon_ratio = 3.0;
+  double zone = 1.0;  ///< E G_F / f_t^2 over the horizon, where bonds soften
 
-  double horizon() const { return 3.0 * spacing; }
+  double horizon() const { return horizon_ratio * spacing; }
   double poissons_ratio() const { return micropolar ? 0.2 : 1.0 / 3.0; }
 };
 
@@ -55,7 +57,7 @@ Specimen double_cantilever(const Make& make);
 Specimen crack_tip_field(const Make& make, double mixity);
 
 /// Half of the width of crack_tip_field() in horizons.
-inline constexpr double field_radius = 11.0;
+inline constexpr double field_radius = 9.0;
 
 /// Strip between clamps, eight horizons high, as the text of a case by the tip of its crack.
 std::string clamped_strip(const Make& make, double tip);
