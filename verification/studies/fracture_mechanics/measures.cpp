@@ -50,7 +50,7 @@ Direction direction_of(const Crack& crack, const Place& tip) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   for (const Place& place : crack.broken) {
     const double dx = place[0] - tip[0], dy = place[1] - tip[1], r = std::hypot(dx, dy);
-    if (r < crack.horizon || r > 5.0 * crack.horizon) continue;
+    if (r < crack.horizon || r > 4.5 * crack.horizon) continue;
     n += 1.0;
     x += dx;
     y += dy;
@@ -59,12 +59,9 @@ Direction direction_of(const Crack& crack, const Place& tip) {
     yy += dy * dy;
   }
   if (n < 3.0) return {std::nan(""), std::nan("")};
-  xx = xx / n - x * x / (n * n);
-  xy = xy / n - x * y / (n * n);
-  yy = yy / n - y * y / (n * n);
   double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
   if (std::cos(angle) * x + std::sin(angle) * y < 0.0) angle += std::numbers::pi;
-  const double across = 0.5 * (xx + yy - std::hypot(xx - yy, 2.0 * xy));
+  const double across = 0.5 * (xx + yy - std::hypot(xx - yy, 2.0 * xy)) / n;
   return {std::remainder(angle, 2.0 * std::numbers::pi) * 180.0 / std::numbers::pi,
           std::sqrt(std::max(across, 0.0)) / crack.horizon};
 }

@@ -23,14 +23,14 @@ struct Crack {
 /// \throws Error where the run fails
 Crack run_specimen(const Specimen& specimen);
 
-/// A straight line through the bonds that broke.
+/// A straight line from the tip through the bonds that broke.
 struct Direction {
   double angle = 0.0;   ///< against x, in the sense of growth [degrees]
   double spread = 0.0;  ///< root mean square distance from the line over the horizon
 };
 
-/// Line of least squares through the middles of those that broke farther than one horizon and
-/// nearer than five from the tip.
+/// Line of least squares from the tip through the middles of those that broke farther than one
+/// horizon and nearer than four and a half from it.
 Direction direction_of(const Crack& crack, const Place& tip);
 
 /// Energy that a long crack dissipates per area, over the fracture energy, in clamped_strip().

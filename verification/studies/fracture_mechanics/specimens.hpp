@@ -57,7 +57,7 @@ Specimen double_cantilever(const Make& make);
 Specimen crack_tip_field(const Make& make, double mixity);
 
 /// Half of the width of crack_tip_field() in horizons.
-inline constexpr double field_radius = 9.0;
+inline constexpr double field_radius = 8.0;
 
 /// Strip between clamps, eight horizons high, as the text of a case by the tip of its crack.
 std::string clamped_strip(const Make& make, double tip);
