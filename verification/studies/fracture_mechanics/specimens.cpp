@@ -168,7 +168,7 @@ Specimen crack_tip_field(const Make& make, double mixity) {
   const std::string field = fmt::format("x = \"{}\"\ny = \"{}\"\n", u, v);
   const double edge = 1.01 * rim;
   return {body(make, side, height) +
-              region("zone", {2.0 * rim, side - 2.0 * rim}, {2.0 * rim, height - 2.0 * rim}) +
+              region("zone", {tip[0] - rim, side - 2.0 * rim}, {2.0 * rim, height - 2.0 * rim}) +
               region("lower", {0.0, side}, {0.0, rim}) +
               region("upper", {0.0, side}, {height - rim, height}) +
               region("left", {0.0, rim}, {edge, height - edge}) +

@@ -52,7 +52,7 @@ Specimen bent_beam(const Make& make);
 Specimen double_cantilever(const Make& make);
 
 /// Plate with a crack to its middle whose rim, a horizon wide, is driven by the displacements
-/// about the tip of a crack in an infinite body.
+/// about the tip of a crack in an infinite body. Nothing breaks near the rim and behind the tip.
 /// \param mixity  atan2(K_II, K_I) [radians]
 Specimen crack_tip_field(const Make& make, double mixity);
 
