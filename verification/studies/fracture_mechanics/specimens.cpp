@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "problems/handbook.hpp"
@@ -81,6 +82,11 @@ double tension_load(double crack, double factor) {
   return width * std::sqrt(youngs_modulus * fracture_energy / (std::numbers::pi * crack)) / factor;
 }
 
+void set_loads(Specimen& specimen, const Make& make, const std::function<double(double)>& form) {
+  specimen.load = form(0.0);
+  specimen.later_load = form(ahead * make.horizon());
+}
+
 /// Displacement about the tip of a crack in an infinite body, along x and along y, as a formula.
 std::array<std::string, 2> field_of(const Make& make, double mixity, std::array<double, 2> tip) {
   const double nu = make.poissons_ratio(), kappa = (3.0 - nu) / (1.0 + nu);
@@ -106,18 +112,22 @@ std::string bonds_of(const Make& make) {
 Specimen edge_crack(const Make& make) {
   const double height = rounded(make, 2.0 * width), y = between_rows(make, height);
   const double a = between_columns(make, 0.4 * width);
-  return {tension(make, height) + crack(-9.0, a, y),
-          {a, y},
-          tension_load(a, edge_crack_factor(a / width))};
+  Specimen specimen{tension(make, height) + crack(-9.0, a, y), {a, y}};
+  set_loads(specimen, make, [&](double growth) {
+    return tension_load(a + growth, edge_crack_factor((a + growth) / width));
+  });
+  return specimen;
 }
 
 Specimen centre_crack(const Make& make) {
   const double height = rounded(make, 2.0 * width), y = between_rows(make, height);
   const double left = between_columns(make, 0.25 * width), right = width - left;
-  const double a = 0.5 * (right - left);
-  return {tension(make, height) + crack(left, right, y),
-          {right, y},
-          tension_load(a, centre_crack_factor(2.0 * a / width))};
+  Specimen specimen{tension(make, height) + crack(left, right, y), {right, y}};
+  set_loads(specimen, make, [&](double growth) {
+    const double a = 0.5 * (right - left) + growth;
+    return tension_load(a, centre_crack_factor(2.0 * a / width));
+  });
+  return specimen;
 }
 
 Specimen bent_beam(const Make& make) {
@@ -127,7 +137,9 @@ Specimen bent_beam(const Make& make) {
   const double left = middle - 0.5 * span, right = middle + 0.5 * span;
   Specimen specimen;
   specimen.tip = {middle, a};
-  specimen.load = three_point_peak_load(youngs_modulus, fracture_energy, height, 1.0, a);
+  set_loads(specimen, make, [&](double growth) {
+    return three_point_peak_load(youngs_modulus, fracture_energy, height, 1.0, a + growth);
+  });
   specimen.text =
       body(make, length, height) +
       region("zone", {middle - 0.5 * width, middle + 0.5 * width}, {0.0, height - 2.0 * h}) +
@@ -147,7 +159,9 @@ Specimen double_cantilever(const Make& make) {
   const double length = make.spacing * std::round(5.0 * width / make.spacing);
   Specimen specimen;
   specimen.tip = {a, y};
-  specimen.load = double_cantilever_load(youngs_modulus, fracture_energy, arm, 1.0, a);
+  set_loads(specimen, make, [&](double growth) {
+    return double_cantilever_load(youngs_modulus, fracture_energy, arm, 1.0, a + growth);
+  });
   const double band = 1.01 * make.horizon();
   specimen.text =
       body(make, length, height) + region("zone", {0.0, 4.2 * width}, {y - band, y + band}) +
@@ -175,7 +189,7 @@ Specimen crack_tip_field(const Make& make, double mixity) {
               region("right", {side - rim, side}, {edge, height - edge}) + materials(make) +
               crack(-9.0, tip[0], tip[1]) + driven("lower", field) + driven("upper", field) +
               driven("left", field) + driven("right", field) + "[stop]\nbroken_bonds = 280\n",
-          tip, 0.0};
+          tip};
 }
 
 std::array<double, 3> tips_of_strip(const Make& make) {

@@ -29,12 +29,17 @@ struct Make {
 /// "micropolar,bilinear", for tables.
 std::string bonds_of(const Make& make);
 
+/// Where the middle of the bonds that are about to break lies before the tip, in horizons: a
+/// specimen bears its largest load when it has cracked so far.
+inline constexpr double ahead = 1.0 / 3.0;
+
 struct Specimen {
   std::string text;             ///< the case
   std::array<double, 2> tip{};  ///< of the crack that is there before [length]
-  /// Load at which the crack grows by the closed form, per `unit` of the load of a run; zero: no
-  /// closed form.
+  /// Load at which the crack grows by the closed form [force]; zero: there is none.
   double load = 0.0;
+  /// The same of a crack that is longer by `ahead` horizons [force].
+  double later_load = 0.0;
 };
 
 /// Plate of the width 100 and the height 200 under uniform tension, with an edge crack of 0.4 of

@@ -90,8 +90,8 @@ void run_strips() {
 
 void run_beams() {
   Table table("beams.csv",
-              "lattice,model,law,specimen,spacing,peak_over_form,smoothed_over_form,angle,unknowns,"
-              "events,energy_error,seconds");
+              "lattice,model,law,specimen,spacing,peak_over_form,smoothed_over_form,"
+              "smoothed_over_later_form,unknowns,events,energy_error,seconds");
   struct Series {
     const char* name;
     Specimen (*make)(const Make&);
@@ -108,11 +108,10 @@ void run_beams() {
         for_all_bonds(table, {arrangement, false, false, 100.0 / parts}, [&](const Make& make) {
           const Specimen specimen = series.make(make);
           const Crack crack = run_specimen(specimen);
-          const double along = std::string(series.name) == "bent beam" ? 90.0 : 0.0;
-          return fmt::format("{},{:.4f},{:.4f},{:.4f},{:.1f},{},{},{:.0e}", series.name,
+          return fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{:.0e}", series.name,
                              make.spacing, crack.peak / specimen.load,
                              crack.smoothed_peak / specimen.load,
-                             direction_of(crack, specimen.tip).angle - along, crack.unknowns,
+                             crack.smoothed_peak / specimen.later_load, crack.unknowns,
                              crack.events, crack.energy_error);
         });
       }
