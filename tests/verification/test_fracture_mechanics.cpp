@@ -44,8 +44,7 @@ TEST_F(FractureMechanics, HoopStressTurnsACrackByThePublishedAngles) {
   EXPECT_NEAR(hoop_stress_kink(90.0 * degree), -70.53 * degree, 1e-4);  // Erdogan & Sih: 70.5
 }
 
-/// A field that is only half as wide as the study's would bend the crack; so the bar is the
-/// study's, five degrees, at its own size.
+/// Five degrees are the bar of the study.
 TEST_F(FractureMechanics, CracksTurnTowardsTheLargestHoopStress) {
   Make make;
   make.micropolar = true;
@@ -54,6 +53,7 @@ TEST_F(FractureMechanics, CracksTurnTowardsTheLargestHoopStress) {
   EXPECT_NEAR(direction.angle, hoop_stress_kink(45.0 * degree) / degree, 5.0);
 }
 
+/// The bar of the study, 3 %.
 TEST_F(FractureMechanics, LongCracksThatSoftenDissipateTheFractureEnergy) {
   Make make;
   make.softens = true;
