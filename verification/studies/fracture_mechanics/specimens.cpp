@@ -169,7 +169,7 @@ Specimen double_cantilever(const Make& make) {
       region("end", {length, length}, {0.0, height}) + materials(make) + crack(-9.0, a, y) +
       driven("lower arm", "y = -1.0\n") + driven("upper arm", "y = 1.0\n") +
       "[[supports]]\nregion = \"end\"\nfix = [\"x\", \"y\"]\n"
-      "[stop]\nload_fraction = 0.5\n";
+      "[stop]\nload_fraction = 0.85\n";
   return specimen;
 }
 
