@@ -122,7 +122,7 @@ class TurnedLattice {
 std::string write_geometry(int algorithm, double width, double height) {
   const std::string name = temporary("geo");
   std::ofstream(name) << fmt::format(
-      "Mesh.Algorithm = 5;\nDefineConstant[ h = 1 ];\nPoint(1) = {{0, 0, 0, h}};\nPoint(2) = "
+      "Mesh.Algorithm = {2};\nDefineConstant[ h = 1 ];\nPoint(1) = {{0, 0, 0, h}};\nPoint(2) = "
       "{{{0}, 0, 0, h}};\n"
       "Point(3) = {{{0}, {1}, 0, h}};\nPoint(4) = {{0, {1}, 0, h}};\nLine(1) = {{1, 2}};\n"
       "Line(2) = {{2, 3}};\nLine(3) = {{3, 4}};\nLine(4) = {{4, 1}};\n"

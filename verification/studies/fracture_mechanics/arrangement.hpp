@@ -17,7 +17,7 @@ struct Arrangement {
   Kind kind = Kind::lattice;
   bool hexagonal = false;
   double degrees = 0.0;  ///< by which a lattice is turned
-  int algorithm = 5;     ///< of gmsh by which a cloud is meshed: 5 Delaunay, 6 Frontal
+  int algorithm = 5;     ///< of gmsh by which a cloud is meshed: 1 MeshAdapt, 5 Delaunay, 6 Frontal
 };
 
 /// "hexagonal turned 15", for tables.
