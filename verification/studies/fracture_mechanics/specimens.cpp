@@ -133,7 +133,8 @@ Specimen centre_crack(const Make& make) {
 Specimen bent_beam(const Make& make) {
   const double h = make.spacing, span = 4.0 * width, overhang = 0.2 * width;
   const double length = span + 2.0 * overhang, middle = between_columns(make, 0.5 * length);
-  const double height = rounded(make, width), a = 0.4 * height;
+  const double height = rounded(make, width), row = row_of(make.arrangement) * h;
+  const double a = row * (std::floor(0.4 * height / row + 1e-9) + 0.5);  // between two rows
   const double left = middle - 0.5 * span, right = middle + 0.5 * span;
   Specimen specimen;
   specimen.tip = {middle, a};
