@@ -141,10 +141,10 @@ void run_directions() {
       const Crack crack = run_specimen(specimen);
       const Direction direction = direction_of(crack, specimen.tip);
       pictures.push_back({make, crack, specimen.tip, direction.angle});
+      draw_cracks(pictures).save(std::string(PERILINK_STUDY_DIR) + "/crack_paths.svg");
       return fmt::format("{:.2f},{:.3f},{}", direction.angle, direction.spread, crack.events);
     });
   }
-  draw_cracks(pictures).save(std::string(PERILINK_STUDY_DIR) + "/crack_paths.svg");
 }
 
 void run_kinks() {
