@@ -62,11 +62,11 @@ Svg draw_cracks(const std::vector<CrackPicture>& pictures) {
 
 Svg draw_kinks(const std::vector<Kink>& kinks) {
   constexpr double size = 260.0;
-  Svg svg(4 * (size + 70) + 20, size + 130);
+  Svg svg(4 * (size + 70) + 35, size + 130);
   const std::array<std::string, 3> names = {"rectangular", "hexagonal", "cloud 5"};
   const std::array<const char*, 3> colors = {"#2f5d9b", "#c1440e", "#3d7d3a"};
   for (int k = 0; k < 4; ++k) {
-    const double x0 = 60 + k * (size + 70);
+    const double x0 = 75 + k * (size + 70);
     const Axis x{0.0, 95.0, x0, x0 + size}, y{0.0, 90.0, size + 40, 40};
     draw_axes(svg, x, y, "atan(K_II / K_I) (degrees)", k == 0 ? "kink (degrees)" : "", Grid::lines);
     svg.text({x0 + 0.5 * size, 25}, columns[k], "middle", label);
@@ -91,11 +91,11 @@ Svg draw_kinks(const std::vector<Kink>& kinks) {
     }
   }
   for (std::size_t n = 0; n < names.size(); ++n) {
-    const double x0 = 60 + 130 * static_cast<double>(n);
+    const double x0 = 75 + 170 * static_cast<double>(n);
     svg.circle({x0, size + 110}, 4, fmt::format("fill=\"{}\"", colors[n]));
-    svg.text({x0 + 10, size + 114}, names[n], "start", label);
+    svg.text({x0 + 10, size + 114}, n == 2 ? "cloud" : names[n], "start", label);
   }
-  svg.text({460, size + 114}, "line: largest hoop stress", "start", label);
+  svg.text({600, size + 114}, "line: largest hoop stress", "start", label);
   return svg;
 }
 
