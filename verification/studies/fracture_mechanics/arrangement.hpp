@@ -10,14 +10,14 @@ namespace perilink::verification {
 /// How the particles of a specimen lie.
 struct Arrangement {
   enum class Kind {
-    lattice,  ///< of the case file, along the axes
+    lattice,  ///< a pattern of the case file, along the axes
     turned,   ///< a mesh whose vertices are those of a turned lattice
     cloud,    ///< a mesh of gmsh
   };
   Kind kind = Kind::lattice;
   bool hexagonal = false;
   double degrees = 0.0;  ///< by which a lattice is turned
-  int algorithm = 5;     ///< of gmsh by which a cloud is meshed: 1 MeshAdapt, 5 Delaunay, 6 Frontal
+  int algorithm = 5;     ///< meshes a cloud: gmsh's 1 MeshAdapt, 5 Delaunay, 6 Frontal
 };
 
 /// "hexagonal turned 15", for tables.

@@ -12,7 +12,7 @@ using Place = std::array<double, 2>;
 /// What a run tells.
 struct Crack {
   double peak = 0.0;           ///< largest load [force]
-  double smoothed_peak = 0.0;  ///< of the envelope of equal energy [force]; zero: none
+  double smoothed_peak = 0.0;  ///< the same by the envelope of equal energy; zero: none
   double energy_error = 0.0;
   int unknowns = 0;
   int events = 0;

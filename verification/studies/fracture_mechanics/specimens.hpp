@@ -35,7 +35,7 @@ inline constexpr double ahead = 1.0 / 3.0;
 
 struct Specimen {
   std::string text;             ///< the case
-  std::array<double, 2> tip{};  ///< of the crack that is there before [length]
+  std::array<double, 2> tip{};  ///< end of the crack that is there before [length]
   /// Load at which the crack grows by the closed form [force]; zero: there is none.
   double load = 0.0;
   /// The same of a crack that is longer by `ahead` horizons [force].
