@@ -167,6 +167,7 @@ class Equilibrium {
   void refresh();
   void refine(std::vector<double>& residual);
   void scatter_solution();
+  void scatter_current();
   double work_of_forces() const;
   LoadWork sum_work();
   std::pair<double, double> driven_work_of(Index element) const;
@@ -264,6 +265,9 @@ class Equilibrium {
   double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
   double driven_spring_work_ = 0.0;   ///< work of elastic supports at driven displacements
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
+  /// Where something carries particles: slots that unknowns move, of all particles and, while
+  /// partial_, of those that the search looks at.
+  std::vector<std::size_t> moving_slots_, current_slots_;
   std::vector<double> solution_;      ///< per unknown
   std::vector<double> displacement_;
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_

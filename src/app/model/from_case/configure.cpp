@@ -355,12 +355,12 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
   if (const auto note = note_of_unused(input)) model.notes.push_back(*note);
   apply_boundary_conditions(input, model);
   model.gauges = build_gauges(input, model);
-  if (is_quasistatic(input.analysis.type)) carry_particles(input, model);
   for (const MaterialSection& material : input.materials) {
     model.hooke.push_back(
         hooke_constants(model.problem, material.youngs_modulus,
                         material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
   }
+  if (is_quasistatic(input.analysis.type)) carry_particles(input, model);
   return model;
 }
 
