@@ -12,6 +12,7 @@
 #include "app/model/body/mesh_input.hpp"
 #include "app/model/body/particle_model.hpp"
 #include "app/model/body/solid_boxes.hpp"
+#include "app/model/body/strength_notes.hpp"
 #include "app/model/conditions/boundary_conditions.hpp"
 #include "app/model/gauges.hpp"
 #include "app/results/calibration_text.hpp"
@@ -320,10 +321,11 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
   if (input.analysis.type == AnalysisType::elastic) model.network.strengths.clear();
-  for (const auto& text : {short_horizon_note(input, model), unmeasured_cost_note(input, model)}) {
+  for (const auto& text : {short_horizon_note(input, model), unmeasured_cost_note(input, model),
+                           calibration_shortfall(model.network)}) {
     if (text) model.notes.push_back(*text);
   }
-  if (const auto text = calibration_shortfall(model.network)) model.notes.push_back(*text);
+  for (const std::string& text : strength_notes(input, model)) model.notes.push_back(text);
   body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
 }
 
