@@ -44,10 +44,9 @@ std::unique_ptr<EventEngine> EventRun::make_engine() {
   if (options_.stages.empty()) return make_event_engine(problem_, options_.engine);
   auto engine = std::make_unique<StagedEngine>(problem_, options_.engine);
   staged_ = engine.get();
-  const std::optional<double>& to = options_.stages.front().to;
-  if (engine->open_for(to && *to < 0.0 ? -1.0 : 1.0).mechanism) {
-    throw SolverError("cracks have separated the body, and the loads pull it apart");
-  }
+  const StageRules& first = options_.stages.front();
+  const double end = first.to.value_or(first.to_load.value_or(1.0));
+  if (engine->open_for(end < 0.0 ? -1.0 : 1.0).mechanism) throw CracksSeparate();
   return engine;
 }
 
@@ -301,6 +300,13 @@ DamageResult EventRun::finish() {
   result_.freed_energy = energy_.freed();
   result_.factor = engine_->factor_statistics();
   return result_;
+}
+
+void require_held_pieces(const LoadedNetwork& problem, const DamageOptions& options) {
+  struct Silent final : StepObserver {
+    void on_step(const StepRecord&, StateSource&) override {}
+  } silent;
+  EventRun run(problem, options, silent);
 }
 
 DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptions& options,

@@ -349,9 +349,7 @@ void Equilibrium::open_cut_elements() {
   if (damaged_.empty()) return;
   EventOutcome outcome;
   settle_closing(outcome);
-  if (outcome.mechanism) {
-    throw SolverError("the cracks have separated the body, and the loads pull it apart");
-  }
+  if (outcome.mechanism) throw CracksSeparate();
 }
 
 }  // namespace perilink

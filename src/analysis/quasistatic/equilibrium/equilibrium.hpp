@@ -11,6 +11,7 @@
 #include "analysis/quasistatic/equilibrium/constant_field.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
 #include "assembly/internal_force.hpp"
+#include "base/error.hpp"
 #include "network/loaded_network.hpp"
 #include "solver/factor_routes.hpp"
 
@@ -48,6 +49,12 @@ struct Balance {
   double residual = 0.0;       ///< |f - K u| / |f|
   double stored_energy = 0.0;  ///< sum over elements of k e^2 / 2 at load factor 1 [force length]
   Beside stored_beside = {};   ///< what constant loads add
+};
+
+/// Cracks that were there from the start have cut a piece off, and the first loads pull it away.
+class CracksSeparate : public SolverError {
+ public:
+  CracksSeparate() : SolverError("cracks have separated the body, and the loads pull it apart") {}
 };
 
 /// How equilibrium is solved for.

@@ -391,8 +391,8 @@ DamageOptions damage_options(const CaseFile& input, int threads) {
   for (const StageSection& stage : input.stages) {
     if (stage.loads == stage.name) sets.push_back(stage.name);
     const auto set = std::find(sets.begin(), sets.end(), stage.loads);
-    options.stages.push_back(
-        {static_cast<std::size_t>(set - sets.begin()), stage.to, rules_of(stage.stop)});
+    options.stages.push_back({static_cast<std::size_t>(set - sets.begin()), stage.to,
+                              rules_of(stage.stop), stage.to_load});
   }
   return options;
 }
