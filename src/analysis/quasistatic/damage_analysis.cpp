@@ -187,7 +187,9 @@ bool EventRun::pass(const Event& event) {
     if (outcome.broke()) result_.broken_bonds = 1;  // beyond those of the last row
     end(Ending::collapsed,
         event.changes_side
-            ? fmt::format("the body separated when the closed element {} opened", event.element)
+            ? fmt::format("a mechanism: once the closed element {} has opened, a piece of the body "
+                          "is free to move or to turn",
+                          event.element)
             : fmt::format("the body separated when element {} failed (pivot {:.1e})", event.element,
                           outcome.pivot));
     return false;

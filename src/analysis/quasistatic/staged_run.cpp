@@ -60,6 +60,14 @@ bool EventRun::follow_stage(const StageRules& stage) {
     const LoadWork work = engine_->load_work();
     if (work.separated) {
       record_separated(staged_->load_factor(), work);
+      // A block that rocks under its weight keeps its load.
+      constexpr double round_off = 1e-9;
+      if (std::abs(row_.load) > round_off * std::abs(result_.peak_load)) {
+        end(Ending::collapsed,
+            fmt::format("a mechanism: constant loads alone keep the load at {:.6g}, however far "
+                        "the displacements go on",
+                        row_.load));
+      }
       return false;
     }
     const std::optional<double> aim = end_of(stage, work);
