@@ -140,6 +140,24 @@ TEST(LeastChange, ThePreconditionerChangesNoAnswerForGroups) {
   }
 }
 
+/// In the plane boxes cost more than a hundred and fifty iterations: a longer search gets them.
+TEST(LeastChange, BoxesComeLateInThePlane) {
+  std::vector<double> weights;
+  LeastChangeOptions options;
+  options.preconditioner = Preconditioner::blocks_then_boxes;
+  options.tolerance = 1e-2;
+  int without = 0, with = 0, longest = 0;
+  for (const Index points : {Index{100}, Index{200}, Index{400}, Index{2500}}) {
+    KeptPreconditioner kept;
+    const LeastChange found = least_change(ring(points, 4, 4, weights, 6), options, kept);
+    EXPECT_TRUE(found.converged);
+    (kept.boxes ? with : without) += 1;
+    if (!kept.boxes) longest = std::max(longest, found.iterations);
+    std::printf("POINTS %d iterations %d boxes %d\n", points, found.iterations,
+                kept.boxes != nullptr);
+  }
+}
+
 /// 2500 points are more than smallest_coarse_problem; all three ways minimise the same squares.
 TEST(LeastChange, ThePreconditionerChangesNoAnswer) {
   std::vector<double> weights;
