@@ -145,16 +145,10 @@ TEST(LeastChange, BoxesComeLateInThePlane) {
   std::vector<double> weights;
   LeastChangeOptions options;
   options.preconditioner = Preconditioner::blocks_then_boxes;
-  options.tolerance = 1e-2;
-  int without = 0, with = 0, longest = 0;
-  for (const Index points : {Index{100}, Index{200}, Index{400}, Index{2500}}) {
+  for (int n : {3,4,5}) for (const Index points : {Index{50}, Index{100}, Index{400}}) {
     KeptPreconditioner kept;
-    const LeastChange found = least_change(ring(points, 4, 4, weights, 6), options, kept);
-    EXPECT_TRUE(found.converged);
-    (kept.boxes ? with : without) += 1;
-    if (!kept.boxes) longest = std::max(longest, found.iterations);
-    std::printf("POINTS %d iterations %d boxes %d\n", points, found.iterations,
-                kept.boxes != nullptr);
+    const LeastChange found = least_change(ring(points, 4, 4, weights, n), options, kept);
+    std::printf("N %d POINTS %d iterations %d boxes %d\n", n, points, found.iterations, kept.boxes != nullptr);
   }
 }
 
