@@ -156,8 +156,8 @@ void Equilibrium::follow(const EventOutcome& outcome) {
 }
 
 void Equilibrium::commit(const Removal& removal, Index element, double secant) {
-  const bool listed = std::find(damaged_.begin(), damaged_.end(), element) != damaged_.end();
-  if (!axial_.empty() && !listed && network_.law(element).closes()) damaged_.push_back(element);
+  const bool is_first = secants_[element] == 1.0;
+  if (!axial_.empty() && is_first && network_.law(element).closes()) damaged_.push_back(element);
   set_secant(element, secant);
   if (must_rebuild_) return;  // done already
   if (removal.rank == 1) {
