@@ -29,8 +29,10 @@ struct StopRules {
 /// is met.
 struct StageRules {
   std::size_t set = 0;       ///< LoadedNetwork::sets: the loads that change
-  std::optional<double> to;  ///< load factor at which it ends; absent: by events
+  std::optional<double> to;  ///< load factor at which it ends
   StopRules stop;
+  /// Load at which it ends [force]; absent, and without `to`: by events.
+  std::optional<double> to_load = {};
 };
 
 /// How a stage ended.

@@ -8,6 +8,7 @@
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
 #include "app/run/run_notes.hpp"
+#include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {
@@ -17,6 +18,7 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
       is_broken_(static_cast<std::size_t>(model_.network.num_elements()), 0) {
   // Pre-cracks have broken these before.
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
+  if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   plan += fmt::format(", {} unknowns", model_.unknowns.count);
 }
 

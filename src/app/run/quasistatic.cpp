@@ -96,6 +96,7 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
     const StageResult& stage = stages[k];
     const std::string& name = input.stages[k].name;
     summary.json["stages"].push_back({{"name", name},
+                                      {"loads", input.stages[k].loads},
                                       {"status", to_string(stage.ending)},
                                       {"reason", stage.reason},
                                       {"load_factor", stage.last.load_factor},

@@ -7,7 +7,6 @@
 
 #include "base/csr.hpp"
 #include "base/types.hpp"
-#include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 
 namespace perilink {
@@ -39,11 +38,11 @@ struct Carriers {
 using Divisions = std::array<std::vector<double>, 3>;
 
 /// Rectangles or boxes between planes along the axes, one wherever particles lie inside. An element
-/// that a facet cuts, of the surface or between materials, is left out: such faces may lie on its
-/// border alone.
+/// with a point of `faces` inside is left out: faces of the body may lie on its border alone.
+/// \param faces      points on faces that no element may have inside [length], shape (points, dim)
 /// \param order      of the polynomials along each axis: 1 or 2
 /// \param tolerance  within which a particle lies on the border of an element [length]
-Carriers carriers_on_grid(const Particles& particles, const Facets& facets,
+Carriers carriers_on_grid(const Particles& particles, std::span<const double> faces,
                           const Divisions& divisions, int order, double tolerance);
 
 }  // namespace perilink

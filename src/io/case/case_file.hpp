@@ -191,12 +191,13 @@ struct StopSection {
 };
 
 /// [[stages]]: some loads grow, or fall, beside the others, which stay as they are. It ends at a
-/// load factor, or goes from event to event until the first of its rules is met (always at
+/// load factor or a load, or goes from event to event until the first of its rules is met (always at
 /// collapse).
 struct StageSection {
   std::string name;
   std::string loads;         ///< name of the stage whose loads change: its own, or an earlier one
   std::optional<double> to;  ///< load factor at its end
+  std::optional<double> to_load = {};  ///< load at its end [force]
   StopSection stop;
 };
 
