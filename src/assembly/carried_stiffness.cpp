@@ -44,7 +44,7 @@ class Bundles {
   Index size() const { return unknowns.rows(); }
 
   Csr unknowns;                    ///< that move each bundle, ascending
-  Csr particles;                   ///< of each bundle
+  Csr particles;                   ///< in each bundle
   std::vector<Index> of_particle;  ///< number of its bundle
 };
 
@@ -196,7 +196,7 @@ class Assembler {
   SparseMatrix matrix_;
   std::vector<Index> row_of_;  ///< per unknown: its place among the rows of the present bundle
   std::vector<double> dense_;  ///< columns of the present bundle
-  std::vector<double> own_;    ///< of the components of the present particle
+  std::vector<double> own_;    ///< columns that belong to the components of the present particle
 };
 
 }  // namespace

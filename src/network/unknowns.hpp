@@ -77,7 +77,7 @@ struct Unknowns {
  private:
   std::vector<std::size_t> rows_ = {0};  // where the shares of each carried slot begin, and an end
   std::vector<Share> shares_;
-  std::vector<Index> nodes_;  // of the last unknowns
+  std::vector<Index> nodes_;  // whose the last unknowns are
 };
 
 /// For analyses that move every particle by itself.

@@ -118,8 +118,8 @@ TEST_F(SofteningRuns, ExplicitOnesBearTheSame) {
   EXPECT_TRUE(fs::exists(work() / "both/compare.svg"));
 }
 
-/// A block of 50 by 100 with a closed crack across it, under a weight of 1000, pushed at its top: it
-/// turns about the particle at (50, 20), with half the width and 80 of height as its arms.
+/// A block of 50 by 100 with a closed crack across it, under a weight of 1000, pushed at its top:
+/// it turns about the particle at (50, 20), with half the width and 80 of height as its arms.
 std::string rocking_block(const std::string& push, const std::string& stages) {
   return R"([body]
 problem = "plane_stress"

@@ -133,6 +133,11 @@ bool EventRun::converts(const Event& event) {
   result_.unknowns = unknowns.count;
   engine_->set_alert(conversion_->freed(), 1.0);
   ++result_.conversions;
+  const Event next = engine_->next_event();
+  const bool freed =
+      std::binary_search(conversion_->freed().begin(), conversion_->freed().end(), next.element);
+  const bool earlier = next.load_factor < event.load_factor * (1.0 - tie_tolerance);
+  if (row_.step > 0 && freed && earlier) ++result_.late_conversions;
   result_.elements = conversion_->num_whole();
   return true;
 }

@@ -129,6 +129,11 @@ void print_sizes(const Model& model) {
              ghosts, bar_nodes);
   print_spacing(model);
   print_elements(model);
+  if (model.carried) {
+    const std::vector<std::uint8_t>& whole = model.carried->whole;
+    fmt::print("#   finite elements    {} carry particles, which would have {} unknowns\n",
+               std::count(whole.begin(), whole.end(), 1), model.carried->free.count);
+  }
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {
     fmt::print("#   group              {}: {} particles, {} facets of the surface\n", group.name,

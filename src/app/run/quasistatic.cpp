@@ -117,6 +117,7 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   const Index rows = found.last.step, factorizations = found.factor.factorizations;
   tell_equilibria(summary, input, found);
   summary.doubts = doubts_of_balance(found.energy_error, found.largest_residual);
+  summary.doubts.insert(summary.doubts.end(), found.doubts.begin(), found.doubts.end());
   summary.add("doubts", summary.doubts);
   tell_body(summary, model, fmt::format(", {} unknowns", model.unknowns.count));
   summary.add("notes", summary.notes);

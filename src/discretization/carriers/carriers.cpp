@@ -23,7 +23,7 @@ class Grid {
     for (int a = 0; a < dim_; ++a) count *= order_ * intervals(a) + 1;
     return count;
   }
-  /// Of a cell, numbered along x first.
+  /// In one cell; they are numbered along x first.
   int nodes_per_cell() const {
     return dim_ == 2 ? (order_ + 1) * (order_ + 1) : (order_ + 1) * (order_ + 1) * (order_ + 1);
   }
