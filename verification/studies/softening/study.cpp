@@ -39,11 +39,15 @@ void add_strip(const Make& make, Table& table) {
 }
 
 /// Nominal strength: the largest stress of a beam without a crack, 6 M / D^2 with M = P D.
-void add_beam(const Make& make, double depth, double notch, Table& table) {
-  const Outcome outcome = run_text(beam(make, depth, notch));
-  table.add(fmt::format("beam,{},{},{},{:.4f},,{:.1e},{},{}\n", made(make), depth, notch,
-                        6.0 * outcome.peak / depth / tensile_strength, outcome.energy_error,
-                        outcome.events, outcome.ending));
+double bending_strength(const Outcome& outcome, const Beam& of) {
+  return 6.0 * outcome.peak / of.depth / tensile_strength;
+}
+
+void add_beam(const Make& make, const Beam& of, Table& table) {
+  const Outcome outcome = run_text(beam(make, of));
+  table.add(fmt::format("beam,{},{},{},{:.4f},,{:.1e},{},{}\n", made(make), of.depth, of.notch,
+                        bending_strength(outcome, of), outcome.energy_error, outcome.events,
+                        outcome.ending));
 }
 
 constexpr const char* head =
@@ -69,27 +73,69 @@ void run_beams() {
   Table table(head);
   for (const double part : {20.0, 32.0}) {
     for (const double depth : {50.0, 100.0, 200.0, 400.0}) {
-      add_beam({.spacing = depth / part}, depth, 0.2, table);
+      add_beam({.spacing = depth / part}, {.depth = depth, .notch = 0.2}, table);
     }
   }
   for (const double spacing : {5.0, 10.0 / 3.0, 2.5}) {
-    add_beam({.spacing = spacing}, 100.0, 0.0, table);
+    add_beam({.spacing = spacing}, {}, table);
   }
   for (const double spacing : {5.0, 2.5}) {
-    add_beam({.softening = "brittle", .spacing = spacing}, 100.0, 0.0, table);
+    add_beam({.softening = "brittle", .spacing = spacing}, {}, table);
   }
   write_result(PERILINK_STUDY_DIR, table.text(), "beams.csv");
+}
+
+void add_unnotched(const Make& make, const Beam& of, Table& table) {
+  const Outcome outcome = run_text(beam(make, of));
+  table.add(fmt::format("{},{:.3g},{:.3g},{},{},{:.4f},{},{}\n", made(make), make.knee_stress_ratio,
+                        make.knee_opening_ratio, of.patch, of.point_supports,
+                        bending_strength(outcome, of), outcome.events, outcome.ending));
+}
+
+/// What the strength of the beam without a crack depends on.
+void run_unnotched() {
+  Table table(
+      "model,pattern,softening,spacing,horizon_ratio,knee_stress_ratio,knee_opening_ratio,patch,"
+      "point_supports,strength,events,ending");
+  const Beam points{.point_supports = true, .load_fraction = 0.8};
+  add_unnotched({}, {.load_fraction = 0.8}, table);
+  for (const double patch : {0.05, 0.2}) {
+    add_unnotched({}, {.patch = patch, .point_supports = true, .load_fraction = 0.8}, table);
+  }
+  add_unnotched({.spacing = 10.0 / 3.0}, points, table);
+  add_unnotched({.spacing = 3.75, .horizon_ratio = 4.0}, points, table);
+  add_unnotched({.model = "micropolar"}, points, table);
+  add_unnotched({.model = "micropolar", .spacing = 10.0 / 3.0}, points, table);
+  add_unnotched({.pattern = "mesh"}, points, table);
+  add_unnotched({.pattern = "mesh", .spacing = 10.0 / 3.0}, points, table);
+  add_unnotched({.softening = "linear"}, points, table);
+  add_unnotched({.softening = "exponential"}, points, table);
+  for (const double spacing : {5.0, 10.0 / 3.0}) {
+    add_unnotched({.spacing = spacing, .knee_stress_ratio = 0.25, .knee_opening_ratio = 0.15},
+                  points, table);
+    add_unnotched({.spacing = spacing, .knee_stress_ratio = 0.15, .knee_opening_ratio = 0.10},
+                  points, table);
+  }
+  write_result(PERILINK_STUDY_DIR, table.text(), "unnotched.csv");
 }
 
 }  // namespace
 }  // namespace perilink::verification
 
 /// Strength and energy of strips and beams whose bonds soften, over what the material says:
-/// `softening strips` writes strips.csv, `softening beams` beams.csv.
+/// `softening strips` writes strips.csv, `softening beams` beams.csv, `softening unnotched`
+/// unnotched.csv.
 int main(int argc, char** argv) try {
   const std::string part = argc > 1 ? argv[1] : "";
-  if (part != "strips" && part != "beams") throw std::invalid_argument("name strips or beams");
-  part == "strips" ? perilink::verification::run_strips() : perilink::verification::run_beams();
+  if (part == "strips") {
+    perilink::verification::run_strips();
+  } else if (part == "beams") {
+    perilink::verification::run_beams();
+  } else if (part == "unnotched") {
+    perilink::verification::run_unnotched();
+  } else {
+    throw std::invalid_argument("name strips, beams or unnotched");
+  }
   return 0;
 } catch (const std::exception& error) {
   fmt::print(stderr, "softening: {}\n", error.what());
