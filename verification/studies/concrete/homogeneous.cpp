@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
 
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "app/model/from_case/configure.hpp"
@@ -119,6 +123,27 @@ class StressRecorder final : public StepObserver {
 };
 
 }  // namespace
+
+std::vector<ReferenceCurve> read_reference() {
+  std::ifstream file(PERILINK_STUDY_DIR "/reference.csv");
+  std::vector<ReferenceCurve> curves;
+  std::string line, begun;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    std::string rule, across;
+    HomogeneousPoint point;
+    fields >> rule >> across >> point.strain >> point.strain_across >> point.stress >>
+        point.stress_across;
+    if (!fields) throw std::runtime_error("reference.csv: " + line);
+    const std::string key = rule + across + (point.strain < 0.0 ? "-" : "+");
+    if (key != begun) curves.push_back({rule == "B", across == "held", {}});
+    begun = key;
+    curves.back().points.push_back(point);
+  }
+  return curves;
+}
 
 std::vector<HomogeneousPoint> strain_uniformly(const Homogeneous& specimen) {
   Model model = model_of(specimen);

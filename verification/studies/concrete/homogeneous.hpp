@@ -28,4 +28,11 @@ struct HomogeneousPoint {
 /// event as in any run.
 std::vector<HomogeneousPoint> strain_uniformly(const Homogeneous& specimen);
 
+/// A curve of reference.csv: one rule, one condition across, one sense.
+struct ReferenceCurve {
+  bool shear_softens = false, held_across = false;
+  std::vector<HomogeneousPoint> points;
+};
+std::vector<ReferenceCurve> read_reference();
+
 }  // namespace perilink::verification

@@ -1,23 +1,110 @@
 #include <fmt/format.h>
-#include <cstdlib>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
 #include <string>
+#include <vector>
+
 #include "homogeneous.hpp"
+#include "pictures.hpp"
 #include "plates.hpp"
-using namespace perilink::verification;
-int main(int /*argc*/, char** argv) {
-  const std::string what = argv[1];
-  if (what == "text") { fmt::print("{}", plate_case({argv[2], atof(argv[3]), atof(argv[4])})); return 0; }
-  if (what == "plate") {
-    const auto r = load_plate({argv[2], atof(argv[3]), atof(argv[4])});
-    fmt::print("{} {} {}: {:.4f} at {:.4e} cells {:.4f} {:.4f} err {:.1e} events {} broken {} {}\n", argv[2], argv[3], argv[4], r.strength, r.strain, r.cell_tension, r.cell_compression, r.energy_error, r.events, r.broken, r.ending);
-    return 0;
-  }
-  const std::string layout = argv[1];
-  for (const bool held : {true, false})
-    for (const bool B : {false, true})
-      for (const bool compression : {false, true}) {
-        if (held && compression) continue;
-        std::vector<double> strains = compression ? std::vector<double>{6e-4,9e-4,15e-4,29.9e-4,30e-4,36e-4} : std::vector<double>{1e-4,1.8e-4,2.3e-4,2.795e-4,2.8e-4,3.6e-4};
-        for (const auto& p : strain_uniformly({layout, B, held, compression, strains})) fmt::print("{} {} {:.3e} {:.4e} {:.4f} {:.4f}\n", held, B, p.strain, p.strain_across, p.stress, p.stress_across);
+#include "problems/result.hpp"
+
+namespace perilink::verification {
+namespace {
+
+/// Bonds along the load break at the strain of the peak; points are taken this part before it.
+constexpr double short_of_the_fall = 0.998;
+
+const char* rule_of(bool shear_softens) { return shear_softens ? "B" : "A"; }
+
+/// Writes homogeneous.csv and homogeneous.svg.
+void run_homogeneous() {
+  const struct {
+    const char* name;
+    const char* layout;
+  } bodies[] = {{"lattice", "spacing = 12.7\nhorizon_ratio = 3\n"},
+                {"mesh", "mesh = \"square.geo\"\nmesh_size = 12.7\nhorizon_ratio = 4\n"}};
+  const std::vector<ReferenceCurve> curves = read_reference();
+  std::string table = "body,rule,across,strain,strain_across,stress,stress_across,reference\n";
+  std::vector<UniformRun> runs;
+  for (const auto& body : bodies) {
+    for (const ReferenceCurve& curve : curves) {
+      Homogeneous specimen{body.layout,
+                           curve.shear_softens,
+                           curve.held_across,
+                           curve.points.front().strain < 0.0,
+                           {}};
+      for (const HomogeneousPoint& point : curve.points) {
+        specimen.strains.push_back(std::abs(point.strain) * short_of_the_fall);
       }
+      const std::vector<HomogeneousPoint> found = strain_uniformly(specimen);
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        const std::string row =
+            fmt::format("{},{},{},{:.4g},{:.5g},{:.5g},{:.4g},{:.6g}\n", body.name,
+                        rule_of(curve.shear_softens), curve.held_across ? "held" : "free",
+                        found[k].strain, found[k].strain_across, found[k].stress,
+                        found[k].stress_across, curve.points[k].stress);
+        fmt::print("{}", row);
+        table += row;
+      }
+      std::fflush(stdout);
+      runs.push_back({body.name, curve, found});
+    }
+  }
+  write_result(PERILINK_STUDY_DIR, table, "homogeneous.csv");
+  draw_uniform(runs).save(PERILINK_STUDY_DIR "/homogeneous.svg");
+}
+
+/// Writes plates.csv, envelope.svg and curves.svg.
+void run_plates() {
+  const struct {
+    double x, y;
+  } ratios[] = {{1, 0},  {1, 0.5},   {1, 1},     {0.5, -1},  {0.1, -1}, {0.05, -1},
+                {0, -1}, {-0.1, -1}, {-0.2, -1}, {-0.5, -1}, {-1, -1}};
+  std::string table =
+      "body,x,y,strength,strain,cell_tension,cell_compression,energy_error,events,broken,ending\n";
+  std::vector<PlateRun> runs;
+  for (const char* body : {"lattice", "mesh", "slab"}) {
+    for (const auto& ratio : ratios) {
+      if (std::string(body) == "slab" && ratio.x > 0.0 && ratio.y != 0.0) continue;
+      const PlateResult result = load_plate({body, ratio.x, ratio.y});
+      const std::string row = fmt::format(
+          "{},{},{},{:.4f},{:.4e},{:.4f},{:.4f},{:.1e},{},{},{}\n", body, ratio.x, ratio.y,
+          result.strength, result.strain, result.cell_tension, result.cell_compression,
+          result.energy_error, result.events, result.broken, result.ending);
+      fmt::print("{}", row);
+      std::fflush(stdout);
+      table += row;
+      runs.push_back({body, ratio.x, ratio.y, result});
+    }
+  }
+  write_result(PERILINK_STUDY_DIR, table, "plates.csv");
+  draw_envelope(runs).save(PERILINK_STUDY_DIR "/envelope.svg");
+  draw_curves(runs).save(PERILINK_STUDY_DIR "/curves.svg");
+}
+
+}  // namespace
+}  // namespace perilink::verification
+
+/// The law of concrete with two limits in bodies: `concrete homogeneous` and `concrete plates`
+/// write the tables and pictures of the study, `concrete case BODY X Y` prints the case of a plate.
+int main(int argc, char** argv) try {
+  using namespace perilink::verification;
+  const std::string part = argc > 1 ? argv[1] : "";
+  if (part == "homogeneous") {
+    run_homogeneous();
+  } else if (part == "plates") {
+    run_plates();
+  } else if (part == "case" && argc == 5) {
+    fmt::print("{}", plate_case({argv[2], std::stod(argv[3]), std::stod(argv[4])}));
+  } else {
+    throw std::invalid_argument("name homogeneous, plates, or case with a body and two tractions");
+  }
+  return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "concrete: {}\n", error.what());
+  return 1;
 }

@@ -103,7 +103,7 @@ void run_unnotched() {
     add_unnotched({}, {.patch = patch, .point_supports = true, .load_fraction = 0.8}, table);
   }
   add_unnotched({.spacing = 10.0 / 3.0}, points, table);
-  add_unnotched({.spacing = 3.75, .horizon_ratio = 4.0}, points, table);
+  add_unnotched({.spacing = 4.0, .horizon_ratio = 3.75}, points, table);
   add_unnotched({.model = "micropolar"}, points, table);
   add_unnotched({.model = "micropolar", .spacing = 10.0 / 3.0}, points, table);
   add_unnotched({.pattern = "mesh"}, points, table);
