@@ -63,12 +63,11 @@ Svg draw_uniform(const std::vector<UniformRun>& runs) {
                             run.reference.shear_softens ? " stroke-dasharray=\"5 4\"" : ""));
       for (const HomogeneousPoint& point : run.points) {
         svg.circle({x[panel].map(std::abs(point.strain)), y[panel].map(std::abs(point.stress))},
-                   2.5, fmt::format("fill=\"{}\"", color_of(run.body)));
+                   2.5, fmt::format("fill=\"{}\"", color_of("mesh")));
       }
     }
   }
-  draw_key(svg, {90, 415}, "lattice", "square lattice, horizon of 3 spacings");
-  draw_key(svg, {370, 415}, "mesh", "mesh, 4 edges");
+  draw_key(svg, {90, 415}, "mesh", "bonds of a mesh, horizon of 4 edges");
   svg.text({510, 419.5}, "grey: integration of the law; broken: shear falls", "start", text_style);
   return svg;
 }

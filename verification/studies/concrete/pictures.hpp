@@ -10,7 +10,6 @@
 namespace perilink::verification {
 
 struct UniformRun {
-  std::string body;
   ReferenceCurve reference;
   std::vector<HomogeneousPoint> points;
 };
