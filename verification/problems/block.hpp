@@ -26,8 +26,8 @@ struct BlockLattice {
   std::string layout;           ///< lines of [body]: pattern, number of columns or spacing, horizon
   std::string surface;          ///< "calibrated", "ghost" or "none"
   double inset = 0.0;           ///< distance of the caps' regions from the ends of the block [in]
-  double poissons_ratio = 0.0;  ///< of micropolar bonds; zero: they are not
-  double tensile_strength = 0.0;  ///< of bonds that soften, 5 % less in the patch; zero: brittle
+  double poissons_ratio = 0.0;  ///< micropolar bonds have it; zero: bond-based
+  double tensile_strength = 0.0;  ///< zero: brittle; the patch has 5 % less
 };
 
 /// The case file of the block.

@@ -17,7 +17,7 @@ struct Homogeneous {
   std::vector<double> strains;  ///< sizes of eps_1 at which stresses are asked for, rising
 };
 
-/// Of the inner part, from the forces of its bonds.
+/// What the forces of the bonds make of the inner part.
 struct HomogeneousPoint {
   double strain = 0.0, strain_across = 0.0;
   double stress = 0.0, stress_across = 0.0;  ///< [N/mm^2]

@@ -17,7 +17,7 @@ struct Body {
   int columns;
   bool micropolar, softens;
   std::size_t events;    ///< at most
-  std::size_t compared;  ///< of them
+  std::size_t compared;  ///< with fresh factors
 };
 
 /// Concrete with a process zone E G_F / f_t^2 of 22.5 in, twice the coarser horizon.

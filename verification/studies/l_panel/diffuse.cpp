@@ -53,7 +53,7 @@ void print_diffuse(const std::string& case_file, const std::string& results) {
       crack.push_back(middle(e));
     }
   }
-  double all = 0.0, diffuse = 0.0;
+  double all = 0.0, beyond_one = 0.0, beyond_two = 0.0;
   for (std::size_t e = 0; e < losses.energy.size(); ++e) {
     if (losses.events[e] == 0) continue;
     const auto at = middle(e);
@@ -62,10 +62,13 @@ void print_diffuse(const std::string& case_file, const std::string& results) {
       nearest = std::min(nearest, std::hypot(point[0] - at[0], point[1] - at[1]));
     }
     all += losses.energy[e];
-    if (nearest > 2.0 * model.horizon) diffuse += losses.energy[e];
+    if (nearest > model.horizon) beyond_one += losses.energy[e];
+    if (nearest > 2.0 * model.horizon) beyond_two += losses.energy[e];
   }
-  fmt::print("dissipated {:.1f}, diffuse {:.1f} = {:.4f} of it; bonds of the crack {}\n", all,
-             diffuse, diffuse / all, crack.size());
+  fmt::print(
+      "dissipated {:.1f}, of it {:.4f} beyond one and {:.4f} beyond two horizons from {} bonds of "
+      "the crack\n",
+      all, beyond_one / all, beyond_two / all, crack.size());
 }
 
 }  // namespace

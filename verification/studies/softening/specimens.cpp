@@ -74,15 +74,15 @@ std::string strip(const Make& make) {
          "[[displacements]]\nregion = \"right\"\nx = 0.1\n[stop]\nload_fraction = 0.002\n";
 }
 
-std::string beam(const Make& make, const Beam& of) {
-  const double depth = of.depth, span = 4.0 * depth, length = 4.4 * depth, middle = 0.5 * length;
+std::string beam(const Make& make, const Beam& size) {
+  const double depth = size.depth, span = 4.0 * depth, length = 4.4 * depth, middle = 0.5 * length;
   const double zone = std::max(0.4 * depth, 6.0 * make.horizon_ratio * make.spacing);
-  const double half = 0.5 * std::max(2.0 * make.spacing, of.patch * depth);
-  const double held = of.point_supports ? 0.0 : half;
+  const double half = 0.5 * std::max(2.0 * make.spacing, size.patch * depth);
+  const double held = size.point_supports ? 0.0 : half;
   const double left = 0.5 * (length - span);
-  const std::string crack = of.notch > 0.0
+  const std::string crack = size.notch > 0.0
                                 ? fmt::format("[[cracks]]\npoints = [[{0}, {1}], [{0}, {2}]]\n",
-                                              middle, -make.spacing, of.notch * depth)
+                                              middle, -make.spacing, size.notch * depth)
                                 : "";
   return body(make) + region("beam", 0, length, 0, depth, 0) +
          region("left part", 0, middle - zone, 0, depth, 0) +
@@ -94,7 +94,7 @@ std::string beam(const Make& make, const Beam& of) {
          "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\"]\n"
          "[[supports]]\nregion = \"right\"\nfix = [\"y\"]\n"
          "[[loads]]\nregion = \"load\"\nforce = [0, -1000]\n" +
-         fmt::format("[stop]\nload_fraction = {}\n", of.load_fraction);
+         fmt::format("[stop]\nload_fraction = {}\n", size.load_fraction);
 }
 
 Outcome run_text(const std::string& text) {

@@ -15,7 +15,7 @@ struct Make {
   std::string softening = "bilinear";
   double spacing = 5.0;        ///< [mm]
   double horizon_ratio = 3.0;  ///< horizon over spacing
-  /// Of bilinear curves; the default is that of Petersson.
+  /// Bilinear curves have a knee; the default is that of Petersson.
   double knee_stress_ratio = 1.0 / 3.0, knee_opening_ratio = 2.0 / 9.0;
 };
 
@@ -32,9 +32,9 @@ struct Beam {
   double notch = 0.0;           ///< depth of the pre-crack below the load over D
   double patch = 0.05;          ///< width of the load over D, at least two spacings
   bool point_supports = false;  ///< or patches as wide as the load, which hold a little moment
-  double load_fraction = 0.5;   ///< of the peak, at which the run ends
+  double load_fraction = 0.5;   ///< the run ends at this part of the peak
 };
-std::string beam(const Make& make, const Beam& of);
+std::string beam(const Make& make, const Beam& size);
 
 /// What a run of a case tells.
 struct Outcome {

@@ -39,14 +39,14 @@ void add_strip(const Make& make, Table& table) {
 }
 
 /// Nominal strength: the largest stress of a beam without a crack, 6 M / D^2 with M = P D.
-double bending_strength(const Outcome& outcome, const Beam& of) {
-  return 6.0 * outcome.peak / of.depth / tensile_strength;
+double bending_strength(const Outcome& outcome, const Beam& size) {
+  return 6.0 * outcome.peak / size.depth / tensile_strength;
 }
 
-void add_beam(const Make& make, const Beam& of, Table& table) {
-  const Outcome outcome = run_text(beam(make, of));
-  table.add(fmt::format("beam,{},{},{},{:.4f},,{:.1e},{},{}\n", made(make), of.depth, of.notch,
-                        bending_strength(outcome, of), outcome.energy_error, outcome.events,
+void add_beam(const Make& make, const Beam& size, Table& table) {
+  const Outcome outcome = run_text(beam(make, size));
+  table.add(fmt::format("beam,{},{},{},{:.4f},,{:.1e},{},{}\n", made(make), size.depth, size.notch,
+                        bending_strength(outcome, size), outcome.energy_error, outcome.events,
                         outcome.ending));
 }
 
@@ -85,11 +85,11 @@ void run_beams() {
   write_result(PERILINK_STUDY_DIR, table.text(), "beams.csv");
 }
 
-void add_unnotched(const Make& make, const Beam& of, Table& table) {
-  const Outcome outcome = run_text(beam(make, of));
+void add_unnotched(const Make& make, const Beam& size, Table& table) {
+  const Outcome outcome = run_text(beam(make, size));
   table.add(fmt::format("{},{:.3g},{:.3g},{},{},{:.4f},{},{}\n", made(make), make.knee_stress_ratio,
-                        make.knee_opening_ratio, of.patch, of.point_supports,
-                        bending_strength(outcome, of), outcome.events, outcome.ending));
+                        make.knee_opening_ratio, size.patch, size.point_supports,
+                        bending_strength(outcome, size), outcome.events, outcome.ending));
 }
 
 /// What the strength of the beam without a crack depends on.
