@@ -43,9 +43,9 @@ void run_homogeneous() {
     }
     std::fflush(stdout);
     runs.push_back({curve, found});
+    write_result(PERILINK_STUDY_DIR, table, "homogeneous.csv");
+    draw_uniform(runs).save(PERILINK_STUDY_DIR "/homogeneous.svg");
   }
-  write_result(PERILINK_STUDY_DIR, table, "homogeneous.csv");
-  draw_uniform(runs).save(PERILINK_STUDY_DIR "/homogeneous.svg");
 }
 
 /// Writes plates.csv, envelope.svg and curves.svg.
