@@ -22,7 +22,7 @@ const char* rule_of(bool shear_softens) { return shear_softens ? "B" : "A"; }
 
 /// Writes homogeneous.csv and homogeneous.svg.
 void run_homogeneous() {
-  const std::string layout = "mesh = \"square.geo\"\nmesh_size = 12.7\nhorizon_ratio = 4\n";
+  const std::string layout = "mesh = \"cloud.geo\"\nmesh_size = 12.7\nhorizon_ratio = 4\n";
   const std::vector<ReferenceCurve> curves = read_reference();
   std::string table = "rule,across,strain,strain_across,stress,stress_across,reference\n";
   std::vector<UniformRun> runs;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "hinge.hpp"
 #include "problems/result.hpp"
 #include "specimens.hpp"
 
@@ -119,12 +120,24 @@ void run_unnotched() {
   write_result(PERILINK_STUDY_DIR, table.text(), "unnotched.csv");
 }
 
+/// The same by a cohesive hinge.
+void run_hinge() {
+  Table table("knee_stress_ratio,knee_opening_ratio,strength");
+  const double depth = 100.0 * tensile_strength * tensile_strength / (30000.0 * fracture_energy);
+  constexpr double knees[][2] = {{1.0 / 3.0, 2.0 / 9.0}, {0.25, 0.15}, {0.15, 0.10}, {0.5, 0.5}};
+  for (const auto& [stress, opening] : knees) {
+    table.add(fmt::format("{:.3g},{:.3g},{:.4f}\n", stress, opening,
+                          hinge_strength(stress, opening, depth)));
+  }
+  write_result(PERILINK_STUDY_DIR, table.text(), "hinge.csv");
+}
+
 }  // namespace
 }  // namespace perilink::verification
 
 /// Strength and energy of strips and beams whose bonds soften, over what the material says:
 /// `softening strips` writes strips.csv, `softening beams` beams.csv, `softening unnotched`
-/// unnotched.csv.
+/// unnotched.csv and hinge.csv.
 int main(int argc, char** argv) try {
   const std::string part = argc > 1 ? argv[1] : "";
   if (part == "strips") {
@@ -132,6 +145,7 @@ int main(int argc, char** argv) try {
   } else if (part == "beams") {
     perilink::verification::run_beams();
   } else if (part == "unnotched") {
+    perilink::verification::run_hinge();
     perilink::verification::run_unnotched();
   } else {
     throw std::invalid_argument("name strips, beams or unnotched");
