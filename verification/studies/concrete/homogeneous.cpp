@@ -18,14 +18,11 @@
 namespace perilink::verification {
 namespace {
 
-/// Fine teeth: bonds of one direction pass theirs together, so that their ripple does not average
-/// out as in a body that strains freely.
-constexpr double error = 0.001;
-
 constexpr double margin = 0.25 * side;  ///< what lies outside the inner part, more than a horizon
 
 Model model_of(const Homogeneous& specimen) {
-  const std::string text = fmt::format(R"([body]
+  const std::string text =
+      fmt::format(R"([body]
 problem = "plane_stress"
 model = "micropolar"
 {layout}
@@ -46,10 +43,10 @@ fix = ["y"]
 region = "body"
 x = "{sign}x"
 )",
-                                       fmt::arg("layout", specimen.layout), fmt::arg("side", side),
-                                       fmt::arg("material_region", "plate"),
-                                       fmt::arg("law", law_lines(specimen.shear_softens, error)),
-                                       fmt::arg("sign", specimen.compression ? "-" : ""));
+                  fmt::arg("layout", specimen.layout), fmt::arg("side", side),
+                  fmt::arg("material_region", "plate"),
+                  fmt::arg("law", law_lines(specimen.shear_softens, specimen.error)),
+                  fmt::arg("sign", specimen.compression ? "-" : ""));
   return build_model(parse_case(text, PERILINK_STUDY_DIR "/homogeneous.toml"));
 }
 

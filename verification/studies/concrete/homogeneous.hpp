@@ -14,6 +14,8 @@ struct Homogeneous {
   bool shear_softens = false;  ///< rule B of the law; else rule A
   bool held_across = false;    ///< eps_2 = 0; else eps_2 is free, so that sigma_2 = 0
   bool compression = false;
+  double error = 0.001;         ///< softening_error: bonds of one direction pass their teeth
+                                ///< together, so that their ripple does not average out
   std::vector<double> strains;  ///< sizes of eps_1 at which stresses are asked for, rising
 };
 

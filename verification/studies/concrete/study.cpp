@@ -27,8 +27,11 @@ void run_homogeneous() {
   std::string table = "rule,across,strain,strain_across,stress,stress_across,reference\n";
   std::vector<UniformRun> runs;
   for (const ReferenceCurve& curve : curves) {
-    Homogeneous specimen{
-        layout, curve.shear_softens, curve.held_across, curve.points.front().strain < 0.0, {}};
+    Homogeneous specimen{.layout = layout,
+                         .shear_softens = curve.shear_softens,
+                         .held_across = curve.held_across,
+                         .compression = curve.points.front().strain < 0.0,
+                         .strains = {}};
     for (const HomogeneousPoint& point : curve.points) {
       specimen.strains.push_back(std::abs(point.strain) * short_of_the_fall);
     }
