@@ -37,10 +37,14 @@ std::string body(const Make& make) {
 std::string materials(const Make& make, const std::string& whole, const std::string& unbreakable) {
   std::string elastic = fmt::format("youngs_modulus = {}\n", youngs_modulus);
   if (make.model == "micropolar") elastic += fmt::format("poissons_ratio = {}\n", poissons_ratio);
-  const std::string law = make.softening == "brittle"
-                              ? ""
-                              : fmt::format("tensile_strength = {}\nsoftening = \"{}\"\n",
-                                            tensile_strength, make.softening);
+  std::string law = make.softening == "brittle"
+                        ? ""
+                        : fmt::format("tensile_strength = {}\nsoftening = \"{}\"\n",
+                                      tensile_strength, make.softening);
+  if (make.softening == "bilinear") {
+    law += fmt::format("knee_stress_ratio = {}\nknee_opening_ratio = {}\n", make.knee_stress_ratio,
+                       make.knee_opening_ratio);
+  }
   return fmt::format("[[materials]]\nregion = \"{}\"\n{}fracture_energy = {}\n{}", whole, elastic,
                      fracture_energy, law) +
          fmt::format("[[materials]]\nregions = [{}]\n{}fracture_energy = \"infinite\"\n",
