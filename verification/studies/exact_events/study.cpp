@@ -50,11 +50,13 @@ bool run_sizes(const std::string& surface, bool quick) {
 
 /// Is every event of the downdated factor the event that a run breaks which factorises anew each
 /// time? exact_events [--surface calibrated|none] [--quick]: quick is the smallest size only;
-/// exact_events --softening: bonds that soften.
+/// exact_events --softening [large]: bonds that soften.
 int main(int argc, char** argv) try {
   using namespace perilink::verification;
   std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments == std::vector<std::string>{"--softening"}) return run_softening() ? 0 : 1;
+  if (!arguments.empty() && arguments.front() == "--softening") {
+    return run_softening(arguments.back() == "large") ? 0 : 1;
+  }
   const std::string surface = take_surface_option(arguments);
   const bool quick = std::find(arguments.begin(), arguments.end(), "--quick") != arguments.end();
   return run_sizes(surface, quick) ? 0 : 1;
