@@ -6,57 +6,14 @@
 #include <stdexcept>
 #include <vector>
 
-#include "assembly/element_vector.hpp"
+#include "assembly/carried_stiffness.hpp"
+#include "assembly/element_blocks.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/lower_triangle.hpp"
 #include "base/csr.hpp"
-#include "network/frame.hpp"
 
 namespace perilink {
 namespace {
-
-/// Entries of an element's stiffness between two of its ends: 0 the first, 1 the second.
-template <int Dim>
-struct Truss {
-  static constexpr int width = Dim;
-
-  Truss(const Network& network, Index element, Secants secants)
-      : n(network.bonds.direction(element).data()),
-        k(network.stiffness[element] * secants.axial(element)) {}
-
-  double entry(int row_end, int col_end, int row, int col) const {
-    return (row_end == col_end ? k : -k) * n[row] * n[col];
-  }
-
-  const double* n;
-  double k;
-};
-
-template <int Dim>
-struct Frame {
-  using Modes = FrameModes<Dim>;
-  static constexpr int width = Modes::width;
-
-  /// Flat, so that the modes are rounded as in the rest of this file and not as in one that is
-  /// compiled for more of the machine's instructions.
-  [[gnu::flatten]] Frame(const Network& network, Index element, Secants secants)
-      : modes(frame_modes<Dim>(network, element)) {
-    modes.stiffness[0] *= secants.axial(element);
-    for (int m = 1; m < Modes::count; ++m) modes.stiffness[m] *= secants[element];
-  }
-
-  double entry(int row_end, int col_end, int row, int col) const {
-    const auto& rows = row_end == 0 ? modes.first : modes.second;
-    const auto& cols = col_end == 0 ? modes.first : modes.second;
-    double value = 0.0;
-    for (int m = 0; m < Modes::count; ++m) {
-      value += modes.stiffness[m] * rows[m][row] * cols[m][col];
-    }
-    return value;
-  }
-
-  Modes modes;
-};
 
 /// Blocks of elements and springs of supports, see LowerTriangle.
 template <class Element>
@@ -157,42 +114,6 @@ SparseMatrix assemble(const Network& network, Secants secants, const Unknowns& u
   return LowerTriangle(blocks, unknowns).build();
 }
 
-/// Sum of x x' over the modes of all elements and the springs of supports: for particles that
-/// something carries, whose elements couple any number of unknowns.
-SparseMatrix assemble_carried(const Network& network, Secants secants, const Unknowns& unknowns) {
-  if (network.has_states()) expect_nothing_carried(unknowns);
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  const auto add = [&](const SparseVector& x, double factor) {
-    for (int a = 0; a < x.size(); ++a) {
-      for (int b = 0; b < x.size(); ++b) {
-        if (x.rows[a] < x.rows[b]) continue;
-        entries.emplace_back(x.rows[a], x.rows[b], factor * x.values[a] * x.values[b]);
-      }
-    }
-  };
-  for (Index e = 0; e < network.num_elements(); ++e) {
-    const ElementVectors parts = element_vectors(network, unknowns, e, 1.0);
-    for (int m = 0; m < parts.count; ++m) add(parts.x[m], m == 0 ? secants.axial(e) : secants[e]);
-    // Modes that are taken together couple all unknowns of both ends, and the ordering asks for it.
-    SparseVector all;
-    for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
-      for (int a = 0; a < unknowns.width; ++a) {
-        const std::size_t slot = static_cast<std::size_t>(i) * unknowns.width + a;
-        unknowns.for_each(slot, [&](Index k, double) { all.add(k, 0.0); });
-      }
-    }
-    add(all, 0.0);
-  }
-  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
-    SparseVector x;
-    unknowns.for_each(slot, [&](Index k, double weight) { x.add(k, weight); });
-    add(x, network.support_stiffness[slot]);
-  }
-  SparseMatrix matrix(unknowns.count, unknowns.count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
 }  // namespace
 
 SparseMatrix assemble_stiffness(const Network& network, Secants secants, const Unknowns& unknowns) {
@@ -223,14 +144,6 @@ std::vector<double> assemble_right_hand_side(const Network& network, Secants sec
   return right_hand_side(unknowns, loads, [&](std::span<const double> u) {
     return internal_force(network, secants, u);
   });
-}
-
-std::vector<Index> particle_of_unknown(const Unknowns& unknowns) {
-  std::vector<Index> particles;
-  for (const std::size_t slot : unknowns.slots()) {
-    particles.push_back(static_cast<Index>(slot / static_cast<std::size_t>(unknowns.width)));
-  }
-  return particles;
 }
 
 }  // namespace perilink

@@ -38,7 +38,4 @@ std::vector<double> right_hand_side(const Unknowns& unknowns, const Loads& loads
 std::vector<double> assemble_right_hand_side(const Network& network, Secants secants,
                                              const Unknowns& unknowns, const Loads& loads);
 
-/// Particle of every unknown, size unknowns.count.
-std::vector<Index> particle_of_unknown(const Unknowns& unknowns);
-
 }  // namespace perilink

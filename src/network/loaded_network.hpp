@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "network/carried_motion.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
 
@@ -34,6 +37,8 @@ struct LoadedNetwork {
   ReferenceLoad reference;
   /// Where a case has stages: what they load the body by. The members above are those of the first.
   std::vector<LoadSet> sets = {};
+  /// Where finite elements carry particles; `unknowns` is the motion that they begin with.
+  std::optional<CarriedBody> carried = {};
 };
 
 }  // namespace perilink

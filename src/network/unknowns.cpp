@@ -1,5 +1,6 @@
 #include "network/unknowns.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -29,6 +30,16 @@ std::vector<std::size_t> Unknowns::slots() const {
     });
   }
   return result;
+}
+
+std::vector<Index> Unknowns::owners() const {
+  std::vector<Index> owners;
+  for (const std::size_t slot : slots()) {
+    owners.push_back(static_cast<Index>(slot / static_cast<std::size_t>(width)));
+  }
+  std::copy(nodes_.begin(), nodes_.end(),
+            owners.end() - static_cast<std::ptrdiff_t>(nodes_.size()));
+  return owners;
 }
 
 void expect_nothing_carried(const Unknowns& unknowns) {

@@ -31,11 +31,18 @@ struct Unknowns {
 
   /// Lets a combination of unknowns move a slot that was prescribed; at least one, each once.
   void carry(std::size_t slot, std::span<const Share> shares) {
-    number[slot] = no_index - 1 - static_cast<Index>(rows_.size());
-    rows_.emplace_back(shares.begin(), shares.end());
+    number[slot] = no_index - static_cast<Index>(rows_.size());
+    shares_.insert(shares_.end(), shares.begin(), shares.end());
+    rows_.push_back(shares_.size());
+  }
+  /// One unknown more, that moves no slot by itself: a component of a node.
+  /// \param node  number that the unknowns of the node have in common and no particle has
+  Index add_shared(Index node) {
+    nodes_.push_back(node);
+    return count++;
   }
   /// Whether any slot is carried.
-  bool carries() const { return !rows_.empty(); }
+  bool carries() const { return rows_.size() > 1; }
   bool is_carried(std::size_t slot) const { return number[slot] < no_index; }
 
   /// Calls visit(unknown, weight) for the row of T of a slot.
@@ -44,8 +51,9 @@ struct Unknowns {
     if (number[slot] >= 0) {
       visit(number[slot], 1.0);
     } else if (is_carried(slot)) {
-      for (const Share& share : rows_[static_cast<std::size_t>(no_index - 1 - number[slot])]) {
-        visit(share.unknown, share.weight);
+      const auto row = static_cast<std::size_t>(no_index - 1 - number[slot]);
+      for (std::size_t k = rows_[row]; k < rows_[row + 1]; ++k) {
+        visit(shares_[k].unknown, shares_[k].weight);
       }
     }
   }
@@ -56,13 +64,17 @@ struct Unknowns {
   std::vector<double> restrict(std::span<const double> forces) const;
   /// A slot that each unknown moves: its own, or the first that it carries. Size count.
   std::vector<std::size_t> slots() const;
+  /// Whose each unknown is, a particle's or a node's; those of one lie side by side. Size count.
+  std::vector<Index> owners() const;
 
   Index at(Index particle, int component) const {
     return number[static_cast<std::size_t>(particle) * width + component];
   }
 
  private:
-  std::vector<std::vector<Share>> rows_;  // per carried slot
+  std::vector<std::size_t> rows_ = {0};  // where the shares of each carried slot begin, and an end
+  std::vector<Share> shares_;
+  std::vector<Index> nodes_;  // of the last unknowns
 };
 
 /// For analyses that move every particle by itself.

@@ -88,7 +88,7 @@ void time_factorization(const Model& model, int repeats, RouteTime& result) {
   const auto load = assemble_right_hand_side(model.network, intact, model.unknowns, model.loads);
   std::vector<double> solution(load.size());
   const auto factor = make_factor(FactorRoute::refactorize, 1);
-  factor->factorize(matrix, particle_of_unknown(model.unknowns));
+  factor->factorize(matrix, model.unknowns.owners());
   std::vector<double> factorization, solve;
   for (int k = 0; k < repeats; ++k) {
     Timer timer;

@@ -25,8 +25,7 @@ CholmodReference time_cholmod(const Model& model, std::span<const Index> element
   std::vector<double> load =
       assemble_right_hand_side(model.network, intact, model.unknowns, model.loads);
   CholmodSession session;
-  const CholmodFactorPtr factor =
-      analyze_supernodal(session, matrix, particle_of_unknown(model.unknowns));
+  const CholmodFactorPtr factor = analyze_supernodal(session, matrix, model.unknowns.owners());
   factorize_numerically(session, matrix, factor.get());
   CholmodReference result;
   Timer timer;

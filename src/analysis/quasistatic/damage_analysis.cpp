@@ -33,6 +33,13 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options,
       problem_(problem),
       engine_(make_engine()),
       state_(problem.network, *engine_) {
+  result_.unknowns = problem.unknowns.count;
+  if (problem.carried) {
+    conversion_.emplace(network_, *problem.carried);
+    state_.elements = &*conversion_;
+    engine_->set_alert(conversion_->carried_bonds(), problem.carried->alert);
+    result_.elements = conversion_->num_whole();
+  }
   const LoadWork work = begin_work();
   const double whole = work.forces + work.supports;
   result_.initial_stiffness = reference_->driven
@@ -74,7 +81,6 @@ DamageResult EventRun::go() {
   }
   result_.last = row_;
   result_.broken_bonds = broken_bonds_;
-  result_.freed_energy = energy_.freed();
   result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
   result_.factor = engine_->factor_statistics();
   return result_;
@@ -106,10 +112,30 @@ void EventRun::follow_motion() {
   if (!options_.new_motion) return;
   const Unknowns* unknowns = options_.new_motion(state_);
   if (unknowns == nullptr) return;
-  const double growth = engine_->change_motion(*unknowns);
+  adopt(*unknowns);
+}
+
+void EventRun::adopt(const Unknowns& unknowns) {
+  const double growth = engine_->change_motion(unknowns);
   energy_.add_freedom(growth);
   compliance_ += growth;
   check();
+}
+
+/// Whether the event is not one yet: a bond that a finite element carries has come near its limit,
+/// and the element lets go of its particles first, with all others as near.
+bool EventRun::converts(const Event& event) {
+  if (!conversion_ || event.element == no_index || !conversion_->is_carried(event.element)) {
+    return false;
+  }
+  constexpr double as_near = 0.9;
+  const Unknowns& unknowns = conversion_->convert(engine_->near_events(as_near));
+  adopt(unknowns);
+  result_.unknowns = unknowns.count;
+  engine_->set_alert(conversion_->freed(), 1.0);
+  ++result_.conversions;
+  result_.elements = conversion_->num_whole();
+  return true;
 }
 
 /// What round-off leaves grows in proportion to the displacements, which forces make without bound
@@ -141,6 +167,8 @@ void EventRun::record(double load_factor, const LoadWork& work, Index element) {
   row_.dissipated_energy = energy_.dissipated();
   row_.external_work = energy_.external_work();
   row_.released_energy = energy_.released();
+  row_.elements = result_.elements;
+  row_.freed_energy = energy_.freed();
   row_.factorizations = engine_->factorizations();
   row_.element = element;
   row_.seconds = timer_.seconds();
@@ -241,6 +269,7 @@ DamageResult EventRun::by_events() {
       break;
     }
     const Event event = engine_->next_event();
+    if (converts(event)) continue;
     if (event.element == no_index) {
       end(Ending::nothing_breaks, "no bond can break under this load");
       break;
@@ -260,6 +289,7 @@ DamageResult EventRun::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
     Event event = engine_->next_event();
+    while (converts(event)) event = engine_->next_event();
     Index last = no_index;
     while (event.element != no_index && event.load_factor <= load_factor) {
       energy_.advance(load_factor, engine_->load_work());
@@ -284,6 +314,7 @@ DamageResult EventRun::by_steps() {
         return finish();
       }
       event = engine_->next_event();
+      while (converts(event)) event = engine_->next_event();
     }
     record(load_factor, engine_->load_work(), last);
     if (stop_rule_met()) return finish();
@@ -298,7 +329,6 @@ DamageResult EventRun::finish() {
   result_.last = row_;
   result_.broken_bonds += broken_bonds_;
   result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
-  result_.freed_energy = energy_.freed();
   result_.factor = engine_->factor_statistics();
   return result_;
 }

@@ -65,7 +65,9 @@ struct DamageResult {
   std::optional<double> smoothed_peak_load;  ///< where the path of events is long enough
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;
-  double freed_energy = 0.0;  ///< PathEnergy::freed() [force length]
+  Index conversions = 0;  ///< times that finite elements let go of particles
+  Index elements = 0;     ///< that carry particles now
+  Index unknowns = 0;     ///< now
   /// Largest |work - stored - dissipated - freed| / work of all rows, the stored energy summed over
   /// the elements wherever the whole equilibrium was measured.
   double energy_error = 0.0;

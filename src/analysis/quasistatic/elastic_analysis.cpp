@@ -22,7 +22,7 @@ ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, int th
 
   timer.restart();
   const std::unique_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
-  factor->factorize(stiffness, particle_of_unknown(unknowns));
+  factor->factorize(stiffness, unknowns.owners());
   result.seconds.factorization = timer.seconds();
 
   timer.restart();

@@ -2,10 +2,12 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "analysis/quasistatic/conversion.hpp"
 #include "analysis/quasistatic/damage_options.hpp"
 #include "analysis/quasistatic/events/staged_engine.hpp"
 #include "analysis/quasistatic/path_energy.hpp"
@@ -21,8 +23,12 @@ namespace perilink {
 class EngineState final : public StateSource {
  public:
   EngineState(const Network& network, EventEngine& engine) : network_(network), engine_(engine) {}
-  StepState state() override { return {network_, engine_.secants(), engine_.displacement()}; }
+  StepState state() override {
+    return {network_, engine_.secants(), engine_.displacement(),
+            elements != nullptr ? elements->whole() : std::span<const std::uint8_t>()};
+  }
   Secants secants() override { return engine_.secants(); }
+  const Conversion* elements = nullptr;  ///< that carry particles
 
  private:
   const Network& network_;
@@ -54,6 +60,8 @@ class EventRun {
   void check() { take_note_of(engine_->check_equilibrium()); }
   void look_after(const EventOutcome& outcome);
   void follow_motion();
+  void adopt(const Unknowns& unknowns);
+  bool converts(const Event& event);
   bool residual_may_be_large() const;
   int check_interval() const;
   bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }
@@ -75,6 +83,7 @@ class EventRun {
   StagedEngine* staged_ = nullptr;  ///< the engine, where there are stages
   std::unique_ptr<EventEngine> engine_;
   EngineState state_;
+  std::optional<Conversion> conversion_;  ///< where finite elements carry particles
   PathEnergy energy_;
   Timer timer_;
   double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...

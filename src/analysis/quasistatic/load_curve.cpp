@@ -23,6 +23,7 @@ double compliance(const CurvePoint& point) { return point.displacement / point.l
 std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
   std::vector<CurvePoint> path;
   double highest = 0.0;
+  double freed = 0.0;  // compliance that conversions brought, and no event
   for (std::size_t k = 0; k < records.size(); ++k) {
     const StepRecord& record = records[k];
     highest = std::max(highest, std::abs(record.load));
@@ -31,7 +32,11 @@ std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
     if (k > 0 && events_before(record) != events_before(records[k - 1]) + 1) return {};
     if (!resists && k + 1 == records.size()) break;
     if (!(record.load * record.displacement > 0.0) || !axes_hold_all_energy(record)) return {};
-    path.push_back({record.displacement, record.load});
+    if (k > 0) {
+      const double energy = record.freed_energy - records[k - 1].freed_energy;
+      freed += 2.0 * energy / (records[k - 1].load * record.load);
+    }
+    path.push_back({record.displacement - freed * record.load, record.load});
   }
   return path;
 }

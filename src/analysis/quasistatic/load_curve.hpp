@@ -19,7 +19,8 @@ struct CurvePoint {
 };
 
 /// The rows of a history as a path of single events whose area is the energy that it dissipates,
-/// without a last row that resists nothing. Empty where the rows are no such path: load steps, rows
+/// without a last row that resists nothing. What conversions of finite elements freed is no part of
+/// it: displacements are those without. Empty where the rows are no such path: load steps, rows
 /// in time, and events under forces beside driven displacements, whose work the two axes miss.
 std::vector<CurvePoint> event_path(std::span<const StepRecord> records);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -25,11 +26,13 @@ struct StepRecord {
   double released_energy = 0.0;    ///< sum of the elements' energies at the moment they failed
   double residual = 0.0;           ///< |f - K u| / |f| when last measured
   int factorizations = 0;
-  Index element = no_index;  ///< fails at this load
-  Index stage = 0;           ///< number of the stage, from one; 0: the run has none
-  Index avalanche = 0;       ///< 1: the element was beyond its limit, at a load that does not move
-  Index side_change = 0;     ///< 1: the element and others close or open, and nothing fails
-  double seconds = 0.0;      ///< wall time of this step; goes to timing.csv only
+  Index element = no_index;   ///< fails at this load
+  Index stage = 0;            ///< number of the stage, from one; 0: the run has none
+  Index avalanche = 0;        ///< 1: the element was beyond its limit, at a load that does not move
+  Index side_change = 0;      ///< 1: the element and others close or open, and nothing fails
+  Index elements = 0;         ///< that carry particles in this equilibrium
+  double freed_energy = 0.0;  ///< PathEnergy::freed() so far [force length]
+  double seconds = 0.0;       ///< wall time of this step; goes to timing.csv only
 };
 
 /// State that observers may look at, valid during the call only.
@@ -38,6 +41,8 @@ struct StepState {
   Secants secants;
   /// Shape (particles, width); at load factor 1, of runs by stages under all loads as they are.
   std::span<const double> displacement;
+  /// Per finite element, whether it carries its particles; empty where the body has none.
+  std::span<const std::uint8_t> whole = {};
 };
 
 /// How a run ended.

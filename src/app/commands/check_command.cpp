@@ -293,8 +293,8 @@ int check_case(const std::string& case_path, bool trust_geometry) {
 
   const Network& network = model.network;
   const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
-  const FactorStatistics factor = estimate_factor(
-      assemble_stiffness(network, intact, model.unknowns), particle_of_unknown(model.unknowns));
+  const FactorStatistics factor =
+      estimate_factor(assemble_stiffness(network, intact, model.unknowns), model.unknowns.owners());
   print_cost(input, network, factor, set_up);
   return exit_done;
 }

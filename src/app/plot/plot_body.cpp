@@ -31,8 +31,12 @@ std::vector<Vector3> as_vectors(const std::vector<double>& values) {
 
 void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBody& body) {
   for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
-    if (grid.types[cell] != VtuCell::line) continue;
     const std::size_t end = static_cast<std::size_t>(grid.offsets[cell]);
+    if (grid.types[cell] == VtuCell::quadrilateral && end >= 4) {
+      const auto* first = grid.connectivity.data() + end - 4;
+      body.elements.push_back({first[0], first[1], first[2], first[3]});
+    }
+    if (grid.types[cell] != VtuCell::line) continue;
     if (end < 2) continue;
     const Ends ends{grid.connectivity[end - 2], grid.connectivity[end - 1]};
     const bool bar = element[cell] == static_cast<double>(FieldElement::rebar_segment);

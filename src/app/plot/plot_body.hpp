@@ -30,6 +30,9 @@ struct PlotBody {
   std::vector<int> kind;       ///< 0 solid, 1 ghost, 2 rebar
   std::vector<Ends> broken_bonds;
   std::vector<Ends> segments;
+  /// Corners of finite elements that carry particles, one after the other round the element; in the
+  /// plane.
+  std::vector<std::array<Index, 4>> elements;
 
   Index size() const { return static_cast<Index>(positions.size()); }
   /// Whether every bond of a solid particle is broken: a crumb, whose displacement means nothing.

@@ -21,6 +21,7 @@ constexpr const char* bar_style = "stroke=\"#2f6ea3\" stroke-linecap=\"round\" f
 constexpr const char* ghost_style =
     "stroke=\"#9aa3ad\" stroke-linecap=\"round\" fill=\"none\" stroke-opacity=\"0.7\"";
 constexpr const char* face_color = "#5a0a12";
+constexpr const char* element_style = "stroke=\"#7d8894\" stroke-width=\"0.8\"";
 
 std::string stroke_width(double pixels) { return fmt::format("stroke-width=\"{:.2f}\"", pixels); }
 
@@ -181,6 +182,17 @@ void draw_bond_hairlines(Svg& svg, const Scene& scene) {
                              opacity, stroke_width(0.8)));
 }
 
+/// Finite elements hide the particles that they carry, unless these show stresses.
+void draw_elements(Svg& svg, const Scene& scene) {
+  SvgPath path;
+  for (const auto& corners : scene.body.elements) {
+    path.move_to(scene.at(corners[3]));
+    for (const Index i : corners) path.line_to(scene.at(i));
+  }
+  const char* fill = scene.body.stress.empty() ? undamaged_color : "none";
+  svg.path(path, fmt::format("fill=\"{}\" {}", fill, element_style));
+}
+
 std::string bar_line(const Scene& scene) {
   return std::string(bar_style) + " " +
          stroke_width(std::clamp(0.35 * scene.spacing_px(), 2.0, 5.0));
@@ -200,6 +212,8 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
     } else {
       draw_dots(svg, scene);
     }
+    draw_elements(svg, scene);
+    if (!scene.body.elements.empty()) key.push_back({"finite element", element_style});
     draw_bond_hairlines(svg, scene);
     draw_crack_faces(svg, scene);
     if (!scene.body.broken_bonds.empty()) {

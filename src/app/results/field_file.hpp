@@ -5,13 +5,20 @@
 
 #include "assembly/linear_elements.hpp"
 #include "base/csr.hpp"
+#include "discretization/carriers/carriers.hpp"
 #include "io/fields/vtu.hpp"
 #include "network/network.hpp"
 
 namespace perilink {
 
 /// What a cell of a field file stands for (cell data "element").
-enum class FieldElement { particle = 0, broken_bond = 1, rebar_segment = 2, cell = 3 };
+enum class FieldElement {
+  particle = 0,
+  broken_bond = 1,
+  rebar_segment = 2,
+  cell = 3,
+  carrier = 4,  ///< finite element that carries particles
+};
 
 /// The moment of a run that a field file shows.
 struct FieldMoment {
@@ -39,6 +46,12 @@ struct FieldMoment {
 VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const double> motion,
                         const FieldMoment& moment, std::span<const Index> broken_elements_in_order,
                         const Csr& families);
+
+/// Adds the finite elements that carry particles, between those nearest to their corners:
+/// quadrilaterals in the plane, hexahedra in space.
+/// \param whole  per element, whether it carries
+void add_carriers(VtuGrid& grid, const Particles& particles, const Carriers& carriers,
+                  std::span<const std::uint8_t> whole);
 
 /// Numbers the vertices of particles that crack, where no bonds break, in `broken_at`.
 /// \param cracked  particles, first one first

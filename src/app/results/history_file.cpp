@@ -63,6 +63,12 @@ constexpr std::array stage_columns = {
     column<&StepRecord::side_change>("side_change"),
 };
 
+/// Beside them in cases with elements.
+constexpr std::array element_columns = {
+    column<&StepRecord::elements>("elements"),
+    column<&StepRecord::freed_energy>("freed_energy"),
+};
+
 struct TimeColumn {
   enum class Of { every_body, bonds, particles };
   const char* name;
@@ -115,6 +121,9 @@ std::vector<std::string> history_columns(const CaseFile& input) {
     for (const Column& column : stage_columns) {
       if (!input.stages.empty()) names.emplace_back(column.name);
     }
+    for (const Column& column : element_columns) {
+      if (input.elements) names.emplace_back(column.name);
+    }
     return names;
   }
   const bool bonds_break = !has_state_based_particles(input.body);
@@ -127,6 +136,7 @@ std::vector<std::string> history_columns(const CaseFile& input) {
 HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input)
     : bonds_break_(!has_state_based_particles(input.body)),
       has_stages_(!input.stages.empty()),
+      has_elements_(input.elements.has_value()),
       history_(directory + "/history.csv", all_columns(input)),
       timing_(directory + "/timing.csv", {"step", "seconds"}) {}
 
@@ -135,6 +145,9 @@ void HistoryFile::append(const StepRecord& record, std::span<const double> gauge
   for (const Column& column : columns) row.push_back(column.get(record));
   for (const Column& column : stage_columns) {
     if (has_stages_) row.push_back(column.get(record));
+  }
+  for (const Column& column : element_columns) {
+    if (has_elements_) row.push_back(column.get(record));
   }
   write(std::move(row), gauges, record.seconds);
 }
@@ -177,6 +190,7 @@ std::vector<StepRecord> history_records(const CsvTable& table, const std::string
   std::vector<StepRecord> records(table.rows.size());
   std::vector<Column> all(columns.begin(), columns.end());
   all.insert(all.end(), stage_columns.begin(), stage_columns.end());
+  all.insert(all.end(), element_columns.begin(), element_columns.end());
   for (const Column& column : all) {
     const int place = table.column(column.name);
     if (place < 0) continue;

@@ -27,6 +27,22 @@ void DamageRun::tell(Summary& summary) const {
   summary.add_note(note_of_peaks(result_, model_, broken_));
   tell_quasistatic(summary, input, model_, found, seconds.analysis);
   tell_stages(summary, input, result_.stages);
+  if (model_.carried) tell_elements(summary);
+}
+
+void DamageRun::tell_elements(Summary& summary) const {
+  const std::vector<std::uint8_t>& whole = model_.carried->whole;
+  const auto first = std::count(whole.begin(), whole.end(), 1);
+  summary.add("elements", first);
+  summary.add("elements_at_end", result_.elements);
+  summary.add("conversions", result_.conversions);
+  summary.add("unknowns_at_end", result_.unknowns);
+  summary.add("freed_energy", result_.last.freed_energy);
+  summary.line("elements",
+               "{} carry particles at first, {} at the end, where {} unknowns are left of {}; {} "
+               "conversions freed {:.3g}",
+               first, result_.elements, result_.unknowns, model_.carried->free.count,
+               result_.conversions, result_.last.freed_energy);
 }
 
 /// With which displacements are to be multiplied, StepState::displacement.
@@ -87,8 +103,12 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     const StepState state = source.state();
     std::vector<double> motion(state.displacement.begin(), state.displacement.end());
     for (double& u : motion) u *= scale_of(record);
-    return make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
-                           broken_, families_);
+    VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
+                                   broken_, families_);
+    if (model_.carried) {
+      add_carriers(grid, network.particles, model_.carried->carriers, state.whole);
+    }
+    return grid;
   });
   broken_at_fields_ = record.broken_bonds;
 }

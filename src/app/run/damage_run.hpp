@@ -27,6 +27,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
  private:
   double scale_of(const StepRecord& record) const;
   void note_places(const StepRecord& record, StateSource& source);
+  void tell_elements(Summary& summary) const;
   void note_broken(const StepRecord& record, StateSource& source);
   bool wants_fields(Index broken_bonds) const;
   void write_state(const StepRecord& record, StateSource& source);

@@ -15,6 +15,9 @@ VtuGrid make_grid(const Model& model, std::span<const double> displacement,
   VtuGrid grid = model.elements
                      ? make_element_grid(*model.elements, network.particles, displacement, moment)
                      : make_field_grid(network, intact, displacement, moment, {}, families);
+  if (model.carried) {
+    add_carriers(grid, network.particles, model.carried->carriers, model.carried->whole);
+  }
   grid.point_data.push_back(
       {"stress", 6,
        particle_stresses(stress_input(model, families), translations(network, displacement))});

@@ -200,6 +200,18 @@ struct StageSection {
   StopSection stop;
 };
 
+/// [elements]: finite elements that carry particles until something near them may break; exactly
+/// one of spacings and size.
+struct ElementsSection {
+  std::optional<int> spacings;         ///< between particles, along each side of an element
+  std::optional<double> size;          ///< of each side, about [length]
+  int order = 2;                       ///< of the polynomials along each axis of an element: 1 or 2
+  std::vector<std::string> regions;    ///< with elements; empty: the whole body
+  std::vector<std::string> particles;  ///< regions without
+  double alert = 0.25;  ///< of its limit, to which a bond comes before its element is converted
+  std::optional<double> halo;  ///< around an element that is converted; absent: a horizon [length]
+};
+
 /// [output]
 struct OutputSection {
   std::vector<int> fields_at;        ///< numbers of broken bonds at which fields are written
@@ -226,6 +238,7 @@ struct CaseFile {
   std::vector<CrackSection> cracks;
   std::vector<RebarSection> rebar;
   std::vector<GaugeSection> gauges;
+  std::optional<ElementsSection> elements;
   AnalysisSection analysis;
   StopSection stop;
   std::vector<StageSection> stages;

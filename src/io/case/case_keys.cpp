@@ -135,6 +135,13 @@ const Without rebar = {
     {elements, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
      "delete one of the two", "body.method"}};
 
+const Without carriers = {
+    {particles, no_particle_table, another_model},
+    {lattice, no_lattice_table, another_model},
+    {elements, "is \"linear_elements\", but the case has [elements], which carry particles",
+     "delete one of the two", "body.method"},
+    {explicit_ | relaxation, {}, {}}};
+
 /// A key that these analyses set aside.
 Without set_aside(Kinds analyses) { return {{analyses, {}, {}}}; }
 
@@ -251,6 +258,16 @@ const std::vector<TableSchema>& case_schema() {
        true,
        {"from", "to", "youngs_modulus", "area", "yield_strength", "yields", "ties_break"},
        rebar},
+      {"elements",
+       false,
+       {"spacings",
+        "size",
+        "order",
+        "regions",
+        "particles",
+        {"alert", set_aside(elastic)},
+        {"halo", set_aside(elastic)}},
+       carriers},
       {"gauges", true, {"name", "between", "at", "region", "axis", "stress"}},
       {"analysis", false, analysis_keys},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_events},

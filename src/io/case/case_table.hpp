@@ -24,6 +24,8 @@ class CaseTable {
   CaseTable(const TomlValue& table, std::string key_path, std::string file)
       : table_(table), key_path_(std::move(key_path)), file_(std::move(file)) {}
 
+  /// Whether the file has the table.
+  bool exists() const { return table_.line > 0; }
   bool has(const std::string& key) const { return table_.find(key) != nullptr; }
 
   /// One printable line.

@@ -174,9 +174,10 @@ void read_cells(const Reader& reader, pugi::xml_node cells, VtuGrid& grid) {
   for (const std::uint8_t type : reader.values<std::uint8_t>(array("types"), "UInt8")) {
     const auto cell = static_cast<VtuCell>(type);
     if (cell != VtuCell::vertex && cell != VtuCell::line && cell != VtuCell::triangle &&
-        cell != VtuCell::tetrahedron) {
+        cell != VtuCell::quadrilateral && cell != VtuCell::tetrahedron &&
+        cell != VtuCell::hexahedron) {
       reader.fail("holds cells of VTK type " + std::to_string(type) +
-                  "; only 1, 3, 5 and 10 are known");
+                  "; only 1, 3, 5, 9, 10 and 12 are known");
     }
     grid.types.push_back(cell);
   }

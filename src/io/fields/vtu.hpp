@@ -19,7 +19,14 @@ struct VtuArray {
 };
 
 /// VTK cell types used here.
-enum class VtuCell : std::uint8_t { vertex = 1, line = 3, triangle = 5, tetrahedron = 10 };
+enum class VtuCell : std::uint8_t {
+  vertex = 1,
+  line = 3,
+  triangle = 5,
+  quadrilateral = 9,
+  tetrahedron = 10,
+  hexahedron = 12,
+};
 
 /// An unstructured grid.
 struct VtuGrid {

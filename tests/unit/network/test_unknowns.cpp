@@ -14,7 +14,7 @@ TEST(Unknowns, CountTheFreeAxesInTheOrderOfTheParticles) {
   EXPECT_EQ(unknowns.count, 3);
   EXPECT_EQ(unknowns.number, (std::vector<Index>{0, no_index, no_index, no_index, 1, 2}));
   EXPECT_EQ(unknowns.at(2, 1), 2);
-  EXPECT_EQ(particle_of_unknown(unknowns), (std::vector<Index>{0, 2, 2}));
+  EXPECT_EQ(unknowns.owners(), (std::vector<Index>{0, 2, 2}));
 }
 
 TEST(Unknowns, ExpandPutsPrescribedValuesBack) {

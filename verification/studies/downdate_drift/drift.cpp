@@ -40,8 +40,7 @@ double residual_of(const Model& model, const std::vector<double>& secants,
 std::vector<double> fresh_solution(const Model& model, const Unknowns& unknowns,
                                    const std::vector<double>& secants) {
   const auto factor = make_factor(FactorRoute::in_place, 1);
-  factor->factorize(assemble_stiffness(model.network, secants, unknowns),
-                    particle_of_unknown(unknowns));
+  factor->factorize(assemble_stiffness(model.network, secants, unknowns), unknowns.owners());
   const auto load = assemble_right_hand_side(model.network, secants, unknowns, model.loads);
   std::vector<double> solution(load.size());
   factor->solve(load, solution);
@@ -63,7 +62,7 @@ std::vector<Drift> measure_drift(const Model& model, int downdates, int interval
   std::vector<double> secants(static_cast<std::size_t>(model.network.num_elements()), 1.0);
   const auto factor = make_factor(FactorRoute::in_place, 1);
   factor->factorize(assemble_stiffness(model.network, secants, model.unknowns),
-                    particle_of_unknown(model.unknowns));
+                    model.unknowns.owners());
   const auto load = assemble_right_hand_side(model.network, secants, model.unknowns, model.loads);
   std::vector<double> solution(load.size()), again(load.size());
   factor->follow_load(load, solution);

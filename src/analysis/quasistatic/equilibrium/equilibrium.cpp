@@ -84,8 +84,7 @@ void Equilibrium::find_driven_elements() {
 void Equilibrium::factorize_anew() {
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
-  factor_->factorize(assemble_stiffness(network_, secants(), *unknowns_),
-                     particle_of_unknown(*unknowns_));
+  factor_->factorize(assemble_stiffness(network_, secants(), *unknowns_), unknowns_->owners());
 }
 
 /// Equilibrium under the unknowns as they are, from a new factor.

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "base/types.hpp"
@@ -45,6 +46,12 @@ class EventEngine {
 
   /// Equilibrium::change_motion().
   virtual double change_motion(const Unknowns& unknowns) = 0;
+
+  /// From now on the elements have their next event at this fraction of its limit.
+  virtual void set_alert(std::span<const Index> elements, double fraction) = 0;
+
+  /// Elements whose load factor is at most that of the next event over `fraction`, ascending.
+  virtual std::vector<Index> near_events(double fraction) = 0;
 
   /// Numerical factorisations so far.
   virtual int factorizations() const = 0;

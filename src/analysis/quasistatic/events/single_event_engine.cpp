@@ -67,8 +67,28 @@ void SingleEventEngine::set_limits(Index element) {
 
 double SingleEventEngine::limit_of(Index element) const {
   const Tooth tooth = network_.law(element).tooth(teeth_[element]);
-  return tooth.secant == 0.0 ? std::numeric_limits<double>::infinity()
-                             : network_.critical_stretch[element] * tooth.limit;
+  if (tooth.secant == 0.0) return std::numeric_limits<double>::infinity();
+  const double limit = network_.critical_stretch[element] * tooth.limit;
+  return alert_.empty() ? limit : alert_[element] * limit;
+}
+
+void SingleEventEngine::set_alert(std::span<const Index> elements, double fraction) {
+  alert_.resize(teeth_.size(), 1.0);
+  for (const Index element : elements) {
+    if (!network_.has_limit(element) || secants()[element] == 0.0) continue;
+    alert_[element] = fraction;
+    set_limits(element);
+  }
+}
+
+std::vector<Index> SingleEventEngine::near_events(double fraction) {
+  const std::span<const double> motion = equilibrium_.where_elements_fail();
+  const BreakSearch::Hit next = search_->find(motion, tie_tolerance, threads_);
+  std::vector<Index> near;
+  for (const BreakSearch::Hit& hit : search_->list(motion, fraction * next.ratio)) {
+    near.push_back(hit.element);
+  }
+  return near;
 }
 
 int SingleEventEngine::cut(std::span<const Index> elements) {

@@ -25,6 +25,8 @@ class SingleEventEngine : public EventEngine {
   double change_motion(const Unknowns& unknowns) override {
     return equilibrium_.change_motion(unknowns);
   }
+  void set_alert(std::span<const Index> elements, double fraction) override;
+  std::vector<Index> near_events(double fraction) override;
   int factorizations() const override { return equilibrium_.factor().factorizations(); }
   FactorStatistics factor_statistics() const override { return equilibrium_.factor().statistics(); }
 
@@ -47,6 +49,7 @@ class SingleEventEngine : public EventEngine {
   bool closes_;                            ///< Network::has_closing()
   std::optional<CrushingBonds> crushing_;  ///< where there are some
   std::vector<int> teeth_;                 ///< present tooth of each element
+  std::vector<double> alert_;  ///< per element: fraction of its limit that counts; empty: all of it
 };
 
 }  // namespace perilink

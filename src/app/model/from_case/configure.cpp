@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/body/carrier_model.hpp"
 #include "app/model/body/element_model.hpp"
 #include "app/model/body/fracture_rule.hpp"
 #include "app/model/body/horizon_limits.hpp"
@@ -354,6 +355,7 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
   if (const auto note = note_of_unused(input)) model.notes.push_back(*note);
   apply_boundary_conditions(input, model);
   model.gauges = build_gauges(input, model);
+  if (is_quasistatic(input.analysis.type)) carry_particles(input, model);
   for (const MaterialSection& material : input.materials) {
     model.hooke.push_back(
         hooke_constants(model.problem, material.youngs_modulus,

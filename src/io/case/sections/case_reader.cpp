@@ -7,6 +7,7 @@
 #include "io/case/case_keys.hpp"
 #include "io/case/case_overrides.hpp"
 #include "io/case/case_table.hpp"
+#include "io/case/sections/case_elements.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_rules.hpp"
 #include "io/case/sections/case_sections.hpp"
@@ -161,6 +162,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.cracks = document.list("cracks", in_dimension(read_crack));
   input.rebar = document.list("rebar", in_dimension(read_rebar));
   input.gauges = document.list("gauges", in_dimension(read_gauge));
+  input.elements = read_elements(document.table("elements"));
   input.analysis = read_analysis(document.table("analysis"), input.analysis.type);
   const StopSection stop = read_stop(document.table("stop"));
   if (is_quasistatic(input.analysis.type)) input.stop = stop;

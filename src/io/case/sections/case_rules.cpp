@@ -14,6 +14,7 @@
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_bond_dynamics.hpp"
+#include "io/case/sections/case_elements.hpp"
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
@@ -317,6 +318,15 @@ void check_rules(const CaseFile& input) {
                     Reserved::allowed);
   }
   check_gauges(input);
+  if (input.elements) {
+    for (const std::string& region : input.elements->regions) {
+      check_reference(input, names, "elements.regions", region, Reserved::allowed);
+    }
+    for (const std::string& region : input.elements->particles) {
+      check_reference(input, names, "elements.particles", region, Reserved::allowed);
+    }
+    check_elements(input);
+  }
   check_contradictions(input);
   check_driven(input);
 }

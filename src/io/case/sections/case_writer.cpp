@@ -7,6 +7,7 @@
 #include "io/case/case_file.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_bond_dynamics.hpp"
+#include "io/case/sections/case_elements.hpp"
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
@@ -191,6 +192,7 @@ std::string write_case(const CaseFile& input) {
   for (const CrackSection& crack : input.cracks) write_crack(out, crack, dim);
   for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);
   write_gauges(out, input);
+  if (input.elements) write_elements(out, *input.elements);
   write_run(out, input);
   return out.take();
 }

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "network/carried_motion.hpp"
+#include "network/network.hpp"
+
+namespace perilink {
+
+/// The finite elements that go on carrying particles. A bond with a carried end does not fail: it
+/// has an alert instead, at a fraction of its limit, and what comes next in the search is the
+/// element around it, which lets go of its particles. So every bond that fails has two free ends,
+/// and none that might have failed before it is left in an element.
+class Conversion {
+ public:
+  /// \param body  must outlive this
+  Conversion(const Network& network, const CarriedBody& body);
+
+  bool is_carried(Index bond) const {
+    return carrier_[network_.bonds.first[bond]] != no_index ||
+           carrier_[network_.bonds.second[bond]] != no_index;
+  }
+  /// Bonds that are carried now, ascending.
+  std::vector<Index> carried_bonds() const;
+
+  /// Converts the elements that carry these bonds, and those around them.
+  /// \return how the particles move from now on, valid until the call after the next one
+  const Unknowns& convert(std::span<const Index> bonds);
+  /// Bonds that the last call set free, ascending.
+  const std::vector<Index>& freed() const { return freed_; }
+  /// Per element, whether it carries its particles.
+  const std::vector<std::uint8_t>& whole() const { return whole_; }
+  /// Elements that carry particles.
+  Index num_whole() const { return num_whole_; }
+
+ private:
+  void mark_around(Index element, std::vector<std::uint8_t>& marked) const;
+
+  const Network& network_;
+  const CarriedBody& body_;
+  std::vector<std::uint8_t> whole_;
+  std::vector<Index> carrier_;  ///< per particle
+  Index num_whole_ = 0;
+  std::vector<Index> freed_;
+  std::unique_ptr<Unknowns> present_, former_;
+};
+
+}  // namespace perilink

@@ -1,0 +1,147 @@
+#include "app/model/body/carrier_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/model/model_regions.hpp"
+#include "base/error.hpp"
+#include "discretization/cuts/cracks.hpp"
+
+namespace perilink {
+namespace {
+
+/// Particles this close to the border of an element lie on it, in spacings.
+constexpr double border_tolerance = 1e-6;
+
+/// Elements are at least so many spacings wide, or they would carry no particle of their own.
+constexpr double least_spacings = 2.0;
+
+/// Planes between elements of about one size, through rows of particles where these are evenly
+/// spaced.
+std::vector<double> divide(const Model& model, int axis, double size) {
+  const Particles& particles = model.network.particles;
+  double lower = particles.position(0)[axis], upper = lower;
+  for (Index i = 0; i < particles.size(); ++i) {
+    lower = std::min(lower, particles.position(i)[axis]);
+    upper = std::max(upper, particles.position(i)[axis]);
+  }
+  const double extent = upper - lower;
+  const double count = std::max(1.0, std::round(extent / size));
+  const double step = model.lattice.step[axis];
+  const double rows = step > 0.0 ? extent / step : 0.0;
+  const bool even = rows > 0.0 && std::abs(rows - std::round(rows)) < border_tolerance * rows;
+  std::vector<double> planes;
+  for (double k = 0.0; k <= count; k += 1.0) {
+    const double at = k / count;
+    planes.push_back(lower + (even ? std::round(at * rows) / std::round(rows) : at) * extent);
+  }
+  return planes;
+}
+
+double size_of_elements(const CaseFile& input, const Model& model) {
+  const ElementsSection& section = *input.elements;
+  const double spacing = model.lattice.spacing;
+  const double size = section.size.value_or(section.spacings.value_or(0) * spacing);
+  if (size < least_spacings * spacing * (1.0 - border_tolerance)) {
+    throw InputError(
+        input.where("elements.size"),
+        fmt::format("is {:.6g}, but particles are {:.6g} apart", size, spacing),
+        fmt::format("give at least {:.6g}, or spacings = 4", least_spacings * spacing));
+  }
+  return size;
+}
+
+/// Per particle, whether an element may carry it.
+std::vector<std::uint8_t> particles_to_carry(const CaseFile& input, const Model& model) {
+  const ElementsSection& section = *input.elements;
+  const auto count = static_cast<std::size_t>(model.network.particles.size());
+  std::vector<std::uint8_t> carry(count, section.regions.empty() ? 1 : 0);
+  for (const std::string& region : section.regions) {
+    for (const Index i : particles_of_region(input, model, region, "elements.regions")) {
+      carry[i] = 1;
+    }
+  }
+  for (const std::string& region : section.particles) {
+    for (const Index i : particles_of_region(input, model, region, "elements.particles")) {
+      carry[i] = 0;
+    }
+  }
+  return carry;
+}
+
+/// Elements that a pre-crack crosses: lines from a particle in the middle to all others meet it.
+std::vector<std::uint8_t> crossed_elements(const CaseFile& input, const Model& model,
+                                           const Carriers& carriers) {
+  std::vector<std::uint8_t> crossed(static_cast<std::size_t>(carriers.size()), 0);
+  if (input.cracks.empty()) return crossed;
+  const Particles& particles = model.network.particles;
+  const auto dim = static_cast<std::size_t>(particles.dim);
+  std::vector<Crack> cracks;
+  for (const CrackSection& crack : input.cracks) cracks.push_back({crack.points});
+  Bonds lines;
+  std::vector<Index> element_of;
+  for (Index e = 0; e < carriers.size(); ++e) {
+    const auto inside = carriers.inside.row(e);
+    const auto from_centre = [&](Index i) {
+      double square = 0.0;
+      for (std::size_t a = 0; a < dim; ++a) {
+        const std::size_t at = static_cast<std::size_t>(e) * dim + a;
+        const double centre = 0.5 * (carriers.lower[at] + carriers.upper[at]);
+        square += (particles.position(i)[a] - centre) * (particles.position(i)[a] - centre);
+      }
+      return square;
+    };
+    const Index middle = *std::min_element(inside.begin(), inside.end(), [&](Index i, Index j) {
+      return from_centre(i) < from_centre(j);
+    });
+    for (const Index i : inside) {
+      if (i == middle) continue;
+      lines.first.push_back(middle);
+      lines.second.push_back(i);
+      element_of.push_back(e);
+    }
+  }
+  const CutBonds cut = find_cut_bonds(particles, lines, cracks, model.lattice.spacing);
+  for (std::size_t k = 0; k < element_of.size(); ++k) {
+    if (cut.keep[k] == 0) crossed[element_of[k]] = 1;
+  }
+  return crossed;
+}
+
+}  // namespace
+
+void carry_particles(const CaseFile& input, Model& model) {
+  if (!input.elements) return;
+  const double size = size_of_elements(input, model);
+  Divisions divisions;
+  for (int a = 0; a < model.network.dim(); ++a) divisions[a] = divide(model, a, size);
+  CarriedBody body;
+  body.carriers = carriers_on_grid(model.network.particles, model.facets, divisions,
+                                   input.elements->order, border_tolerance * model.lattice.spacing);
+  body.free = std::move(model.unknowns);
+  body.alert = input.elements->alert;
+  body.halo = input.elements->halo.value_or(model.horizon);
+  const std::vector<std::uint8_t> carry = particles_to_carry(input, model);
+  const std::vector<std::uint8_t> crossed = crossed_elements(input, model, body.carriers);
+  body.whole = fit_supports(body.carriers, body.free);
+  for (Index e = 0; e < body.carriers.size(); ++e) {
+    const auto inside = body.carriers.inside.row(e);
+    const bool all = std::all_of(inside.begin(), inside.end(), [&](Index i) { return carry[i]; });
+    if (!all || crossed[e] != 0) body.whole[e] = 0;
+  }
+  const auto whole = std::count(body.whole.begin(), body.whole.end(), 1);
+  if (whole == 0) {
+    throw InputError(input.where("elements"),
+                     fmt::format("leaves no element of size {:.6g} whole: surfaces, supports, "
+                                 "cracks or regions cross all of them",
+                                 size),
+                     "make the elements smaller, or delete the table");
+  }
+  model.unknowns = carried_motion(body, body.whole);
+  model.carried = std::move(body);
+}
+
+}  // namespace perilink

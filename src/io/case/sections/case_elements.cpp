@@ -1,0 +1,58 @@
+#include "io/case/sections/case_elements.hpp"
+
+#include <fmt/format.h>
+
+#include "io/case/case_schema.hpp"
+#include "io/text/toml_tree.hpp"
+
+namespace perilink {
+
+std::optional<ElementsSection> read_elements(const CaseTable& table) {
+  constexpr int most_spacings = 1000;
+  if (!table.exists()) return std::nullopt;
+  ElementsSection elements;
+  elements.spacings = table.integer("spacings", 2, most_spacings);
+  elements.size = table.positive("size");
+  table.need_one_of({"spacings", "size"});
+  assign(elements.order, table.integer("order", 1, 2));
+  assign(elements.regions, table.texts("regions"));
+  assign(elements.particles, table.texts("particles"));
+  assign(elements.alert, table.fraction("alert"));
+  if (!(elements.alert > 0.0)) {
+    table.refuse("alert", "is 0: every element would be converted at once",
+                 "0.25 converts an element when a bond in it has come to a quarter of its limit");
+  }
+  elements.halo = table.positive("halo");
+  return elements;
+}
+
+void check_elements(const CaseFile& input) {
+  if (!input.elements) return;
+  if (input.body.surface != Surface::calibrated) {
+    throw InputError(
+        input.where("body.surface"),
+        fmt::format("is {}, but [elements] need calibrated bonds, which balance every uniform "
+                    "strain as elements do",
+                    quoted(std::string(word_of(input.body.surface)))),
+        "delete the line, or the table [elements]");
+  }
+  if (!input.stages.empty()) {
+    throw InputError(input.where("elements"),
+                     "is given, but the case has [[stages]], in which particles move as they do "
+                     "at the start",
+                     "delete one of the two");
+  }
+}
+
+void write_elements(TomlWriter& out, const ElementsSection& elements) {
+  out.header("[elements]");
+  out.write("spacings", elements.spacings);
+  out.write("size", elements.size);
+  out.write("order", elements.order);
+  if (!elements.regions.empty()) out.write("regions", elements.regions);
+  if (!elements.particles.empty()) out.write("particles", elements.particles);
+  out.write("alert", elements.alert);
+  out.write("halo", elements.halo);
+}
+
+}  // namespace perilink

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "io/case/case_file.hpp"
+#include "io/case/case_table.hpp"
+#include "io/text/toml_writer.hpp"
+
+/// \file
+/// [elements]: finite elements that carry particles.
+
+namespace perilink {
+
+std::optional<ElementsSection> read_elements(const CaseTable& table);
+
+/// Refuses elements beside what they cannot carry.
+/// \throws InputError
+void check_elements(const CaseFile& input);
+
+void write_elements(TomlWriter& out, const ElementsSection& elements);
+
+}  // namespace perilink

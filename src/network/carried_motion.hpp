@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "discretization/carriers/carriers.hpp"
+#include "network/unknowns.hpp"
+
+namespace perilink {
+
+/// A body whose particles finite elements carry where nothing breaks.
+struct CarriedBody {
+  Carriers carriers;
+  Unknowns free;                    ///< how particles move that nothing carries
+  std::vector<std::uint8_t> whole;  ///< per element: whether it carries its particles at first
+  /// An element is converted before the next event where one of its bonds has come to this fraction
+  /// of its limit, at the load factor of that event [-].
+  double alert = 0.25;
+  double halo = 0.0;  ///< elements within this distance of one that converts do so too [length]
+};
+
+/// Elements that supports hold as their particles are held: along a component either all particles
+/// are held at zero that a held node moves alone, or none. A node is held where a particle at its
+/// place is. Others would make particles stiffer than they are.
+/// \return per element, nonzero where it may carry
+std::vector<std::uint8_t> fit_supports(const Carriers& carriers, const Unknowns& free);
+
+/// The first whole element of each particle; no_index: it is free.
+std::vector<Index> carrier_of_particles(const Carriers& carriers,
+                                        std::span<const std::uint8_t> whole, Index num_particles);
+
+/// The motion of all particles: free ones by unknowns of their own, in the order of the particles,
+/// then those of nodes that carry.
+/// \param whole  per element, of those that fit_supports() lets pass
+Unknowns carried_motion(const CarriedBody& body, std::span<const std::uint8_t> whole);
+
+}  // namespace perilink

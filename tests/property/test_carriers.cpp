@@ -1,0 +1,177 @@
+// Finite elements that carry particles: patch tests, and events beside those of free particles.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/model/from_case/configure.hpp"
+#include "app/run/quasistatic.hpp"
+
+namespace perilink {
+namespace {
+
+struct Patch {
+  const char* name;
+  std::string body;
+  bool space = false;
+  std::string elements;
+};
+
+void PrintTo(const Patch& patch, std::ostream* out) { *out << patch.name; }
+
+/// A body whose surface is driven by a uniform strain, all or a part of it in elements.
+std::string patch_case(const Patch& patch) {
+  const std::string z = patch.space ? "z = [0, 6]\n" : "";
+  std::string text = "[body]\n" + patch.body;
+  text += "[[regions]]\nname = \"all\"\nx = [0, 12]\ny = [0, 8]\n" + z;
+  text += "[[regions]]\nname = \"part\"\nx = [0, 6]\ny = [0, 8]\n" + z;
+  text += "[[materials]]\nregion = \"all\"\nyoungs_modulus = 7.0\nfracture_energy = 1\n";
+  if (patch.body.find("micropolar") != std::string::npos) text += "poissons_ratio = 0.2\n";
+  text += "[[displacements]]\nregion = \"surface\"\nx = \"0.3 * x + 0.1 * y\"\n";
+  text += "y = \"0.1 * x - 0.2 * y\"\n";
+  if (patch.space) text += "z = \"0.05 * z\"\n";
+  text += "[analysis]\ntype = \"elastic\"\n[elements]\n" + patch.elements;
+  return text;
+}
+
+class CarrierPatches : public testing::TestWithParam<Patch> {};
+
+/// Elements reproduce every linear motion, and calibrated bonds balance every uniform strain, so
+/// the two do together, wherever elements end. 1e-9: the bonds balance to 1e-10.
+TEST_P(CarrierPatches, UniformStrainIsExact) {
+  const Model model = build_model(parse_case(patch_case(GetParam()), "patch.toml"));
+  ASSERT_TRUE(model.carried);
+  ASSERT_GT(std::count(model.carried->whole.begin(), model.carried->whole.end(), 1), 0);
+  EXPECT_LT(model.unknowns.count, model.carried->free.count);
+  const ElasticAnswer answer = solve_elastic(model, 1);
+  const Particles& particles = model.network.particles;
+  const int width = model.network.width();
+  double error = 0.0;
+  for (Index i = 0; i < particles.size(); ++i) {
+    const auto x = particles.position(i);
+    const double* u = answer.solution.displacement.data() + static_cast<std::size_t>(i) * width;
+    error = std::max(error, std::abs(u[0] - (0.3 * x[0] + 0.1 * x[1])));
+    error = std::max(error, std::abs(u[1] - (0.1 * x[0] - 0.2 * x[1])));
+    if (particles.dim == 3) error = std::max(error, std::abs(u[2] - 0.05 * x[2]));
+  }
+  EXPECT_LT(error, 1e-9 * 12.0);
+}
+
+const std::string ratio3 = "horizon_ratio = 3\nspacing = 0.5\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, CarrierPatches,
+    testing::Values(
+        Patch{"rectangular", "pattern = \"rectangular\"\n" + ratio3, false, "spacings = 4\n"},
+        Patch{"part", "pattern = \"rectangular\"\n" + ratio3, false,
+              "spacings = 4\nregions = [\"part\"]\n"},
+        Patch{"particles", "pattern = \"rectangular\"\n" + ratio3, false,
+              "size = 1.7\nparticles = [\"part\"]\n"},
+        Patch{"hexagonal", "pattern = \"hexagonal\"\n" + ratio3, false, "spacings = 3\n"},
+        Patch{"micropolar", "pattern = \"rectangular\"\nmodel = \"micropolar\"\n" + ratio3, false,
+              "spacings = 4\n"},
+        Patch{"plane strain", "problem = \"plane_strain\"\npattern = \"rectangular\"\n" + ratio3,
+              false, "spacings = 3\n"},
+        Patch{"cubic",
+              "problem = \"three_dimensional\"\npattern = \"cubic\"\nhorizon_ratio = 2\n"
+              "spacing = 0.75\n",
+              true, "spacings = 2\n"}),
+    [](const auto& patch) {
+      std::string name = patch.param.name;
+      std::replace(name.begin(), name.end(), ' ', '_');
+      return name;
+    });
+
+/// A notched beam on three points, with or without elements.
+std::string beam_case(const std::string& more) {
+  return R"([body]
+pattern = "rectangular"
+spacing = 2.0
+horizon_ratio = 3
+[[regions]]
+name = "beam"
+x = [0, 160]
+y = [0, 40]
+[[regions]]
+name = "left"
+x = [10, 14]
+y = [0, 0]
+[[regions]]
+name = "right"
+x = [146, 150]
+y = [0, 0]
+[[regions]]
+name = "load"
+x = [78, 82]
+y = [40, 40]
+[[regions]]
+name = "pads"
+x = [0, 60]
+y = [0, 40]
+[[regions]]
+name = "other pads"
+x = [100, 160]
+y = [0, 40]
+[[regions]]
+name = "top"
+x = [60, 100]
+y = [32, 40]
+[[materials]]
+region = "beam"
+youngs_modulus = 30000.0
+fracture_energy = 0.1
+[[materials]]
+regions = ["pads", "other pads", "top"]
+youngs_modulus = 30000.0
+fracture_energy = "infinite"
+[[cracks]]
+points = [[81, -1], [81, 13]]
+[[supports]]
+region = "left"
+fix = ["x", "y"]
+[[supports]]
+region = "right"
+fix = ["y"]
+[[loads]]
+region = "load"
+force = [0, -100]
+[stop]
+broken_bonds = 120
+)" + more;
+}
+
+struct Events final : StepObserver {
+  std::vector<Index> elements;
+  std::vector<double> load_factors;
+  void on_step(const StepRecord& row, StateSource&) override {
+    elements.push_back(row.element);
+    load_factors.push_back(row.load_factor);
+  }
+};
+
+DamageResult run(const std::string& text, Events& events) {
+  const CaseFile input = parse_case(text, "beam.toml");
+  const Model model = build_model(input);
+  return run_damage_analysis(model, damage_options(input, 1), events);
+}
+
+TEST(Carriers, ConversionKeepsTheEventsAndTheEnergies) {
+  Events free, carried;
+  const DamageResult all = run(beam_case(""), free);
+  const DamageResult some = run(beam_case("[elements]\nspacings = 4\n"), carried);
+  EXPECT_EQ(some.ending, all.ending) << some.reason;
+  EXPECT_GT(some.conversions, 0);
+  EXPECT_GT(some.elements, 0);
+  EXPECT_LT(some.energy_error, 1e-9);
+  // What conversion frees is an error of the elements; here they are as wide as the ligament has
+  // eighths.
+  EXPECT_LT(some.last.freed_energy, 0.01 * some.last.dissipated_energy);
+  EXPECT_NEAR(some.peak_load, all.peak_load, 0.01 * all.peak_load);
+}
+
+}  // namespace
+}  // namespace perilink

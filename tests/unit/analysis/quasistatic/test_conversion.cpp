@@ -1,0 +1,60 @@
+#include "analysis/quasistatic/conversion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/model/from_case/configure.hpp"
+#include "support/strip_case.hpp"
+
+namespace perilink {
+namespace {
+
+/// Forty by eighty with particles 2.5 apart: four by eight elements of four spacings, less those at
+/// the ends that supports hold in part.
+Model strip_model() {
+  std::string text = test::strip_text;
+  text.replace(text.find("spacing = 10.0"), 14, "spacing = 2.5");
+  text.replace(text.find("horizon = 31.0"), 14, "horizon = 7.6");
+  return build_model(parse_case(text + "[elements]\nspacings = 4\norder = 1\nhalo = 1.0\n", "c"));
+}
+
+TEST(Conversion, FreesTheElementAndItsNeighbours) {
+  const Model model = strip_model();
+  ASSERT_TRUE(model.carried);
+  Conversion conversion(model.network, *model.carried);
+  const std::vector<Index> carried = conversion.carried_bonds();
+  const Index before = conversion.num_whole();
+  ASSERT_GT(before, 9);
+  // A bond in the middle of the strip, within one element.
+  const auto in_the_middle = [&](Index bond) {
+    for (const Index i : {model.network.bonds.first[bond], model.network.bonds.second[bond]}) {
+      const auto x = model.network.particles.position(i);
+      if (x[0] <= 10.0 || x[0] >= 20.0 || x[1] <= 40.0 || x[1] >= 50.0) return false;
+    }
+    return true;
+  };
+  const auto bond = std::find_if(carried.begin(), carried.end(), in_the_middle);
+  ASSERT_NE(bond, carried.end());
+  const Unknowns& motion = conversion.convert(std::vector<Index>{*bond});
+  EXPECT_EQ(conversion.num_whole(), before - 9) << "those that it touches";
+  EXPECT_GT(motion.count, model.unknowns.count);
+  EXPECT_FALSE(conversion.is_carried(*bond));
+  const std::vector<Index> after = conversion.carried_bonds();
+  std::vector<Index> freed;
+  std::set_difference(carried.begin(), carried.end(), after.begin(), after.end(),
+                      std::back_inserter(freed));
+  EXPECT_EQ(conversion.freed(), freed);
+}
+
+TEST(Conversion, EndsWithTheMotionOfFreeParticles) {
+  const Model model = strip_model();
+  Conversion conversion(model.network, *model.carried);
+  const Unknowns& motion = conversion.convert(conversion.carried_bonds());
+  EXPECT_EQ(conversion.num_whole(), 0);
+  EXPECT_FALSE(motion.carries());
+  EXPECT_EQ(motion.number, model.carried->free.number);
+}
+
+}  // namespace
+}  // namespace perilink

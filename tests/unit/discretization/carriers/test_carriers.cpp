@@ -1,0 +1,96 @@
+#include "discretization/carriers/carriers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace perilink {
+namespace {
+
+/// Particles one apart, from the origin.
+Particles block(int dim, int columns, int rows, int layers = 1) {
+  Particles particles;
+  particles.dim = dim;
+  for (int z = 0; z < layers; ++z) {
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        for (const int c : {x, y, z}) {
+          if (static_cast<int>(particles.positions.size()) <
+              dim * static_cast<int>(particles.volumes.size() + 1)) {
+            particles.positions.push_back(c);
+          }
+        }
+        particles.volumes.push_back(1.0);
+        particles.kind.push_back(ParticleKind::solid);
+        particles.material.push_back(0);
+      }
+    }
+  }
+  return particles;
+}
+
+TEST(Carriers, OneElementPerCellWithItsBorder) {
+  const Particles particles = block(2, 9, 5);
+  const Carriers carriers = carriers_on_grid(particles, {}, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6);
+  ASSERT_EQ(carriers.size(), 2);
+  EXPECT_EQ(carriers.num_nodes(), 6);
+  EXPECT_EQ(carriers.inside.row(0).size(), 25u);
+  EXPECT_EQ(carriers.inside.row(1).size(), 25u);
+  EXPECT_EQ(carriers.lower, (std::vector<double>{0, 0, 4, 0}));
+  EXPECT_EQ(carriers.upper, (std::vector<double>{4, 4, 8, 4}));
+}
+
+/// Shape functions add up to one and carry every polynomial of their order along each axis.
+/// Tolerance: round-off of numbers below 100.
+void expect_polynomials(const Particles& particles, const Carriers& carriers, int order) {
+  for (Index e = 0; e < carriers.size(); ++e) {
+    const auto nodes = carriers.nodes_of.row(e);
+    const auto inside = carriers.inside.row(e);
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      const auto weights = carriers.weights_at(e, k);
+      EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), 1.0, 1e-13);
+      for (int a = 0; a < particles.dim; ++a) {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < nodes.size(); ++c) {
+          const std::size_t at = static_cast<std::size_t>(nodes[c]) * particles.dim + a;
+          sum += weights[c] * std::pow(carriers.nodes[at], order);
+        }
+        EXPECT_NEAR(sum, std::pow(particles.position(inside[k])[a], order), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(Carriers, ShapeFunctionsReproducePolynomials) {
+  const Particles plane = block(2, 9, 7), space = block(3, 5, 4, 7);
+  for (const int order : {1, 2}) {
+    const Carriers flat = carriers_on_grid(plane, {}, {{{0, 3.5, 8}, {0, 6}, {}}}, order, 1e-6);
+    EXPECT_EQ(flat.nodes_of.row(0).size(), order == 1 ? 4u : 9u);
+    expect_polynomials(plane, flat, order);
+    const Carriers solid = carriers_on_grid(space, {}, {{{0, 4}, {0, 3}, {0, 3, 6}}}, order, 1e-6);
+    EXPECT_EQ(solid.nodes_of.row(0).size(), order == 1 ? 8u : 27u);
+    expect_polynomials(space, solid, order);
+  }
+}
+
+TEST(Carriers, LeavesOutCellsThatAFacetCuts) {
+  const Particles particles = block(2, 9, 5);
+  Facets facets;
+  facets.dim = 2;
+  const Index inside[] = {10, 11};  // from (1, 1) to (2, 1)
+  facets.append(inside, {0, 1, 0}, 0, no_index);
+  const Index border[] = {4, 13};  // on x = 4
+  facets.append(border, {1, 0, 0}, 0, no_index);
+  const Carriers carriers = carriers_on_grid(particles, facets, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6);
+  ASSERT_EQ(carriers.size(), 1);
+  EXPECT_EQ(carriers.lower.front(), 4.0);
+}
+
+TEST(Carriers, LeavesOutCellsWithoutParticlesInside) {
+  const Particles particles = block(2, 5, 5);
+  EXPECT_EQ(carriers_on_grid(particles, {}, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6).size(), 1);
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,83 @@
+#include "network/carried_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace perilink {
+namespace {
+
+/// Nine by five particles one apart, in two bilinear elements of four; the left column is held
+/// along x.
+struct TwoElements {
+  explicit TwoElements(int held_rows = 5, double driven = 0.0) {
+    particles.dim = 2;
+    std::vector<std::uint8_t> held;
+    std::vector<double> prescribed;
+    for (int y = 0; y < 5; ++y) {
+      for (int x = 0; x < 9; ++x) {
+        particles.positions.insert(particles.positions.end(), {1.0 * x, 1.0 * y});
+        particles.volumes.push_back(1.0);
+        particles.kind.push_back(ParticleKind::solid);
+        held.insert(held.end(), {x == 0 && y < held_rows, 0});
+        prescribed.insert(prescribed.end(), {x == 0 && y < held_rows ? driven : 0.0, 0.0});
+      }
+    }
+    body.carriers = carriers_on_grid(particles, {}, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6);
+    body.free = number_unknowns(2, held, prescribed);
+    body.whole = fit_supports(body.carriers, body.free);
+  }
+
+  Particles particles;
+  CarriedBody body;
+};
+
+TEST(CarriedMotion, NodesMoveParticlesAndSupportsHoldNodes) {
+  const TwoElements two;
+  EXPECT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
+  const Unknowns motion = carried_motion(two.body, two.body.whole);
+  EXPECT_EQ(motion.count, 2 * 6 - 2) << "two nodes are held along x";
+  EXPECT_TRUE(motion.carries());
+  EXPECT_EQ(motion.at(0, 0), no_index);
+  const std::vector<Index> owners = motion.owners();
+  EXPECT_TRUE(std::is_sorted(owners.begin(), owners.end()));
+  EXPECT_GE(owners.front(), two.particles.size()) << "no particle has unknowns of its own";
+
+  // u = (0.1 x, 0.2 x - 0.3 y): nodes of elements in their order, components that move.
+  std::vector<double> q(static_cast<std::size_t>(motion.count));
+  for (Index node = 0; node < two.body.carriers.num_nodes(); ++node) {
+    const double x = two.body.carriers.nodes[static_cast<std::size_t>(node) * 2];
+    const double y = two.body.carriers.nodes[static_cast<std::size_t>(node) * 2 + 1];
+    int component = x == 0.0 ? 1 : 0;
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      if (owners[k] == two.particles.size() + node) {
+        q[k] = component++ == 0 ? 0.1 * x : 0.2 * x - 0.3 * y;
+      }
+    }
+  }
+  const std::vector<double> u = motion.expand(q);
+  for (Index i = 0; i < two.particles.size(); ++i) {
+    const auto at = two.particles.position(i);
+    EXPECT_NEAR(u[static_cast<std::size_t>(i) * 2], 0.1 * at[0], 1e-14);
+    EXPECT_NEAR(u[static_cast<std::size_t>(i) * 2 + 1], 0.2 * at[0] - 0.3 * at[1], 1e-14);
+  }
+}
+
+TEST(CarriedMotion, ElementsThatAreHeldInPartDoNotCarry) {
+  EXPECT_EQ(TwoElements(3).body.whole, (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_EQ(TwoElements(5, 0.25).body.whole, (std::vector<std::uint8_t>{0, 1})) << "driven";
+}
+
+TEST(CarriedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {
+  const TwoElements two;
+  const std::vector<std::uint8_t> second = {0, 1};
+  const std::vector<Index> carrier = carrier_of_particles(two.body.carriers, second, 45);
+  EXPECT_EQ(carrier[3], no_index);
+  EXPECT_EQ(carrier[4], 1);
+  const Unknowns motion = carried_motion(two.body, second);
+  EXPECT_EQ(motion.count, 2 * 20 - 5 + 2 * 4);
+  EXPECT_EQ(motion.at(1, 0), 1) << "free particles keep their order";
+}
+
+}  // namespace
+}  // namespace perilink
