@@ -1,29 +1,35 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/plot/svg.hpp"
-#include "homogeneous.hpp"
-#include "plates.hpp"
 
 namespace perilink::verification {
 
-struct UniformRun {
-  ReferenceCurve reference;
-  std::vector<HomogeneousPoint> points;
+/// A row of homogeneous.csv with free sides.
+struct UniformRow {
+  bool shear_softens = false;
+  double strain = 0.0, stress = 0.0, reference = 0.0;
 };
-/// Stress over strain, free across, lines the reference.
-Svg draw_uniform(const std::vector<UniformRun>& runs);
+/// Stress over strain, lines the reference.
+Svg draw_uniform(const std::vector<UniformRow>& rows);
 
-struct PlateRun {
+/// A row of plates.csv.
+struct PlateRow {
   std::string body;
   double x = 0.0, y = 0.0;  ///< ratio of the tractions
-  PlateResult result;
+  double strength = 0.0;
 };
 /// Strengths over that in uniaxial compression.
-Svg draw_envelope(const std::vector<PlateRun>& runs);
-/// Stress over strain of plates on the lattice and the mesh under load along one axis.
-Svg draw_curves(const std::vector<PlateRun>& runs);
+Svg draw_envelope(const std::vector<PlateRow>& rows);
+
+/// Strains and stresses of a plate under load along one axis.
+struct PlateCurve {
+  std::string body;
+  std::vector<std::pair<double, double>> tension, compression;
+};
+Svg draw_curves(const std::vector<PlateCurve>& plates);
 
 }  // namespace perilink::verification

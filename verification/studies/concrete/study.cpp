@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -20,12 +23,11 @@ constexpr double short_of_the_fall = 0.998;
 
 const char* rule_of(bool shear_softens) { return shear_softens ? "B" : "A"; }
 
-/// Writes homogeneous.csv and homogeneous.svg.
+/// Writes homogeneous.csv.
 void run_homogeneous() {
   const std::string layout = "mesh = \"cloud.geo\"\nmesh_size = 12.7\nhorizon_ratio = 4\n";
   const std::vector<ReferenceCurve> curves = read_reference();
   std::string table = "rule,across,strain,strain_across,stress,stress_across,reference\n";
-  std::vector<UniformRun> runs;
   for (const ReferenceCurve& curve : curves) {
     Homogeneous specimen{.layout = layout,
                          .shear_softens = curve.shear_softens,
@@ -45,13 +47,11 @@ void run_homogeneous() {
       table += row;
     }
     std::fflush(stdout);
-    runs.push_back({curve, found});
     write_result(PERILINK_STUDY_DIR, table, "homogeneous.csv");
-    draw_uniform(runs).save(PERILINK_STUDY_DIR "/homogeneous.svg");
   }
 }
 
-/// Writes plates.csv, envelope.svg and curves.svg.
+/// Writes plates.csv.
 void run_plates() {
   const struct {
     double x, y;
@@ -59,7 +59,6 @@ void run_plates() {
                 {0, -1}, {-0.1, -1}, {-0.2, -1}, {-0.5, -1}, {-1, -1}};
   std::string table =
       "body,x,y,strength,strain,cell_tension,cell_compression,energy_error,events,broken,ending\n";
-  std::vector<PlateRun> runs;
   for (const char* body : {"lattice", "mesh", "slab"}) {
     for (const auto& ratio : ratios) {
       if (std::string(body) == "slab" && ratio.x > 0.0 && ratio.y != 0.0) continue;
@@ -71,19 +70,58 @@ void run_plates() {
       fmt::print("{}", row);
       std::fflush(stdout);
       table += row;
-      runs.push_back({body, ratio.x, ratio.y, result});
     }
     write_result(PERILINK_STUDY_DIR, table, "plates.csv");
-    draw_envelope(runs).save(PERILINK_STUDY_DIR "/envelope.svg");
-    draw_curves(runs).save(PERILINK_STUDY_DIR "/curves.svg");
   }
+}
+
+/// The fields of a table without its head, commas replaced.
+std::vector<std::istringstream> rows_of(const std::string& name) {
+  std::ifstream file(PERILINK_STUDY_DIR "/" + name);
+  std::vector<std::istringstream> rows;
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    rows.emplace_back(line);
+  }
+  return rows;
+}
+
+/// Draws the tables, and the curves of plates under load along one axis, which it runs again.
+void draw_pictures() {
+  std::vector<UniformRow> uniform;
+  for (std::istringstream& row : rows_of("homogeneous.csv")) {
+    std::string rule, across;
+    double strain_across = 0.0, stress_across = 0.0;
+    UniformRow point;
+    row >> rule >> across >> point.strain >> strain_across >> point.stress >> stress_across >>
+        point.reference;
+    point.shear_softens = rule == "B";
+    if (across == "free") uniform.push_back(point);
+  }
+  draw_uniform(uniform).save(PERILINK_STUDY_DIR "/homogeneous.svg");
+  std::vector<PlateRow> plates;
+  for (std::istringstream& row : rows_of("plates.csv")) {
+    PlateRow plate;
+    row >> plate.body >> plate.x >> plate.y >> plate.strength;
+    plates.push_back(plate);
+  }
+  draw_envelope(plates).save(PERILINK_STUDY_DIR "/envelope.svg");
+  std::vector<PlateCurve> curves;
+  for (const char* body : {"lattice", "mesh"}) {
+    curves.push_back(
+        {body, load_plate({body, 1.0, 0.0}).curve, load_plate({body, 0.0, -1.0}).curve});
+  }
+  draw_curves(curves).save(PERILINK_STUDY_DIR "/curves.svg");
 }
 
 }  // namespace
 }  // namespace perilink::verification
 
 /// The law of concrete with two limits in bodies: `concrete homogeneous` and `concrete plates`
-/// write the tables and pictures of the study, `concrete case BODY X Y` prints the case of a plate.
+/// write the tables of the study, `concrete pictures` draws them, `concrete case BODY X Y` prints
+/// the case of a plate.
 int main(int argc, char** argv) try {
   using namespace perilink::verification;
   const std::string part = argc > 1 ? argv[1] : "";
@@ -91,10 +129,13 @@ int main(int argc, char** argv) try {
     run_homogeneous();
   } else if (part == "plates") {
     run_plates();
+  } else if (part == "pictures") {
+    draw_pictures();
   } else if (part == "case" && argc == 5) {
     fmt::print("{}", plate_case({argv[2], std::stod(argv[3]), std::stod(argv[4])}));
   } else {
-    throw std::invalid_argument("name homogeneous, plates, or case with a body and two tractions");
+    throw std::invalid_argument(
+        "name homogeneous, plates, pictures, or case with a body and two tractions");
   }
   return 0;
 } catch (const std::exception& error) {
