@@ -61,7 +61,7 @@ Svg draw_uniform(const std::vector<UniformRow>& rows) {
     const bool shear_softens = k % 2 == 1;
     std::vector<std::pair<double, double>> line{{0.0, 0.0}};
     for (const UniformRow& row : rows) {
-      if (row.shear_softens != shear_softens || (row.strain < 0.0) != (panel == 1)) continue;
+      if (row.shear_softens != shear_softens || (row.reference < 0.0) != (panel == 1)) continue;
       const double strain = std::abs(row.strain);
       line.emplace_back(strain, std::abs(row.reference));
       svg.circle({panels.x[panel].map(strain), panels.y[panel].map(std::abs(row.stress))}, 2.5,

@@ -11,7 +11,8 @@ namespace perilink::verification {
 /// A row of homogeneous.csv with free sides.
 struct UniformRow {
   bool shear_softens = false;
-  double strain = 0.0, stress = 0.0, reference = 0.0;
+  double strain = 0.0;  ///< its size
+  double stress = 0.0, reference = 0.0;
 };
 /// Stress over strain, lines the reference.
 Svg draw_uniform(const std::vector<UniformRow>& rows);

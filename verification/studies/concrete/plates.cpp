@@ -65,7 +65,7 @@ class CurveRecorder final : public StepObserver {
   }
   int events = 0;
   double strength = 0.0, strain = 0.0;
-  std::vector<std::pair<double, double>> curve;
+  std::vector<std::pair<double, double>> curve{{0.0, 0.0}};
 };
 
 }  // namespace
