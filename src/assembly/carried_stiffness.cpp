@@ -1,6 +1,7 @@
 #include "assembly/carried_stiffness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <span>
 #include <utility>
@@ -43,7 +44,7 @@ class Bundles {
   Index size() const { return unknowns.rows(); }
 
   Csr unknowns;                    ///< that move each bundle, ascending
-  Csr particles;                   ///< of each bundle
+  Csr particles;                   ///< in each bundle
   std::vector<Index> of_particle;  ///< number of its bundle
 };
 
@@ -148,37 +149,42 @@ class Assembler {
     }
   }
 
+  /// The rows that the particle's own motion meets, then shared among the unknowns that move it.
   void add_particle(Index i, std::span<const Index> columns, std::size_t num_rows) {
-    const std::size_t slot = static_cast<std::size_t>(i) * Element::width;
+    constexpr int width = Element::width;
+    const std::size_t slot = static_cast<std::size_t>(i) * width;
+    own_.assign(num_rows * width, 0.0);
+    std::array<double, width * width> diagonal{};
+    for (int a = 0; a < width && !network_.support_stiffness.empty(); ++a) {
+      diagonal[a * width + a] = network_.support_stiffness[slot + a];
+    }
     for (const Index e : families_.row(i)) {
       const Element element(network_, e, secants_);
-      const int own = network_.bonds.first[e] == i ? 0 : 1;
-      const std::size_t other =
-          static_cast<std::size_t>(network_.bonds.other_end(e, i)) * Element::width;
-      for (int col = 0; col < Element::width; ++col) {
-        unknowns_.for_each(slot + col, [&](Index k, double weight) {
-          const auto at = std::lower_bound(columns.begin(), columns.end(), k) - columns.begin();
-          double* column = dense_.data() + static_cast<std::size_t>(at) * num_rows;
-          for (int row = 0; row < Element::width; ++row) {
-            add(slot + row, weight * element.entry(own, own, row, col), column);
-            add(other + row, weight * element.entry(1 - own, own, row, col), column);
-          }
-        });
+      const int end = network_.bonds.first[e] == i ? 0 : 1;
+      const std::size_t other = static_cast<std::size_t>(network_.bonds.other_end(e, i)) * width;
+      for (int col = 0; col < width; ++col) {
+        for (int row = 0; row < width; ++row) {
+          diagonal[row * width + col] += element.entry(end, end, row, col);
+          add(other + row, element.entry(1 - end, end, row, col), col * num_rows);
+        }
       }
     }
-    if (network_.support_stiffness.empty()) return;
-    for (int a = 0; a < Element::width; ++a) {
-      const double spring = network_.support_stiffness[slot + a];
-      if (spring == 0.0) continue;
-      unknowns_.for_each(slot + a, [&](Index k, double weight) {
+    for (int col = 0; col < width; ++col) {
+      for (int row = 0; row < width; ++row) {
+        add(slot + row, diagonal[row * width + col], col * num_rows);
+      }
+      const double* from = own_.data() + col * num_rows;
+      unknowns_.for_each(slot + col, [&](Index k, double weight) {
         const auto at = std::lower_bound(columns.begin(), columns.end(), k) - columns.begin();
-        add(slot + a, weight * spring, dense_.data() + static_cast<std::size_t>(at) * num_rows);
+        double* column = dense_.data() + static_cast<std::size_t>(at) * num_rows;
+        for (std::size_t row = 0; row < num_rows; ++row) column[row] += weight * from[row];
       });
     }
   }
 
-  void add(std::size_t slot, double value, double* column) const {
-    unknowns_.for_each(slot, [&](Index k, double weight) { column[row_of_[k]] += weight * value; });
+  void add(std::size_t slot, double value, std::size_t first) {
+    unknowns_.for_each(slot,
+                       [&](Index k, double weight) { own_[first + row_of_[k]] += weight * value; });
   }
 
   const Network& network_;
@@ -190,6 +196,7 @@ class Assembler {
   SparseMatrix matrix_;
   std::vector<Index> row_of_;  ///< per unknown: its place among the rows of the present bundle
   std::vector<double> dense_;  ///< columns of the present bundle
+  std::vector<double> own_;    ///< columns that belong to the components of the present particle
 };
 
 }  // namespace

@@ -14,6 +14,15 @@ std::vector<double> Unknowns::expand(std::span<const double> q) const {
   return displacement;
 }
 
+void Unknowns::expand(std::span<const double> q, std::span<const std::size_t> slots,
+                      std::span<double> displacement) const {
+  for (const std::size_t slot : slots) {
+    double u = prescribed[slot];
+    for_each(slot, [&](Index k, double weight) { u += weight * q[k]; });
+    displacement[slot] = u;
+  }
+}
+
 std::vector<double> Unknowns::restrict(std::span<const double> forces) const {
   std::vector<double> result(static_cast<std::size_t>(count), 0.0);
   for (std::size_t slot = 0; slot < number.size(); ++slot) {

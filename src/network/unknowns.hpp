@@ -60,6 +60,9 @@ struct Unknowns {
 
   /// T q + prescribed: the motion of all particles, shape (particles, width).
   std::vector<double> expand(std::span<const double> q) const;
+  /// The same of some slots alone, into the motion of all particles.
+  void expand(std::span<const double> q, std::span<const std::size_t> slots,
+              std::span<double> displacement) const;
   /// T' f: forces on particles, shape (particles, width), as forces on the unknowns.
   std::vector<double> restrict(std::span<const double> forces) const;
   /// A slot that each unknown moves: its own, or the first that it carries. Size count.
@@ -74,7 +77,7 @@ struct Unknowns {
  private:
   std::vector<std::size_t> rows_ = {0};  // where the shares of each carried slot begin, and an end
   std::vector<Share> shares_;
-  std::vector<Index> nodes_;  // of the last unknowns
+  std::vector<Index> nodes_;  // whose the last unknowns are
 };
 
 /// For analyses that move every particle by itself.

@@ -118,5 +118,87 @@ TEST_F(SofteningRuns, ExplicitOnesBearTheSame) {
   EXPECT_TRUE(fs::exists(work() / "both/compare.svg"));
 }
 
+/// A block of 50 by 100 with a closed crack across it, under a weight of 1000, pushed at its top:
+/// it turns about the particle at (50, 20), with half the width and 80 of height as its arms.
+std::string rocking_block(const std::string& push, const std::string& stages) {
+  return R"([body]
+problem = "plane_stress"
+thickness = 10
+spacing = 5
+horizon_ratio = 3
+[[regions]]
+name = "block"
+x = [0, 50]
+y = [0, 100]
+[[regions]]
+name = "bottom"
+x = [0, 50]
+y = [0, 0]
+[[regions]]
+name = "top"
+x = [0, 50]
+y = [100, 100]
+[[regions]]
+name = "corner"
+x = [0, 0]
+y = [100, 100]
+[[materials]]
+region = "block"
+youngs_modulus = 30000
+fracture_energy = 1e6
+closing = true
+[[supports]]
+region = "bottom"
+fix = ["x", "y"]
+[[cracks]]
+points = [[-1, 22.5], [51, 22.5]]
+[[loads]]
+region = "top"
+force = [0, -1000]
+stage = "weight"
+)" + push +
+         R"(
+stage = "push"
+[[stages]]
+name = "weight"
+to = 1
+[[stages]]
+name = "push"
+)" + stages;
+}
+
+constexpr const char* driven_corner = "[[displacements]]\nregion = \"corner\"\nx = 0.01";
+
+TEST_F(SofteningRuns, ARockingBlockIsAMechanismWhoseLoadStays) {
+  write_text(work() / "driven.toml", rocking_block(driven_corner, "to = 500\n"));
+  write_text(work() / "forced.toml",
+             rocking_block("[[loads]]\nregion = \"corner\"\nforce = [10, 0]", "to = 500\n"));
+  for (const std::string name : {"driven", "forced"}) {
+    run_case(name);
+    const nlohmann::json result = summary(name);
+    EXPECT_EQ(result["status"], "collapsed");
+    EXPECT_THAT(result["reason"].get<std::string>(), testing::HasSubstr("a mechanism: "));
+    // Round-off at a pivot of zero.
+    EXPECT_NEAR(result["peak_load"].get<double>(), 1000.0 * 25.0 / 80.0, 1e-6);
+    EXPECT_THAT(result["notes"].dump(), testing::HasSubstr("nothing but their closed faces"));
+  }
+  EXPECT_THAT(summary("driven")["reason"].get<std::string>(), testing::HasSubstr("at 312.5"));
+}
+
+TEST_F(SofteningRuns, StagesEndAtALoad) {
+  write_text(work() / "back.toml", rocking_block(driven_corner,
+                                                 "to_load = 200\n[[stages]]\nname = \"back\"\n"
+                                                 "loads = \"push\"\nto_load = 0\n"));
+  run_case("back");
+  const nlohmann::json result = summary("back");
+  EXPECT_EQ(result["status"], "completed");
+  EXPECT_EQ(result["reason"], "the load reached 0");
+  EXPECT_EQ(result["stages"][1]["reason"], "the load reached 200");
+  EXPECT_EQ(result["stages"][2]["loads"], "push");
+  // Round-off of sums of reactions as large as the weight.
+  EXPECT_NEAR(result["stages"][1]["load"].get<double>(), 200.0, 1e-9);
+  EXPECT_NEAR(result["stages"][2]["load"].get<double>(), 0.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace perilink::test

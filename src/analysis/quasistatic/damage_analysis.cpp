@@ -51,10 +51,9 @@ std::unique_ptr<EventEngine> EventRun::make_engine() {
   if (options_.stages.empty()) return make_event_engine(problem_, options_.engine);
   auto engine = std::make_unique<StagedEngine>(problem_, options_.engine);
   staged_ = engine.get();
-  const std::optional<double>& to = options_.stages.front().to;
-  if (engine->open_for(to && *to < 0.0 ? -1.0 : 1.0).mechanism) {
-    throw SolverError("cracks have separated the body, and the loads pull it apart");
-  }
+  const StageRules& first = options_.stages.front();
+  const double end = first.to.value_or(first.to_load.value_or(1.0));
+  if (engine->open_for(end < 0.0 ? -1.0 : 1.0).mechanism) throw CracksSeparate();
   return engine;
 }
 
@@ -128,12 +127,17 @@ bool EventRun::converts(const Event& event) {
   if (!conversion_ || event.element == no_index || !conversion_->is_carried(event.element)) {
     return false;
   }
-  constexpr double as_near = 0.9;
+  constexpr double as_near = 0.7;
   const Unknowns& unknowns = conversion_->convert(engine_->near_events(as_near));
   adopt(unknowns);
   result_.unknowns = unknowns.count;
   engine_->set_alert(conversion_->freed(), 1.0);
   ++result_.conversions;
+  const Event next = engine_->next_event();
+  const bool freed =
+      std::binary_search(conversion_->freed().begin(), conversion_->freed().end(), next.element);
+  const bool earlier = next.load_factor < event.load_factor * (1.0 - tie_tolerance);
+  if (row_.step > 0 && freed && earlier) ++result_.late_conversions;
   result_.elements = conversion_->num_whole();
   return true;
 }
@@ -216,7 +220,9 @@ bool EventRun::pass(const Event& event) {
     if (outcome.broke()) result_.broken_bonds = 1;  // beyond those of the last row
     end(Ending::collapsed,
         event.changes_side
-            ? fmt::format("the body separated when the closed element {} opened", event.element)
+            ? fmt::format("a mechanism: once the closed element {} has opened, a piece of the body "
+                          "is free to move or to turn",
+                          event.element)
             : fmt::format("the body separated when element {} failed (pivot {:.1e})", event.element,
                           outcome.pivot));
     return false;
@@ -331,6 +337,13 @@ DamageResult EventRun::finish() {
   result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
   result_.factor = engine_->factor_statistics();
   return result_;
+}
+
+void require_held_pieces(const LoadedNetwork& problem, const DamageOptions& options) {
+  struct Silent final : StepObserver {
+    void on_step(const StepRecord&, StateSource&) override {}
+  } silent;
+  EventRun run(problem, options, silent);
 }
 
 DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptions& options,

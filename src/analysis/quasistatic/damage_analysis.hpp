@@ -9,4 +9,9 @@ namespace perilink {
 DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptions& options,
                                  StepObserver& observer);
 
+/// Lets damaged bonds open where the loads of the beginning pull them, as a run does before its
+/// first row: costs a factorisation.
+/// \throws CracksSeparate where nothing else holds a piece of the body
+void require_held_pieces(const LoadedNetwork& problem, const DamageOptions& options);
+
 }  // namespace perilink

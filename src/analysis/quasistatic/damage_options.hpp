@@ -29,8 +29,10 @@ struct StopRules {
 /// is met.
 struct StageRules {
   std::size_t set = 0;       ///< LoadedNetwork::sets: the loads that change
-  std::optional<double> to;  ///< load factor at which it ends; absent: by events
+  std::optional<double> to;  ///< load factor at which it ends
   StopRules stop;
+  /// Load at which it ends [force]; absent, and without `to`: by events.
+  std::optional<double> to_load = {};
 };
 
 /// How a stage ended.
@@ -66,8 +68,11 @@ struct DamageResult {
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;
   Index conversions = 0;  ///< times that finite elements let go of particles
-  Index elements = 0;     ///< that carry particles now
-  Index unknowns = 0;     ///< now
+  /// Conversions after which a bond was farther beyond its limit than the alert allowed for: it
+  /// may have failed before, unseen.
+  Index late_conversions = 0;
+  Index elements = 0;  ///< that carry particles now
+  Index unknowns = 0;  ///< now
   /// Largest |work - stored - dissipated - freed| / work of all rows, the stored energy summed over
   /// the elements wherever the whole equilibrium was measured.
   double energy_error = 0.0;

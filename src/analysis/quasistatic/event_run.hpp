@@ -52,6 +52,7 @@ class EventRun {
   DamageResult by_stages();
   void begin_stage(std::size_t number);
   void end_stage();
+  std::optional<double> end_of(const StageRules& stage, const LoadWork& work) const;
   bool follow_stage(const StageRules& stage);
   void measure_beside(const LoadWork& work);
   void record(double load_factor, const LoadWork& work, Index element);

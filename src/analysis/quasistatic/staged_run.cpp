@@ -45,28 +45,47 @@ void EventRun::end_stage() {
   stage.peak = result_.peaks.highest();
 }
 
+/// The load factor at which a stage ends, as long as nothing fails; none: by events.
+std::optional<double> EventRun::end_of(const StageRules& stage, const LoadWork& work) const {
+  if (!stage.to_load) return stage.to;
+  const double reference = reference_->value;
+  if (!reference_->driven) return *stage.to_load / reference;
+  const double constant = work.constant.growing_supports - work.constant.forces_on_grips;
+  return (*stage.to_load * reference - constant) / work.supports;
+}
+
 /// \return whether the run goes on after it
 bool EventRun::follow_stage(const StageRules& stage) {
   while (true) {
     const LoadWork work = engine_->load_work();
     if (work.separated) {
       record_separated(staged_->load_factor(), work);
+      // A block that rocks under its weight keeps its load.
+      constexpr double round_off = 1e-9;
+      if (std::abs(row_.load) > round_off * std::abs(result_.peak_load)) {
+        end(Ending::collapsed,
+            fmt::format("a mechanism: constant loads alone keep the load at {:.6g}, however far "
+                        "the displacements go on",
+                        row_.load));
+      }
       return false;
     }
-    const Event event = stage.to ? staged_->next_event_towards(*stage.to) : engine_->next_event();
+    const std::optional<double> aim = end_of(stage, work);
+    const Event event = aim ? staged_->next_event_towards(*aim) : engine_->next_event();
     const bool arrived = event.element == no_index;
-    if (arrived && !stage.to) {
+    if (arrived && !aim) {
       end(Ending::nothing_breaks, "no bond can break under this load");
       return false;
     }
-    const double load_factor = arrived ? *stage.to : event.load_factor;
+    const double load_factor = arrived ? *aim : event.load_factor;
     staged_->move_to(load_factor);
     row_.avalanche = event.avalanche ? 1 : 0;
     row_.side_change = event.changes_side ? 1 : 0;
     record(load_factor, work, event.element);
     if (stop_rule_met()) return result_.ending == Ending::completed;
     if (arrived) {
-      end(Ending::completed, fmt::format("the load factor reached {}", *stage.to));
+      end(Ending::completed, stage.to ? fmt::format("the load factor reached {}", *stage.to)
+                                      : fmt::format("the load reached {}", *stage.to_load));
       return true;
     }
     if (!pass(event)) return false;

@@ -13,6 +13,7 @@
 #include "app/run/bond_run.hpp"
 #include "app/run/relaxation_run.hpp"
 #include "app/run/run_cost.hpp"
+#include "app/run/separated_body.hpp"
 #include "app/run/summary.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
@@ -128,6 +129,11 @@ void print_sizes(const Model& model) {
              ghosts, bar_nodes);
   print_spacing(model);
   print_elements(model);
+  if (model.carried) {
+    const std::vector<std::uint8_t>& whole = model.carried->whole;
+    fmt::print("#   finite elements    {} carry particles, which would have {} unknowns\n",
+               std::count(whole.begin(), whole.end(), 1), model.carried->free.count);
+  }
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {
     fmt::print("#   group              {}: {} particles, {} facets of the surface\n", group.name,
@@ -285,8 +291,9 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   }
   if (input.analysis.type == AnalysisType::relaxation) return check_relaxation(case_path, input);
   const Timer timer;
-  const Model model = draft_model(input);
+  Model model = draft_model(input);
   const ExpectedSetUp set_up(model, timer.seconds());
+  if (const auto note = note_of_separated_body(input, model, 1)) model.notes.push_back(*note);
   fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
   print_sizes(model);
   std::fflush(stdout);  // the order of the unknowns of a large body takes a while

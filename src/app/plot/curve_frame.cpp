@@ -4,13 +4,6 @@
 #include <cmath>
 
 namespace perilink {
-namespace {
-
-/// Smallest distance worth a line: thousands of events that fall on one pixel would make large
-/// files.
-constexpr double visible_distance = 0.3;
-
-}  // namespace
 
 CurveFrame make_curve_frame(std::span<const CurvePoint> points, double top) {
   CurvePoint low, high;

@@ -14,6 +14,10 @@ namespace perilink {
 inline constexpr double curve_figure_width = 820.0;   ///< [px]
 inline constexpr double curve_figure_height = 560.0;  ///< [px]
 
+/// Smallest distance worth a line [px]: thousands of events that fall on one pixel would make large
+/// files.
+inline constexpr double visible_distance = 0.3;
+
 /// Displacements to the right, loads upwards.
 struct CurveFrame {
   Axis x;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/plot/plot_axes.hpp"
+#include "app/plot/plot_stages.hpp"
 
 namespace perilink {
 namespace {
@@ -22,6 +23,8 @@ constexpr const char* few_events_style =
     "fill=\"none\" stroke=\"#0b3c6f\" stroke-width=\"1.5\" stroke-linejoin=\"round\"";
 constexpr const char* many_events_style =
     "fill=\"none\" stroke=\"#9dbfe0\" stroke-width=\"0.5\" stroke-linejoin=\"round\"";
+
+constexpr double legend_width = 222.0, line_height = 20.0;
 
 /// Rectangle of the page [px].
 struct Area {
@@ -85,8 +88,9 @@ void mark_peak(Svg& svg, const PeakLabel& label) {
 /// The corner of the frame where the legend meets neither labels nor, as far as that is possible,
 /// the curve.
 Area legend_area(const CurveFrame& frame, std::span<const PeakLabel> labels,
-                 std::span<const CurvePoint> curve) {
-  constexpr double width = 222.0, height = 48.0, margin = 2.0;
+                 std::span<const CurvePoint> curve, std::size_t lines = 2) {
+  constexpr double width = legend_width, margin = 2.0;
+  const double height = 8.0 + line_height * static_cast<double>(lines);
   const double right = frame.x.pixel_high - width, left = frame.x.pixel_low + margin;
   const double top = frame.y.pixel_high + margin, bottom = frame.y.pixel_low - height - margin;
   Area best;
@@ -152,7 +156,11 @@ Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels
   const std::vector<CurvePoint> path = event_path_of(records, labels);
   const std::vector<PeakLabel> peaks =
       labels_of(frame, records[peak_row(records)], first_peak, labels);
-  if (path.size() > events_for_envelope) {
+  if (const std::vector<StagePath> stages = paths_of_stages(records, labels); !stages.empty()) {
+    const Area area = legend_area(frame, peaks, events, stages.size());
+    svg.rect(area.corner, area.width, area.height, "fill=\"#fff\"");
+    draw_stages(svg, frame, stages, {area.corner.x + 10.0, area.corner.y + 14.0}, line_height);
+  } else if (path.size() > events_for_envelope) {
     svg.path(curve_path(frame, events), many_events_style);
     svg.path(curve_path(frame, smooth_envelope(path, envelope_window(path.size()))),
              envelope_style);

@@ -27,6 +27,15 @@ PlotLabels read_labels(const fs::path& directory) {
   const auto text = [&](const char* key) { return summary_text(*summary, key, directory); };
   if (!text("title").empty()) labels.title = text("title");
   labels.analysis = text("analysis");
+  if (const auto stages = summary->find("stages"); stages != summary->end() && stages->is_array()) {
+    const auto part = [](const auto& stage, const char* key) {
+      const bool known = stage.is_object() && stage.contains(key) && stage[key].is_string();
+      return known ? stage[key].template get<std::string>() : std::string();
+    };
+    for (const auto& stage : *stages) {
+      labels.stages.push_back({part(stage, "name"), part(stage, "loads")});
+    }
+  }
   const std::string units = text("units");  // "kip, in, s": of force, of length, of time
   const std::size_t comma = units.find(',');
   if (comma != std::string::npos) {

@@ -2,8 +2,15 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace perilink {
+
+/// A stage of a run.
+struct StageLabel {
+  std::string name;
+  std::string loads;  ///< name of the stage whose loads change; empty: not known
+};
 
 /// What a summary tells a figure beside its data.
 struct PlotLabels {
@@ -11,6 +18,7 @@ struct PlotLabels {
   std::string force;          ///< unit; empty: none is known
   std::string length;         ///< unit; empty: none is known
   std::string analysis = {};  ///< kind of the run; empty: an earlier version did not tell
+  std::vector<StageLabel> stages = {};
 };
 
 /// Last part of a path to a directory, "beam" of "results/beam/".

@@ -8,6 +8,7 @@
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
 #include "app/run/run_notes.hpp"
+#include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {
@@ -17,12 +18,19 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
       is_broken_(static_cast<std::size_t>(model_.network.num_elements()), 0) {
   // Pre-cracks have broken these before.
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
+  if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   plan += fmt::format(", {} unknowns", model_.unknowns.count);
 }
 
 void DamageRun::tell(Summary& summary) const {
   Equilibria found(result_);
   found.places = places_;
+  if (result_.late_conversions > 0) {
+    found.doubts.push_back(fmt::format(
+        "{} of {} conversions of elements came late: a bond was beyond its limit by then and may "
+        "have failed before; set a smaller `alert` in [elements]",
+        result_.late_conversions, result_.conversions));
+  }
   summary.add_note(note_of_grips(model_, broken_));
   summary.add_note(note_of_peaks(result_, model_, broken_));
   tell_quasistatic(summary, input, model_, found, seconds.analysis);
@@ -36,6 +44,7 @@ void DamageRun::tell_elements(Summary& summary) const {
   summary.add("elements", first);
   summary.add("elements_at_end", result_.elements);
   summary.add("conversions", result_.conversions);
+  summary.add("late_conversions", result_.late_conversions);
   summary.add("unknowns_at_end", result_.unknowns);
   summary.add("freed_energy", result_.last.freed_energy);
   summary.line("elements",

@@ -96,6 +96,7 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
     const StageResult& stage = stages[k];
     const std::string& name = input.stages[k].name;
     summary.json["stages"].push_back({{"name", name},
+                                      {"loads", input.stages[k].loads},
                                       {"status", to_string(stage.ending)},
                                       {"reason", stage.reason},
                                       {"load_factor", stage.last.load_factor},
@@ -116,6 +117,7 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   const Index rows = found.last.step, factorizations = found.factor.factorizations;
   tell_equilibria(summary, input, found);
   summary.doubts = doubts_of_balance(found.energy_error, found.largest_residual);
+  summary.doubts.insert(summary.doubts.end(), found.doubts.begin(), found.doubts.end());
   summary.add("doubts", summary.doubts);
   tell_body(summary, model, fmt::format(", {} unknowns", model.unknowns.count));
   summary.add("notes", summary.notes);

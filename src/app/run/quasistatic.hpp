@@ -58,6 +58,7 @@ struct Equilibria {
   double energy_error = 0.0;                      ///< over the work [-]
   std::optional<double> smoothed_peak_load = {};  ///< where the path of events is long enough
   std::vector<PlaceForce> places = {};            ///< at the peak, where there are several
+  std::vector<std::string> doubts = {};           ///< beside those about the balance
 };
 
 /// Curve, energies and errors.

@@ -91,8 +91,10 @@ class NormalEquations {
   static constexpr int worth_of_factor = 15;
   /// A factor is made anew when the last solution needed more iterations than this.
   static constexpr int stale_iterations = 40;
-  /// Iterations of a solution after which blocks get help.
-  static constexpr int patience = 60;
+  /// Iterations of a solution after which blocks get help. In the plane, where the exact equations
+  /// have a factor, boxes help the energies alone, whose solutions take 60 to 150 iterations: for
+  /// these boxes cost more than they save (plates with a hole of 200 to 3000 particles).
+  int patience() const { return equations_.dim == 2 ? 150 : 60; }
   /// The coarse system of boxes takes the time of forty iterations and its fields that of a
   /// hundred, but they serve the solutions to come as well: made anew where one needs more.
   static constexpr int stale_coarse = 40, stale_fields = 40;
@@ -274,7 +276,7 @@ int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double re
   }
   int most = options_.iterations;
   if (with_boxes_) most = stale_fields;
-  if (alone()) most = patience;
+  if (alone()) most = patience();
   last_iterations_ = iterate(residual, reduction, most, direction);
   count += last_iterations_;
   if (last_iterations_ < most || most == options_.iterations) return count;

@@ -23,7 +23,7 @@ class Grid {
     for (int a = 0; a < dim_; ++a) count *= order_ * intervals(a) + 1;
     return count;
   }
-  /// Of a cell, numbered along x first.
+  /// In one cell; they are numbered along x first.
   int nodes_per_cell() const {
     return dim_ == 2 ? (order_ + 1) * (order_ + 1) : (order_ + 1) * (order_ + 1) * (order_ + 1);
   }
@@ -127,9 +127,9 @@ class Grid {
   double tolerance_;
 };
 
-/// Cells with particles inside their border that no facet cuts.
+/// Cells with particles, and no faces, inside their border.
 std::vector<std::uint8_t> usable_cells(const Grid& grid, const Particles& particles,
-                                       const Facets& facets) {
+                                       std::span<const double> faces) {
   std::vector<std::uint8_t> usable(static_cast<std::size_t>(grid.size()), 0);
   const auto mark = [&](std::span<const double> point, std::uint8_t value) {
     grid.for_each_around(point, [&](Index cell) {
@@ -139,21 +139,19 @@ std::vector<std::uint8_t> usable_cells(const Grid& grid, const Particles& partic
   for (Index i = 0; i < particles.size(); ++i) {
     if (particles.kind[i] == ParticleKind::solid) mark(particles.position(i), 1);
   }
-  for (Index f = 0; f < facets.size(); ++f) {
-    const Vector3 centre = facets.centre(f, particles.positions);
-    mark({centre.data(), static_cast<std::size_t>(particles.dim)}, 0);
-  }
+  const auto dim = static_cast<std::size_t>(particles.dim);
+  for (std::size_t at = 0; at < faces.size(); at += dim) mark(faces.subspan(at, dim), 0);
   return usable;
 }
 
 }  // namespace
 
-Carriers carriers_on_grid(const Particles& particles, const Facets& facets,
+Carriers carriers_on_grid(const Particles& particles, std::span<const double> faces,
                           const Divisions& divisions, int order, double tolerance) {
   Carriers carriers;
   carriers.dim = particles.dim;
   const Grid grid(particles.dim, divisions, order, tolerance);
-  const std::vector<std::uint8_t> usable = usable_cells(grid, particles, facets);
+  const std::vector<std::uint8_t> usable = usable_cells(grid, particles, faces);
   std::vector<Index> node_of(static_cast<std::size_t>(grid.num_nodes()), no_index);
   std::vector<Index> element_of(usable.size(), no_index), cell_of;
   for (Index cell = 0; cell < grid.size(); ++cell) {

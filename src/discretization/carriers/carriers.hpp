@@ -7,18 +7,18 @@
 
 #include "base/csr.hpp"
 #include "base/types.hpp"
-#include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 
 namespace perilink {
 
 /// Finite elements that carry particles: inside one, particles move by the shape functions of its
-/// nodes, products of linear or quadratic polynomials along the axes. Nodes belong to no particle; elements with common nodes deform together, others are joined by the
-/// bonds between their particles alone (Gerstle, Sau & Aguilera 2007, section 4).
+/// nodes, products of linear or quadratic polynomials along the axes. Nodes belong to no particle;
+/// elements with common nodes deform together, others are joined by the bonds between their
+/// particles alone (Gerstle, Sau & Aguilera 2007, section 4).
 struct Carriers {
   int dim = 2;
   std::vector<double> nodes;         ///< positions [length], shape (nodes, dim)
-  Csr nodes_of;                      ///< of each element
+  Csr nodes_of;                      ///< nodes that belong to each element
   Csr inside;                        ///< particles in each element, its border included, ascending
   std::vector<double> lower, upper;  ///< corners of each element [length], shape (elements, dim)
   /// Shape functions of the element's nodes at its particles, in the order of `inside` and, for
@@ -28,7 +28,7 @@ struct Carriers {
 
   Index size() const { return nodes_of.rows(); }
   Index num_nodes() const { return static_cast<Index>(nodes.size()) / dim; }
-  /// \param place  of the particle in inside.row(element)
+  /// \param place  where the particle stands in inside.row(element)
   std::span<const double> weights_at(Index element, std::size_t place) const {
     const std::size_t count = nodes_of.row(element).size();
     return {weights.data() + first_weight[element] + place * count, count};
@@ -39,11 +39,11 @@ struct Carriers {
 using Divisions = std::array<std::vector<double>, 3>;
 
 /// Rectangles or boxes between planes along the axes, one wherever particles lie inside. An element
-/// that a facet cuts, of the surface or between materials, is left out: such faces may lie on its
-/// border alone.
-/// \param order      of the polynomials along each axis: 1 or 2
+/// with a point of `faces` inside is left out: faces of the body may lie on its border alone.
+/// \param faces      points on faces that no element may have inside [length], shape (points, dim)
+/// \param order      degree of the polynomials along each axis: 1 or 2
 /// \param tolerance  within which a particle lies on the border of an element [length]
-Carriers carriers_on_grid(const Particles& particles, const Facets& facets,
+Carriers carriers_on_grid(const Particles& particles, std::span<const double> faces,
                           const Divisions& divisions, int order, double tolerance);
 
 }  // namespace perilink

@@ -191,12 +191,13 @@ struct StopSection {
 };
 
 /// [[stages]]: some loads grow, or fall, beside the others, which stay as they are. It ends at a
-/// load factor, or goes from event to event until the first of its rules is met (always at
-/// collapse).
+/// load factor or a load, or goes from event to event until the first of its rules is met (always
+/// at collapse).
 struct StageSection {
   std::string name;
   std::string loads;         ///< name of the stage whose loads change: its own, or an earlier one
   std::optional<double> to;  ///< load factor at its end
+  std::optional<double> to_load = {};  ///< load at its end [force]
   StopSection stop;
 };
 
@@ -204,11 +205,11 @@ struct StageSection {
 /// one of spacings and size.
 struct ElementsSection {
   std::optional<int> spacings;         ///< between particles, along each side of an element
-  std::optional<double> size;          ///< of each side, about [length]
-  int order = 2;                       ///< of the polynomials along each axis of an element: 1 or 2
+  std::optional<double> size;          ///< length of each side, about [length]
+  int order = 2;                       ///< degree of the polynomials along each axis: 1 or 2
   std::vector<std::string> regions;    ///< with elements; empty: the whole body
   std::vector<std::string> particles;  ///< regions without
-  double alert = 0.25;  ///< of its limit, to which a bond comes before its element is converted
+  double alert = 0.25;  ///< part of its limit that a bond reaches before its element converts
   std::optional<double> halo;  ///< around an element that is converted; absent: a horizon [length]
 };
 

@@ -273,7 +273,7 @@ const std::vector<TableSchema>& case_schema() {
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_events},
       {"stages",
        true,
-       {"name", "loads", "to", "broken_bonds", "load_fraction", "displacement"},
+       {"name", "loads", "to", "to_load", "broken_bonds", "load_fraction", "displacement"},
        stages},
       {"output",
        false,

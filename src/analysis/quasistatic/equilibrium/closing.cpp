@@ -23,20 +23,41 @@ constexpr double round_off = 1e-11;
 /// An opening bond with a smaller pivot held the last load path.
 constexpr double no_pivot = 1e-12;
 
+/// Rough rates of one core, to choose between one new factor and many changes: half of a change is
+/// a pass through the path of a bond, which is a part of the factor.
+constexpr double flops_per_second = 15e9, bytes_per_second = 36e9;
+constexpr double passes_per_change = 1.0, seconds_per_element = 1e-7;
+
 }  // namespace
 
-/// Extensions within round-off of zero are on the side to which the load moves them.
-auto Equilibrium::extension_of(Index element) const -> Extension {
+auto Equilibrium::ends_of(Index element) const -> BondEnds {
   const auto width = static_cast<std::size_t>(network_.width());
-  const std::size_t i = width * network_.bonds.first[element];
-  const std::size_t j = width * network_.bonds.second[element];
   const std::span<const double> n = network_.bonds.direction(element);
+  BondEnds ends{width * network_.bonds.first[element], width * network_.bonds.second[element], {}};
+  std::copy(n.begin(), n.end(), ends.n);
+  return ends;
+}
+
+/// Those of damaged_ lie together in memory: every event looks at all of them.
+std::span<const Equilibrium::BondEnds> Equilibrium::damaged_ends() const {
+  while (damaged_ends_.size() < damaged_.size()) {
+    damaged_ends_.push_back(ends_of(damaged_[damaged_ends_.size()]));
+  }
+  return damaged_ends_;
+}
+
+/// Extensions within round-off of zero are on the side to which the load moves them.
+template <int Dim>
+auto Equilibrium::extension_at(const BondEnds& bond) const -> Extension {
+  const double* const n = bond.n;
   Extension result;
   double size = 0.0;
   const auto add = [&](const std::vector<double>& u, double factor, double& sum) {
-    for (int a = 0; a < network_.dim(); ++a) {
-      sum += n[a] * (u[j + a] - u[i + a]);
-      size += std::abs(factor * n[a]) * (std::abs(u[j + a]) + std::abs(u[i + a]));
+    const double* const from = u.data() + bond.first;
+    const double* const to = u.data() + bond.second;
+    for (int a = 0; a < Dim; ++a) {
+      sum += n[a] * (to[a] - from[a]);
+      size += std::abs(factor * n[a]) * (std::abs(to[a]) + std::abs(from[a]));
     }
   };
   const double load_factor = constant_ ? constant_->load_factor : 1.0;
@@ -46,6 +67,21 @@ auto Equilibrium::extension_of(Index element) const -> Extension {
   if (std::abs(result.now) <= round_off * size) result.now = 0.0;
   result.side = result.now != 0.0 ? result.now : direction_ * result.growing;
   return result;
+}
+
+auto Equilibrium::extension_of(Index element) const -> Extension {
+  return network_.dim() == 2 ? extension_at<2>(ends_of(element))
+                             : extension_at<3>(ends_of(element));
+}
+
+/// Calls visit(element, extension) for all of damaged_.
+template <class Visit>
+void Equilibrium::for_each_damaged(Visit visit) const {
+  const std::span<const BondEnds> ends = damaged_ends();
+  const bool in_space = network_.dim() == 3;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    visit(damaged_[k], in_space ? extension_at<3>(ends[k]) : extension_at<2>(ends[k]));
+  }
 }
 
 /// Whether a ground spring holds one of its ends where it came loose.
@@ -65,11 +101,11 @@ bool Equilibrium::is_grounded(Index element) const {
 /// Closed bonds that are pulled and open ones that are compressed.
 std::vector<Index> Equilibrium::on_wrong_side() const {
   std::vector<Index> wrong;
-  for (const Index element : damaged_) {
-    const double extension = extension_of(element).side;
-    const bool wants_change = is_closed(element) ? extension > 0.0 : extension < 0.0;
-    if (wants_change && (is_closed(element) || !is_grounded(element))) wrong.push_back(element);
-  }
+  for_each_damaged([&](Index element, const Extension& extension) {
+    const bool closed = is_closed(element);
+    const bool wants_change = closed ? extension.side > 0.0 : extension.side < 0.0;
+    if (wants_change && (closed || !is_grounded(element))) wrong.push_back(element);
+  });
   return wrong;
 }
 
@@ -100,9 +136,57 @@ bool Equilibrium::open(Index element) {
   }
 }
 
+/// Whether a new factor costs less than so many changes of the present one.
+bool Equilibrium::is_cheaper_anew(std::size_t changes) const {
+  const FactorStatistics factor = factor_->statistics();
+  const double anew = factor.flops / flops_per_second +
+                      seconds_per_element * static_cast<double>(network_.num_elements());
+  return static_cast<double>(changes) * passes_per_change * factor.bytes / bytes_per_second > anew;
+}
+
+/// All at once, with one new factor. \return false where what opens held the body: then all is as
+/// it was
+bool Equilibrium::change_together(const std::vector<Index>& wrong) {
+  const auto turn = [&] {
+    for (const Index element : wrong) {
+      axial_[element] = is_closed(element) ? secants_[element] : 1.0;
+    }
+  };
+  turn();
+  try {
+    factorize();
+    if (holds_apart(wrong)) return true;
+  } catch (const NotPositiveDefinite&) {
+  }
+  turn();
+  factorize();
+  return false;
+}
+
+/// Whether the body resists where bonds have opened: a motion that nothing resists, but round-off,
+/// would make the work of forces along these bonds too large. Forces of different sizes move bonds
+/// apart in every motion in which some of them open.
+bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
+  std::vector<double> load(solution_.size(), 0.0), motion(solution_.size(), 0.0);
+  double size = 0.5;
+  for (const Index element : opened) {
+    if (is_closed(element)) continue;
+    const double fraction = 1.0 - secants_[element];
+    const Removal axial = make_axial_removal(network_, *unknowns_, element, fraction);
+    const SparseVector& x = axial.x[0];
+    for (int k = 0; k < x.size(); ++k) load[x.rows[k]] += size * x.values[k];
+    size = size < 1.0 ? size + 0.381966 : size - 0.618034;  // never twice the same
+  }
+  factor_->solve(load, motion);
+  double work = 0.0;
+  for (std::size_t k = 0; k < load.size(); ++k) work += load[k] * motion[k];
+  return work * no_pivot < 1.0;
+}
+
 /// What closes holds the body while others open. \return the bonds that have changed their side;
 /// none where all that ought to hold the body
 std::vector<Index> Equilibrium::change_sides(std::vector<Index> wrong) {
+  if (is_cheaper_anew(wrong.size()) && change_together(wrong)) return wrong;
   const auto opening = std::stable_partition(wrong.begin(), wrong.end(),
                                              [&](Index element) { return !is_closed(element); });
   for (auto element = wrong.begin(); element != opening; ++element) close(*element);
@@ -229,6 +313,7 @@ void Equilibrium::settle_closing(EventOutcome& outcome) {
 /// After an event that turned out to separate the body.
 void Equilibrium::take_back(Index element, double secant) {
   if (secant == 1.0) std::erase(damaged_, element);
+  damaged_ends_.clear();
   for (const Index other : changed_sides_) {
     axial_[other] = is_closed(other) ? secants_[other] : 1.0;
   }
@@ -239,14 +324,13 @@ void Equilibrium::take_back(Index element, double secant) {
 
 auto Equilibrium::next_side_change(double distance) const -> SideChange {
   SideChange next{no_index, distance};
-  for (const Index element : damaged_) {
-    const Extension extension = extension_of(element);
+  for_each_damaged([&](Index element, const Extension& extension) {
     const double growth = std::copysign(1.0, distance) * extension.growing;
-    if (!(is_closed(element) ? growth > 0.0 : growth < 0.0)) continue;
-    if (!is_closed(element) && is_grounded(element)) continue;
+    if (!(is_closed(element) ? growth > 0.0 : growth < 0.0)) return;
+    if (!is_closed(element) && is_grounded(element)) return;
     const double change = -extension.now / extension.growing;
     if (std::abs(change) < std::abs(next.distance)) next = {element, change};
-  }
+  });
   return next;
 }
 
@@ -265,9 +349,7 @@ void Equilibrium::open_cut_elements() {
   if (damaged_.empty()) return;
   EventOutcome outcome;
   settle_closing(outcome);
-  if (outcome.mechanism) {
-    throw SolverError("the cracks have separated the body, and the loads pull it apart");
-  }
+  if (outcome.mechanism) throw CracksSeparate();
 }
 
 }  // namespace perilink

@@ -161,51 +161,6 @@ double Equilibrium::change_motion(const Unknowns& unknowns) {
   }
 }
 
-/// Under forces alone an event needs the displacements of elements that can fail, and no others:
-/// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
-/// events by its growth. Driven bodies need the reactions and keep all.
-void Equilibrium::choose_current_unknowns() {
-  partial_ = false;
-  if (!driven_elements_.empty()) return;
-  const Bonds& bonds = network_.bonds;
-  std::vector<std::uint8_t> current(static_cast<std::size_t>(network_.particles.size()), 0);
-  for (Index e = 0; e < network_.num_elements(); ++e) {
-    if (network_.has_limit(e)) current[bonds.first[e]] = current[bonds.second[e]] = 1;
-  }
-  for (const Index e : damaged_) current[bonds.first[e]] = current[bonds.second[e]] = 1;
-  std::vector<std::uint8_t> wanted(solution_.size(), 0);
-  const auto width = static_cast<std::size_t>(network_.width());
-  for (std::size_t slot = 0; slot < displacement_.size(); ++slot) {
-    if (current[slot / width] == 0) continue;
-    unknowns_->for_each(slot, [&](Index unknown, double) { wanted[unknown] = 1; });
-  }
-  partial_ = std::any_of(wanted.begin(), wanted.end(), [](std::uint8_t flag) { return flag == 0; });
-  if (!partial_) return;
-  factor_->keep_current(wanted);
-  choose_glanced(current);
-}
-
-/// \param current  per particle: its displacements are kept current
-void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
-  const Bonds& bonds = network_.bonds;
-  glanced_elements_.clear();
-  glanced_.assign(solution_.size(), 0);
-  if (unknowns_->carries() || network_.has_states()) return;  // rows reach further than a bond
-  std::vector<std::uint8_t> inside = current;
-  for (Index e = 0; e < network_.num_elements(); ++e) {
-    if (current[bonds.first[e]] == 0) inside[bonds.second[e]] = 0;
-    if (current[bonds.second[e]] == 0) inside[bonds.first[e]] = 0;
-  }
-  for (Index e = 0; e < network_.num_elements(); ++e) {
-    if (inside[bonds.first[e]] + inside[bonds.second[e]] > 0) glanced_elements_.push_back(e);
-  }
-  for (std::size_t k = 0; k < slot_of_.size(); ++k) {
-    glanced_[k] = inside[slot_of_[k] / static_cast<std::size_t>(network_.width())];
-  }
-  const bool none = std::count(glanced_.begin(), glanced_.end(), 1) == 0;
-  if (none) glanced_elements_.clear();
-}
-
 std::vector<double> Equilibrium::present_load() const {
   std::vector<double> load = assemble_right_hand_side(network_, secants(), *unknowns_, *loads_);
   for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
@@ -246,7 +201,7 @@ std::span<const double> Equilibrium::displacement() {
 
 void Equilibrium::scatter_solution() {
   if (unknowns_->carries()) {
-    displacement_ = unknowns_->expand(solution_);
+    unknowns_->expand(solution_, moving_slots_, displacement_);
     return;
   }
   for (std::size_t k = 0; k < slot_of_.size(); ++k) displacement_[slot_of_[k]] = solution_[k];
@@ -315,21 +270,6 @@ double Equilibrium::measure_residual(std::vector<double>& residual) {
       residual[k] += ground_load_[k] - ground_stiffness_[k] * solution_[k];
     }
     square += residual[k] * residual[k];
-  }
-  return std::sqrt(square) / load_norm_;
-}
-
-double Equilibrium::residual_of_current() {
-  internal_force(network_, secants(), displacement_, glanced_elements_, internal_);
-  double square = 0.0;
-  for (std::size_t k = 0; k < solution_.size(); ++k) {
-    if (glanced_[k] == 0) continue;
-    const std::size_t slot = slot_of_[k];
-    double missing = loads_->forces[slot] - internal_.forces[slot];
-    if (!network_.support_stiffness.empty()) {
-      missing -= network_.support_stiffness[slot] * displacement_[slot];
-    }
-    square += missing * missing;
   }
   return std::sqrt(square) / load_norm_;
 }

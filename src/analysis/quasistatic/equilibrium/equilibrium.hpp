@@ -11,6 +11,7 @@
 #include "analysis/quasistatic/equilibrium/constant_field.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
 #include "assembly/internal_force.hpp"
+#include "base/error.hpp"
 #include "network/loaded_network.hpp"
 #include "solver/factor_routes.hpp"
 
@@ -48,6 +49,12 @@ struct Balance {
   double residual = 0.0;       ///< |f - K u| / |f|
   double stored_energy = 0.0;  ///< sum over elements of k e^2 / 2 at load factor 1 [force length]
   Beside stored_beside = {};   ///< what constant loads add
+};
+
+/// Cracks that were there from the start have cut a piece off, and the first loads pull it away.
+class CracksSeparate : public SolverError {
+ public:
+  CracksSeparate() : SolverError("cracks have separated the body, and the loads pull it apart") {}
 };
 
 /// How equilibrium is solved for.
@@ -167,6 +174,7 @@ class Equilibrium {
   void refresh();
   void refine(std::vector<double>& residual);
   void scatter_solution();
+  void scatter_current();
   double work_of_forces() const;
   LoadWork sum_work();
   std::pair<double, double> driven_work_of(Index element) const;
@@ -199,12 +207,26 @@ class Equilibrium {
     double now = 0.0, growing = 0.0, constant = 0.0;
     double side = 0.0;  ///< negative: in compression, or about to be
   };
+  /// Where the ends are in the displacements, and the direction.
+  struct BondEnds {
+    std::size_t first, second;
+    double n[3];
+  };
+  BondEnds ends_of(Index element) const;
+  std::span<const BondEnds> damaged_ends() const;
+  template <int Dim>
+  Extension extension_at(const BondEnds& bond) const;
   Extension extension_of(Index element) const;
+  template <class Visit>
+  void for_each_damaged(Visit visit) const;
   void add_growth(Index element, const Extension& before, EventOutcome& outcome) const;
   bool is_grounded(Index element) const;
   std::vector<Index> on_wrong_side() const;
   void close(Index element);
   bool open(Index element);
+  bool is_cheaper_anew(std::size_t changes) const;
+  bool holds_apart(const std::vector<Index>& opened) const;
+  bool change_together(const std::vector<Index>& wrong);
   std::vector<Index> change_sides(std::vector<Index> wrong);
   void settle_closing(EventOutcome& outcome);
   bool follow_sides(const std::vector<Index>& wrong, EventOutcome& outcome);
@@ -253,9 +275,10 @@ class Equilibrium {
   std::vector<double> axial_;  ///< the same against a change of length; empty where none differs
   bool has_kept_;              ///< Network::has_kept_shear()
   double direction_ = 0.0;     ///< in which the load factor moves on, while sides are settled
-  std::vector<Index> changed_sides_;    ///< in this order, when sides were settled last
-  std::vector<Index> damaged_;          ///< elements that close where they are compressed
-  std::vector<Index> driven_elements_;  ///< elements that end at a driven particle
+  std::vector<Index> changed_sides_;            ///< in this order, when sides were settled last
+  std::vector<Index> damaged_;                  ///< elements that close where they are compressed
+  mutable std::vector<BondEnds> damaged_ends_;  ///< their ends, as far as they have been asked for
+  std::vector<Index> driven_elements_;          ///< elements that end at a driven particle
   std::vector<std::size_t> loaded_slots_;
   std::vector<Index> glanced_elements_;  ///< all elements of the unknowns glanced at
   std::vector<std::uint8_t> glanced_;    ///< per unknown, while partial_
@@ -264,6 +287,9 @@ class Equilibrium {
   double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
   double driven_spring_work_ = 0.0;   ///< work of elastic supports at driven displacements
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
+  /// Where something carries particles: slots that unknowns move, of all particles and, while
+  /// partial_, of those that the search looks at.
+  std::vector<std::size_t> moving_slots_, current_slots_;
   std::vector<double> solution_;      ///< per unknown
   std::vector<double> displacement_;
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_

@@ -156,8 +156,8 @@ void Equilibrium::follow(const EventOutcome& outcome) {
 }
 
 void Equilibrium::commit(const Removal& removal, Index element, double secant) {
-  const bool listed = std::find(damaged_.begin(), damaged_.end(), element) != damaged_.end();
-  if (!axial_.empty() && !listed && network_.law(element).closes()) damaged_.push_back(element);
+  const bool is_first = secants_[element] == 1.0;
+  if (!axial_.empty() && is_first && network_.law(element).closes()) damaged_.push_back(element);
   set_secant(element, secant);
   if (must_rebuild_) return;  // done already
   if (removal.rank == 1) {
@@ -172,7 +172,7 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
     if (constant_) move_constant(removal);
     factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
   }
-  scatter_solution();
+  scatter_current();
   if (constant_) scatter_constant();
   stale_ = partial_;
   if (look_closer_) polish();
@@ -272,13 +272,6 @@ void Equilibrium::add_ground_spring(Index unknown) {
   if (!constant_) return;
   constant_->ground_load.resize(solution_.size());
   constant_->ground_load[unknown] += stiffness * constant_->solution[unknown];
-}
-
-/// Springs act on displacements anywhere: from now on all of them are kept current.
-void Equilibrium::keep_all_current() {
-  if (partial_) factor_->keep_current(std::vector<std::uint8_t>(solution_.size(), 1));
-  if (stale_) refresh();
-  partial_ = false;
 }
 
 }  // namespace perilink

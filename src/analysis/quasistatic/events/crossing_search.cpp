@@ -17,6 +17,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// must not decide where symmetry keeps its length.
 constexpr double least_tension = 1e-6;
 
+/// The part of the motion of its ends that is nothing but round-off in an extension.
+constexpr double round_off = 1e-12;
+
 /// Fewer blocks than this are searched faster by one thread.
 constexpr Index smallest_parallel_search = 100;
 
@@ -34,6 +37,18 @@ struct Measure {
 };
 
 }  // namespace
+
+CrossingSearch::Query::Query(std::span<const double> present, std::span<const double> added,
+                             double direction, double within, bool asks_for_largest)
+    : now(present.data()),
+      growing(added.data()),
+      sense(direction),
+      tolerance(within),
+      largest(asks_for_largest) {
+  double most = 0.0;
+  for (const double value : added) most = std::max(most, std::abs(value));
+  noise = 6.0 * round_off * most;  // two ends, three components
+}
 
 /// Whether what is asked for may lie at the low end of the interval.
 bool CrossingSearch::Query::asks_for(const Interval& interval) const {
@@ -107,12 +122,26 @@ Measure<Dim, Turns> measure(const Element& bond, const double* u, double scale, 
 
 }  // namespace
 
+template <int Dim>
+bool CrossingSearch::is_noise(const Element& element, const double* motion, double extension) {
+  double size = 0.0;
+  for (int a = 0; a < Dim; ++a) {
+    const double ends = std::abs(motion[element.first + a]) + std::abs(motion[element.second + a]);
+    size += std::abs(element.n[a]) * ends;
+  }
+  return std::abs(extension) <= round_off * size;
+}
+
 template <int Dim, bool Turns, class Sink>
 void CrossingSearch::visit(const Element& element, const Query& query, Sink&& sink) const {
   if (element.inverse == 0.0) return;
   const auto now = measure<Dim, Turns>(element, query.now, element.inverse, torsion_);
-  const auto growing =
+  auto growing =
       measure<Dim, Turns>(element, query.growing, query.sense * element.inverse, torsion_);
+  const double extension = growing.part[0] / element.inverse;
+  if (std::abs(extension) <= query.noise && is_noise<Dim>(element, query.growing, extension)) {
+    growing.part[0] = 0.0;
+  }
   const double square = now.times(now), rate = growing.times(growing);
   if (!std::isfinite(square + rate)) return sink(Interval{infinity, -infinity, 0.0});
   const double margin = rate > 0.0 ? query.tolerance / std::sqrt(rate) : 0.0;
@@ -212,7 +241,7 @@ Index CrossingSearch::element_at(double distance, const Query& query) const {
 
 auto CrossingSearch::ahead(std::span<const double> now, std::span<const double> growing, int sense,
                            double tolerance, int threads) -> Crossing {
-  const Query query{now.data(), growing.data(), static_cast<double>(sense), tolerance, false};
+  const Query query(now, growing, sense, tolerance, false);
   const Found found = find(query, threads);
   if (found.low == infinity) return {};
   return {element_at(found.low, query), sense * std::max(found.low, 0.0)};
@@ -220,7 +249,7 @@ auto CrossingSearch::ahead(std::span<const double> now, std::span<const double> 
 
 auto CrossingSearch::largest(std::span<const double> now, std::span<const double> growing,
                              double tolerance, int threads) -> Crossing {
-  const Query query{now.data(), growing.data(), 1.0, tolerance, true};
+  const Query query(now, growing, 1.0, tolerance, true);
   const Found found = find(query, threads);
   double distance = found.low;
   Index element = no_index;

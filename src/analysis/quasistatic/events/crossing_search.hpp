@@ -12,7 +12,8 @@ namespace perilink {
 /// Search for load factors at which elements pass their limits. The displacements are u + d v, the
 /// present ones and d times those by loads that grow. The stretch over its limit of a truss is
 /// linear in d, the square of the equivalent one of a micropolar bond (FrameLimitSearch) quadratic.
-/// An element fails in one or two open intervals of d.
+/// An element fails in one or two open intervals of d. Extensions that
+/// are nothing but round-off of the motion of their ends do not grow.
 class CrossingSearch {
  public:
   explicit CrossingSearch(const Network& network);
@@ -60,6 +61,10 @@ class CrossingSearch {
     double sense;  ///< 1 or -1: of the growing displacements
     double tolerance;
     bool largest;  ///< what is asked for is largest(), not ahead()
+    double noise;  ///< growing extensions above this are no round-off [length]
+
+    Query(std::span<const double> now, std::span<const double> growing, double sense,
+          double tolerance, bool largest);
 
     bool asks_for(const Interval& interval) const;
   };
@@ -80,6 +85,8 @@ class CrossingSearch {
     void add(const Found& other);
   };
 
+  template <int Dim>
+  static bool is_noise(const Element& element, const double* motion, double extension);
   template <int Dim, bool Turns, class Sink>
   void visit(const Element& element, const Query& query, Sink&& sink) const;
   template <class Sink>

@@ -72,6 +72,22 @@ std::vector<std::uint8_t> particles_to_carry(const CaseFile& input, const Model&
   return carry;
 }
 
+/// Centres of facets of the surface and between materials of different stiffness: strains jump
+/// there, which elements do not follow.
+std::vector<double> faces_of(const Model& model) {
+  std::vector<double> faces;
+  for (Index f = 0; f < model.facets.size(); ++f) {
+    const Index inside = model.facets.inside[f], outside = model.facets.outside[f];
+    if (outside != no_index && model.hooke[inside].lambda == model.hooke[outside].lambda &&
+        model.hooke[inside].mu == model.hooke[outside].mu) {
+      continue;
+    }
+    const Vector3 centre = model.facets.centre(f, model.network.particles.positions);
+    faces.insert(faces.end(), centre.begin(), centre.begin() + model.network.dim());
+  }
+  return faces;
+}
+
 /// Elements that a pre-crack crosses: lines from a particle in the middle to all others meet it.
 std::vector<std::uint8_t> crossed_elements(const CaseFile& input, const Model& model,
                                            const Carriers& carriers) {
@@ -119,7 +135,7 @@ void carry_particles(const CaseFile& input, Model& model) {
   Divisions divisions;
   for (int a = 0; a < model.network.dim(); ++a) divisions[a] = divide(model, a, size);
   CarriedBody body;
-  body.carriers = carriers_on_grid(model.network.particles, model.facets, divisions,
+  body.carriers = carriers_on_grid(model.network.particles, faces_of(model), divisions,
                                    input.elements->order, border_tolerance * model.lattice.spacing);
   body.free = std::move(model.unknowns);
   body.alert = input.elements->alert;

@@ -13,6 +13,7 @@
 #include "app/model/body/mesh_input.hpp"
 #include "app/model/body/particle_model.hpp"
 #include "app/model/body/solid_boxes.hpp"
+#include "app/model/body/strength_notes.hpp"
 #include "app/model/conditions/boundary_conditions.hpp"
 #include "app/model/gauges.hpp"
 #include "app/results/calibration_text.hpp"
@@ -97,7 +98,6 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   } else {
     lattice.surface = Surface::calibrated;  // the same particles
   }
-  const std::string spacing_key = input.body.spacing ? "body.spacing" : "body.columns";
   try {
     Body body = make_body(lattice);
     if (bonds) {
@@ -108,7 +108,8 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
     }
     return body;
   } catch (const std::invalid_argument& error) {
-    throw InputError(input.where(spacing_key), error.what(), "");
+    throw InputError(input.where(input.body.spacing ? "body.spacing" : "body.columns"),
+                     error.what(), "");
   }
 }
 
@@ -224,9 +225,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
   for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
   for (const RebarSection& bar : input.rebar) {
     network.bars.push_back({bar.from, bar.to});
-    BarMaterial material;
-    material.youngs_modulus = bar.youngs_modulus;
-    material.area = bar.area;
+    BarMaterial material{bar.youngs_modulus, bar.area};
     if (bar.yields && bar.yield_strength) material.yield_strength = *bar.yield_strength;
     material.ties_break = bar.ties_break;
     network.bar_materials.push_back(material);
@@ -287,9 +286,8 @@ Network build_case_network(const CaseFile& input, const Body& body, const Networ
 void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkInput network,
                                const Model& model) {
   if (body.lattice.surface != Surface::calibrated) return;
-  const bool quick = body.lattice.pattern != Pattern::irregular && body.particles.dim == 2 &&
-                     network.model == BondModel::bond_based;
-  if (quick) return;
+  const bool lattice = body.lattice.pattern != Pattern::irregular;
+  if (lattice && body.particles.dim == 2 && network.model == BondModel::bond_based) return;
   network.draft = true;
   Model draft = model;
   draft.network = build_case_network(input, body, network);
@@ -321,10 +319,11 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
   if (input.analysis.type == AnalysisType::elastic) model.network.strengths.clear();
-  for (const auto& text : {short_horizon_note(input, model), unmeasured_cost_note(input, model)}) {
+  for (const auto& text : {short_horizon_note(input, model), unmeasured_cost_note(input, model),
+                           calibration_shortfall(model.network)}) {
     if (text) model.notes.push_back(*text);
   }
-  if (const auto text = calibration_shortfall(model.network)) model.notes.push_back(*text);
+  for (const std::string& text : strength_notes(input, model)) model.notes.push_back(text);
   body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
 }
 
@@ -355,12 +354,12 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
   if (const auto note = note_of_unused(input)) model.notes.push_back(*note);
   apply_boundary_conditions(input, model);
   model.gauges = build_gauges(input, model);
-  if (is_quasistatic(input.analysis.type)) carry_particles(input, model);
   for (const MaterialSection& material : input.materials) {
     model.hooke.push_back(
         hooke_constants(model.problem, material.youngs_modulus,
                         material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
   }
+  if (is_quasistatic(input.analysis.type)) carry_particles(input, model);
   return model;
 }
 
@@ -384,15 +383,15 @@ DamageOptions damage_options(const CaseFile& input, int threads) {
   DamageOptions options;
   options.engine.threads = threads;
   options.engine.route = input.analysis.factor;
-  if (input.analysis.control == LoadControl::steps)
-    options.load_factors = input.analysis.load_factors;
+  const bool steps = input.analysis.control == LoadControl::steps;
+  if (steps) options.load_factors = input.analysis.load_factors;
   options.stop = rules_of(input.stop);
   std::vector<std::string> sets;  // in the order of LoadedNetwork::sets
   for (const StageSection& stage : input.stages) {
     if (stage.loads == stage.name) sets.push_back(stage.name);
     const auto set = std::find(sets.begin(), sets.end(), stage.loads);
-    options.stages.push_back(
-        {static_cast<std::size_t>(set - sets.begin()), stage.to, rules_of(stage.stop)});
+    options.stages.push_back({static_cast<std::size_t>(set - sets.begin()), stage.to,
+                              rules_of(stage.stop), stage.to_load});
   }
   return options;
 }

@@ -20,12 +20,14 @@ StageSection read_stage(const CaseTable& table) {
   stage.loads = table.text("loads").value_or(stage.name);
   stage.to = table.number("to");
   stage.stop = read_stop(table);
-  if (!stage.to) return stage;
-  for (const char* rule : {"broken_bonds", "load_fraction", "displacement"}) {
-    if (!table.has(rule)) continue;
-    table.refuse(rule, "is given beside `to`",
-                 "a stage goes to a load factor, or by events until a rule is met; delete one of "
-                 "the two");
+  stage.to_load = table.number("to_load");
+  if (!stage.to && !stage.to_load) return stage;
+  for (const char* rule : {"to_load", "broken_bonds", "load_fraction", "displacement"}) {
+    const std::string end = stage.to ? "to" : "to_load";
+    if (!table.has(rule) || end == rule) continue;
+    table.refuse(rule, fmt::format("is given beside `{}`", end),
+                 "a stage goes to a load factor or a load, or by events until a rule is met; "
+                 "delete one of the two");
   }
   return stage;
 }
@@ -102,12 +104,14 @@ std::vector<std::string_view> check_names(const CaseFile& input) {
 void refuse_endless(const CaseFile& input, std::size_t i) {
   const StageSection& stage = input.stages[i];
   const StopSection& stop = stage.stop;
-  const bool ends = stage.to || stop.broken_bonds || stop.load_fraction || stop.displacement;
+  const bool ends =
+      stage.to || stage.to_load || stop.broken_bonds || stop.load_fraction || stop.displacement;
   if (ends || i + 1 == input.stages.size()) return;
-  throw InputError(input.where(item_key("stages", i)),
-                   fmt::format("goes on until the body collapses, so that stage {} never begins",
-                               quoted(input.stages[i + 1].name)),
-                   "give it `to`, or one of `displacement`, `load_fraction`, `broken_bonds`");
+  throw InputError(
+      input.where(item_key("stages", i)),
+      fmt::format("goes on until the body collapses, so that stage {} never begins",
+                  quoted(input.stages[i + 1].name)),
+      "give it `to` or `to_load`, or one of `displacement`, `load_fraction`, `broken_bonds`");
 }
 
 }  // namespace
@@ -155,6 +159,7 @@ void write_stage(TomlWriter& out, const StageSection& stage) {
   out.write("name", stage.name);
   if (stage.loads != stage.name) out.write("loads", stage.loads);
   out.write("to", stage.to);
+  out.write("to_load", stage.to_load);
   write_stop(out, stage.stop);
 }
 

@@ -140,6 +140,22 @@ TEST(LeastChange, ThePreconditionerChangesNoAnswerForGroups) {
   }
 }
 
+/// In the plane boxes cost more than some hundred iterations, as rough searches take them; long
+/// ones get boxes.
+TEST(LeastChange, BoxesComeLateInThePlane) {
+  std::vector<double> weights;
+  LeastChangeOptions options;
+  options.preconditioner = Preconditioner::blocks_then_boxes;
+  for (const double tolerance : {1e-4, 1e-12}) {
+    options.tolerance = tolerance;
+    KeptPreconditioner kept;
+    const LeastChange found = least_change(ring(400, 4, 4, weights, 5), options, kept);
+    EXPECT_TRUE(found.converged);
+    EXPECT_GT(found.iterations, 150);
+    EXPECT_EQ(kept.boxes != nullptr, tolerance < 1e-6);
+  }
+}
+
 /// 2500 points are more than smallest_coarse_problem; all three ways minimise the same squares.
 TEST(LeastChange, ThePreconditionerChangesNoAnswer) {
   std::vector<double> weights;

@@ -74,15 +74,10 @@ TEST(Carriers, ShapeFunctionsReproducePolynomials) {
   }
 }
 
-TEST(Carriers, LeavesOutCellsThatAFacetCuts) {
+TEST(Carriers, LeavesOutCellsThatAFaceCuts) {
   const Particles particles = block(2, 9, 5);
-  Facets facets;
-  facets.dim = 2;
-  const Index inside[] = {10, 11};  // from (1, 1) to (2, 1)
-  facets.append(inside, {0, 1, 0}, 0, no_index);
-  const Index border[] = {4, 13};  // on x = 4
-  facets.append(border, {1, 0, 0}, 0, no_index);
-  const Carriers carriers = carriers_on_grid(particles, facets, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6);
+  const std::vector<double> faces = {1.5, 1.0, 4.0, 0.5};  // inside the first; between the two
+  const Carriers carriers = carriers_on_grid(particles, faces, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6);
   ASSERT_EQ(carriers.size(), 1);
   EXPECT_EQ(carriers.lower.front(), 4.0);
 }

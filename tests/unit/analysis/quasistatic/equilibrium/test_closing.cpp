@@ -60,6 +60,72 @@ TEST(Closing, CutBondsCarryCompressionOnly) {
   }
 }
 
+/// Each third bond of a block is cut. Those under tension open together, with one new factor, or
+/// each would change the factor that the closed ones had.
+TEST(Closing, ManyCutBondsOpenWithOneFactor) {
+  AnalysisBody body = make_block({{"hexagonal", Pattern::hexagonal, Surface::none},
+                                  false,
+                                  false,
+                                  12,
+                                  0.1,
+                                  false,
+                                  false,
+                                  true});
+  for (Index e = 0; e < body.network.first_tie; e += 3) {
+    if (!body.network.has_limit(e)) continue;
+    body.network.cut_elements.push_back(e);
+    body.network.critical_stretch[e] = std::numeric_limits<double>::infinity();
+  }
+  Equilibrium equilibrium(body, {});
+  Index opened = 0;
+  for (const Index e : body.network.cut_elements) {
+    const double extension = extension_of(body.network, equilibrium.displacement(), e);
+    const bool is_open = equilibrium.secants().axial(e) == 0.0;
+    EXPECT_EQ(is_open, extension > 0.0) << "bond " << e;
+    opened += is_open;
+  }
+  EXPECT_GT(opened, 50);
+  // One at first, and one for each of the few rounds in which sides are settled.
+  EXPECT_GE(equilibrium.factor().factorizations(), 2);
+  EXPECT_LE(equilibrium.factor().factorizations(), 4);
+  // Round-off of a body of a few hundred unknowns.
+  EXPECT_LT(difference(equilibrium.displacement(), dense_displacement(body, equilibrium.secants())),
+            1e-10);
+}
+
+/// Two halves, with all bonds between them cut: round-off leaves a factor of the open body, if any,
+/// that must not be believed.
+TEST(Closing, ManyCutBondsThatHoldTheBodyAreFoundOut) {
+  for (const double sign : {1.0, -1.0}) {
+    AnalysisBody body = make_block({{"hexagonal", Pattern::hexagonal, Surface::none},
+                                    false,
+                                    false,
+                                    12,
+                                    0.1,
+                                    false,
+                                    false,
+                                    true});
+    for (double& force : body.loads.forces) force *= sign;
+    const Bonds& bonds = body.network.bonds;
+    double middle = 0.0;
+    for (Index i = 0; i < body.network.particles.size(); ++i) {
+      middle += body.network.particles.position(i)[0] / body.network.particles.size();
+    }
+    const auto right = [&](Index i) { return body.network.particles.position(i)[0] > middle; };
+    for (Index e = 0; e < body.network.first_tie; ++e) {
+      if (right(bonds.first[e]) == right(bonds.second[e])) continue;
+      body.network.cut_elements.push_back(e);
+      body.network.critical_stretch[e] = std::numeric_limits<double>::infinity();
+    }
+    ASSERT_GT(body.network.cut_elements.size(), 20U);
+    if (sign > 0.0) {
+      EXPECT_THROW(Equilibrium(body, {}), CracksSeparate);
+    } else {
+      EXPECT_NO_THROW(Equilibrium(body, {}));
+    }
+  }
+}
+
 TEST(Closing, RefusesWhatTheLoadsPullApart) {
   AnalysisBody body = make_chains(1, 2, false, 2.0, 0.01);
   body.network.laws = {BondLaw::brittle().closing()};

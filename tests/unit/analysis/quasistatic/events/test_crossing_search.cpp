@@ -75,6 +75,22 @@ TEST_P(Crossings, AheadIsWhereTheFirstElementBeginsToFail) {
   }
 }
 
+/// A body that moves as a whole, but for the last digits, stretches no bond.
+TEST_P(Crossings, RoundOffOfARigidMotionNeverFails) {
+  CrossingSearch search(network_);
+  const std::vector<double> now(slots_, 0.0);
+  std::vector<double> growing = random_vector(slots_, 7);
+  const auto width = static_cast<std::size_t>(network_.width());
+  for (std::size_t slot = 0; slot < slots_; ++slot) {
+    const bool turns = slot % width >= static_cast<std::size_t>(network_.dim());
+    growing[slot] = turns ? 0.0 : 1.0 + 1e-15 * growing[slot];
+  }
+  EXPECT_EQ(search.ahead(now, growing, 1, tie_tolerance, 1).element, no_index);
+  const auto found = search.largest(now, growing, tie_tolerance, 1);
+  EXPECT_EQ(found.element, no_index);
+  EXPECT_EQ(found.distance, infinity);
+}
+
 TEST_P(Crossings, LargestIsTheLastWhereNoneFails) {
   CrossingSearch search(network_);
   int found_some = 0, found_none = 0;

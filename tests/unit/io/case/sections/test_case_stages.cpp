@@ -40,6 +40,14 @@ TEST(CaseStages, AreWrittenAndReadBack) {
   EXPECT_EQ(write_case(parse_case(again, "case.toml")), again);
 }
 
+TEST(CaseStages, EndAtALoad) {
+  const std::string text = replaced(push_and_back, "to = -0.5\n", "to_load = -12.5\n");
+  const CaseFile input = parse_case(text, "case.toml");
+  EXPECT_FALSE(input.stages[1].to);
+  EXPECT_EQ(input.stages[1].to_load, -12.5);
+  EXPECT_THAT(write_case(input), HasSubstr("to_load = -12.5"));
+}
+
 TEST(CaseStages, LetALastStageGoOnUntilCollapse) {
   EXPECT_EQ(message_of(replaced(push_and_back, "to = -0.5\n", "")), "accepted");
 }

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+
+/// \file
+/// Which displacements the events of an equilibrium keep current.
+
+namespace perilink {
+
+/// Under forces alone an event needs the displacements of elements that can fail, and no others:
+/// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
+/// events by its growth. Driven bodies need the reactions and keep all.
+void Equilibrium::choose_current_unknowns() {
+  partial_ = false;
+  moving_slots_.clear();
+  current_slots_.clear();
+  for (std::size_t slot = 0; unknowns_->carries() && slot < displacement_.size(); ++slot) {
+    if (unknowns_->number[slot] != no_index) moving_slots_.push_back(slot);
+  }
+  if (!driven_elements_.empty()) return;
+  const Bonds& bonds = network_.bonds;
+  std::vector<std::uint8_t> current(static_cast<std::size_t>(network_.particles.size()), 0);
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (network_.has_limit(e)) current[bonds.first[e]] = current[bonds.second[e]] = 1;
+  }
+  for (const Index e : damaged_) current[bonds.first[e]] = current[bonds.second[e]] = 1;
+  std::vector<std::uint8_t> wanted(solution_.size(), 0);
+  const auto width = static_cast<std::size_t>(network_.width());
+  for (std::size_t slot = 0; slot < displacement_.size(); ++slot) {
+    if (current[slot / width] == 0) continue;
+    if (unknowns_->number[slot] != no_index) current_slots_.push_back(slot);
+    unknowns_->for_each(slot, [&](Index unknown, double) { wanted[unknown] = 1; });
+  }
+  partial_ = std::any_of(wanted.begin(), wanted.end(), [](std::uint8_t flag) { return flag == 0; });
+  if (!partial_) return;
+  factor_->keep_current(wanted);
+  choose_glanced(current);
+}
+
+/// \param current  per particle: its displacements are kept current
+void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
+  const Bonds& bonds = network_.bonds;
+  glanced_elements_.clear();
+  glanced_.assign(solution_.size(), 0);
+  if (unknowns_->carries() || network_.has_states()) return;  // rows reach further than a bond
+  std::vector<std::uint8_t> inside = current;
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (current[bonds.first[e]] == 0) inside[bonds.second[e]] = 0;
+    if (current[bonds.second[e]] == 0) inside[bonds.first[e]] = 0;
+  }
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (inside[bonds.first[e]] + inside[bonds.second[e]] > 0) glanced_elements_.push_back(e);
+  }
+  for (std::size_t k = 0; k < slot_of_.size(); ++k) {
+    glanced_[k] = inside[slot_of_[k] / static_cast<std::size_t>(network_.width())];
+  }
+  const bool none = std::count(glanced_.begin(), glanced_.end(), 1) == 0;
+  if (none) glanced_elements_.clear();
+}
+
+/// The displacements that events keep current, by the unknowns as they are.
+void Equilibrium::scatter_current() {
+  if (!partial_ || !unknowns_->carries()) return scatter_solution();
+  unknowns_->expand(solution_, current_slots_, displacement_);
+}
+
+double Equilibrium::residual_of_current() {
+  internal_force(network_, secants(), displacement_, glanced_elements_, internal_);
+  double square = 0.0;
+  for (std::size_t k = 0; k < solution_.size(); ++k) {
+    if (glanced_[k] == 0) continue;
+    const std::size_t slot = slot_of_[k];
+    double missing = loads_->forces[slot] - internal_.forces[slot];
+    if (!network_.support_stiffness.empty()) {
+      missing -= network_.support_stiffness[slot] * displacement_[slot];
+    }
+    square += missing * missing;
+  }
+  return std::sqrt(square) / load_norm_;
+}
+
+/// Springs act on displacements anywhere: from now on all of them are kept current.
+void Equilibrium::keep_all_current() {
+  if (partial_) factor_->keep_current(std::vector<std::uint8_t>(solution_.size(), 1));
+  if (stale_) refresh();
+  partial_ = false;
+}
+
+}  // namespace perilink

@@ -1,0 +1,57 @@
+#include "app/run/separated_body.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "analysis/quasistatic/damage_analysis.hpp"
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+#include "app/model/from_case/configure.hpp"
+#include "base/error.hpp"
+#include "network/rigid_modes.hpp"
+
+namespace perilink {
+namespace {
+
+/// The first piece that is not held when all bonds of cracks are open; empty: there is none.
+std::string loose_piece(const Model& model) {
+  Network open = model.network;
+  for (const Index element : open.cut_elements) open.stiffness[element] = 0.0;
+  std::vector<std::uint8_t> held;
+  for (const Index number : model.unknowns.number) held.push_back(number == no_index);
+  for (const Fragment& fragment : find_fragments(open, held)) {
+    if (fragment.free_modes == 0) continue;
+    const auto at = open.particles.position(fragment.particles.front());
+    return fmt::format("the piece of {} particles at ({})", fragment.particles.size(),
+                       fmt::join(at, ", "));
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<std::string> note_of_separated_body(const CaseFile& input, const Model& model,
+                                                  int threads) {
+  const bool may_close = model.network.has_closing() && !model.network.cut_elements.empty();
+  if (input.analysis.type != AnalysisType::damage || !may_close) return std::nullopt;
+  const std::string piece = loose_piece(model);
+  if (piece.empty()) return std::nullopt;
+  try {
+    require_held_pieces(model, damage_options(input, threads));
+  } catch (const CracksSeparate&) {
+    throw InputError(input.where(item_key("cracks", 0)),
+                     fmt::format("cut {} off, and the loads pull it away: nothing but closed faces "
+                                 "of the cracks could hold it",
+                                 piece),
+                     "end the cracks inside the body, hold the piece with [[supports]] or "
+                     "[[springs]], or press the faces together in an earlier one of [[stages]]");
+  }
+  return fmt::format(
+      "cracks cut {} off: nothing but their closed faces holds it, and the run ends "
+      "where the loads pull it away",
+      piece);
+}
+
+}  // namespace perilink

@@ -1,0 +1,85 @@
+#include "app/model/body/strength_notes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/strip_case.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Concrete in N and mm: E = 30 000, f_t = 3, G_F = 0.1, E G_F / f_t^2 = 333 mm.
+constexpr double modulus = 30000.0;
+
+MaterialStrength softening(double strength, double fracture_energy = 0.1) {
+  MaterialStrength result;
+  result.tensile_strength = strength;
+  result.process_zone = modulus * fracture_energy / (strength * strength);
+  result.teeth = 10;
+  return result;
+}
+
+MaterialStrength brittle(double strength) {
+  MaterialStrength result = softening(strength);
+  result.teeth = 1;
+  return result;
+}
+
+TEST(StrengthNotes, SayNothingOfConcreteOnLaboratoryBodies) {
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 15.0, 100.0), IsEmpty());
+  EXPECT_THAT(strength_notes(brittle(20.0), modulus, 15.0, 100.0), IsEmpty());
+  EXPECT_THAT(strength_notes(MaterialStrength{}, modulus, 15.0, 100.0), IsEmpty()) << "unbreakable";
+}
+
+/// A strength in Pa beside a modulus in MPa is a million times too large, and the other way round.
+TEST(StrengthNotes, DoubtUnitsOfDifferentSystems) {
+  EXPECT_THAT(strength_notes(softening(3e6, 1e11), modulus, 15.0, 100.0),
+              ElementsAre(HasSubstr("is 1e+02 of Young's modulus, above 0.01: are the numbers")));
+  EXPECT_THAT(strength_notes(softening(3e-6, 1e-13), modulus, 15.0, 100.0),
+              ElementsAre(HasSubstr("below 1e-06: are the numbers")));
+}
+
+TEST(StrengthNotes, TellWhereTheHorizonMakesBrittleBondsTooStrong) {
+  EXPECT_THAT(strength_notes(brittle(61.0), modulus, 0.4, 100.0),
+              ElementsAre(HasSubstr("above 0.002: brittle bonds have it by fracture_energy and "
+                                    "horizon, the more the shorter that is")));
+  EXPECT_THAT(strength_notes(brittle(59.0), modulus, 0.4, 100.0), IsEmpty());
+}
+
+/// l = 3000 / 15^2 = 13.3 in a body of 40: a horizon of 25 * 10 / 13.3 makes it a quarter.
+TEST(StrengthNotes, TellWhereBrittleBondsReachThroughTheBody) {
+  EXPECT_THAT(
+      strength_notes(brittle(15.0), modulus, 25.0, 40.0),
+      ElementsAre(testing::AllOf(HasSubstr("more than a quarter of the body's longest side 40"),
+                                 HasSubstr("take a horizon below 18.8"))));
+}
+
+TEST(StrengthNotes, TellWhereAProcessZoneIsOutOfProportion) {
+  EXPECT_THAT(strength_notes(softening(15.0), modulus, 15.0, 100.0),
+              ElementsAre(HasSubstr("13.33 is shorter than the horizon 15")));
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 3.0, 33.0),
+              ElementsAre(HasSubstr("more than 10 times the body's longest side 33")));
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 3.0, 34.0), IsEmpty());
+}
+
+/// A fracture energy a hundred million times too large makes bonds ten thousand times too strong.
+TEST(StrengthNotes, NameTheMaterial) {
+  CaseFile input = strip_case();
+  input.materials[0].name = "concrete";
+  input.materials[0].fracture_energy = 1e5;
+  EXPECT_THAT(draft_model(input).notes,
+              testing::Contains(HasSubstr("material \"concrete\": the tensile strength")));
+  input.analysis.type = AnalysisType::elastic;
+  EXPECT_THAT(draft_model(input).notes, testing::Not(testing::Contains(HasSubstr("strength"))));
+}
+
+}  // namespace
+}  // namespace perilink
