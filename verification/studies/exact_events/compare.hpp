@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <string>
+
 #include "app/model/from_case/configure.hpp"
 
 namespace perilink::verification {
@@ -7,7 +10,8 @@ namespace perilink::verification {
 /// How far two routes agree event by event.
 struct Agreement {
   Index unknowns = 0;
-  Index events = 0;                     ///< in the in-place run
+  Index events = 0;                     ///< broken bonds in the in-place run
+  Index rows = 0;                       ///< its events, also those after which bonds went on
   std::string ending;                   ///< how the in-place run ended
   Index compared = 0;                   ///< events that the other route ran
   Index mismatches = 0;                 ///< other element at the same event
@@ -17,10 +21,13 @@ struct Agreement {
   int factorizations = 0;
   double seconds = 0.0;  ///< what the in-place run took
   double other_seconds = 0.0;
+  double seconds_per_event = 0.0;  ///< processor time of the in-place run
 };
 
 /// Runs a model in place for `events` events (or to collapse) and by the other route for
-/// `other_events`.
-Agreement compare_routes(const Model& model, FactorRoute other, Index events, Index other_events);
+/// `other_events`, for so many rows at most.
+Agreement compare_routes(const Model& model, FactorRoute other, Index events, Index other_events,
+                         std::size_t rows = std::numeric_limits<std::size_t>::max(),
+                         std::size_t other_rows = std::numeric_limits<std::size_t>::max());
 
 }  // namespace perilink::verification

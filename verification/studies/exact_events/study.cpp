@@ -10,6 +10,7 @@
 #include "problems/block.hpp"
 #include "problems/result.hpp"
 #include "problems/surface_option.hpp"
+#include "softening.hpp"
 
 namespace perilink::verification {
 namespace {
@@ -48,10 +49,14 @@ bool run_sizes(const std::string& surface, bool quick) {
 }  // namespace perilink::verification
 
 /// Is every event of the downdated factor the event that a run breaks which factorises anew each
-/// time? exact_events [--surface calibrated|none] [--quick]: quick is the smallest size only.
+/// time? exact_events [--surface calibrated|none] [--quick]: quick is the smallest size only;
+/// exact_events --softening [large]: bonds that soften.
 int main(int argc, char** argv) try {
   using namespace perilink::verification;
   std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments.front() == "--softening") {
+    return run_softening(arguments.back() == "large") ? 0 : 1;
+  }
   const std::string surface = take_surface_option(arguments);
   const bool quick = std::find(arguments.begin(), arguments.end(), "--quick") != arguments.end();
   return run_sizes(surface, quick) ? 0 : 1;

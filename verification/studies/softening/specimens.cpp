@@ -21,6 +21,12 @@ std::string region(const std::string& name, double x0, double x1, double y0, dou
 }
 
 std::string body(const Make& make) {
+  if (make.pattern == "mesh") {
+    return fmt::format(
+        "[body]\nmodel = \"{}\"\nmesh = \"beam.geo\"\nmesh_size = {}\n"
+        "horizon_ratio = {}\n",
+        make.model, make.spacing, make.horizon_ratio);
+  }
   return fmt::format(
       "[body]\nproblem = \"{}\"\nmodel = \"{}\"\npattern = \"{}\"\nspacing = {}\n"
       "horizon_ratio = {}\n",
@@ -31,10 +37,14 @@ std::string body(const Make& make) {
 std::string materials(const Make& make, const std::string& whole, const std::string& unbreakable) {
   std::string elastic = fmt::format("youngs_modulus = {}\n", youngs_modulus);
   if (make.model == "micropolar") elastic += fmt::format("poissons_ratio = {}\n", poissons_ratio);
-  const std::string law = make.softening == "brittle"
-                              ? ""
-                              : fmt::format("tensile_strength = {}\nsoftening = \"{}\"\n",
-                                            tensile_strength, make.softening);
+  std::string law = make.softening == "brittle"
+                        ? ""
+                        : fmt::format("tensile_strength = {}\nsoftening = \"{}\"\n",
+                                      tensile_strength, make.softening);
+  if (make.softening == "bilinear") {
+    law += fmt::format("knee_stress_ratio = {}\nknee_opening_ratio = {}\n", make.knee_stress_ratio,
+                       make.knee_opening_ratio);
+  }
   return fmt::format("[[materials]]\nregion = \"{}\"\n{}fracture_energy = {}\n{}", whole, elastic,
                      fracture_energy, law) +
          fmt::format("[[materials]]\nregions = [{}]\n{}fracture_energy = \"infinite\"\n",
@@ -68,29 +78,31 @@ std::string strip(const Make& make) {
          "[[displacements]]\nregion = \"right\"\nx = 0.1\n[stop]\nload_fraction = 0.002\n";
 }
 
-std::string beam(const Make& make, double depth, double notch) {
-  const double span = 4.0 * depth, length = 4.4 * depth, middle = 0.5 * length;
+std::string beam(const Make& make, const Beam& size) {
+  const double depth = size.depth, span = 4.0 * depth, length = 4.4 * depth, middle = 0.5 * length;
   const double zone = std::max(0.4 * depth, 6.0 * make.horizon_ratio * make.spacing);
-  const double half = 0.5 * std::max(2.0 * make.spacing, 0.05 * depth);
+  const double half = 0.5 * std::max(2.0 * make.spacing, size.patch * depth);
+  const double held = size.point_supports ? 0.0 : half;
   const double left = 0.5 * (length - span);
-  const std::string crack = notch > 0.0
+  const std::string crack = size.notch > 0.0
                                 ? fmt::format("[[cracks]]\npoints = [[{0}, {1}], [{0}, {2}]]\n",
-                                              middle, -make.spacing, notch * depth)
+                                              middle, -make.spacing, size.notch * depth)
                                 : "";
   return body(make) + region("beam", 0, length, 0, depth, 0) +
          region("left part", 0, middle - zone, 0, depth, 0) +
          region("right part", middle + zone, length, 0, depth, 0) +
-         region("left", left - half, left + half, 0, 0, 0) +
-         region("right", length - left - half, length - left + half, 0, 0, 0) +
+         region("left", left - held, left + held, 0, 0, 0) +
+         region("right", length - left - held, length - left + held, 0, 0, 0) +
          region("load", middle - half, middle + half, depth, depth, 0) +
          materials(make, "beam", "\"left part\", \"right part\"") + crack +
          "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\"]\n"
          "[[supports]]\nregion = \"right\"\nfix = [\"y\"]\n"
-         "[[loads]]\nregion = \"load\"\nforce = [0, -1000]\n[stop]\nload_fraction = 0.5\n";
+         "[[loads]]\nregion = \"load\"\nforce = [0, -1000]\n" +
+         fmt::format("[stop]\nload_fraction = {}\n", size.load_fraction);
 }
 
 Outcome run_text(const std::string& text) {
-  const CaseFile input = parse_case(text, "specimen.toml");
+  const CaseFile input = parse_case(text, PERILINK_STUDY_DIR "/specimen.toml");
   const Model model = build_model(input);
   Recorder recorder;
   const DamageResult result = run_damage_analysis(model, damage_options(input, 1), recorder);

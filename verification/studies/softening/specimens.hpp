@@ -10,10 +10,13 @@ inline constexpr double tensile_strength = 3.0, fracture_energy = 0.1;
 /// How the specimens are made up.
 struct Make {
   std::string model = "bond_based";
-  std::string pattern = "rectangular";  ///< a cubic one makes the specimen three-dimensional
+  std::string pattern = "rectangular";  ///< a cubic one makes the specimen three-dimensional,
+                                        ///< "mesh" has the triangles of beam.geo
   std::string softening = "bilinear";
   double spacing = 5.0;        ///< [mm]
   double horizon_ratio = 3.0;  ///< horizon over spacing
+  /// Bilinear curves have a knee; the default is that of Petersson.
+  double knee_stress_ratio = 1.0 / 3.0, knee_opening_ratio = 2.0 / 9.0;
 };
 
 /// A strip 100 mm long and 50 mm wide (in space a bar 60 mm long and 20 mm square), driven apart
@@ -24,8 +27,14 @@ std::string strip(const Make& make);
 double section_of(const Make& make);
 
 /// A beam of the depth D, 1 mm thick, on a span of 4 D with a load at mid-span.
-/// \param notch  depth of the pre-crack below the load over D; zero: none
-std::string beam(const Make& make, double depth, double notch);
+struct Beam {
+  double depth = 100.0;         ///< [mm]
+  double notch = 0.0;           ///< depth of the pre-crack below the load over D
+  double patch = 0.05;          ///< width of the load over D, at least two spacings
+  bool point_supports = false;  ///< or patches as wide as the load, which hold a little moment
+  double load_fraction = 0.5;   ///< the run ends at this part of the peak
+};
+std::string beam(const Make& make, const Beam& size);
 
 /// What a run of a case tells.
 struct Outcome {

@@ -2,9 +2,11 @@
 
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <stdexcept>
 #include <string>
 
+#include "hinge.hpp"
 #include "problems/result.hpp"
 #include "specimens.hpp"
 
@@ -39,11 +41,15 @@ void add_strip(const Make& make, Table& table) {
 }
 
 /// Nominal strength: the largest stress of a beam without a crack, 6 M / D^2 with M = P D.
-void add_beam(const Make& make, double depth, double notch, Table& table) {
-  const Outcome outcome = run_text(beam(make, depth, notch));
-  table.add(fmt::format("beam,{},{},{},{:.4f},,{:.1e},{},{}\n", made(make), depth, notch,
-                        6.0 * outcome.peak / depth / tensile_strength, outcome.energy_error,
-                        outcome.events, outcome.ending));
+double bending_strength(const Outcome& outcome, const Beam& size) {
+  return 6.0 * outcome.peak / size.depth / tensile_strength;
+}
+
+void add_beam(const Make& make, const Beam& size, Table& table) {
+  const Outcome outcome = run_text(beam(make, size));
+  table.add(fmt::format("beam,{},{},{},{:.4f},,{:.1e},{},{}\n", made(make), size.depth, size.notch,
+                        bending_strength(outcome, size), outcome.energy_error, outcome.events,
+                        outcome.ending));
 }
 
 constexpr const char* head =
@@ -69,27 +75,90 @@ void run_beams() {
   Table table(head);
   for (const double part : {20.0, 32.0}) {
     for (const double depth : {50.0, 100.0, 200.0, 400.0}) {
-      add_beam({.spacing = depth / part}, depth, 0.2, table);
+      add_beam({.spacing = depth / part}, {.depth = depth, .notch = 0.2}, table);
     }
   }
   for (const double spacing : {5.0, 10.0 / 3.0, 2.5}) {
-    add_beam({.spacing = spacing}, 100.0, 0.0, table);
+    add_beam({.spacing = spacing}, {}, table);
   }
   for (const double spacing : {5.0, 2.5}) {
-    add_beam({.softening = "brittle", .spacing = spacing}, 100.0, 0.0, table);
+    add_beam({.softening = "brittle", .spacing = spacing}, {}, table);
   }
   write_result(PERILINK_STUDY_DIR, table.text(), "beams.csv");
+}
+
+void add_unnotched(const Make& make, const Beam& size, Table& table) {
+  const Outcome outcome = run_text(beam(make, size));
+  table.add(fmt::format("{},{:.3g},{:.3g},{},{},{:.4f},{},{}\n", made(make), make.knee_stress_ratio,
+                        make.knee_opening_ratio, size.patch, size.point_supports,
+                        bending_strength(outcome, size), outcome.events, outcome.ending));
+}
+
+constexpr const char* unnotched_head =
+    "model,pattern,softening,spacing,horizon_ratio,knee_stress_ratio,knee_opening_ratio,patch,"
+    "point_supports,strength,events,ending";
+constexpr Beam on_points{.point_supports = true, .load_fraction = 0.8};
+
+/// What the strength of the beam without a crack depends on.
+void run_unnotched() {
+  Table table(unnotched_head);
+  add_unnotched({}, {.load_fraction = 0.8}, table);
+  add_unnotched({}, on_points, table);
+  add_unnotched({}, {.patch = 0.2, .point_supports = true, .load_fraction = 0.8}, table);
+  add_unnotched({.spacing = 10.0 / 3.0}, on_points, table);
+  add_unnotched({.spacing = 4.0, .horizon_ratio = 3.75}, on_points, table);
+  add_unnotched({.model = "micropolar"}, on_points, table);
+  add_unnotched({.model = "micropolar", .spacing = 10.0 / 3.0}, on_points, table);
+  add_unnotched({.pattern = "mesh"}, on_points, table);
+  add_unnotched({.pattern = "mesh", .spacing = 10.0 / 3.0}, on_points, table);
+  add_unnotched({.softening = "linear"}, on_points, table);
+  add_unnotched({.softening = "exponential"}, on_points, table);
+  write_result(PERILINK_STUDY_DIR, table.text(), "unnotched.csv");
+}
+
+/// The same with other knees of bilinear curves.
+void run_knees() {
+  Table table(unnotched_head);
+  constexpr double knees[][2] = {{0.25, 0.15}, {0.15, 0.10}};
+  for (const double spacing : {5.0, 10.0 / 3.0}) {
+    for (const auto& [stress, opening] : knees) {
+      add_unnotched(
+          {.spacing = spacing, .knee_stress_ratio = stress, .knee_opening_ratio = opening},
+          on_points, table);
+    }
+  }
+  write_result(PERILINK_STUDY_DIR, table.text(), "knees.csv");
+}
+
+/// The same by a cohesive hinge.
+void run_hinge() {
+  Table table("knee_stress_ratio,knee_opening_ratio,strength");
+  const double depth = 100.0 * tensile_strength * tensile_strength / (30000.0 * fracture_energy);
+  constexpr double knees[][2] = {{1.0 / 3.0, 2.0 / 9.0}, {0.25, 0.15}, {0.15, 0.10}, {0.5, 0.5}};
+  for (const auto& [stress, opening] : knees) {
+    table.add(fmt::format("{:.3g},{:.3g},{:.4f}\n", stress, opening,
+                          hinge_strength(stress, opening, depth)));
+  }
+  write_result(PERILINK_STUDY_DIR, table.text(), "hinge.csv");
 }
 
 }  // namespace
 }  // namespace perilink::verification
 
 /// Strength and energy of strips and beams whose bonds soften, over what the material says:
-/// `softening strips` writes strips.csv, `softening beams` beams.csv.
+/// `softening strips` writes strips.csv, and so beams, unnotched, knees and hinge.
 int main(int argc, char** argv) try {
-  const std::string part = argc > 1 ? argv[1] : "";
-  if (part != "strips" && part != "beams") throw std::invalid_argument("name strips or beams");
-  part == "strips" ? perilink::verification::run_strips() : perilink::verification::run_beams();
+  using namespace perilink::verification;
+  const std::map<std::string, void (*)()> parts = {{"strips", run_strips},
+                                                   {"beams", run_beams},
+                                                   {"unnotched", run_unnotched},
+                                                   {"knees", run_knees},
+                                                   {"hinge", run_hinge}};
+  const auto part = parts.find(argc > 1 ? argv[1] : "");
+  if (part == parts.end()) {
+    throw std::invalid_argument("name strips, beams, unnotched, knees or hinge");
+  }
+  part->second();
   return 0;
 } catch (const std::exception& error) {
   fmt::print(stderr, "softening: {}\n", error.what());
