@@ -127,7 +127,7 @@ bool EventRun::converts(const Event& event) {
   if (!conversion_ || event.element == no_index || !conversion_->is_carried(event.element)) {
     return false;
   }
-  constexpr double as_near = 0.7;
+  constexpr double as_near = 0.9;
   const Unknowns& unknowns = conversion_->convert(engine_->near_events(as_near));
   adopt(unknowns);
   result_.unknowns = unknowns.count;

@@ -290,7 +290,7 @@ class Equilibrium {
   /// Where something carries particles: slots that unknowns move, of all particles and, while
   /// partial_, of those that the search looks at.
   std::vector<std::size_t> moving_slots_, current_slots_;
-  std::vector<double> solution_;      ///< per unknown
+  std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_
   std::vector<double> ground_stiffness_;  ///< per unknown, empty until a fragment came loose

@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "bodies.hpp"
+#include "problems/result.hpp"
+
+namespace perilink::verification {
+namespace {
+
+struct Scene {
+  bool in_space;
+  double spacing;
+  std::vector<int> sizes;  ///< spacings along the sides of elements; 0: none
+};
+
+std::string row_of(const Scene& scene, int size) {
+  const std::string elements = size > 0 ? fmt::format("[elements]\nspacings = {}\n", size) : "";
+  const Run run = measure(beam_case(scene.in_space, scene.spacing, elements));
+  return fmt::format(
+      "{},{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.3g},{:.4f},{:.2f},{:.2f},{:.2f},{:.3f}\n",
+      scene.in_space ? "space" : "plane", scene.spacing, size, run.unknowns, run.unknowns_at_end,
+      run.events, run.conversions, run.peak, run.smoothed_peak, run.dissipated, run.freed,
+      run.crack, run.height, run.seconds, run.set_up, run.gigabytes);
+}
+
+}  // namespace
+}  // namespace perilink::verification
+
+/// What finite elements that carry particles save, and what they change: beams with and without
+/// them, into result.csv. `carried_particles small` leaves out the large ones.
+int main(int argc, char** argv) try {
+  using namespace perilink::verification;
+  const bool small = argc > 1 && std::string(argv[1]) == "small";
+  std::vector<Scene> scenes = {
+      {false, 2.5, {0, 4, 8}}, {false, 1.0, {0, 4, 8, 12}}, {true, 10.0, {0, 3}}};
+  if (!small) {
+    scenes.push_back({false, 0.5, {0, 8, 12}});
+    scenes.push_back({true, 5.0, {0, 4, 5}});
+    scenes.push_back({true, 4.0, {0, 5}});
+  }
+  std::string table =
+      "body,spacing,element_spacings,unknowns,unknowns_at_end,events,conversions,peak,"
+      "smoothed_peak,dissipated,freed,crack_x,crack_y,seconds,set_up_seconds,gigabytes\n";
+  for (const Scene& scene : scenes) {
+    for (const int size : scene.sizes) {
+      const std::string row = row_of(scene, size);
+      fmt::print("{}", row);
+      std::fflush(stdout);
+      table += row;
+    }
+  }
+  if (!small) write_result(PERILINK_STUDY_DIR, table);
+  return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "carried_particles: {}\n", error.what());
+  return 1;
+}
