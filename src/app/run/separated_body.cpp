@@ -40,7 +40,7 @@ std::optional<std::string> note_of_separated_body(const CaseFile& input, const M
   if (piece.empty()) return std::nullopt;
   try {
     require_held_pieces(model, damage_options(input, threads));
-  } catch (const CracksSeparate&) {
+  } catch (const SolverError&) {  // they separate it, or leave a body that resists nothing
     throw InputError(input.where(item_key("cracks", 0)),
                      fmt::format("cut {} off, and the loads pull it away: nothing but closed faces "
                                  "of the cracks could hold it",

@@ -17,7 +17,7 @@ struct Run {
   double peak = 0.0, smoothed_peak = 0.0, dissipated = 0.0, freed = 0.0;
   double crack = 0.0;      ///< mean x of the broken bonds' middles [mm]
   double height = 0.0;     ///< largest y of them [mm]
-  double seconds = 0.0;    ///< of the processor, set-up and all
+  double seconds = 0.0;    ///< processor time, set-up and all
   double set_up = 0.0;     ///< part of it before the first event
   double gigabytes = 0.0;  ///< peak memory
 };

@@ -180,7 +180,7 @@ bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
   factor_->solve(load, motion);
   double work = 0.0;
   for (std::size_t k = 0; k < load.size(); ++k) work += load[k] * motion[k];
-  return work * no_pivot < 1.0;
+  return work >= 0.0 && work * no_pivot < 1.0;
 }
 
 /// What closes holds the body while others open. \return the bonds that have changed their side;

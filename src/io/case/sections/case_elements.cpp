@@ -18,10 +18,6 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
   assign(elements.regions, table.texts("regions"));
   assign(elements.particles, table.texts("particles"));
   assign(elements.alert, table.fraction("alert"));
-  if (!(elements.alert > 0.0)) {
-    table.refuse("alert", "is 0: every element would be converted at once",
-                 "0.25 converts an element when a bond in it has come to a quarter of its limit");
-  }
   elements.halo = table.positive("halo");
   return elements;
 }

@@ -38,7 +38,7 @@ TEST(CaseElements, AreRefusedWhereTheyMeanNothing) {
   EXPECT_THAT(message("spacings = 1\n"), HasSubstr("elements.spacings"));
   EXPECT_THAT(message("spacings = 4\nsize = 2\n"), HasSubstr("size"));
   EXPECT_THAT(message("spacings = 4\norder = 3\n"), HasSubstr("elements.order"));
-  EXPECT_THAT(message("spacings = 4\nalert = 0\n"), HasSubstr("every element"));
+  EXPECT_THAT(message("spacings = 4\nalert = 0\n"), HasSubstr("greater than zero"));
   EXPECT_THAT(message("spacings = 4\nregions = [\"nowhere\"]\n"), HasSubstr("nowhere"));
   EXPECT_THAT(
       message_of(replaced(calibrated, "\"calibrated\"", "\"none\"") + "[elements]\nspacings = 4\n"),
