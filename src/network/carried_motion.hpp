@@ -16,7 +16,7 @@ struct CarriedBody {
   std::vector<std::uint8_t> whole;  ///< per element: whether it carries its particles at first
   /// An element is converted before the next event where one of its bonds has come to this fraction
   /// of its limit, at the load factor of that event [-].
-  double alert = 0.25;
+  double alert = 0.5;
   double halo = 0.0;  ///< elements within this distance of one that converts do so too [length]
 };
 

@@ -1,6 +1,7 @@
 #include "analysis/quasistatic/conversion.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace perilink {
 
@@ -9,7 +10,18 @@ Conversion::Conversion(const Network& network, const CarriedBody& body)
       body_(body),
       whole_(body.whole),
       carrier_(carrier_of_particles(body.carriers, whole_, network.particles.size())),
-      num_whole_(static_cast<Index>(std::count(whole_.begin(), whole_.end(), 1))) {}
+      num_whole_(static_cast<Index>(std::count(whole_.begin(), whole_.end(), 1))),
+      by_lower_x_(whole_.size()) {
+  const Carriers& carriers = body.carriers;
+  const auto dim = static_cast<std::size_t>(carriers.dim);
+  std::iota(by_lower_x_.begin(), by_lower_x_.end(), 0);
+  std::stable_sort(by_lower_x_.begin(), by_lower_x_.end(), [&](Index a, Index b) {
+    return carriers.lower[a * dim] < carriers.lower[b * dim];
+  });
+  for (std::size_t e = 0; e < whole_.size(); ++e) {
+    widest_ = std::max(widest_, carriers.upper[e * dim] - carriers.lower[e * dim]);
+  }
+}
 
 std::vector<Index> Conversion::carried_bonds() const {
   std::vector<Index> carried;
@@ -19,20 +31,40 @@ std::vector<Index> Conversion::carried_bonds() const {
   return carried;
 }
 
-void Conversion::mark_around(Index element, std::vector<std::uint8_t>& marked) const {
-  const auto dim = static_cast<std::size_t>(body_.carriers.dim);
-  const std::vector<double>&lower = body_.carriers.lower, &upper = body_.carriers.upper;
-  const std::size_t own = static_cast<std::size_t>(element) * dim;
-  for (std::size_t e = 0; e < whole_.size(); ++e) {
-    if (whole_[e] == 0 || marked[e] != 0) continue;
-    double square = 0.0;
-    for (std::size_t a = 0; a < dim; ++a) {
-      const double gap =
-          std::max({0.0, lower[e * dim + a] - upper[own + a], lower[own + a] - upper[e * dim + a]});
-      square += gap * gap;
-    }
-    if (square <= body_.halo * body_.halo) marked[e] = 1;
+bool Conversion::is_near(Index element, Index other) const {
+  const Carriers& carriers = body_.carriers;
+  const auto dim = static_cast<std::size_t>(carriers.dim);
+  const std::size_t e = static_cast<std::size_t>(element) * dim;
+  const std::size_t o = static_cast<std::size_t>(other) * dim;
+  double square = 0.0;
+  for (std::size_t a = 0; a < dim; ++a) {
+    const double gap = std::max({0.0, carriers.lower[o + a] - carriers.upper[e + a],
+                                 carriers.lower[e + a] - carriers.upper[o + a]});
+    square += gap * gap;
   }
+  return square <= body_.halo * body_.halo;
+}
+
+/// These elements and the whole ones around them.
+std::vector<std::uint8_t> Conversion::with_halo(const std::vector<std::uint8_t>& alarmed) const {
+  const auto lower = [&](Index e) {
+    return body_.carriers.lower[static_cast<std::size_t>(e) * body_.carriers.dim];
+  };
+  const auto upper = [&](Index e) {
+    return body_.carriers.upper[static_cast<std::size_t>(e) * body_.carriers.dim];
+  };
+  std::vector<std::uint8_t> marked = alarmed;
+  for (Index e = 0; e < body_.carriers.size(); ++e) {
+    if (alarmed[e] == 0) continue;
+    const auto first = std::partition_point(
+        by_lower_x_.begin(), by_lower_x_.end(),
+        [&](Index other) { return lower(other) + widest_ < lower(e) - body_.halo; });
+    for (auto other = first; other != by_lower_x_.end(); ++other) {
+      if (lower(*other) > upper(e) + body_.halo) break;
+      if (whole_[*other] != 0 && marked[*other] == 0 && is_near(e, *other)) marked[*other] = 1;
+    }
+  }
+  return marked;
 }
 
 const Unknowns& Conversion::convert(std::span<const Index> bonds) {
@@ -42,10 +74,7 @@ const Unknowns& Conversion::convert(std::span<const Index> bonds) {
       if (carrier_[i] != no_index) alarmed[carrier_[i]] = 1;
     }
   }
-  std::vector<std::uint8_t> marked = alarmed;
-  for (std::size_t e = 0; e < whole_.size(); ++e) {
-    if (alarmed[e] != 0) mark_around(static_cast<Index>(e), marked);
-  }
+  const std::vector<std::uint8_t> marked = with_halo(alarmed);
   for (std::size_t e = 0; e < whole_.size(); ++e) {
     if (marked[e] == 0) continue;
     whole_[e] = 0;

@@ -37,13 +37,16 @@ class Conversion {
   Index num_whole() const { return num_whole_; }
 
  private:
-  void mark_around(Index element, std::vector<std::uint8_t>& marked) const;
+  std::vector<std::uint8_t> with_halo(const std::vector<std::uint8_t>& alarmed) const;
+  bool is_near(Index element, Index other) const;
 
   const Network& network_;
   const CarriedBody& body_;
   std::vector<std::uint8_t> whole_;
   std::vector<Index> carrier_;  ///< per particle
   Index num_whole_ = 0;
+  std::vector<Index> by_lower_x_;  ///< elements in the order of their lower ends along x
+  double widest_ = 0.0;            ///< of all elements along x [length]
   std::vector<Index> freed_;
   std::unique_ptr<Unknowns> present_, former_;
 };
