@@ -46,7 +46,7 @@ class Conversion {
   std::vector<Index> carrier_;  ///< per particle
   Index num_whole_ = 0;
   std::vector<Index> by_lower_x_;  ///< elements in the order of their lower ends along x
-  double widest_ = 0.0;            ///< of all elements along x [length]
+  double widest_ = 0.0;            ///< largest width of an element along x [length]
   std::vector<Index> freed_;
   std::unique_ptr<Unknowns> present_, former_;
 };

@@ -124,22 +124,31 @@ void EventRun::adopt(const Unknowns& unknowns) {
 /// Whether the event is not one yet: a bond that a finite element carries has come near its limit,
 /// and the element lets go of its particles first, with all others as near.
 bool EventRun::converts(const Event& event) {
-  if (!conversion_ || event.element == no_index || !conversion_->is_carried(event.element)) {
+  if (!conversion_ || event.element == no_index) return false;
+  if (!conversion_->is_carried(event.element)) {
+    note_late_conversions(event);
     return false;
   }
   constexpr double as_near = 0.9;
   const Unknowns& unknowns = conversion_->convert(engine_->near_events(as_near));
   adopt(unknowns);
-  result_.unknowns = unknowns.count;
   engine_->set_alert(conversion_->freed(), 1.0);
+  freed_.emplace_back(conversion_->freed(), event.load_factor);
   ++result_.conversions;
-  const Event next = engine_->next_event();
-  const bool freed =
-      std::binary_search(conversion_->freed().begin(), conversion_->freed().end(), next.element);
-  const bool earlier = next.load_factor < event.load_factor * (1.0 - tie_tolerance);
-  if (row_.step > 0 && freed && earlier) ++result_.late_conversions;
+  result_.unknowns = unknowns.count;
   result_.elements = conversion_->num_whole();
   return true;
+}
+
+/// A freed bond that fails at a smaller load factor than the alert came at was beyond its limit by
+/// more than the alert allows for.
+void EventRun::note_late_conversions(const Event& event) {
+  for (const auto& [bonds, alert] : freed_) {
+    const bool freed = std::binary_search(bonds.begin(), bonds.end(), event.element);
+    const bool earlier = event.load_factor < alert * (1.0 - tie_tolerance);
+    if (events_ > 0 && freed && earlier) ++result_.late_conversions;
+  }
+  freed_.clear();
 }
 
 /// What round-off leaves grows in proportion to the displacements, which forces make without bound
@@ -295,7 +304,7 @@ DamageResult EventRun::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
     Event event = engine_->next_event();
-    while (converts(event)) event = engine_->next_event();
+    while (event.load_factor <= load_factor && converts(event)) event = engine_->next_event();
     Index last = no_index;
     while (event.element != no_index && event.load_factor <= load_factor) {
       energy_.advance(load_factor, engine_->load_work());
@@ -320,7 +329,7 @@ DamageResult EventRun::by_steps() {
         return finish();
       }
       event = engine_->next_event();
-      while (converts(event)) event = engine_->next_event();
+      while (event.load_factor <= load_factor && converts(event)) event = engine_->next_event();
     }
     record(load_factor, engine_->load_work(), last);
     if (stop_rule_met()) return finish();
@@ -343,7 +352,7 @@ void require_held_pieces(const LoadedNetwork& problem, const DamageOptions& opti
   struct Silent final : StepObserver {
     void on_step(const StepRecord&, StateSource&) override {}
   } silent;
-  EventRun run(problem, options, silent);
+  EventRun(problem, options, silent).require_equilibrium();
 }
 
 DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptions& options,

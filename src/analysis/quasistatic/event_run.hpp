@@ -42,6 +42,8 @@ class EventRun {
   EventRun(const EventRun&) = delete;
 
   DamageResult go();
+  /// \throws SolverError where the body as it is at first finds none
+  void require_equilibrium() { check(); }
 
  private:
   std::unique_ptr<EventEngine> make_engine();
@@ -63,6 +65,7 @@ class EventRun {
   void follow_motion();
   void adopt(const Unknowns& unknowns);
   bool converts(const Event& event);
+  void note_late_conversions(const Event& event);
   bool residual_may_be_large() const;
   int check_interval() const;
   bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }
@@ -85,6 +88,8 @@ class EventRun {
   std::unique_ptr<EventEngine> engine_;
   EngineState state_;
   std::optional<Conversion> conversion_;  ///< where finite elements carry particles
+  /// Bonds that conversions have freed since the last event, with the load factor of the alert.
+  std::vector<std::pair<std::vector<Index>, double>> freed_;
   PathEnergy energy_;
   Timer timer_;
   double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...

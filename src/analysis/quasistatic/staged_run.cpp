@@ -67,6 +67,11 @@ bool EventRun::follow_stage(const StageRules& stage) {
             fmt::format("a mechanism: constant loads alone keep the load at {:.6g}, however far "
                         "the displacements go on",
                         row_.load));
+      } else if (stage.to_load) {
+        end(Ending::collapsed,
+            fmt::format("the body no longer resists the displacements: it could not bear the load "
+                        "{} any more",
+                        *stage.to_load));
       }
       return false;
     }

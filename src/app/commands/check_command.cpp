@@ -131,8 +131,11 @@ void print_sizes(const Model& model) {
   print_elements(model);
   if (model.carried) {
     const std::vector<std::uint8_t>& whole = model.carried->whole;
-    fmt::print("#   finite elements    {} carry particles, which would have {} unknowns\n",
-               std::count(whole.begin(), whole.end(), 1), model.carried->free.count);
+    fmt::print(
+        "#   finite elements    {} of {} carry particles, which would have {} unknowns; time and\n"
+        "#                      memory are for the unknowns at first and grow as elements "
+        "convert\n",
+        std::count(whole.begin(), whole.end(), 1), whole.size(), model.carried->free.count);
   }
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {

@@ -39,19 +39,13 @@ void DamageRun::tell(Summary& summary) const {
 }
 
 void DamageRun::tell_elements(Summary& summary) const {
-  const std::vector<std::uint8_t>& whole = model_.carried->whole;
-  const auto first = std::count(whole.begin(), whole.end(), 1);
-  summary.add("elements", first);
   summary.add("elements_at_end", result_.elements);
   summary.add("conversions", result_.conversions);
   summary.add("late_conversions", result_.late_conversions);
   summary.add("unknowns_at_end", result_.unknowns);
   summary.add("freed_energy", result_.last.freed_energy);
-  summary.line("elements",
-               "{} carry particles at first, {} at the end, where {} unknowns are left of {}; {} "
-               "conversions freed {:.3g}",
-               first, result_.elements, result_.unknowns, model_.carried->free.count,
-               result_.conversions, result_.last.freed_energy);
+  summary.line("", "{} at the end, with {} unknowns; {} conversions freed {:.3g}", result_.elements,
+               result_.unknowns, result_.conversions, result_.last.freed_energy);
 }
 
 /// With which displacements are to be multiplied, StepState::displacement.

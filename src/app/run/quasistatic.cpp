@@ -2,6 +2,8 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "app/run/run_warnings.hpp"
 #include "assembly/internal_force.hpp"
 
@@ -120,6 +122,13 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   summary.doubts.insert(summary.doubts.end(), found.doubts.begin(), found.doubts.end());
   summary.add("doubts", summary.doubts);
   tell_body(summary, model, fmt::format(", {} unknowns", model.unknowns.count));
+  if (model.carried) {
+    const std::vector<std::uint8_t>& whole = model.carried->whole;
+    const auto carrying = std::count(whole.begin(), whole.end(), 1);
+    summary.add("elements", carrying);
+    summary.line("elements", "{} carry particles, which would have {} unknowns", carrying,
+                 model.carried->free.count);
+  }
   summary.add("notes", summary.notes);
   summary.add("factorizations", factorizations);
   summary.add("factor_bytes", found.factor.bytes);

@@ -40,7 +40,7 @@ int main(int argc, char** argv) try {
   if (!small) {
     scenes.push_back({false, 0.5, {0, 8, 12}});
     scenes.push_back({true, 5.0, {0, 4, 5}});
-    scenes.push_back({true, 25.0 / 6.0, {0, 4}});
+    scenes.push_back({true, 25.0 / 6.0, {0, 4, 6}});
   }
   std::string table =
       "body,spacing,element_spacings,unknowns,unknowns_at_end,events,conversions,peak,"

@@ -148,6 +148,9 @@ double Equilibrium::change_motion(const Unknowns& unknowns) {
     adopt_motion();
     EventOutcome sides;
     if (!axial_.empty()) settle_closing(sides);
+    if (sides.mechanism) {
+      throw SolverError("particles come free that nothing but closed bonds would hold");
+    }
     events_to_follow_ = 0;
     const LoadWork after = work();
     if (before.separated || after.separated) {

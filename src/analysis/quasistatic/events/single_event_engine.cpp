@@ -56,20 +56,22 @@ void SingleEventEngine::set_limits(Index element) {
   if (!network_.law(element).crushes()) return search_->set_limit(element, limit);
   const int tooth = teeth_[element];
   constexpr double none = std::numeric_limits<double>::infinity();
-  search_->set_limits(element, tooth > 0 ? limit : none, tooth > 0 ? none : limit);
+  double tension = tooth >= 0 ? limit : none, compression = tooth >= 0 ? none : limit;
+  if (tooth == 0 && secants()[element] > 0.0 && crushing_->is_awake(element)) {
+    compression = alert_of(element) * network_.critical_stretch[element] *
+                  network_.law(element).first_in_compression().limit;
+  }
+  search_->set_limits(element, tension, compression);
   if (tooth != 1) return;
   for (const Index woken : crushing_->wake(element)) {
-    if (teeth_[woken] != 0 || secants()[woken] == 0.0) continue;
-    const double first = network_.law(woken).first_in_compression().limit;
-    search_->set_limits(woken, limit_of(woken), network_.critical_stretch[woken] * first);
+    if (teeth_[woken] == 0 && secants()[woken] > 0.0) set_limits(woken);
   }
 }
 
 double SingleEventEngine::limit_of(Index element) const {
   const Tooth tooth = network_.law(element).tooth(teeth_[element]);
   if (tooth.secant == 0.0) return std::numeric_limits<double>::infinity();
-  const double limit = network_.critical_stretch[element] * tooth.limit;
-  return alert_.empty() ? limit : alert_[element] * limit;
+  return alert_of(element) * network_.critical_stretch[element] * tooth.limit;
 }
 
 void SingleEventEngine::set_alert(std::span<const Index> elements, double fraction) {

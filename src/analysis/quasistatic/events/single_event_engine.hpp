@@ -37,6 +37,8 @@ class SingleEventEngine : public EventEngine {
   /// The stretch at which the element has its next event; infinity: it is broken.
   double limit_of(Index element) const;
 
+  double alert_of(Index element) const { return alert_.empty() ? 1.0 : alert_[element]; }
+
   /// Tells the search the next limits of an element after its event.
   void set_limits(Index element);
 

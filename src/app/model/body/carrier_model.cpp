@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,6 +11,7 @@
 #include "app/model/model_regions.hpp"
 #include "base/error.hpp"
 #include "discretization/cuts/cracks.hpp"
+#include "discretization/neighbor_search.hpp"
 
 namespace perilink {
 namespace {
@@ -20,8 +23,8 @@ constexpr double border_tolerance = 1e-6;
 constexpr double least_spacings = 2.0;
 
 /// Planes between elements of about one size, through rows of particles where these are evenly
-/// spaced.
-std::vector<double> divide(const Model& model, int axis, double size) {
+/// spaced, those of nodes between the planes too if the body has so many.
+std::vector<double> divide(const Model& model, int axis, double size, int order) {
   const Particles& particles = model.network.particles;
   double lower = particles.position(0)[axis], upper = lower;
   for (Index i = 0; i < particles.size(); ++i) {
@@ -30,9 +33,13 @@ std::vector<double> divide(const Model& model, int axis, double size) {
   }
   const double extent = upper - lower;
   const double count = std::max(1.0, std::round(extent / size));
+  const auto is_whole = [](double rows) {
+    return rows > 0.5 && std::abs(rows - std::round(rows)) < border_tolerance * rows;
+  };
   const double step = model.lattice.step[axis];
-  const double rows = step > 0.0 ? extent / step : 0.0;
-  const bool even = rows > 0.0 && std::abs(rows - std::round(rows)) < border_tolerance * rows;
+  double rows = step > 0.0 ? extent / (order * step) : 0.0;
+  if (!is_whole(rows)) rows *= order;
+  const bool even = is_whole(rows) && count <= std::round(rows);
   std::vector<double> planes;
   for (double k = 0.0; k <= count; k += 1.0) {
     const double at = k / count;
@@ -88,43 +95,48 @@ std::vector<double> faces_of(const Model& model) {
   return faces;
 }
 
-/// Elements that a pre-crack crosses: lines from a particle in the middle to all others meet it.
-std::vector<std::uint8_t> crossed_elements(const CaseFile& input, const Model& model,
+/// Elements with a particle whose nearest neighbours a pre-crack cuts off.
+std::vector<std::uint8_t> cracked_elements(const CaseFile& input, const Model& model,
                                            const Carriers& carriers) {
-  std::vector<std::uint8_t> crossed(static_cast<std::size_t>(carriers.size()), 0);
-  if (input.cracks.empty()) return crossed;
+  constexpr double nearest = 1.8;  // spacings; lattices and meshes alike
+  std::vector<std::uint8_t> cracked(static_cast<std::size_t>(carriers.size()), 0);
+  if (input.cracks.empty()) return cracked;
   const Particles& particles = model.network.particles;
-  const auto dim = static_cast<std::size_t>(particles.dim);
   std::vector<Crack> cracks;
   for (const CrackSection& crack : input.cracks) cracks.push_back({crack.points});
-  Bonds lines;
-  std::vector<Index> element_of;
-  for (Index e = 0; e < carriers.size(); ++e) {
-    const auto inside = carriers.inside.row(e);
-    const auto from_centre = [&](Index i) {
-      double square = 0.0;
-      for (std::size_t a = 0; a < dim; ++a) {
-        const std::size_t at = static_cast<std::size_t>(e) * dim + a;
-        const double centre = 0.5 * (carriers.lower[at] + carriers.upper[at]);
-        square += (particles.position(i)[a] - centre) * (particles.position(i)[a] - centre);
-      }
-      return square;
-    };
-    const Index middle = *std::min_element(inside.begin(), inside.end(), [&](Index i, Index j) {
-      return from_centre(i) < from_centre(j);
-    });
-    for (const Index i : inside) {
-      if (i == middle) continue;
-      lines.first.push_back(middle);
-      lines.second.push_back(i);
-      element_of.push_back(e);
+  const Csr neighbors =
+      find_upper_neighbors(particles.positions, particles.dim, nearest * model.lattice.spacing);
+  Bonds pairs;
+  for (Index i = 0; i < neighbors.rows(); ++i) {
+    for (const Index j : neighbors.row(i)) {
+      pairs.first.push_back(i);
+      pairs.second.push_back(j);
     }
   }
-  const CutBonds cut = find_cut_bonds(particles, lines, cracks, model.lattice.spacing);
-  for (std::size_t k = 0; k < element_of.size(); ++k) {
-    if (cut.keep[k] == 0) crossed[element_of[k]] = 1;
+  const CutBonds cut = find_cut_bonds(particles, pairs, cracks, model.lattice.spacing);
+  std::vector<std::uint8_t> beside(static_cast<std::size_t>(particles.size()), 0);
+  for (std::size_t k = 0; k < pairs.first.size(); ++k) {
+    if (cut.keep[k] == 0) beside[pairs.first[k]] = beside[pairs.second[k]] = 1;
   }
-  return crossed;
+  for (Index e = 0; e < carriers.size(); ++e) {
+    const auto inside = carriers.inside.row(e);
+    cracked[e] = std::any_of(inside.begin(), inside.end(), [&](Index i) { return beside[i] != 0; });
+  }
+  return cracked;
+}
+
+/// Whether the particles of an element tell all its nodes apart: none can move without one of them.
+bool has_full_rank(const Carriers& carriers, Index element) {
+  constexpr auto many = 4;  // times as many particles as nodes do, wherever they are
+  const std::size_t nodes = carriers.nodes_of.row(element).size();
+  const std::size_t count = carriers.inside.row(element).size();
+  if (count >= many * nodes) return true;
+  if (count < nodes) return false;
+  using Weights = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Map<const Weights> weights(carriers.weights_at(element, 0).data(),
+                                          static_cast<Index>(count), static_cast<Index>(nodes));
+  const Eigen::VectorXd sizes = weights.jacobiSvd().singularValues();
+  return sizes[sizes.size() - 1] > 1e-3 * sizes[0];
 }
 
 }  // namespace
@@ -133,7 +145,9 @@ void carry_particles(const CaseFile& input, Model& model) {
   if (!input.elements) return;
   const double size = size_of_elements(input, model);
   Divisions divisions;
-  for (int a = 0; a < model.network.dim(); ++a) divisions[a] = divide(model, a, size);
+  for (int a = 0; a < model.network.dim(); ++a) {
+    divisions[a] = divide(model, a, size, input.elements->order);
+  }
   CarriedBody body;
   body.carriers = carriers_on_grid(model.network.particles, faces_of(model), divisions,
                                    input.elements->order, border_tolerance * model.lattice.spacing);
@@ -141,20 +155,22 @@ void carry_particles(const CaseFile& input, Model& model) {
   body.alert = input.elements->alert;
   body.halo = input.elements->halo.value_or(model.horizon);
   const std::vector<std::uint8_t> carry = particles_to_carry(input, model);
-  const std::vector<std::uint8_t> crossed = crossed_elements(input, model, body.carriers);
+  const std::vector<std::uint8_t> cracked = cracked_elements(input, model, body.carriers);
   body.whole = fit_supports(body.carriers, body.free);
   for (Index e = 0; e < body.carriers.size(); ++e) {
     const auto inside = body.carriers.inside.row(e);
     const bool all = std::all_of(inside.begin(), inside.end(), [&](Index i) { return carry[i]; });
-    if (!all || crossed[e] != 0) body.whole[e] = 0;
+    if (!all || cracked[e] != 0 || !has_full_rank(body.carriers, e)) body.whole[e] = 0;
   }
   const auto whole = std::count(body.whole.begin(), body.whole.end(), 1);
   if (whole == 0) {
-    throw InputError(input.where("elements"),
-                     fmt::format("leaves no element of size {:.6g} whole: surfaces, supports, "
-                                 "cracks or regions cross all of them",
-                                 size),
-                     "make the elements smaller, or delete the table");
+    throw InputError(
+        input.where("elements"),
+        fmt::format("leaves no element of size {:.6g} whole: surfaces, supports, "
+                    "cracks or regions cross all of them",
+                    size),
+        "make the elements smaller, as far as particles are left inside them, or delete the "
+        "table");
   }
   model.unknowns = carried_motion(body, body.whole);
   model.carried = std::move(body);

@@ -66,5 +66,17 @@ TEST(CarrierModel, PreCracksHaveFreeParticlesAroundThem) {
   EXPECT_EQ(whole(model), 6);
 }
 
+TEST(CarrierModel, ShortPreCracksAndThoseBesideAPlaneCountToo) {
+  EXPECT_EQ(whole(plate("[[cracks]]\npoints = [[6.5, -1], [6.5, 0.5]]\n")), 7);
+  // Between the rows y = 3 and y = 4: particles on both sides are free.
+  EXPECT_EQ(whole(plate("[[cracks]]\npoints = [[4.5, 3.5], [7.5, 3.5]]\n")), 6);
+}
+
+TEST(CarrierModel, ElementsWithTooFewParticlesDoNotCarry) {
+  // A single quadratic element of two by two spacings has a particle for every node.
+  const Model model = plate("", "size = 2.0\n");
+  EXPECT_EQ(model.unknowns.count, model.carried->free.count);
+}
+
 }  // namespace
 }  // namespace perilink
