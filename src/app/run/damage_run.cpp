@@ -44,8 +44,10 @@ void DamageRun::tell_elements(Summary& summary) const {
   summary.add("late_conversions", result_.late_conversions);
   summary.add("unknowns_at_end", result_.unknowns);
   summary.add("freed_energy", result_.last.freed_energy);
-  summary.line("", "{} at the end, with {} unknowns; {} conversions freed {:.3g}", result_.elements,
-               result_.unknowns, result_.conversions, result_.last.freed_energy);
+  const double work = std::abs(result_.last.external_work);
+  summary.line("", "{} at the end, with {} unknowns; {} conversions freed {:.2g} of the work",
+               result_.elements, result_.unknowns, result_.conversions,
+               work > 0.0 ? result_.last.freed_energy / work : 0.0);
 }
 
 /// With which displacements are to be multiplied, StepState::displacement.
