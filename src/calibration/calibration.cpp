@@ -22,6 +22,8 @@ constexpr int most_refinements = 3;
 
 /// Zeros stay where they bring the forces out of balance down to this part.
 constexpr double worth_dropping = 0.1;
+/// The search for them ends where this part will be left: five times as much.
+constexpr double far_from_worth = 0.5;
 
 /// Few digits of the energies of dilatation are enough; what the exact forces move afterwards is
 /// more.
@@ -89,6 +91,7 @@ class Calibration {
   int searches_ = 0;
   bool energies_;  // equations of the energies of dilatation take part
   bool soft_moments_ = false;
+  double hopeless_ = std::numeric_limits<double>::infinity();  // force that ends a search
   CalibrationEquations equations_;
   CalibrationEquations::State settled_;  // where the exact forces began
   CalibrationReport report_;
@@ -130,6 +133,7 @@ void Calibration::balance_by(Method method, double charge, double tolerance) {
   options.iterations = most_iterations;
   options.method = method;
   options.price = charge;
+  options.hopeless = hopeless_;
   if (in_space_ && irregular_) options.proximity = proximity;
   const PointEquations equations = equations_.balance();
   const bool tight =
@@ -193,7 +197,9 @@ bool Calibration::balance_dropping_bonds() {
   if (spread && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
     const CalibrationEquations::State with_floors = equations_.save();
     equations_.restore(settled_);
+    hopeless_ = far_from_worth * floored;
     balance(coarse);
+    hopeless_ = std::numeric_limits<double>::infinity();
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();
       fit_and_balance(tolerance_);

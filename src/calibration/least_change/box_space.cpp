@@ -64,17 +64,23 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
                                  const std::vector<double>& diagonal) {
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   std::vector<double> blocks(diagonal.size() * rows, 0.0);
-  ColumnBlocks<VectorXd> column;
-  column.blocks.fill(VectorXd::Zero(equations.rows));
-  for (Index v = 0; v < equations.num_variables(); ++v) {
-    if (active[v] == 0.0) continue;
-    gather_column(equations, v, column);
-    for (int k = 0; k < column.count; ++k) {
-      Eigen::Map<MatrixXd>(blocks.data() + column.keys[k] * rows * rows, equations.rows,
-                           equations.rows)
-          .noalias() += active[v] * column.blocks[k] * column.blocks[k].transpose();
+  with_rows(equations.rows, [&](auto fixed) {
+    constexpr int count = decltype(fixed)::value;
+    using Column = Eigen::Matrix<double, count, 1>;
+    using Block = Eigen::Matrix<double, count, count>;
+    ColumnBlocks<Column> column;
+    column.blocks.fill(Column::Zero(equations.rows));
+    for (Index v = 0; v < equations.num_variables(); ++v) {
+      if (active[v] == 0.0) continue;
+      gather_column(equations, v, column);
+      for (int k = 0; k < column.count; ++k) {
+        const Column scaled = active[v] * column.blocks[k];
+        Eigen::Map<Block>(blocks.data() + column.keys[k] * rows * rows, equations.rows,
+                          equations.rows)
+            .noalias() += scaled * column.blocks[k].transpose();
+      }
     }
-  }
+  });
   for (std::size_t p = 0; p < diagonal.size() / rows; ++p) {
     Eigen::Map<MatrixXd> block(blocks.data() + p * rows * rows, equations.rows, equations.rows);
     // What no variable between the bounds acts on keeps the identity.
@@ -149,17 +155,24 @@ MatrixXd BoxSpace::soft_fields(Index box, const std::vector<Index>& inside,
   const std::size_t rows = static_cast<std::size_t>(rows_);
   const Eigen::Index size = static_cast<Eigen::Index>(boxes_[box].size()) * rows_;
   MatrixXd matrix = MatrixXd::Zero(size, size);
-  ColumnBlocks<VectorXd> column;
-  column.blocks.fill(VectorXd::Zero(rows_));
-  for (const Index v : inside) {
-    gather_column(equations, v, column);
-    for (int k = 0; k < column.count; ++k) {
-      for (int l = 0; l < column.count; ++l) {
-        matrix.block(place_[column.keys[k]] * rows_, place_[column.keys[l]] * rows_, rows_, rows_)
-            .noalias() += active[v] * column.blocks[k] * column.blocks[l].transpose();
+  with_rows(rows_, [&](auto fixed) {
+    constexpr int count = decltype(fixed)::value;
+    using Column = Eigen::Matrix<double, count, 1>;
+    ColumnBlocks<Column> column;
+    column.blocks.fill(Column::Zero(rows_));
+    for (const Index v : inside) {
+      gather_column(equations, v, column);
+      for (int k = 0; k < column.count; ++k) {
+        const Column scaled = active[v] * column.blocks[k];
+        for (int l = 0; l < column.count; ++l) {
+          matrix
+              .template block<count, count>(place_[column.keys[k]] * rows_,
+                                            place_[column.keys[l]] * rows_, rows_, rows_)
+              .noalias() += scaled * column.blocks[l].transpose();
+        }
       }
     }
-  }
+  });
   // Relative to the blocks of the points.
   std::vector<Eigen::LLT<MatrixXd>> own;
   for (const Index p : boxes_[box]) {

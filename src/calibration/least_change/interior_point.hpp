@@ -29,10 +29,12 @@ class InteriorPoint {
   using Vector = std::vector<double>;  // shape (points, rows)
 
   /// \param proximity  factor on the multipliers; 0: that of the system
-  InteriorPoint(const PointEquations& equations, Normal& normal, double proximity)
+  /// \param hopeless   the search ends where an equation will be left by more
+  InteriorPoint(const PointEquations& equations, Normal& normal, double proximity, double hopeless)
       : equations_(equations),
         normal_(normal),
         proximity_(proximity),
+        hopeless_(hopeless),
         lower_(equations.lower),
         upper_(equations.upper),
         y_(equations.right.size(), 0.0),
@@ -46,12 +48,14 @@ class InteriorPoint {
   /// \param iterations  are added
   /// \return whether it was reached
   bool solve(double target, int most, int& iterations);
+  /// Whether equations contradict each other or the bounds by more than Newton's method can mend.
+  bool contradictory() const { return contradictory_; }
   const Vector& multipliers() const { return y_; }
   const std::vector<double>& weights() const { return weights_; }
 
  private:
   /// Multipliers of the bounds to begin with; those of soft equations grow to this order.
-  static constexpr double first_gap = 30.0;
+  static constexpr double first_gap = 3.0;
   /// z (w - lower) at the end: weights at a bound are off by its square root at most.
   static constexpr double last_gap = 1e-4;
   static constexpr int most_steps = 60;
@@ -63,6 +67,10 @@ class InteriorPoint {
   /// contradictions or round-off.
   static constexpr double contradiction = 0.9;
   static constexpr int most_stalls = 2;
+  /// Below this gap the multipliers of contradictions are there, to a third or so.
+  static constexpr double settling_gap = 1.0;
+  /// Equations that are left by less are none: Newton's method takes it away.
+  static constexpr double contradicted = 1e-4;
 
   void start();
   double gap() const;
@@ -73,10 +81,13 @@ class InteriorPoint {
   template <class Visit>
   void for_each_pair(const std::vector<double>& change, const Vector& direction, Visit visit);
   double take_step(double mu, double reduction, int& iterations);
+  double largest_rest() const;
+  bool would_grow(int& iterations);
 
   const PointEquations& equations_;
   Normal& normal_;
-  double proximity_;
+  double proximity_, hopeless_;
+  bool contradictory_ = false;
   std::span<const double> lower_, upper_;
   Vector y_;
   std::vector<double> weights_;
@@ -198,6 +209,24 @@ double InteriorPoint<Normal>::take_step(double mu, double reduction, int& iterat
   return length;
 }
 
+/// Largest part by which an equation is left for its multiplier.
+template <class Normal>
+double InteriorPoint<Normal>::largest_rest() const {
+  double largest = 0.0;
+  for (const double y : y_) largest = std::max(largest, std::abs(y));
+  return proximity_ * largest;
+}
+
+/// Whether a step that takes away what the multipliers leave would make them grow by as much again:
+/// those of a contradiction grow without bound, others move little.
+template <class Normal>
+bool InteriorPoint<Normal>::would_grow(int& iterations) {
+  Vector rest(y_), change;
+  for (double& value : rest) value *= proximity_;
+  iterations += normal_.solve(rest, coarse, change);
+  return norm(change) > 0.5 * norm(y_);
+}
+
 template <class Normal>
 bool InteriorPoint<Normal>::solve(double target, int most, int& iterations) {
   start();
@@ -215,7 +244,15 @@ bool InteriorPoint<Normal>::solve(double target, int most, int& iterations) {
     const bool settled = present <= last_gap;
     // What the equations are left by needs no more digits.
     const double rest = proximity_ * norm(y_), enough = std::max(target, 0.1 * rest);
-    if (settled && size <= enough) return rest <= target;
+    const double left = largest_rest();
+    if (present < settling_gap && left > hopeless_) {
+      contradictory_ = true;
+      break;
+    }
+    if (settled && size <= enough) {
+      contradictory_ = left > contradicted && would_grow(iterations);
+      return rest <= target && !contradictory_;
+    }
     stalls = settled && full && size > contradiction * last_size ? stalls + 1 : 0;
     if (stalls == most_stalls) break;
     last_size = size;

@@ -16,6 +16,8 @@ namespace {
 
 /// A step at settled weights that leaves more than this of the residual leaves contradictions.
 constexpr double contradiction = 0.9;
+/// So does one that makes the multipliers grow by this factor and leaves this of the residual.
+constexpr double runaway = 100.0, runaway_rest = 0.1;
 constexpr int most_newton_steps = 40;
 /// Newton's method is lost where the dual function stops growing this early along a step.
 constexpr double shortest_step = 1e-5;
@@ -144,9 +146,13 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
     const double coarse = step == 0 ? 1e-2 : settled ? 0.0 : 1e-3;
     const double reduction = std::max({coarse, 0.3 * target / size, 1e-12});
     result_.iterations += normal_.solve(residual_, reduction, direction);
+    const double size_of_y = norm(y);
     const double length = last_length = search_line(residual_, direction, y);
     normal_.measure(weights_, y, residual_);
     if (length < shortest_step) break;
+    // In the plane multipliers of long waves grow like this too.
+    const bool grown = equations_.dim == 3 && step > 0 && norm(y) > runaway * size_of_y;
+    if (grown && norm(residual_) > runaway_rest * size) break;
   }
   result_.converged = norm(residual_) <= reached();
 }
@@ -180,12 +186,12 @@ LeastChange DualNewton<Normal>::solve() {
   } else {
     // Newton's method finishes where it can: prices leave it lost between their kinks.
     const bool finished = std::isfinite(options_.price) || options_.tolerance >= rough;
-    InteriorPoint<Normal> interior(equations_, normal_, options_.proximity);
+    InteriorPoint<Normal> interior(equations_, normal_, options_.proximity, options_.hopeless);
     result_.converged = interior.solve(finished ? target : rough * root_of_points(),
                                        options_.iterations, result_.iterations);
     normal_.proximity = 0.0;
     weights_ = interior.weights();
-    if (!finished) finish(interior.multipliers(), target);
+    if (!finished && !interior.contradictory()) finish(interior.multipliers(), target);
   }
   report();
   return result_;

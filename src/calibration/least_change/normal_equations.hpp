@@ -10,6 +10,7 @@
 
 #include "calibration/least_change/kept_preconditioner.hpp"
 #include "calibration/least_change/point_equations.hpp"
+#include "calibration/least_change/system_product.hpp"
 #include "calibration/least_change/variable_parts.hpp"
 
 namespace perilink {
@@ -46,7 +47,9 @@ class NormalEquations {
         kept_(kept),
         by_factor_(options.preconditioner == Preconditioner::factor ||
                    (options.preconditioner == Preconditioner::blocks_then_factor && kept.factor)),
-        with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes) {
+        // The first steps of an interior point have other fields than the last: blocks serve better.
+        with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes &&
+                    options.method == Method::newton) {
     if (std::isfinite(options.price)) compliance.assign(size_, 0.0);
   }
 
@@ -91,19 +94,22 @@ class NormalEquations {
   static constexpr int worth_of_factor = 15;
   /// A factor is made anew when the last solution needed more iterations than this.
   static constexpr int stale_iterations = 40;
-  /// Iterations of a solution after which blocks get help. In the plane, where the exact equations
-  /// have a factor, boxes help the energies alone, whose solutions take 60 to 150 iterations: for
-  /// these boxes cost more than they save (plates with a hole of 200 to 3000 particles).
-  int patience() const { return equations_.dim == 2 ? 150 : 60; }
-  /// The coarse system of boxes takes the time of forty iterations and its fields that of a
-  /// hundred, but they serve the solutions to come as well: made anew where one needs more.
-  static constexpr int stale_coarse = 40, stale_fields = 40;
+  /// Iterations of a solution after which blocks get help, or boxes other fields. Fields take the
+  /// time of about 500 iterations of blocks alone, and serve several solutions.
+  static constexpr int patience = 200, stale_fields = 200;
+  /// The coarse system of boxes takes the time of about forty iterations.
+  static constexpr int stale_coarse = 80;
+  /// Blocks take the time of so many iterations: until then a solution may as well be more exact,
+  /// by this factor.
+  static constexpr int cheap_iterations = 10;
+  static constexpr double cheap_reduction = 0.1;
 
   template <class Values>
   auto& last_row(Values& values, Index point) const {
     return values[static_cast<std::size_t>(equations_.group[point]) * Rows + own];
   }
   int iterate(const Vector& residual, double reduction, int most, Vector& direction);
+  void apply_system(const Vector& shift, const Vector& y, Vector& result);
   void precondition(const Vector& residual, Vector& result) const;
   /// Whether blocks work alone so far, although they may get help.
   bool alone() const {
@@ -182,6 +188,18 @@ void NormalEquations<Rows, Odd, Grouped>::apply(const std::vector<double>& w,
     }
   }
   for (std::size_t k = 0; k < size_; ++k) result[k] *= equations_.scale[k];
+}
+
+/// result = (A D A' + shift) y.
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::apply_system(const Vector& shift, const Vector& y,
+                                                       Vector& result) {
+  for (std::size_t k = 0; k < size_; ++k) scaled_[k] = y[k] * equations_.scale[k];
+  result.assign(size_, 0.0);
+  add_system_product<Rows, Odd, Grouped>(equations_, mobility, scaled_, result);
+  for (std::size_t k = 0; k < size_; ++k) {
+    result[k] = result[k] * equations_.scale[k] + shift[k] * y[k];
+  }
 }
 
 template <int Rows, int Odd, bool Grouped>
@@ -268,48 +286,55 @@ void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
 template <int Rows, int Odd, bool Grouped>
 int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double reduction,
                                                Vector& direction) {
+  direction.assign(size_, 0.0);
   int count = 0;
+  const auto go_on = [&](int most) {
+    last_iterations_ = iterate(residual, reduction, most, direction);
+    count += last_iterations_;
+    return last_iterations_ < most;
+  };
   if (with_boxes_ && coarse_of_ != mobility) {
-    count = last_iterations_ = iterate(residual, reduction, stale_coarse, direction);
-    if (count < stale_coarse) return count;
+    if (go_on(stale_coarse)) return count;
     renew_coarse();
   }
-  int most = options_.iterations;
-  if (with_boxes_) most = stale_fields;
-  if (alone()) most = patience();
-  last_iterations_ = iterate(residual, reduction, most, direction);
-  count += last_iterations_;
-  if (last_iterations_ < most || most == options_.iterations) return count;
+  if (go_on(with_boxes_ ? stale_fields : alone() ? patience : options_.iterations)) return count;
+  if (!alone() && !with_boxes_) return count;
   if (options_.preconditioner == Preconditioner::blocks_then_factor) {
     by_factor_ = true;
     build_factor();
   } else {
+    if (!with_boxes_ && kept_.boxes) {
+      with_boxes_ = true;
+      renew_coarse();
+      if (go_on(stale_coarse)) return count;
+    }
     with_boxes_ = true;
     kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal());
     coarse_of_ = mobility;
   }
-  last_iterations_ = iterate(residual, reduction, options_.iterations, direction);
-  return count + last_iterations_;
+  go_on(options_.iterations);
+  return count;
 }
 
-/// Conjugate gradients on (S + proximity) direction = residual.
+/// Conjugate gradients on (S + proximity) direction = residual, from the direction as it is.
 template <int Rows, int Odd, bool Grouped>
 int NormalEquations<Rows, Odd, Grouped>::iterate(const Vector& residual, double reduction, int most,
                                                  Vector& direction) {
   const Vector shift = diagonal();
-  Vector r = residual, z(size_), q(size_);
-  std::vector<double> stretch(mobility.size());
-  direction.assign(size_, 0.0);
+  Vector r(size_), z(size_), q(size_);
+  apply_system(shift, direction, r);
+  for (std::size_t k = 0; k < size_; ++k) r[k] = residual[k] - r[k];
   precondition(r, z);
   Vector p = z;
   double rz = dot(r, z);
   const double target = reduction * norm(residual);
+  const bool blocks_alone = !by_factor_ && !with_boxes_;
   int count = 0;
-  for (; count < most && norm(r) > std::max(target, round_off * norm(direction)); ++count) {
-    apply_transpose(p, stretch);
-    for (std::size_t v = 0; v < stretch.size(); ++v) stretch[v] *= mobility[v];
-    apply(stretch, q);
-    for (std::size_t k = 0; k < size_; ++k) q[k] += shift[k] * p[k];
+  for (; count < most; ++count) {
+    const bool cheap = blocks_alone && count < cheap_iterations;
+    const double enough = cheap ? cheap_reduction * target : target;
+    if (norm(r) <= std::max(enough, round_off * norm(direction))) break;
+    apply_system(shift, p, q);
     const double step = rz / dot(p, q);
     for (std::size_t k = 0; k < size_; ++k) {
       direction[k] += step * p[k];

@@ -71,6 +71,9 @@ struct LeastChangeOptions {
   /// Interior-point method only: part of the multipliers by which equations may be left at first
   /// (interior_point.hpp).
   double proximity = 0.0;
+  /// Interior-point method with a proximity only: the search is given up where the multipliers tell
+  /// that an equation will be left by more.
+  double hopeless = std::numeric_limits<double>::infinity();
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "calibration/least_change/point_equations.hpp"
 
@@ -69,6 +70,19 @@ void gather_column(const PointEquations& equations, Index variable, ColumnBlocks
     Vector& part = column.of(p);
     for (int r = from; r < to; ++r) part[r] += sign * a[r] * equations.scale[p * rows + r];
   });
+}
+
+/// Calls visit with the number of rows as a constant of the compiler where bodies in space have so
+/// many, else with -1 (Eigen::Dynamic).
+template <class Visit>
+void with_rows(int rows, Visit visit) {
+  switch (rows) {
+    case 10: return visit(std::integral_constant<int, 10>());
+    case 11: return visit(std::integral_constant<int, 11>());
+    case 18: return visit(std::integral_constant<int, 18>());
+    case 19: return visit(std::integral_constant<int, 19>());
+    default: return visit(std::integral_constant<int, -1>());
+  }
 }
 
 }  // namespace perilink
