@@ -54,8 +54,9 @@ class InteriorPoint {
   const std::vector<double>& weights() const { return weights_; }
 
  private:
-  /// Multipliers of the bounds to begin with; those of soft equations grow to this order.
-  static constexpr double first_gap = 3.0;
+  /// Multipliers of the bounds to begin with; those of soft equations grow to this order. In space
+  /// less saves steps, in the plane strips along a boundary get lost then.
+  double first_gap() const { return equations_.dim == 3 ? 3.0 : 30.0; }
   /// z (w - lower) at the end: weights at a bound are off by its square root at most.
   static constexpr double last_gap = 1e-4;
   static constexpr int most_steps = 60;
@@ -102,11 +103,11 @@ void InteriorPoint<Normal>::start() {
   for (std::size_t v = 0; v < weights_.size(); ++v) {
     const double margin = 0.1 * std::min(1.0, upper_[v] - lower_[v]);
     weights_[v] = std::clamp(1.0, lower_[v] + margin, upper_[v] - margin);
-    at_lower_[v] = first_gap / (weights_[v] - lower_[v]);
-    at_upper_[v] = first_gap / (upper_[v] - weights_[v]);
+    at_lower_[v] = first_gap() / (weights_[v] - lower_[v]);
+    at_upper_[v] = first_gap() / (upper_[v] - weights_[v]);
   }
   if (!std::isfinite(normal_.price())) return;
-  over_.assign(y_.size(), first_gap / normal_.price());
+  over_.assign(y_.size(), first_gap() / normal_.price());
   under_ = over_;
 }
 
