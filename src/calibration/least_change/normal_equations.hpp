@@ -47,7 +47,7 @@ class NormalEquations {
         kept_(kept),
         by_factor_(options.preconditioner == Preconditioner::factor ||
                    (options.preconditioner == Preconditioner::blocks_then_factor && kept.factor)),
-        // The first steps of an interior point have other fields than the last: blocks serve better.
+        // The first steps of an interior point have other fields: blocks serve better.
         with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes &&
                     options.method == Method::newton) {
     if (std::isfinite(options.price)) compliance.assign(size_, 0.0);

@@ -353,6 +353,22 @@ TEST(LeastChange, EquationsThatMayBeLeftAtFirstChangeNoAnswer) {
   }
 }
 
+/// A search that is of use only below a residual of 0.1 ends early where 0.3 will be left, and is
+/// the same as others where the equation can be met.
+TEST(LeastChange, GivesUpWhereTooMuchWillBeLeft) {
+  LeastChangeOptions patient;
+  patient.method = Method::interior_point;
+  patient.proximity = 1e-8;
+  LeastChangeOptions brief = patient;
+  brief.hopeless = 0.1;
+  const LeastChange ended = least_change(one_point(0.5, 0.8), brief);
+  EXPECT_FALSE(ended.converged);
+  EXPECT_LT(ended.iterations, least_change(one_point(0.5, 0.8), patient).iterations);
+  const LeastChange met = least_change(one_point(1.5, 0.8), brief);
+  EXPECT_TRUE(met.converged);
+  EXPECT_EQ(met.weights, least_change(one_point(1.5, 0.8), patient).weights);
+}
+
 /// Least squares of change and residual: w = 1 - t, t = d / (3 + ridge) with d = 3 - 1.5.
 TEST(LeastChange, ARidgeTradesResidualForChange) {
   PointEquations equations = one_point(1.5, 0.0);
