@@ -68,6 +68,17 @@ TEST(CarriedMotion, ElementsThatAreHeldInPartDoNotCarry) {
   EXPECT_EQ(TwoElements(5, 0.25).body.whole, (std::vector<std::uint8_t>{0, 1})) << "driven";
 }
 
+/// A quadratic element has a node in the middle of each edge, here between two particles. The upper
+/// row is free.
+TEST(CarriedMotion, HeldEdgesHoldNodesBetweenParticles) {
+  TwoElements two;
+  two.body.carriers = carriers_on_grid(two.particles, {}, {{{0, 4, 8}, {0, 3}, {}}}, 2, 1e-6);
+  two.body.whole = fit_supports(two.body.carriers, two.body.free);
+  EXPECT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
+  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, two.body.whole);
+  EXPECT_EQ(motion.count, (2 * 15 - 3) + (2 * 9 - 1)) << "three nodes are held along x";
+}
+
 TEST(CarriedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {
   const TwoElements two;
   const std::vector<std::uint8_t> second = {0, 1};
