@@ -10,11 +10,11 @@ namespace {
 /// Nine by five particles one apart, in two bilinear elements of four; the left column is held
 /// along x.
 struct TwoElements {
-  explicit TwoElements(int held_rows = 5, double driven = 0.0) {
+  explicit TwoElements(int held_rows = 5, double driven = 0.0, int rows = 5) {
     particles.dim = 2;
     std::vector<std::uint8_t> held;
     std::vector<double> prescribed;
-    for (int y = 0; y < 5; ++y) {
+    for (int y = 0; y < rows; ++y) {
       for (int x = 0; x < 9; ++x) {
         particles.positions.insert(particles.positions.end(), {1.0 * x, 1.0 * y});
         particles.volumes.push_back(1.0);
@@ -35,7 +35,7 @@ struct TwoElements {
 TEST(CarriedMotion, NodesMoveParticlesAndSupportsHoldNodes) {
   const TwoElements two;
   EXPECT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
-  const Unknowns motion = carried_motion(two.body, two.body.whole);
+  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, two.body.whole);
   EXPECT_EQ(motion.count, 2 * 6 - 2) << "two nodes are held along x";
   EXPECT_TRUE(motion.carries());
   EXPECT_EQ(motion.at(0, 0), no_index);
@@ -68,13 +68,23 @@ TEST(CarriedMotion, ElementsThatAreHeldInPartDoNotCarry) {
   EXPECT_EQ(TwoElements(5, 0.25).body.whole, (std::vector<std::uint8_t>{0, 1})) << "driven";
 }
 
+/// A quadratic element has a node in the middle of each edge, here between two of six particles.
+TEST(CarriedMotion, HeldEdgesHoldNodesBetweenParticles) {
+  TwoElements two(6, 0.0, 6);
+  two.body.carriers = carriers_on_grid(two.particles, {}, {{{0, 4, 8}, {0, 5}, {}}}, 2, 1e-6);
+  two.body.whole = fit_supports(two.body.carriers, two.body.free);
+  EXPECT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
+  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, two.body.whole);
+  EXPECT_EQ(motion.count, 2 * 15 - 3) << "three nodes are held along x";
+}
+
 TEST(CarriedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {
   const TwoElements two;
   const std::vector<std::uint8_t> second = {0, 1};
   const std::vector<Index> carrier = carrier_of_particles(two.body.carriers, second, 45);
   EXPECT_EQ(carrier[3], no_index);
   EXPECT_EQ(carrier[4], 1);
-  const Unknowns motion = carried_motion(two.body, second);
+  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, second);
   EXPECT_EQ(motion.count, 2 * 20 - 5 + 2 * 4);
   EXPECT_EQ(motion.at(1, 0), 1) << "free particles keep their order";
 }
