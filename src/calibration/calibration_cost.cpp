@@ -10,10 +10,11 @@ struct Rates {
   double lattice, cloud;
 };
 
-// Measured on bodies of 16 000 to 165 000 free bonds, alone on one core; those in space without
-// moments on bodies of 27 000 to 615 000, on two cores.
+// Measured on bodies of 16 000 to 165 000 free bonds, alone on one core; lattices in space without
+// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 11 000 to 576 000 on one:
+// 78e-6 for the smallest, 28e-6 and more for others.
 constexpr Rates in_plane{8e-6, 10e-6}, in_plane_with_moments{12e-6, 30e-6};
-constexpr Rates in_space{35e-6, 40e-6}, in_space_with_moments{200e-6, 900e-6};
+constexpr Rates in_space{35e-6, 40e-6}, in_space_with_moments{200e-6, 250e-6};
 /// Where particles have fewer bonds than this in space, all equations are factorised.
 constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6;
 /// Boxes in space, whose bonds that lie alike are made alike.
