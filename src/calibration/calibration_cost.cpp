@@ -11,8 +11,8 @@ struct Rates {
 };
 
 // Measured on bodies of 16 000 to 165 000 free bonds, alone on one core; lattices in space without
-// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 11 000 to 576 000 on one:
-// 78e-6 for the smallest, 28e-6 and more for others.
+// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 11 000 to 206 000 on one
+// core beside other programs: 60e-6 to 80e-6 of up to 30 000 bonds, 30e-6 above.
 constexpr Rates in_plane{8e-6, 10e-6}, in_plane_with_moments{12e-6, 30e-6};
 constexpr Rates in_space{35e-6, 40e-6}, in_space_with_moments{200e-6, 250e-6};
 /// Where particles have fewer bonds than this in space, all equations are factorised.
