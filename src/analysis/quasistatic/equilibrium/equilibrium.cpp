@@ -172,7 +172,7 @@ std::vector<double> Equilibrium::present_load() const {
 
 /// Solves for all displacements with the factor as it stands.
 void Equilibrium::refresh() {
-  factor_->follow_load(present_load(), solution_);
+  factor_->solve(present_load(), solution_);
   scatter_solution();
   stale_ = false;
   force_work_ = work_of_forces();

@@ -160,10 +160,10 @@ class Equilibrium {
   void find_driven_slots();
   Removal removal_of(Index element, double secant) const;
   Removal removal_from(const Unknowns& unknowns, Index element, double secant) const;
-  Deformations deformations_now(const Removal& removal, Index element) const;
-  double release_constant(const Removal& removal, Index element, EventOutcome& outcome) const;
   void commit_both(const Removal& removal);
   void move_constant(const Removal& removal);
+  Deformations deformations_now(const Removal& removal, Index element) const;
+  double release_constant(const Removal& removal, Index element, EventOutcome& outcome) const;
   void adopt_motion();
   void adopt_load();
   void factorize_anew();
@@ -299,7 +299,6 @@ class Equilibrium {
   InternalForce internal_;
   ForcesAndEnergy<long double> fine_;
   double stiffness_sum_ = 0.0;        ///< sum over all elements and supports
-  int prepared_with_ = 0;             ///< factorisations when the factor last prepared a removal
   bool must_rebuild_ = false;         ///< the pivot is known better than the factor can follow
   bool look_closer_ = false;          ///< pivots that are not small may be noise too
   bool supports_alone_ = false;       ///< elastic supports hold most of the motion looked at last
