@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "analysis/quasistatic/observer.hpp"
@@ -25,6 +26,9 @@ struct ExplicitOptions {
   bool driven = true;
   int threads = 1;
   bool refuse_unstable = true;  ///< false: a step beyond the critical one runs until it is noticed
+
+  /// Where the time step is given.
+  Index steps() const { return static_cast<Index>(std::ceil(duration / time_step)); }
 };
 
 /// Where the energy is [force length].

@@ -11,12 +11,6 @@
 namespace perilink {
 namespace {
 
-double norm(const std::vector<double>& values) {
-  double square = 0.0;
-  for (const double value : values) square += value * value;
-  return std::sqrt(square);
-}
-
 /// Over the slots that something but a prescription moves.
 double work_on(const Unknowns& unknowns, const Loads& loads, std::span<const double> motion) {
   double work = 0.0;

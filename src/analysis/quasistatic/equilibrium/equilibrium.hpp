@@ -154,6 +154,7 @@ class Equilibrium {
 
  private:
   using Deformations = std::array<double, Removal::capacity>;
+  static double norm(std::span<const double> values);
   void refresh_constant();
   void polish_constant();
   void scatter_constant();
