@@ -62,6 +62,20 @@ struct ExplicitRecord {
   EnergyBalance energy;
 };
 
+/// Watches a run over time; the state is valid during the call only. By itself it looks at nothing.
+template <class State>
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  virtual void on_row(const ExplicitRecord& /*record*/, const State& /*state*/) {}
+  /// Once, after the last row.
+  virtual void on_end(const ExplicitRecord& /*last*/, const State& /*state*/) {}
+  /// Every few hundred iterations of a dynamic relaxation.
+  virtual void on_iteration(Index /*load_step*/, Index /*iteration*/, double /*residual*/) {}
+  /// Asked before every row and every few hundred steps; after a yes comes one more row.
+  virtual bool stop_requested() { return false; }
+};
+
 /// How an explicit run ended.
 struct ExplicitResult {
   Ending ending = Ending::completed;

@@ -39,14 +39,6 @@ bool can_break(const Network& network) {
   return false;
 }
 
-struct SilentBonds final : BondRunObserver {
-  void on_row(const ExplicitRecord&, const BondRunState&) override {}
-};
-
-struct SilentLattice final : ExplicitObserver {
-  void on_row(const ExplicitRecord&, const ExplicitState&) override {}
-};
-
 /// \param run  takes a number of steps; what it sets up before the first cancels out
 template <class Run>
 double time_of_step(Index most, Run run) {
@@ -89,7 +81,7 @@ ExpectedCost expected_cost(const Network& network, const FactorStatistics& facto
 
 double seconds_per_step(const Model& model, const BondRunCase& built) {
   const double at_rest = time_of_step(built.options.steps(), [&](Index steps) {
-    SilentBonds silent;
+    BondRunObserver silent;
     run_explicit_bonds(model, built.inertia, built.rules, some_steps(built.options, steps), silent);
   });
   return can_break(model.network) ? breaking * at_rest : at_rest;
@@ -98,7 +90,7 @@ double seconds_per_step(const Model& model, const BondRunCase& built) {
 double seconds_per_step(const ExplicitCase& built) {
   const double at_rest = time_of_step(built.options.steps(), [&](Index steps) {
     ExplicitState state(built.model);
-    SilentLattice silent;
+    ExplicitObserver silent;
     run_explicit_analysis(built.model, state, some_steps(built.options, steps), silent);
   });
   return built.model.material.breakable ? breaking * at_rest : at_rest;
