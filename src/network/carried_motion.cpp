@@ -67,9 +67,8 @@ std::vector<Index> carrier_of_particles(const Carriers& carriers,
   return carrier;
 }
 
-Unknowns carried_motion(const CarriedBody& body, std::span<const std::uint8_t> whole) {
-  const Carriers& carriers = body.carriers;
-  const Unknowns& free = body.free;
+Unknowns carried_motion(const Carriers& carriers, const Unknowns& free,
+                        std::span<const std::uint8_t> whole) {
   const auto num_particles = static_cast<Index>(free.number.size()) / free.width;
   const std::vector<Index> carrier = carrier_of_particles(carriers, whole, num_particles);
   std::vector<std::uint8_t> held(free.number.size());

@@ -32,7 +32,9 @@ std::vector<Index> carrier_of_particles(const Carriers& carriers,
 
 /// The motion of all particles: free ones by unknowns of their own, in the order of the particles,
 /// then those of nodes that carry.
+/// \param free   how particles move that nothing carries
 /// \param whole  per element, of those that fit_supports() lets pass
-Unknowns carried_motion(const CarriedBody& body, std::span<const std::uint8_t> whole);
+Unknowns carried_motion(const Carriers& carriers, const Unknowns& free,
+                        std::span<const std::uint8_t> whole);
 
 }  // namespace perilink

@@ -232,6 +232,91 @@ TEST(Carriers, BondsOfConcreteKeepTheirLimitsWhenTheyAreFreed) {
   EXPECT_EQ(carried.elements[0], free.elements[0]);
 }
 
+/// The beam above with another feature of event analyses, written over its lines.
+struct Feature {
+  const char* name;
+  std::vector<std::pair<std::string, std::string>> edits;
+  std::string more;
+};
+
+void PrintTo(const Feature& feature, std::ostream* out) { *out << feature.name; }
+
+class CarriedFeatures : public testing::TestWithParam<Feature> {};
+
+/// The margins are those of ConversionKeepsTheEventsAndTheEnergies; of the first twenty events two
+/// may come later, since some nearly tie.
+TEST_P(CarriedFeatures, AreThoseOfFreeParticles) {
+  const auto with = [](const std::string& elements) {
+    std::string text = beam_case(GetParam().more + elements);
+    for (const auto& [from, to] : GetParam().edits) {
+      const std::size_t at = text.find(from);
+      EXPECT_NE(at, std::string::npos) << from;
+      text.replace(at, from.size(), to);
+    }
+    return text;
+  };
+  Events free, carried;
+  const DamageResult all = run(with(""), free);
+  const DamageResult some = run(with("[elements]\nspacings = 4\n"), carried);
+  EXPECT_EQ(some.ending, all.ending) << some.reason << " / " << all.reason;
+  EXPECT_GT(some.conversions, 0);
+  EXPECT_EQ(some.late_conversions, 0);
+  EXPECT_LT(some.unknowns, all.unknowns);
+  EXPECT_LT(some.energy_error, 1e-9);
+  EXPECT_NEAR(some.peak_load, all.peak_load, 0.01 * all.peak_load);
+  ASSERT_GE(std::min(carried.elements.size(), free.elements.size()), 20u);
+  free.elements.resize(20);
+  EXPECT_GE(std::count_if(carried.elements.begin(), carried.elements.begin() + 20,
+                          [&](Index element) {
+                            return std::count(free.elements.begin(), free.elements.end(), element);
+                          }),
+            18);
+  EXPECT_NEAR(carried.load_factors[0], free.load_factors[0], 0.02 * free.load_factors[0]);
+}
+
+const std::pair<std::string, std::string> no_stop = {"[stop]\nbroken_bonds = 120\n", ""};
+const std::pair<std::string, std::string> pushed = {"force = [0, -100]",
+                                                    "force = [0, -100]\nstage = \"push\""};
+const std::string weight = R"([[loads]]
+region = "beam"
+body_force = [0, -0.001]
+stage = "weight"
+[[stages]]
+name = "weight"
+to = 1
+[[stages]]
+name = "push"
+broken_bonds = 20
+[[stages]]
+name = "unload"
+loads = "push"
+to_load = 0
+[[stages]]
+name = "again"
+loads = "push"
+broken_bonds = 80
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    Beams, CarriedFeatures,
+    testing::Values(
+        Feature{"stages", {no_stop, pushed}, weight},
+        Feature{"driven_stages",
+                {no_stop,
+                 {"[[loads]]\nregion = \"load\"\nforce = [0, -100]",
+                  "[[displacements]]\nregion = \"load\"\ny = -0.1\nstage = \"push\""}},
+                weight},
+        Feature{"softening",
+                {{"fracture_energy = 0.1\n", "fracture_energy = 0.1\ntensile_strength = 4\n"},
+                 {"broken_bonds = 120", "load_fraction = 0.9"}},
+                ""},
+        Feature{"bars",
+                {},
+                "[[rebar]]\nfrom = [4, 4]\nto = [156, 4]\nyoungs_modulus = 2e5\narea = 4\n"
+                "yield_strength = 500\n"},
+        Feature{"two_tips", {}, "[[cracks]]\npoints = [[71, -1], [71, 11]]\n"}),
+    [](const auto& feature) { return std::string(feature.param.name); });
+
 TEST(Carriers, StepsConvertWhatTheyReachAlone) {
   std::string steps = beam_case(
       "[elements]\nspacings = 4\nalert = 0.9\n[analysis]\n"

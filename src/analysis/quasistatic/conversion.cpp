@@ -8,6 +8,7 @@ namespace perilink {
 Conversion::Conversion(const Network& network, const CarriedBody& body)
     : network_(network),
       body_(body),
+      free_(&body.free),
       whole_(body.whole),
       carrier_(carrier_of_particles(body.carriers, whole_, network.particles.size())),
       num_whole_(static_cast<Index>(std::count(whole_.begin(), whole_.end(), 1))),
@@ -86,8 +87,13 @@ const Unknowns& Conversion::convert(std::span<const Index> bonds) {
   for (const Index bond : before) {
     if (!is_carried(bond)) freed_.push_back(bond);
   }
+  return hold(*free_);
+}
+
+const Unknowns& Conversion::hold(const Unknowns& free) {
+  free_ = &free;
   former_ = std::move(present_);
-  present_ = std::make_unique<Unknowns>(carried_motion(body_, whole_));
+  present_ = std::make_unique<Unknowns>(carried_motion(body_.carriers, free, whole_));
   return *present_;
 }
 

@@ -26,6 +26,10 @@ class Conversion {
   /// Bonds that are carried now, ascending.
   std::vector<Index> carried_bonds() const;
 
+  /// How the particles move where more of them are gripped than at first, as in a later stage.
+  /// \param free  how they would without elements, where they move freely; must outlive this
+  const Unknowns& hold(const Unknowns& free);
+
   /// Converts the elements that carry these bonds, and those around them.
   /// \return how the particles move from now on, valid until the call after the next one
   const Unknowns& convert(std::span<const Index> bonds);
@@ -42,6 +46,7 @@ class Conversion {
 
   const Network& network_;
   const CarriedBody& body_;
+  const Unknowns* free_;
   std::vector<std::uint8_t> whole_;
   std::vector<Index> carrier_;  ///< per particle
   Index num_whole_ = 0;

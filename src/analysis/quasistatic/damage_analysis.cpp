@@ -115,22 +115,24 @@ void EventRun::follow_motion() {
 }
 
 void EventRun::adopt(const Unknowns& unknowns) {
-  const double growth = engine_->change_motion(unknowns);
-  energy_.add_freedom(growth);
-  compliance_ += growth;
+  const Freedom freedom = engine_->change_motion(unknowns);
+  energy_.add_freedom(freedom);
+  compliance_ += freedom.growth;
   check();
 }
 
 /// Whether the event is not one yet: a bond that a finite element carries has come near its limit,
 /// and the element lets go of its particles first, with all others as near.
-bool EventRun::converts(const Event& event) {
-  if (!conversion_ || event.element == no_index) return false;
+bool EventRun::converts(const Event& event, double sense) {
+  if (!conversion_ || event.element == no_index || event.changes_side) return false;
   if (!conversion_->is_carried(event.element)) {
-    note_late_conversions(event);
+    note_late_conversions(event, sense);
     return false;
   }
   constexpr double as_near = 0.9;
-  const Unknowns& unknowns = conversion_->convert(engine_->near_events(as_near));
+  std::vector<Index> near = engine_->near_events(event, as_near);
+  near.push_back(event.element);
+  const Unknowns& unknowns = conversion_->convert(near);
   adopt(unknowns);
   engine_->set_alert(conversion_->freed(), 1.0);
   freed_.emplace_back(conversion_->freed(), event.load_factor);
@@ -140,12 +142,13 @@ bool EventRun::converts(const Event& event) {
   return true;
 }
 
-/// A freed bond that fails at a smaller load factor than the alert came at was beyond its limit by
+/// A freed bond that fails before the load factor at which the alert came was beyond its limit by
 /// more than the alert allows for.
-void EventRun::note_late_conversions(const Event& event) {
+void EventRun::note_late_conversions(const Event& event, double sense) {
   for (const auto& [bonds, alert] : freed_) {
     const bool freed = std::binary_search(bonds.begin(), bonds.end(), event.element);
-    const bool earlier = event.load_factor < alert * (1.0 - tie_tolerance);
+    const bool earlier =
+        event.avalanche || sense * (alert - event.load_factor) > tie_tolerance * std::abs(alert);
     if (events_ > 0 && freed && earlier) ++result_.late_conversions;
   }
   freed_.clear();

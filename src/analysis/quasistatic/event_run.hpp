@@ -64,8 +64,8 @@ class EventRun {
   void look_after(const EventOutcome& outcome);
   void follow_motion();
   void adopt(const Unknowns& unknowns);
-  bool converts(const Event& event);
-  void note_late_conversions(const Event& event);
+  bool converts(const Event& event, double sense = 1.0);
+  void note_late_conversions(const Event& event, double sense);
   bool residual_may_be_large() const;
   int check_interval() const;
   bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }

@@ -20,9 +20,10 @@ class PathEnergy {
                  0.5 * (load_factor_ * work_.supports + load_factor * work.supports) *
                      (load_factor - load_factor_);
     dissipated_ += 0.5 * load_factor_ * load_factor * growth_;
-    freed_ += 0.5 * load_factor_ * load_factor * freedom_;
+    freed_ += 0.5 * load_factor_ * load_factor * freedom_.growth;
     advance_beside(load_factor, work.constant);
-    growth_ = freedom_ = 0.0;
+    growth_ = 0.0;
+    freedom_ = {};
     load_factor_ = load_factor;
     work_ = work;
   }
@@ -36,14 +37,16 @@ class PathEnergy {
   /// An event at the present row.
   void add_event(const EventOutcome& outcome) {
     growth_ += outcome.compliance_growth;
-    growth_beside_.linear += outcome.growth_beside.linear;
-    growth_beside_.constant += outcome.growth_beside.constant;
+    growth_beside_ += outcome.growth_beside;
     released_ += load_factor_ * load_factor_ * outcome.released;
     released_ += outcome.released_beside.at(load_factor_);
   }
 
   /// The compliance grew at the present row as particles became freer.
-  void add_freedom(double compliance_growth) { freedom_ += compliance_growth; }
+  void add_freedom(const Freedom& freedom) {
+    freedom_.growth += freedom.growth;
+    freedom_.beside += freedom.beside;
+  }
 
   double external_work() const { return external_; }
   double dissipated() const { return dissipated_; }
@@ -67,13 +70,15 @@ class PathEnergy {
         (load_factor_ * before.forces_on_motion + before.forces) +
         0.5 * both * (after.growing_forces - before.growing_forces) +
         0.5 * (load_factor - load_factor_) * (before.growing_supports + after.growing_supports);
-    dissipated_ += 0.5 * (0.5 * both * growth_beside_.linear + growth_beside_.constant);
+    dissipated_ += 0.5 * growth_beside_.at(0.5 * both);
+    freed_ += 0.5 * freedom_.beside.at(0.5 * both);
     growth_beside_ = {};
   }
 
   double load_factor_ = 0.0;
   LoadWork work_;
-  double growth_ = 0.0, freedom_ = 0.0;  ///< since the present row
+  double growth_ = 0.0;  ///< since the present row
+  Freedom freedom_;      ///< the same
   Beside growth_beside_;
   double external_ = 0.0;
   double dissipated_ = 0.0;

@@ -31,7 +31,9 @@ void EventRun::begin_stage(std::size_t number) {
   if (!others) return;
   result_.peaks = {};
   reference_ = &problem_.sets[stage.set].reference;
-  staged_->begin_stage(stage.set);
+  const Unknowns& held = problem_.sets[stage.set].unknowns;
+  const bool is_carried = conversion_ && staged_->is_new(stage.set);
+  staged_->begin_stage(stage.set, is_carried ? conversion_->hold(held) : held);
   begin_work();
   check();
   energy_.begin_stage(staged_->load_factor(), engine_->load_work());
@@ -78,6 +80,7 @@ bool EventRun::follow_stage(const StageRules& stage) {
     const std::optional<double> aim = end_of(stage, work);
     const Event event = aim ? staged_->next_event_towards(*aim) : engine_->next_event();
     const bool arrived = event.element == no_index;
+    if (!arrived && converts(event, aim && *aim < staged_->load_factor() ? -1.0 : 1.0)) continue;
     if (arrived && !aim) {
       end(Ending::nothing_breaks, "no bond can break under this load");
       return false;

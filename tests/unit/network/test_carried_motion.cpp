@@ -35,7 +35,7 @@ struct TwoElements {
 TEST(CarriedMotion, NodesMoveParticlesAndSupportsHoldNodes) {
   const TwoElements two;
   EXPECT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
-  const Unknowns motion = carried_motion(two.body, two.body.whole);
+  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, two.body.whole);
   EXPECT_EQ(motion.count, 2 * 6 - 2) << "two nodes are held along x";
   EXPECT_TRUE(motion.carries());
   EXPECT_EQ(motion.at(0, 0), no_index);
@@ -74,7 +74,7 @@ TEST(CarriedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {
   const std::vector<Index> carrier = carrier_of_particles(two.body.carriers, second, 45);
   EXPECT_EQ(carrier[3], no_index);
   EXPECT_EQ(carrier[4], 1);
-  const Unknowns motion = carried_motion(two.body, second);
+  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, second);
   EXPECT_EQ(motion.count, 2 * 20 - 5 + 2 * 4);
   EXPECT_EQ(motion.at(1, 0), 1) << "free particles keep their order";
 }

@@ -11,6 +11,10 @@ namespace perilink {
 struct Beside {
   double linear = 0.0, constant = 0.0;
   double at(double load_factor) const { return linear * load_factor + constant; }
+  void operator+=(const Beside& other) {
+    linear += other.linear;
+    constant += other.constant;
+  }
 };
 
 /// Work products of constant loads f_c, d_c, their displacements u_c and forces R_c of what drives
@@ -23,6 +27,16 @@ struct ConstantWork {
   double growing_supports = 0.0;  ///< R_c'd_p
   double forces_on_grips = 0.0;   ///< f_c'd_p: what of that f_c does, and no grip
 };
+
+/// Growth of f'u - R'd by constant loads beside that of the loads that grow. By Betti's theorem
+/// both products of the two fields are twice f_p'u_c - R_c'd_p.
+inline Beside growth_beside(const ConstantWork& before, const ConstantWork& after) {
+  const auto mixed = [](const ConstantWork& work) {
+    return 2.0 * (work.growing_forces - work.growing_supports);
+  };
+  return {mixed(after) - mixed(before),
+          (after.forces - after.supports) - (before.forces - before.supports)};
+}
 
 /// Loads and prescribed motions that stay while others grow, and the displacements that they alone
 /// cause in the body as it stands. All displacements are the sum of these and of load factor times

@@ -10,7 +10,8 @@ namespace perilink {
 
 /// Under forces alone an event needs the displacements of elements that can fail, and no others:
 /// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
-/// events by its growth. Driven bodies need the reactions and keep all.
+/// events by its growth. Driven bodies and stages need
+/// the reactions and keep all.
 void Equilibrium::choose_current_unknowns() {
   partial_ = false;
   moving_slots_.clear();
@@ -18,7 +19,7 @@ void Equilibrium::choose_current_unknowns() {
   for (std::size_t slot = 0; unknowns_->carries() && slot < displacement_.size(); ++slot) {
     if (unknowns_->number[slot] != no_index) moving_slots_.push_back(slot);
   }
-  if (!driven_elements_.empty()) return;
+  if (!driven_elements_.empty() || constant_) return;
   const Bonds& bonds = network_.bonds;
   std::vector<std::uint8_t> current(static_cast<std::size_t>(network_.particles.size()), 0);
   for (Index e = 0; e < network_.num_elements(); ++e) {

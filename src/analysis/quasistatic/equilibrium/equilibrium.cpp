@@ -132,7 +132,7 @@ void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
   adopt_load();
 }
 
-double Equilibrium::change_motion(const Unknowns& unknowns) {
+Freedom Equilibrium::change_motion(const Unknowns& unknowns) {
   if (!ground_stiffness_.empty()) {
     throw SolverError("the unknowns cannot change while ground springs hold a loose part");
   }
@@ -142,10 +142,10 @@ double Equilibrium::change_motion(const Unknowns& unknowns) {
   if (stale_) refresh();
   events_to_follow_ = 0;
   const LoadWork before = work();
+  const ConstantWork beside = constant_ ? constant_work() : ConstantWork();
   const Unknowns* const old = unknowns_;
   try {
-    unknowns_ = &unknowns;
-    adopt_motion();
+    use_motion(unknowns);
     EventOutcome sides;
     if (!axial_.empty()) settle_closing(sides);
     if (sides.mechanism) {
@@ -156,12 +156,23 @@ double Equilibrium::change_motion(const Unknowns& unknowns) {
     if (before.separated || after.separated) {
       throw SolverError("the unknowns change while the body does not resist what drives it");
     }
-    return after.compliance() - before.compliance();
+    Freedom freedom{after.compliance() - before.compliance()};
+    if (constant_) freedom.beside = growth_beside(beside, constant_work());
+    return freedom;
   } catch (const std::exception&) {
-    unknowns_ = old;
-    adopt_motion();
+    use_motion(*old);
     throw;
   }
+}
+
+void Equilibrium::use_motion(const Unknowns& unknowns) {
+  unknowns_ = &unknowns;
+  if (constant_) {
+    std::vector<double> stays = std::move(constant_->unknowns.prescribed);
+    constant_->unknowns = unknowns;
+    constant_->unknowns.prescribed = std::move(stays);
+  }
+  adopt_motion();
 }
 
 std::vector<double> Equilibrium::present_load() const {

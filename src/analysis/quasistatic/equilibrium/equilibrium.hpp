@@ -44,6 +44,12 @@ struct LoadWork {
   double compliance() const { return forces - supports; }
 };
 
+/// Growth of the compliance f'u - R'd without an event, at load factor 1 [force length].
+struct Freedom {
+  double growth = 0.0;
+  Beside beside = {};  ///< what constant loads add
+};
+
 /// Figures that need a pass over the elements.
 struct Balance {
   double residual = 0.0;       ///< |f - K u| / |f|
@@ -124,11 +130,11 @@ class Equilibrium {
 
   /// Particles move by other unknowns from now on; loads, secants and prescribed motions stay.
   /// \param unknowns  must outlive this
-  /// \return growth of the compliance f'u - R'd, positive where particles became freer
+  /// \return growth of the compliance, positive where particles became freer
   /// \throws SolverError while ground springs hold something, and where something is not held by
   ///         the new unknowns; particles then move as before
   /// \throws std::invalid_argument where prescribed motions differ
-  double change_motion(const Unknowns& unknowns);
+  Freedom change_motion(const Unknowns& unknowns);
 
   const Factor& factor() const { return *factor_; }
 
@@ -161,10 +167,11 @@ class Equilibrium {
   void find_driven_slots();
   Removal removal_of(Index element, double secant) const;
   Removal removal_from(const Unknowns& unknowns, Index element, double secant) const;
-  void commit_both(const Removal& removal);
-  void move_constant(const Removal& removal);
   Deformations deformations_now(const Removal& removal, Index element) const;
   double release_constant(const Removal& removal, Index element, EventOutcome& outcome) const;
+  void commit_both(const Removal& removal);
+  void move_constant(const Removal& removal);
+  void use_motion(const Unknowns& unknowns);
   void adopt_motion();
   void adopt_load();
   void factorize_anew();

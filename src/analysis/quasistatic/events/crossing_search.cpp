@@ -56,10 +56,16 @@ bool CrossingSearch::Query::asks_for(const Interval& interval) const {
   return largest ? interval.high == infinity : interval.low >= -interval.margin;
 }
 
+void CrossingSearch::Found::need(double distance, Index element) {
+  if (!(distance > needed)) return;
+  needed = distance;
+  needing = element;
+}
+
 void CrossingSearch::Found::add(const Found& other) {
   low = std::min(low, other.low);
   early = std::min(early, other.early);
-  needed = std::max(needed, other.needed);
+  need(other.needed, other.needing);
   lost = std::min(lost, other.lost);
   islands.insert(islands.end(), other.islands.begin(), other.islands.end());
 }
@@ -206,7 +212,7 @@ auto CrossingSearch::find(const Query& query, int threads) -> Found {
           found.low = std::min(found.low, interval.low);
           found.early = std::min(found.early, interval.low - interval.margin);
         } else if (query.largest && interval.low == -infinity) {
-          found.needed = std::max(found.needed, interval.high - interval.margin);
+          found.need(interval.high - interval.margin, elements_[k].number);
         } else if (query.largest) {
           found.islands.push_back({interval, elements_[k].number});
         }
@@ -253,6 +259,7 @@ auto CrossingSearch::largest(std::span<const double> now, std::span<const double
   const Found found = find(query, threads);
   double distance = found.low;
   Index element = no_index;
+  std::vector<Index> passed;
   for (bool moved = true; moved;) {
     moved = false;
     for (const Found::Island& island : found.islands) {
@@ -261,10 +268,15 @@ auto CrossingSearch::largest(std::span<const double> now, std::span<const double
         continue;
       distance = within.low;
       element = island.element;
+      passed.push_back(element);
       moved = true;
     }
   }
-  if (distance < found.needed) return {no_index, -infinity};
+  if (distance < found.needed) {
+    passed.push_back(found.needing);
+    if (found.low < infinity) passed.push_back(element_at(found.low, query));
+    return {no_index, -infinity, std::move(passed)};
+  }
   if (element == no_index && distance < infinity) element = element_at(distance, query);
   return {element, distance};
 }

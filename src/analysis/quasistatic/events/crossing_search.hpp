@@ -12,16 +12,17 @@ namespace perilink {
 /// Search for load factors at which elements pass their limits. The displacements are u + d v, the
 /// present ones and d times those by loads that grow. The stretch over its limit of a truss is
 /// linear in d, the square of the equivalent one of a micropolar bond (FrameLimitSearch) quadratic.
-/// An element fails in one or two open intervals of d. Extensions that
-/// are nothing but round-off of the motion of their ends do not grow.
+/// An element fails in one or two open intervals of d. Extensions that are nothing but round-off of
+/// the motion of their ends do not grow.
 class CrossingSearch {
  public:
   explicit CrossingSearch(const Network& network);
 
   /// The end of an interval: where an element passes its limit as d moves on.
   struct Crossing {
-    Index element = no_index;  ///< no_index: there is none
-    double distance = 0.0;     ///< d
+    Index element = no_index;          ///< no_index: there is none
+    double distance = 0.0;             ///< d
+    std::vector<Index> conflict = {};  ///< where no d lets all hold: elements that shut them out
   };
 
   /// From u onwards the first at which an element begins to fail; of those that do within
@@ -74,7 +75,8 @@ class CrossingSearch {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     double low = infinity;      ///< least low end of the intervals that are asked for ...
     double early = infinity;    ///< ... less the margin
-    double needed = -infinity;  ///< below this d an element fails, whatever comes
+    double needed = -infinity;  ///< below this d an element fails, whatever comes ...
+    Index needing = no_index;   ///< ... this one
     Index lost = std::numeric_limits<Index>::max();  ///< lowest element whose stretch is no number
     struct Island {
       Interval interval;
@@ -82,6 +84,7 @@ class CrossingSearch {
     };
     std::vector<Island> islands;  ///< intervals with two ends
 
+    void need(double distance, Index element);
     void add(const Found& other);
   };
 

@@ -45,13 +45,14 @@ class EventEngine {
   virtual Balance glance_at_equilibrium() = 0;
 
   /// Equilibrium::change_motion().
-  virtual double change_motion(const Unknowns& unknowns) = 0;
+  virtual Freedom change_motion(const Unknowns& unknowns) = 0;
 
   /// From now on the elements have their next event at this fraction of its limit.
   virtual void set_alert(std::span<const Index> elements, double fraction) = 0;
 
-  /// Elements whose load factor is at most that of the next event over `fraction`, ascending.
-  virtual std::vector<Index> near_events(double fraction) = 0;
+  /// Elements that are within this fraction of their next event as the element of an event is at
+  /// its load factor, ascending.
+  virtual std::vector<Index> near_events(const Event& event, double fraction) = 0;
 
   /// Numerical factorisations so far.
   virtual int factorizations() const = 0;

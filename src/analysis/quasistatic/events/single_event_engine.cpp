@@ -83,14 +83,15 @@ void SingleEventEngine::set_alert(std::span<const Index> elements, double fracti
   }
 }
 
-std::vector<Index> SingleEventEngine::near_events(double fraction) {
-  const std::span<const double> motion = equilibrium_.where_elements_fail();
-  const BreakSearch::Hit next = search_->find(motion, tie_tolerance, threads_);
-  std::vector<Index> near;
-  for (const BreakSearch::Hit& hit : search_->list(motion, fraction * next.ratio)) {
-    near.push_back(hit.element);
-  }
-  return near;
+std::vector<Index> SingleEventEngine::near_events(const Event& event, double fraction) {
+  return elements_above(fraction / event.load_factor, equilibrium_.where_elements_fail());
+}
+
+/// Elements whose ratio is at least this, ascending.
+std::vector<Index> SingleEventEngine::elements_above(double ratio, std::span<const double> motion) {
+  std::vector<Index> elements;
+  for (const BreakSearch::Hit& hit : search_->list(motion, ratio)) elements.push_back(hit.element);
+  return elements;
 }
 
 int SingleEventEngine::cut(std::span<const Index> elements) {

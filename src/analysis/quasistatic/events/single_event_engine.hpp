@@ -22,11 +22,11 @@ class SingleEventEngine : public EventEngine {
   Secants secants() const override { return equilibrium_.secants(); }
   Balance check_equilibrium() override { return equilibrium_.check(); }
   Balance glance_at_equilibrium() override { return equilibrium_.glance(); }
-  double change_motion(const Unknowns& unknowns) override {
+  Freedom change_motion(const Unknowns& unknowns) override {
     return equilibrium_.change_motion(unknowns);
   }
   void set_alert(std::span<const Index> elements, double fraction) override;
-  std::vector<Index> near_events(double fraction) override;
+  std::vector<Index> near_events(const Event& event, double fraction) override;
   int factorizations() const override { return equilibrium_.factor().factorizations(); }
   FactorStatistics factor_statistics() const override { return equilibrium_.factor().statistics(); }
 
@@ -43,6 +43,7 @@ class SingleEventEngine : public EventEngine {
   void set_limits(Index element);
 
   bool is_noise(Index element) const;
+  std::vector<Index> elements_above(double ratio, std::span<const double> motion);
 
   const Network& network_;
   int threads_;

@@ -12,31 +12,30 @@ StagedEngine::StagedEngine(const LoadedNetwork& problem, const EngineOptions& op
     : SingleEventEngine(problem, options),
       problem_(problem),
       crossings_(problem.network),
-      unknowns_(problem.unknowns),
+      unknowns_(std::make_unique<Unknowns>(problem.unknowns)),
       gripped_at_(problem.unknowns.prescribed.size(), 0.0),
       load_factors_(problem.sets.size(), 0.0) {
-  begin_stage(0);
+  begin_stage(0, *unknowns_);
 }
 
 /// Slots that a set is the first to drive stay where they are, beside what it adds.
-void StagedEngine::grip(std::size_t set) {
+void StagedEngine::grip(std::size_t set, const Unknowns& held) {
   const std::span<const double> motion = displacement();
-  const Unknowns& held = problem_.sets[set].unknowns;
   for (std::size_t slot = 0; slot < motion.size(); ++slot) {
-    const bool is_new = held.number[slot] == no_index && unknowns_.number[slot] != no_index;
+    const bool is_new = held.number[slot] == no_index && unknowns_->number[slot] != no_index;
     if (is_new) gripped_at_[slot] = motion[slot];
   }
-  unknowns_ = held;
+  *unknowns_ = held;
   newest_ = set;
 }
 
-void StagedEngine::begin_stage(std::size_t set) {
-  if (set > newest_) grip(set);
+void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
+  if (is_new(set)) grip(set, held);
   load_factors_[set_] = load_factor_;
   set_ = set;
   load_factor_ = load_factors_[set];
   ConstantField constant;
-  constant.unknowns = unknowns_;
+  constant.unknowns = *unknowns_;
   constant.unknowns.prescribed = gripped_at_;
   constant.loads.forces.assign(problem_.loads.forces.size(), 0.0);
   constant.load_factor = load_factor_;
@@ -49,8 +48,8 @@ void StagedEngine::begin_stage(std::size_t set) {
       constant.unknowns.prescribed[slot] += factor * loads.unknowns.prescribed[slot];
     }
   }
-  unknowns_.prescribed = problem_.sets[set].unknowns.prescribed;
-  equilibrium_.begin_stage(unknowns_, problem_.sets[set].loads, std::move(constant));
+  unknowns_->prescribed = problem_.sets[set].unknowns.prescribed;
+  equilibrium_.begin_stage(*unknowns_, problem_.sets[set].loads, std::move(constant));
 }
 
 void StagedEngine::move_to(double load_factor) {
@@ -58,12 +57,14 @@ void StagedEngine::move_to(double load_factor) {
   equilibrium_.move_to(load_factor);
 }
 
-std::span<const double> StagedEngine::displacement() {
+std::span<const double> StagedEngine::displacement() { return displacement_at(load_factor_); }
+
+std::span<const double> StagedEngine::displacement_at(double load_factor) {
   const std::span<const double> growing = equilibrium_.where_elements_fail();
   const std::span<const double> constant = equilibrium_.constant_displacement();
   now_.resize(growing.size());
   for (std::size_t slot = 0; slot < now_.size(); ++slot) {
-    now_[slot] = constant[slot] + load_factor_ * growing[slot];
+    now_[slot] = constant[slot] + load_factor * growing[slot];
   }
   return now_;
 }
@@ -76,6 +77,9 @@ Event StagedEngine::next_event() {
   const CrossingSearch::Crossing last = crossings_.largest(
       displacement(), equilibrium_.where_elements_fail(), tie_tolerance, threads_);
   if (last.element == no_index && !(last.distance > 0.0)) {
+    for (const Index bond : last.conflict) {
+      if (alert_of(bond) < 1.0) return {bond, load_factor_, true};
+    }
     return {worst().element, load_factor_, true};
   }
   const double distance =
@@ -126,8 +130,21 @@ Balance StagedEngine::check_equilibrium() {
   return balance;
 }
 
-double StagedEngine::change_motion(const Unknowns& /*unknowns*/) {
-  throw SolverError("the unknowns cannot change in an analysis by stages");
+Freedom StagedEngine::change_motion(const Unknowns& unknowns) {
+  auto next = std::make_unique<Unknowns>(unknowns);
+  next->prescribed = unknowns_->prescribed;
+  const Freedom freedom = equilibrium_.change_motion(*next);
+  unknowns_ = std::move(next);
+  return freedom;
+}
+
+void StagedEngine::set_alert(std::span<const Index> elements, double fraction) {
+  SingleEventEngine::set_alert(elements, fraction);
+  for (const Index element : elements) crossings_.set_limit(element, limit_of(element));
+}
+
+std::vector<Index> StagedEngine::near_events(const Event& event, double fraction) {
+  return elements_above(fraction, displacement_at(event.load_factor));
 }
 
 }  // namespace perilink

@@ -17,7 +17,11 @@ class StagedEngine final : public SingleEventEngine {
 
   /// A set of loads grows from its present load factor, 0 at first; the others stay as they are.
   /// What the set drives is gripped where it is.
-  void begin_stage(std::size_t set);
+  /// \param held  how particles move from the first stage of the set on, used if it is_new()
+  void begin_stage(std::size_t set, const Unknowns& held);
+
+  /// Whether a set has not grown yet, and neither has any after it.
+  bool is_new(std::size_t set) const { return set > newest_; }
 
   /// Before the first event: damaged bonds take the sides that the loads will give them.
   /// \param direction  in which the load factor moves first
@@ -40,25 +44,27 @@ class StagedEngine final : public SingleEventEngine {
   LoadWork load_work() override;
   Balance check_equilibrium() override;
   Balance glance_at_equilibrium() override { return check_equilibrium(); }
-  /// \throws SolverError: stages know their own unknowns only
-  double change_motion(const Unknowns& unknowns) override;
+  Freedom change_motion(const Unknowns& unknowns) override;
+  void set_alert(std::span<const Index> elements, double fraction) override;
+  std::vector<Index> near_events(const Event& event, double fraction) override;
 
  private:
   BreakSearch::Hit worst();
+  std::span<const double> displacement_at(double load_factor);
   Event side_change_within(double distance);
 
   const LoadedNetwork& problem_;
   CrossingSearch crossings_;
-  void grip(std::size_t set);
+  void grip(std::size_t set, const Unknowns& held);
 
-  Unknowns unknowns_;                 ///< with the motions of the set that grows
+  std::unique_ptr<Unknowns> unknowns_;  ///< with the motions of the set that grows
   std::vector<double> gripped_at_;    ///< displacements at which slots were gripped, shape of these
   std::vector<double> load_factors_;  ///< per set, where it does not grow
   std::size_t set_ = 0;
   std::size_t newest_ = 0;  ///< last one of the sets that have grown
   double load_factor_ = 0.0;
   double direction_ = 0.0;   ///< in which it moves when damaged bonds close or open next
-  std::vector<double> now_;  ///< displacements at the present load factor
+  std::vector<double> now_;  ///< displacements at the load factor asked for last
 };
 
 }  // namespace perilink

@@ -139,6 +139,20 @@ bool has_full_rank(const Carriers& carriers, Index element) {
   return sizes[sizes.size() - 1] > 1e-3 * sizes[0];
 }
 
+/// Whether a later stage drives a particle of the element, or grips it.
+bool is_gripped_later(const Model& model, const CarriedBody& body, Index element) {
+  for (const Index i : body.carriers.inside.row(element)) {
+    for (int a = 0; a < body.free.width; ++a) {
+      const std::size_t slot = static_cast<std::size_t>(i) * body.free.width + a;
+      for (const LoadSet& set : model.sets) {
+        if (set.unknowns.prescribed[slot] != 0.0) return true;
+        if ((set.unknowns.number[slot] < 0) != (body.free.number[slot] < 0)) return true;
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void carry_particles(const CaseFile& input, Model& model) {
@@ -160,7 +174,10 @@ void carry_particles(const CaseFile& input, Model& model) {
   for (Index e = 0; e < body.carriers.size(); ++e) {
     const auto inside = body.carriers.inside.row(e);
     const bool all = std::all_of(inside.begin(), inside.end(), [&](Index i) { return carry[i]; });
-    if (!all || cracked[e] != 0 || !has_full_rank(body.carriers, e)) body.whole[e] = 0;
+    if (!all || cracked[e] != 0 || is_gripped_later(model, body, e) ||
+        !has_full_rank(body.carriers, e)) {
+      body.whole[e] = 0;
+    }
   }
   const auto whole = std::count(body.whole.begin(), body.whole.end(), 1);
   if (whole == 0) {
@@ -172,7 +189,7 @@ void carry_particles(const CaseFile& input, Model& model) {
         "make the elements smaller, as far as particles are left inside them, or delete the "
         "table");
   }
-  model.unknowns = carried_motion(body, body.whole);
+  model.unknowns = carried_motion(body.carriers, body.free, body.whole);
   model.carried = std::move(body);
 }
 

@@ -32,12 +32,6 @@ void check_elements(const CaseFile& input) {
                     quoted(std::string(word_of(input.body.surface)))),
         "delete the line, or the table [elements]");
   }
-  if (!input.stages.empty()) {
-    throw InputError(input.where("elements"),
-                     "is given, but the case has [[stages]], in which particles move as they do "
-                     "at the start",
-                     "delete one of the two");
-  }
 }
 
 void write_elements(TomlWriter& out, const ElementsSection& elements) {

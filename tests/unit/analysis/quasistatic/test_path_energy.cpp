@@ -109,5 +109,22 @@ TEST(PathEnergy, AnEventBesideAConstantForce) {
   EXPECT_DOUBLE_EQ(energy.dissipated(), 0.5 * 3.0 * 5.0);
 }
 
+/// A body of compliance 1/2 becomes freer, 1, under a constant force of 2 and a growing one of 3:
+/// nothing dissipates, and what the stored energy loses is told apart.
+TEST(PathEnergy, FreedomBesideAConstantForce) {
+  const ConstantWork held{4.0 / 2.0, 2.0 / 2.0, 0.0, 2.0 / 2.0, 0.0};
+  const ConstantWork freed{4.0 / 1.0, 2.0 / 1.0, 0.0, 2.0 / 1.0, 0.0};
+  PathEnergy energy;
+  energy.begin_stage(0.0, {0.0, 0.0, false, {}});
+  energy.advance(3.0, {0.5, 0.0, false, held});
+  const double left = energy.external_work() - energy.stored();
+  energy.add_freedom({0.5, growth_beside(held, freed)});
+  energy.advance(3.0, {1.0, 0.0, false, freed});
+  EXPECT_DOUBLE_EQ(energy.dissipated(), 0.0);
+  EXPECT_DOUBLE_EQ(energy.freed(), energy.external_work() - energy.stored() - left);
+  // (f_c + lambda f_p)^2 / 2 times the growth of the compliance from 1/2 to 1.
+  EXPECT_DOUBLE_EQ(energy.freed(), 0.5 * 5.0 * 5.0 * 0.5);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -26,14 +26,14 @@ TEST(StagedEngine, StartsFromTheConstantLoad) {
   EXPECT_NEAR(engine.displacement()[slot(body, 1, 0)] + engine.displacement()[slot(body, 3, 0)] +
                   engine.displacement()[slot(body, 2, 0)],
               2.0 * 0.02 / 3.0, 1e-16);
-  engine.begin_stage(1);
+  engine.begin_stage(1, body.sets[1].unknowns);
   EXPECT_EQ(engine.load_factor(), 0.0);
   const Event up = engine.next_event_towards(1.0);
   EXPECT_NEAR(up.load_factor, 0.005, 1e-16);
   EXPECT_FALSE(up.avalanche);
   EXPECT_EQ(engine.next_event().element, up.element);
   EXPECT_EQ(engine.next_event_towards(-1.0).element, no_index) << "nothing is stretched";
-  engine.begin_stage(0);
+  engine.begin_stage(0, body.sets[0].unknowns);
   EXPECT_EQ(engine.load_factor(), 0.01) << "it was left there";
 }
 
@@ -43,7 +43,7 @@ TEST(StagedEngine, FollowsTheLoadDownUnlessItIsGiven) {
   const AnalysisBody body = twice_loaded_square();
   StagedEngine engine(body, {});
   engine.move_to(0.004);
-  engine.begin_stage(1);
+  engine.begin_stage(1, body.sets[1].unknowns);
   const Event first = engine.next_event();
   EXPECT_NEAR(first.load_factor, 0.011, 1e-16);
   engine.move_to(first.load_factor);
@@ -57,10 +57,36 @@ TEST(StagedEngine, FollowsTheLoadDownUnlessItIsGiven) {
   EXPECT_EQ(at_once.element, next.element);
 }
 
-TEST(StagedEngine, KnowsItsOwnUnknownsOnly) {
+/// Bonds in finite elements have alerts: theirs come first, and among bonds near them they count.
+TEST(StagedEngine, KnowsWhatComesNearItsLimit) {
   const AnalysisBody body = twice_loaded_square();
   StagedEngine engine(body, {});
-  EXPECT_THROW(engine.change_motion(body.unknowns), SolverError);
+  const Event failure = engine.next_event();
+  EXPECT_NEAR(failure.load_factor, 0.015, 1e-16);
+  engine.set_alert(std::vector<Index>{failure.element}, 0.5);
+  const Event alert = engine.next_event();
+  EXPECT_EQ(alert.element, failure.element);
+  EXPECT_NEAR(alert.load_factor, 0.0075, 1e-16);
+  EXPECT_EQ(engine.near_events(alert, 0.9), std::vector<Index>{failure.element});
+  EXPECT_EQ(engine.load_factor(), 0.0) << "nothing has moved";
+  engine.set_alert(std::vector<Index>{failure.element}, 1.0);
+  EXPECT_EQ(engine.next_event().load_factor, failure.load_factor);
+}
+
+/// Nothing becomes freer where the same unknowns move the particles.
+TEST(StagedEngine, KeepsItsEquilibriumUnderTheSameMotion) {
+  const AnalysisBody body = twice_loaded_square();
+  StagedEngine engine(body, {});
+  engine.move_to(0.004);
+  engine.begin_stage(1, body.sets[1].unknowns);
+  engine.move_to(0.002);
+  const std::vector<double> before(engine.displacement().begin(), engine.displacement().end());
+  const Freedom freedom = engine.change_motion(body.unknowns);
+  EXPECT_NEAR(freedom.growth, 0.0, 1e-15);
+  EXPECT_NEAR(freedom.beside.linear, 0.0, 1e-15);
+  EXPECT_NEAR(freedom.beside.constant, 0.0, 1e-15);
+  const std::span<const double> after = engine.displacement();
+  for (std::size_t k = 0; k < before.size(); ++k) EXPECT_NEAR(after[k], before[k], 1e-15);
 }
 
 }  // namespace
