@@ -25,7 +25,8 @@ struct FactorStatistics {
 };
 
 /// Cholesky factor of a symmetric positive definite matrix K that follows changes of low rank, and
-/// a solution u of K u = f with it.
+/// a solution u of K u = f with it. It is looked at by solve(), columns(), compliance() and pivot(),
+/// in any order, and changed by downdate() and update(); it keeps no load and no solution.
 class Factor {
  public:
   virtual ~Factor() = default;
@@ -44,8 +45,8 @@ class Factor {
   /// solution = K^-1 rhs, both of size n; they may be the same memory.
   virtual void solve(std::span<const double> rhs, std::span<double> solution) = 0;
 
-  /// Says which entries of the solution a downdate has to keep current, size n; it may
-  /// leave the others as they are. A route may ignore it.
+  /// Says which entries of the solution a downdate has to keep current, size n; it may leave the
+  /// others as they are. A route may ignore it.
   virtual void keep_current(std::span<const std::uint8_t> /*wanted*/) {}
 
   /// K^-1 x of many vectors at once, one after the other in the result, shape (count, n). Entries
@@ -60,7 +61,8 @@ class Factor {
   /// leave a mechanism.
   virtual double pivot(const SparseVector& x);
 
-  /// K <- K - sum x x', f <- f + sum load_change x for vectors that do not interact: x_a' K^-1 x_b = 0 where a and b differ.
+  /// K <- K - sum x x', f <- f + sum load_change x for vectors that do not interact: x_a' K^-1
+  /// x_b = 0 where a and b differ.
   /// \param pivots    pivot(x) of each, all positive
   /// \param solution  before the removal on entry, after it on return; empty: none is wanted
   virtual void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
