@@ -1,31 +1,60 @@
 #include "network/carried_motion.hpp"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
+#include <cmath>
 
 namespace perilink {
 namespace {
 
-/// A particle whose weight differs from one by less than this stands at the node.
-constexpr double at_node = 1e-9;
+/// Shares of motions below this are round-off.
+constexpr double negligible = 1e-9;
 
 std::size_t slot_of(const Unknowns& unknowns, Index particle, int component) {
   return static_cast<std::size_t>(particle) * unknowns.width + component;
 }
 
-/// Components of nodes at held particles, shape (nodes, width).
-std::vector<std::uint8_t> held_at_nodes(const Carriers& carriers, const Unknowns& free) {
+/// Nodes of an element that its held particles hold along a component: the motion of one node alone
+/// is a combination of the motions of these particles.
+std::vector<std::uint8_t> nodes_held_by(const Carriers& carriers, Index element,
+                                        const std::vector<std::size_t>& held_places) {
+  const auto count = static_cast<Index>(carriers.nodes_of.row(element).size());
+  Eigen::MatrixXd rows(count, static_cast<Index>(held_places.size()));
+  for (Index k = 0; k < rows.cols(); ++k) {
+    const auto weights = carriers.weights_at(element, held_places[k]);
+    for (Index c = 0; c < count; ++c) rows(c, k) = weights[c];
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> space(rows);
+  space.setThreshold(negligible);
+  const Eigen::MatrixXd all = space.householderQ();
+  const auto basis = all.leftCols(space.rank());  // motions that would move held particles
+  std::vector<std::uint8_t> held(static_cast<std::size_t>(count));
+  for (Index c = 0; c < count; ++c) {
+    const Eigen::VectorXd alone = Eigen::VectorXd::Unit(count, c);
+    held[c] = (alone - basis * (basis.transpose() * alone)).norm() < negligible;
+  }
+  return held;
+}
+
+/// Components of nodes that supports of particles in these elements hold, shape (nodes, width).
+std::vector<std::uint8_t> held_nodes(const Carriers& carriers, const Unknowns& free,
+                                     std::span<const std::uint8_t> elements) {
   std::vector<std::uint8_t> held(static_cast<std::size_t>(carriers.num_nodes()) * free.width, 0);
+  std::vector<std::size_t> places;
   for (Index e = 0; e < carriers.size(); ++e) {
+    if (elements[e] == 0) continue;
     const auto nodes = carriers.nodes_of.row(e);
     const auto inside = carriers.inside.row(e);
-    for (std::size_t k = 0; k < inside.size(); ++k) {
-      const auto weights = carriers.weights_at(e, k);
-      const auto largest = std::max_element(weights.begin(), weights.end());
-      if (*largest < 1.0 - at_node) continue;
-      const Index node = nodes[static_cast<std::size_t>(largest - weights.begin())];
-      for (int a = 0; a < free.width; ++a) {
-        if (free.at(inside[k], a) == no_index) held[slot_of(free, node, a)] = 1;
+    for (int a = 0; a < free.width; ++a) {
+      places.clear();
+      for (std::size_t k = 0; k < inside.size(); ++k) {
+        const std::size_t slot = slot_of(free, inside[k], a);
+        if (free.number[slot] == no_index && free.prescribed[slot] == 0.0) places.push_back(k);
       }
+      if (places.empty()) continue;
+      const std::vector<std::uint8_t> own = nodes_held_by(carriers, e, places);
+      for (std::size_t c = 0; c < nodes.size(); ++c) held[slot_of(free, nodes[c], a)] |= own[c];
     }
   }
   return held;
@@ -34,8 +63,8 @@ std::vector<std::uint8_t> held_at_nodes(const Carriers& carriers, const Unknowns
 }  // namespace
 
 std::vector<std::uint8_t> fit_supports(const Carriers& carriers, const Unknowns& free) {
-  const std::vector<std::uint8_t> held = held_at_nodes(carriers, free);
   std::vector<std::uint8_t> fits(static_cast<std::size_t>(carriers.size()), 1);
+  const std::vector<std::uint8_t> held = held_nodes(carriers, free, fits);
   for (Index e = 0; e < carriers.size(); ++e) {
     const auto nodes = carriers.nodes_of.row(e);
     const auto inside = carriers.inside.row(e);
@@ -44,7 +73,7 @@ std::vector<std::uint8_t> fit_supports(const Carriers& carriers, const Unknowns&
       for (int a = 0; a < free.width; ++a) {
         bool moves = false;
         for (std::size_t c = 0; c < nodes.size(); ++c) {
-          moves |= weights[c] != 0.0 && held[slot_of(free, nodes[c], a)] == 0;
+          moves |= std::abs(weights[c]) > negligible && held[slot_of(free, nodes[c], a)] == 0;
         }
         const bool particle_moves = free.at(inside[k], a) != no_index;
         const bool driven = free.prescribed[slot_of(free, inside[k], a)] != 0.0;
@@ -76,7 +105,7 @@ Unknowns carried_motion(const Carriers& carriers, const Unknowns& free,
     held[slot] = free.number[slot] == no_index || carrier[slot / free.width] != no_index ? 1 : 0;
   }
   Unknowns unknowns = number_unknowns(free.width, held, free.prescribed);
-  const std::vector<std::uint8_t> node_held = held_at_nodes(carriers, free);
+  const std::vector<std::uint8_t> node_held = held_nodes(carriers, free, whole);
   std::vector<Index> number(node_held.size(), no_index);
   std::vector<Unknowns::Share> shares;
   for (Index e = 0; e < carriers.size(); ++e) {

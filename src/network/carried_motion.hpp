@@ -20,9 +20,10 @@ struct CarriedBody {
   double halo = 0.0;  ///< elements within this distance of one that converts do so too [length]
 };
 
-/// Elements that supports hold as their particles are held: along a component either all particles
-/// are held at zero that a held node moves alone, or none. A node is held where a particle at its
-/// place is. Others would make particles stiffer than they are.
+/// Elements that supports hold as their particles are held. A node is held along a component where
+/// held particles of an element leave it no other motion than zero, as those along an edge do. With
+/// its held nodes an element must let all its other particles move, and none that is held or
+/// driven: others would make particles stiffer than they are, or softer.
 /// \return per element, nonzero where it may carry
 std::vector<std::uint8_t> fit_supports(const Carriers& carriers, const Unknowns& free);
 

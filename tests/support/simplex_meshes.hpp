@@ -1,9 +1,12 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "discretization/meshes/mesh.hpp"
@@ -56,6 +59,32 @@ inline Mesh box_mesh(int dim, int count) {
     }
   }
   return mesh;
+}
+
+/// A mesh as gmsh writes it, every point `scale` times and `shift` away from where it was.
+inline std::string gmsh_text(const Mesh& mesh, const std::array<double, 3>& scale,
+                             const std::array<double, 3>& shift) {
+  const Index points = mesh.num_points(), cells = mesh.num_cells();
+  std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  text += fmt::format("$Nodes\n1 {0} 1 {0}\n{1} 1 0 {0}\n", points, mesh.dim);
+  for (Index i = 1; i <= points; ++i) text += fmt::format("{}\n", i);
+  for (Index i = 0; i < points; ++i) {
+    for (int a = 0; a < 3; ++a) {
+      const double x = a < mesh.dim ? mesh.positions[i * mesh.dim + a] : 0.0;
+      text += fmt::format("{} ", scale[a] * x + shift[a]);
+    }
+    text += "\n";
+  }
+  text += fmt::format("$EndNodes\n$Elements\n1 {0} 1 {0}\n{1} 1 {2} {0}\n", cells, mesh.dim,
+                      mesh.dim == 2 ? 2 : 4);
+  for (Index e = 0; e < cells; ++e) {
+    text += fmt::format("{}", e + 1);
+    for (int k = 0; k <= mesh.dim; ++k) {
+      text += fmt::format(" {}", mesh.cells[e * (mesh.dim + 1) + k] + 1);
+    }
+    text += "\n";
+  }
+  return text + "$EndElements\n";
 }
 
 }  // namespace perilink::test

@@ -32,9 +32,12 @@ std::vector<Vector3> as_vectors(const std::vector<double>& values) {
 void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBody& body) {
   for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
     const std::size_t end = static_cast<std::size_t>(grid.offsets[cell]);
-    if (grid.types[cell] == VtuCell::quadrilateral && end >= 4) {
-      const auto* first = grid.connectivity.data() + end - 4;
-      body.elements.push_back({first[0], first[1], first[2], first[3]});
+    if (body.dim == 2 && element[cell] == static_cast<double>(FieldElement::carrier)) {
+      const auto begin = static_cast<std::size_t>(cell > 0 ? grid.offsets[cell - 1] : 0);
+      for (std::size_t k = begin; k < end; ++k) {
+        body.elements.values.push_back(static_cast<Index>(grid.connectivity[k]));
+      }
+      body.elements.offsets.push_back(static_cast<Index>(body.elements.values.size()));
     }
     if (grid.types[cell] != VtuCell::line) continue;
     if (end < 2) continue;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/plot/svg.hpp"
+#include "base/csr.hpp"
 #include "base/types.hpp"
 #include "io/fields/vtu.hpp"
 
@@ -32,7 +33,7 @@ struct PlotBody {
   std::vector<Ends> segments;
   /// Corners of finite elements that carry particles, one after the other round the element; in the
   /// plane.
-  std::vector<std::array<Index, 4>> elements;
+  Csr elements;
 
   Index size() const { return static_cast<Index>(positions.size()); }
   /// Whether every bond of a solid particle is broken: a crumb, whose displacement means nothing.

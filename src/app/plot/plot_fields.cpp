@@ -185,8 +185,9 @@ void draw_bond_hairlines(Svg& svg, const Scene& scene) {
 /// Finite elements hide the particles that they carry, unless these show stresses.
 void draw_elements(Svg& svg, const Scene& scene) {
   SvgPath path;
-  for (const auto& corners : scene.body.elements) {
-    path.move_to(scene.at(corners[3]));
+  for (Index e = 0; e < scene.body.elements.rows(); ++e) {
+    const auto corners = scene.body.elements.row(e);
+    path.move_to(scene.at(corners.back()));
     for (const Index i : corners) path.line_to(scene.at(i));
   }
   const char* fill = scene.body.stress.empty() ? undamaged_color : "none";
@@ -213,7 +214,7 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
       draw_dots(svg, scene);
     }
     draw_elements(svg, scene);
-    if (!scene.body.elements.empty()) key.push_back({"finite element", element_style});
+    if (scene.body.elements.rows() > 0) key.push_back({"finite element", element_style});
     draw_bond_hairlines(svg, scene);
     draw_crack_faces(svg, scene);
     if (!scene.body.broken_bonds.empty()) {

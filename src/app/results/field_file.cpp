@@ -106,31 +106,36 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
   return grid;
 }
 
+namespace {
+
+VtuCell cell_of(std::size_t dim, std::size_t corners) {
+  if (corners == dim + 1) return dim == 2 ? VtuCell::triangle : VtuCell::tetrahedron;
+  return dim == 2 ? VtuCell::quadrilateral : VtuCell::hexahedron;
+}
+
+}  // namespace
+
 void add_carriers(VtuGrid& grid, const Particles& particles, const Carriers& carriers,
                   std::span<const std::uint8_t> whole) {
   const auto dim = static_cast<std::size_t>(particles.dim);
-  constexpr std::array<unsigned, 8> around = {0, 1, 3, 2, 4, 5, 7, 6};  // bit a: side along axis a
-  std::vector<Index> corners(dim == 2 ? 4 : 8);
+  std::vector<Index> corners;
   for (Index e = 0; e < carriers.size(); ++e) {
     if (whole[e] == 0) continue;
-    const double* lower = carriers.lower.data() + static_cast<std::size_t>(e) * dim;
-    const double* upper = carriers.upper.data() + static_cast<std::size_t>(e) * dim;
-    for (std::size_t c = 0; c < corners.size(); ++c) {
+    corners.clear();
+    for (const Index node : carriers.corners_of.row(e)) {
       const auto away = [&](Index i) {
         double square = 0.0;
         for (std::size_t a = 0; a < dim; ++a) {
-          const double corner = (around[c] >> a & 1U) != 0 ? upper[a] : lower[a];
-          const double gap = particles.position(i)[a] - corner;
+          const double gap = particles.position(i)[a] - carriers.nodes[static_cast<std::size_t>(node) * dim + a];
           square += gap * gap;
         }
         return square;
       };
       const auto inside = carriers.inside.row(e);
-      corners[c] = *std::min_element(inside.begin(), inside.end(),
-                                     [&](Index i, Index j) { return away(i) < away(j); });
+      corners.push_back(*std::min_element(inside.begin(), inside.end(),
+                                          [&](Index i, Index j) { return away(i) < away(j); }));
     }
-    append_cell(grid, dim == 2 ? VtuCell::quadrilateral : VtuCell::hexahedron, corners,
-                FieldElement::carrier, 0.0);
+    append_cell(grid, cell_of(dim, corners.size()), corners, FieldElement::carrier, 0.0);
   }
 }
 

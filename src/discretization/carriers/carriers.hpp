@@ -7,20 +7,22 @@
 
 #include "base/csr.hpp"
 #include "base/types.hpp"
+#include "discretization/meshes/mesh.hpp"
 #include "discretization/particles.hpp"
 
 namespace perilink {
 
-/// Finite elements that carry particles: inside one, particles move by the shape functions of its
-/// nodes, products of linear or quadratic polynomials along the axes. Nodes belong to no particle;
-/// elements with common nodes deform together, others are joined by the bonds between their
-/// particles alone (Gerstle, Sau & Aguilera 2007, section 4).
+/// Finite elements that carry particles: inside one, particles move by the linear or quadratic shape
+/// functions of its nodes. Nodes belong to no particle; elements with common nodes deform together,
+/// others are joined by the bonds between their particles alone (Gerstle, Sau & Aguilera 2007,
+/// section 4).
 struct Carriers {
   int dim = 2;
   std::vector<double> nodes;         ///< positions [length], shape (nodes, dim)
   Csr nodes_of;                      ///< nodes that belong to each element
+  Csr corners_of;                    ///< those at its corners, around each face in turn
   Csr inside;                        ///< particles in each element, its border included, ascending
-  std::vector<double> lower, upper;  ///< corners of each element [length], shape (elements, dim)
+  std::vector<double> lower, upper;  ///< ends along the axes [length], shape (elements, dim)
   /// Shape functions of the element's nodes at its particles, in the order of `inside` and, for
   /// each particle, of the element's `nodes_of`.
   std::vector<double> weights;
@@ -45,5 +47,11 @@ using Divisions = std::array<std::vector<double>, 3>;
 /// \param tolerance  within which a particle lies on the border of an element [length]
 Carriers carriers_on_grid(const Particles& particles, std::span<const double> faces,
                           const Divisions& divisions, int order, double tolerance);
+
+/// The triangles or tetrahedra of a mesh, straight ones; order 2 adds a node on each edge. All else
+/// as in carriers_on_grid().
+/// \throws std::invalid_argument  where a cell is flat
+Carriers carriers_on_mesh(const Particles& particles, std::span<const double> faces,
+                          const Mesh& mesh, int order, double tolerance);
 
 }  // namespace perilink

@@ -51,6 +51,7 @@ void CellSearch::add_sides(const Mesh& mesh, Index cell) {
     const double sign = height > 0.0 ? 1.0 : -1.0;
     for (int a = 0; a < dim_; ++a) sides_.push_back(sign * normal[a]);
     sides_.push_back(-sign * dot(normal, corners.at[(k + 1) % corners.count]));
+    heights_.push_back(std::abs(height));
   }
 }
 
@@ -102,22 +103,31 @@ Index CellSearch::bucket(const std::array<int, 3>& steps) const {
   return static_cast<Index>((steps[2] * counts_[1] + steps[1]) * counts_[0] + steps[0]);
 }
 
-bool CellSearch::contains(const Vector3& point) const {
-  const std::span<const double> x(point.data(), static_cast<std::size_t>(dim_));
-  if (!box_.contains(x, 0.0)) return false;
+/// Cells that touch the bucket around a point in the box.
+std::span<const Index> CellSearch::near(std::span<const double> point) const {
   std::array<int, 3> steps{};
   for (int a = 0; a < dim_; ++a) steps[a] = step(a, point[a]);
-  const std::span<const Index> near = buckets_.row(bucket(steps));
-  return std::any_of(near.begin(), near.end(), [&](Index cell) {
-    const int width = dim_ + 1;
-    const double* side = sides_.data() + static_cast<std::size_t>(cell) * width * width;
-    for (int k = 0; k < width; ++k, side += width) {
-      double distance = side[dim_];
-      for (int a = 0; a < dim_; ++a) distance += side[a] * point[a];
-      if (distance < -tolerance_) return false;
-    }
-    return true;
-  });
+  return buckets_.row(bucket(steps));
+}
+
+double CellSearch::distance(Index place, int side, std::span<const double> point) const {
+  const double* plane = sides_.data() + index_of_side(place, side) * (dim_ + 1);
+  double sum = plane[dim_];
+  for (int a = 0; a < dim_; ++a) sum += plane[a] * point[a];
+  return sum;
+}
+
+bool CellSearch::is_inside(Index place, std::span<const double> point, double margin) const {
+  for (int k = 0; k <= dim_; ++k) {
+    if (distance(place, k, point) < margin) return false;
+  }
+  return true;
+}
+
+bool CellSearch::contains(const Vector3& point) const {
+  bool found = false;
+  for_each_around(point, [&](Index) { found = true; });
+  return found;
 }
 
 }  // namespace perilink

@@ -21,12 +21,36 @@ class CellSearch {
 
   bool contains(const Vector3& point) const;
 
+  /// Calls visit(place) for every cell around the point, by its place among `cells`.
+  template <class Visit>
+  void for_each_around(std::span<const double> point, Visit visit) const {
+    if (!box_.contains(point.first(static_cast<std::size_t>(dim_)), 0.0)) return;
+    for (const Index cell : near(point)) {
+      if (is_inside(cell, point, -tolerance_)) visit(cell);
+    }
+  }
+  /// Whether the point is farther than the tolerance from all sides of the cell.
+  bool is_within(Index place, std::span<const double> point) const {
+    return is_inside(place, point, tolerance_);
+  }
+  /// Barycentric coordinate: how far the point is from the side opposite to a corner, over how far
+  /// the corner is [-].
+  double height(Index place, int corner, std::span<const double> point) const {
+    return distance(place, corner, point) / heights_[index_of_side(place, corner)];
+  }
+
   /// Around all cells, with the tolerance.
   const Box& box() const { return box_; }
 
  private:
   void add_sides(const Mesh& mesh, Index cell);
   void lay_grid(const std::vector<Box>& boxes);
+  std::size_t index_of_side(Index place, int side) const {
+    return static_cast<std::size_t>(place) * (dim_ + 1) + side;
+  }
+  double distance(Index place, int side, std::span<const double> point) const;
+  bool is_inside(Index place, std::span<const double> point, double margin) const;
+  std::span<const Index> near(std::span<const double> point) const;
   int step(int axis, double coordinate) const;
   Index bucket(const std::array<int, 3>& steps) const;
 
@@ -34,6 +58,7 @@ class CellSearch {
   double tolerance_ = 0.0;
   Box box_;
   std::vector<double> sides_;  ///< unit normal inwards and offset, shape (cells, dim + 1, dim + 1)
+  std::vector<double> heights_;         ///< of corners above their sides, shape (cells, dim + 1)
   std::array<int, 3> counts_{1, 1, 1};  ///< boxes of the grid along each axis
   Csr buckets_;                         ///< cells that touch each of them
 };

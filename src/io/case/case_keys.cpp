@@ -262,6 +262,8 @@ const std::vector<TableSchema>& case_schema() {
        false,
        {"spacings",
         "size",
+        "mesh",
+        "mesh_size",
         "order",
         "regions",
         "particles",

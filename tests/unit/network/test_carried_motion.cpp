@@ -10,11 +10,11 @@ namespace {
 /// Nine by five particles one apart, in two bilinear elements of four; the left column is held
 /// along x.
 struct TwoElements {
-  explicit TwoElements(int held_rows = 5, double driven = 0.0) {
+  explicit TwoElements(int held_rows = 5, double driven = 0.0, int rows = 5) {
     particles.dim = 2;
     std::vector<std::uint8_t> held;
     std::vector<double> prescribed;
-    for (int y = 0; y < 5; ++y) {
+    for (int y = 0; y < rows; ++y) {
       for (int x = 0; x < 9; ++x) {
         particles.positions.insert(particles.positions.end(), {1.0 * x, 1.0 * y});
         particles.volumes.push_back(1.0);
@@ -66,6 +66,16 @@ TEST(CarriedMotion, NodesMoveParticlesAndSupportsHoldNodes) {
 TEST(CarriedMotion, ElementsThatAreHeldInPartDoNotCarry) {
   EXPECT_EQ(TwoElements(3).body.whole, (std::vector<std::uint8_t>{0, 1}));
   EXPECT_EQ(TwoElements(5, 0.25).body.whole, (std::vector<std::uint8_t>{0, 1})) << "driven";
+}
+
+/// A quadratic element has a node in the middle of each edge, here between two of six particles.
+TEST(CarriedMotion, HeldEdgesHoldNodesBetweenParticles) {
+  TwoElements two(6, 0.0, 6);
+  two.body.carriers = carriers_on_grid(two.particles, {}, {{{0, 4, 8}, {0, 5}, {}}}, 2, 1e-6);
+  two.body.whole = fit_supports(two.body.carriers, two.body.free);
+  EXPECT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
+  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, two.body.whole);
+  EXPECT_EQ(motion.count, 2 * 15 - 3) << "three nodes are held along x";
 }
 
 TEST(CarriedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {

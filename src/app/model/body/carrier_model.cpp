@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
+#include "app/model/body/mesh_input.hpp"
 #include "app/model/model_regions.hpp"
 #include "base/error.hpp"
 #include "discretization/cuts/cracks.hpp"
@@ -61,6 +63,43 @@ double size_of_elements(const CaseFile& input, const Model& model) {
   return size;
 }
 
+/// Centres of facets of the surface and between materials of different stiffness: strains jump
+/// there, which elements do not follow.
+std::vector<double> faces_of(const Model& model) {
+  std::vector<double> faces;
+  for (Index f = 0; f < model.facets.size(); ++f) {
+    const Index inside = model.facets.inside[f], outside = model.facets.outside[f];
+    if (outside != no_index && model.hooke[inside].lambda == model.hooke[outside].lambda &&
+        model.hooke[inside].mu == model.hooke[outside].mu) {
+      continue;
+    }
+    const Vector3 centre = model.facets.centre(f, model.network.particles.positions);
+    faces.insert(faces.end(), centre.begin(), centre.begin() + model.network.dim());
+  }
+  return faces;
+}
+
+Carriers find_carriers(const CaseFile& input, const Model& model) {
+  const ElementsSection& section = *input.elements;
+  const Particles& particles = model.network.particles;
+  const std::vector<double> faces = faces_of(model);
+  const double tolerance = border_tolerance * model.lattice.spacing;
+  if (section.mesh) {
+    const Mesh mesh =
+        read_mesh(input, "elements.mesh", *section.mesh, section.mesh_size, particles.dim);
+    try {
+      return carriers_on_mesh(particles, faces, mesh, section.order, tolerance);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(input.where("elements.mesh"),
+                       fmt::format("names {}: {}", *section.mesh, error.what()), "");
+    }
+  }
+  const double size = size_of_elements(input, model);
+  Divisions divisions;
+  for (int a = 0; a < particles.dim; ++a) divisions[a] = divide(model, a, size, section.order);
+  return carriers_on_grid(particles, faces, divisions, section.order, tolerance);
+}
+
 /// Per particle, whether an element may carry it.
 std::vector<std::uint8_t> particles_to_carry(const CaseFile& input, const Model& model) {
   const ElementsSection& section = *input.elements;
@@ -77,22 +116,6 @@ std::vector<std::uint8_t> particles_to_carry(const CaseFile& input, const Model&
     }
   }
   return carry;
-}
-
-/// Centres of facets of the surface and between materials of different stiffness: strains jump
-/// there, which elements do not follow.
-std::vector<double> faces_of(const Model& model) {
-  std::vector<double> faces;
-  for (Index f = 0; f < model.facets.size(); ++f) {
-    const Index inside = model.facets.inside[f], outside = model.facets.outside[f];
-    if (outside != no_index && model.hooke[inside].lambda == model.hooke[outside].lambda &&
-        model.hooke[inside].mu == model.hooke[outside].mu) {
-      continue;
-    }
-    const Vector3 centre = model.facets.centre(f, model.network.particles.positions);
-    faces.insert(faces.end(), centre.begin(), centre.begin() + model.network.dim());
-  }
-  return faces;
 }
 
 /// Elements with a particle whose nearest neighbours a pre-crack cuts off.
@@ -157,14 +180,8 @@ bool is_gripped_later(const Model& model, const CarriedBody& body, Index element
 
 void carry_particles(const CaseFile& input, Model& model) {
   if (!input.elements) return;
-  const double size = size_of_elements(input, model);
-  Divisions divisions;
-  for (int a = 0; a < model.network.dim(); ++a) {
-    divisions[a] = divide(model, a, size, input.elements->order);
-  }
   CarriedBody body;
-  body.carriers = carriers_on_grid(model.network.particles, faces_of(model), divisions,
-                                   input.elements->order, border_tolerance * model.lattice.spacing);
+  body.carriers = find_carriers(input, model);
   body.free = std::move(model.unknowns);
   body.alert = input.elements->alert;
   body.halo = input.elements->halo.value_or(model.horizon);
@@ -183,9 +200,8 @@ void carry_particles(const CaseFile& input, Model& model) {
   if (whole == 0) {
     throw InputError(
         input.where("elements"),
-        fmt::format("leaves no element of size {:.6g} whole: surfaces, supports, "
-                    "cracks or regions cross all of them",
-                    size),
+        "leaves no element whole: surfaces, supports, cracks or regions cross all of them, or "
+        "there are fewer particles in them than nodes",
         "make the elements smaller, as far as particles are left inside them, or delete the "
         "table");
   }

@@ -19,9 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path mesh_path(const CaseFile& input) {
-  return fs::path(input.path).parent_path() / *input.body.mesh;
+fs::path seen_from_case(const CaseFile& input, const std::string& file) {
+  return fs::path(input.path).parent_path() / file;
 }
+
+fs::path mesh_path(const CaseFile& input) { return seen_from_case(input, *input.body.mesh); }
 
 const MeshGroup* find_group(const Mesh& mesh, const std::string& name) {
   const auto found = std::find_if(mesh.groups.begin(), mesh.groups.end(),
@@ -74,18 +76,19 @@ Patches patches_of(const CaseFile& input, const Mesh& mesh) {
   return patches;
 }
 
-Mesh read_mesh(const CaseFile& input, int dim) {
+}  // namespace
+
+Mesh read_mesh(const CaseFile& input, const std::string& key, const std::string& file,
+               std::optional<double> size, int dim) {
   try {
-    const std::string path = mesh_path(input).string();
-    return is_geometry(path) ? mesh_geometry(path, dim, input.body.mesh_size, input.trust_geometry)
+    const std::string path = seen_from_case(input, file).string();
+    return is_geometry(path) ? mesh_geometry(path, dim, size, input.trust_geometry)
                              : read_gmsh_file(path, dim);
   } catch (const FileError& error) {
-    throw InputError(input.where("body.mesh"), error.what(),
+    throw InputError(input.where(key), error.what(),
                      "give the file as seen from the folder of the case");
   }
 }
-
-}  // namespace
 
 const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const Region& region,
                                 const std::string& key, const std::string& contents) {
@@ -103,7 +106,7 @@ const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const R
 
 MeshInput read_mesh_input(const CaseFile& input, int dim) {
   MeshInput read;
-  read.mesh = read_mesh(input, dim);
+  read.mesh = read_mesh(input, "body.mesh", *input.body.mesh, input.body.mesh_size, dim);
   refuse_unknown_groups(input, read.mesh);
   const Patches patches = patches_of(input, read.mesh);
   read.material = materials_of_cells(read.mesh, patches.regions, patches.material);
@@ -127,10 +130,14 @@ Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& no
 
 CaseFile seen_from(const CaseFile& input, const fs::path& directory) {
   CaseFile moved = input;
-  if (!input.body.mesh || fs::path(*input.body.mesh).is_absolute()) return moved;
-  // Links are followed: ".." beyond one would lead elsewhere.
-  const fs::path mesh = fs::weakly_canonical(mesh_path(input));
-  moved.body.mesh = mesh.lexically_relative(fs::weakly_canonical(directory)).string();
+  const auto move = [&](std::optional<std::string>& file) {
+    if (!file || fs::path(*file).is_absolute()) return;
+    // Links are followed: ".." beyond one would lead elsewhere.
+    const fs::path mesh = fs::weakly_canonical(seen_from_case(input, *file));
+    file = mesh.lexically_relative(fs::weakly_canonical(directory)).string();
+  };
+  move(moved.body.mesh);
+  if (moved.elements) move(moved.elements->mesh);
   return moved;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,15 @@ struct MeshInput {
   std::vector<Index> material;  ///< per cell; no_index where no material covers it
 };
 
-/// Reads the mesh that a case names.
+/// Reads a file of a mesh, or meshes a geometry.
+/// \param key   that names the file, for messages
+/// \param file  as seen from the folder of the case
+/// \param size  of the cells, where it is a geometry
+/// \throws InputError  where it cannot be read
+Mesh read_mesh(const CaseFile& input, const std::string& key, const std::string& file,
+               std::optional<double> size, int dim);
+
+/// Reads the mesh that is the body of a case.
 /// \throws InputError  where the mesh cannot be read, or lacks a group or its cells
 MeshInput read_mesh_input(const CaseFile& input, int dim);
 

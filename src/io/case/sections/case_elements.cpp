@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/case/case_schema.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/text/toml_tree.hpp"
 
 namespace perilink {
@@ -13,7 +14,8 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
   ElementsSection elements;
   elements.spacings = table.integer("spacings", 2, most_spacings);
   elements.size = table.positive("size");
-  table.need_one_of({"spacings", "size"});
+  read_mesh_file(table, elements.mesh, elements.mesh_size);
+  table.need_one_of({"spacings", "size", "mesh"});
   assign(elements.order, table.integer("order", 1, 2));
   assign(elements.regions, table.texts("regions"));
   assign(elements.particles, table.texts("particles"));
@@ -38,6 +40,8 @@ void write_elements(TomlWriter& out, const ElementsSection& elements) {
   out.header("[elements]");
   out.write("spacings", elements.spacings);
   out.write("size", elements.size);
+  out.write("mesh", elements.mesh);
+  out.write("mesh_size", elements.mesh_size);
   out.write("order", elements.order);
   if (!elements.regions.empty()) out.write("regions", elements.regions);
   if (!elements.particles.empty()) out.write("particles", elements.particles);

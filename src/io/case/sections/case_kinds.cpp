@@ -54,19 +54,20 @@ std::string what_rotates(const BodySection& body) {
              : "set model = \"micropolar\" in [body]";
 }
 
-void read_mesh_file(const CaseTable& table, BodySection& body) {
+void read_mesh_file(const CaseTable& table, std::optional<std::string>& mesh,
+                    std::optional<double>& size) {
   if (!table.has("mesh")) {
     if (!table.has("mesh_size")) return;
-    table.refuse("mesh_size", "is given, but the body has no `mesh`", "delete it");
+    table.refuse("mesh_size", "is given, but there is no `mesh`", "delete it");
   }
-  body.mesh = table.path("mesh");
-  if (body.mesh->empty()) table.refuse("mesh", "is empty", "name the file of a gmsh mesh");
-  body.mesh_size = table.positive("mesh_size");
-  if (body.mesh_size && !is_geometry(*body.mesh)) {
+  mesh = table.path("mesh");
+  if (mesh->empty()) table.refuse("mesh", "is empty", "name the file of a gmsh mesh");
+  size = table.positive("mesh_size");
+  if (size && !is_geometry(*mesh)) {
     table.refuse("mesh_size", "is given, but `mesh` is meshed already",
                  "delete it, or name a geometry (.geo, .step, .stp, .brep) as `mesh`");
   }
-  if (!body.mesh_size && is_geometry(*body.mesh) && !is_gmsh_script(*body.mesh)) {
+  if (!size && is_geometry(*mesh) && !is_gmsh_script(*mesh)) {
     table.refuse_missing("mesh_size", "the size of the cells of this geometry");
   }
 }

@@ -36,8 +36,9 @@ bool has_state_based_particles(const BodySection& body);
 std::string why_nothing_rotates(const BodySection& body);
 std::string what_rotates(const BodySection& body);
 
-/// `mesh` and `mesh_size`, where the body has them.
-void read_mesh_file(const CaseTable& table, BodySection& body);
+/// `mesh` and `mesh_size`, where a table has them.
+void read_mesh_file(const CaseTable& table, std::optional<std::string>& mesh,
+                    std::optional<double>& size);
 
 /// The word for an energy that no crack or flow takes up.
 inline constexpr const char* infinite_energy = "infinite";

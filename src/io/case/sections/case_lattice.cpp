@@ -86,7 +86,7 @@ void refuse_surfaces(const CaseFile& input, const std::string& table,
 
 void read_lattice_body(const CaseTable& table, BodySection& body) {
   const int dim = dimension_of(body);
-  read_mesh_file(table, body);
+  read_mesh_file(table, body.mesh, body.mesh_size);
   body.surface = Surface::none;
   body.pattern = dim == 2 ? Pattern::hexagonal : Pattern::face_centred;
   const std::string_view only = word_of(body.pattern);

@@ -150,6 +150,11 @@ TEST_F(MeshInput, IsFoundFromTheFolderOfTheResults) {
   const CaseFile read = parse_case(write_case(moved), (results / "case.toml").string());
   EXPECT_EQ(build_model(read).network.particles.size(), 5);
 
+  CaseFile carried = input;
+  carried.elements.emplace();
+  carried.elements->mesh = "coarse.msh";
+  EXPECT_EQ(*seen_from(carried, results).elements->mesh, "../../coarse.msh");
+
   CaseFile absolute = input;
   absolute.body.mesh = (directory_ / "body.msh").string();
   EXPECT_EQ(seen_from(absolute, results).body.mesh, absolute.body.mesh);

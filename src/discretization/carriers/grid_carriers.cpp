@@ -1,8 +1,7 @@
-#include "discretization/carriers/carriers.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+
+#include "discretization/carriers/fill_carriers.hpp"
 
 namespace perilink {
 namespace {
@@ -23,6 +22,7 @@ class Grid {
     for (int a = 0; a < dim_; ++a) count *= order_ * intervals(a) + 1;
     return count;
   }
+  int dim() const { return dim_; }
   /// In one cell; they are numbered along x first.
   int nodes_per_cell() const {
     return dim_ == 2 ? (order_ + 1) * (order_ + 1) : (order_ + 1) * (order_ + 1) * (order_ + 1);
@@ -67,6 +67,17 @@ class Grid {
   double lower(Index cell, int axis) const { return divisions_[axis][place(cell)[axis]]; }
   double upper(Index cell, int axis) const { return divisions_[axis][place(cell)[axis] + 1]; }
 
+  int num_corners() const { return dim_ == 2 ? 4 : 8; }
+  /// Node of a cell at a corner: around its lower face along the last axis, then the upper one.
+  int corner(int number) const {
+    constexpr std::array<unsigned, 8> around = {0, 1, 3, 2, 4, 5, 7, 6};  // bit a: end along axis a
+    int local = 0;
+    for (int a = dim_ - 1; a >= 0; --a) {
+      local = local * (order_ + 1) + ((around[number] >> a & 1U) != 0 ? order_ : 0);
+    }
+    return local;
+  }
+
   double coordinate(Index cell, int local, int axis) const {
     const double part = static_cast<double>(place_in_cell(local)[axis]) / order_;
     return lower(cell, axis) + part * (upper(cell, axis) - lower(cell, axis));
@@ -83,8 +94,7 @@ class Grid {
         if (k != in[a]) product *= (x - k) / static_cast<double>(in[a] - k);
       }
     }
-    // Exactly nothing at particles on the border that the node does not touch.
-    return std::abs(product) < 1e-12 ? 0.0 : product;
+    return product;
   }
 
  private:
@@ -127,70 +137,11 @@ class Grid {
   double tolerance_;
 };
 
-/// Cells with particles, and no faces, inside their border.
-std::vector<std::uint8_t> usable_cells(const Grid& grid, const Particles& particles,
-                                       std::span<const double> faces) {
-  std::vector<std::uint8_t> usable(static_cast<std::size_t>(grid.size()), 0);
-  const auto mark = [&](std::span<const double> point, std::uint8_t value) {
-    grid.for_each_around(point, [&](Index cell) {
-      if (grid.is_within(cell, point)) usable[cell] = value;
-    });
-  };
-  for (Index i = 0; i < particles.size(); ++i) {
-    if (particles.kind[i] == ParticleKind::solid) mark(particles.position(i), 1);
-  }
-  const auto dim = static_cast<std::size_t>(particles.dim);
-  for (std::size_t at = 0; at < faces.size(); at += dim) mark(faces.subspan(at, dim), 0);
-  return usable;
-}
-
 }  // namespace
 
 Carriers carriers_on_grid(const Particles& particles, std::span<const double> faces,
                           const Divisions& divisions, int order, double tolerance) {
-  Carriers carriers;
-  carriers.dim = particles.dim;
-  const Grid grid(particles.dim, divisions, order, tolerance);
-  const std::vector<std::uint8_t> usable = usable_cells(grid, particles, faces);
-  std::vector<Index> node_of(static_cast<std::size_t>(grid.num_nodes()), no_index);
-  std::vector<Index> element_of(usable.size(), no_index), cell_of;
-  for (Index cell = 0; cell < grid.size(); ++cell) {
-    if (usable[cell] == 0) continue;
-    element_of[cell] = static_cast<Index>(cell_of.size());
-    cell_of.push_back(cell);
-    for (int local = 0; local < grid.nodes_per_cell(); ++local) {
-      Index& node = node_of[grid.node(cell, local)];
-      if (node == no_index) {
-        node = carriers.num_nodes();
-        for (int a = 0; a < particles.dim; ++a) {
-          carriers.nodes.push_back(grid.coordinate(cell, local, a));
-        }
-      }
-      carriers.nodes_of.values.push_back(node);
-    }
-    carriers.nodes_of.offsets.push_back(static_cast<Index>(carriers.nodes_of.values.size()));
-    for (int a = 0; a < particles.dim; ++a) {
-      carriers.lower.push_back(grid.lower(cell, a));
-      carriers.upper.push_back(grid.upper(cell, a));
-    }
-  }
-  carriers.inside = sorted_into_rows(static_cast<Index>(cell_of.size()), [&](const auto& add) {
-    for (Index i = 0; i < particles.size(); ++i) {
-      if (particles.kind[i] == ParticleKind::ghost) continue;
-      grid.for_each_around(particles.position(i), [&](Index cell) {
-        if (element_of[cell] != no_index) add(element_of[cell], i);
-      });
-    }
-  });
-  for (std::size_t e = 0; e < cell_of.size(); ++e) {
-    carriers.first_weight.push_back(carriers.weights.size());
-    for (const Index i : carriers.inside.row(static_cast<Index>(e))) {
-      for (int local = 0; local < grid.nodes_per_cell(); ++local) {
-        carriers.weights.push_back(grid.weight(cell_of[e], local, particles.position(i)));
-      }
-    }
-  }
-  return carriers;
+  return fill_carriers(particles, faces, Grid(particles.dim, divisions, order, tolerance));
 }
 
 }  // namespace perilink

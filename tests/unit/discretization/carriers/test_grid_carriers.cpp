@@ -30,7 +30,7 @@ Particles block(int dim, int columns, int rows, int layers = 1) {
   return particles;
 }
 
-TEST(Carriers, OneElementPerCellWithItsBorder) {
+TEST(GridCarriers, OneElementPerCellWithItsBorder) {
   const Particles particles = block(2, 9, 5);
   const Carriers carriers = carriers_on_grid(particles, {}, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6);
   ASSERT_EQ(carriers.size(), 2);
@@ -62,7 +62,7 @@ void expect_polynomials(const Particles& particles, const Carriers& carriers, in
   }
 }
 
-TEST(Carriers, ShapeFunctionsReproducePolynomials) {
+TEST(GridCarriers, ShapeFunctionsReproducePolynomials) {
   const Particles plane = block(2, 9, 7), space = block(3, 5, 4, 7);
   for (const int order : {1, 2}) {
     const Carriers flat = carriers_on_grid(plane, {}, {{{0, 3.5, 8}, {0, 6}, {}}}, order, 1e-6);
@@ -74,7 +74,7 @@ TEST(Carriers, ShapeFunctionsReproducePolynomials) {
   }
 }
 
-TEST(Carriers, LeavesOutCellsThatAFaceCuts) {
+TEST(GridCarriers, LeavesOutCellsThatAFaceCuts) {
   const Particles particles = block(2, 9, 5);
   const std::vector<double> faces = {1.5, 1.0, 4.0, 0.5};  // inside the first; between the two
   const Carriers carriers = carriers_on_grid(particles, faces, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6);
@@ -82,7 +82,7 @@ TEST(Carriers, LeavesOutCellsThatAFaceCuts) {
   EXPECT_EQ(carriers.lower.front(), 4.0);
 }
 
-TEST(Carriers, LeavesOutCellsWithoutParticlesInside) {
+TEST(GridCarriers, LeavesOutCellsWithoutParticlesInside) {
   const Particles particles = block(2, 5, 5);
   EXPECT_EQ(carriers_on_grid(particles, {}, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6).size(), 1);
 }
