@@ -37,51 +37,70 @@ std::vector<std::uint8_t> nodes_held_by(const Carriers& carriers, Index element,
   return held;
 }
 
-/// Components of nodes that supports of particles in these elements hold, shape (nodes, width).
-std::vector<std::uint8_t> held_nodes(const Carriers& carriers, const Unknowns& free,
-                                     std::span<const std::uint8_t> elements) {
-  std::vector<std::uint8_t> held(static_cast<std::size_t>(carriers.num_nodes()) * free.width, 0);
+/// Components of nodes that supports hold, shape (nodes, width).
+using HeldNodes = std::vector<std::uint8_t>;
+
+HeldNodes none_held(const Carriers& carriers, const Unknowns& free) {
+  return HeldNodes(static_cast<std::size_t>(carriers.num_nodes()) * free.width, 0);
+}
+
+/// Adds what the particles of an element hold.
+void hold_nodes(const Carriers& carriers, const Unknowns& free, Index element, HeldNodes& held) {
+  const auto nodes = carriers.nodes_of.row(element);
+  const auto inside = carriers.inside.row(element);
   std::vector<std::size_t> places;
-  for (Index e = 0; e < carriers.size(); ++e) {
-    if (elements[e] == 0) continue;
-    const auto nodes = carriers.nodes_of.row(e);
-    const auto inside = carriers.inside.row(e);
+  for (int a = 0; a < free.width; ++a) {
+    places.clear();
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      const std::size_t slot = slot_of(free, inside[k], a);
+      if (free.number[slot] == no_index && free.prescribed[slot] == 0.0) places.push_back(k);
+    }
+    if (places.empty()) continue;
+    const std::vector<std::uint8_t> own = nodes_held_by(carriers, element, places);
+    for (std::size_t c = 0; c < nodes.size(); ++c) held[slot_of(free, nodes[c], a)] |= own[c];
+  }
+}
+
+/// Whether all particles of an element are held, and the others move, as its nodes make them.
+bool fits(const Carriers& carriers, const Unknowns& free, Index element, const HeldNodes& held) {
+  const auto nodes = carriers.nodes_of.row(element);
+  const auto inside = carriers.inside.row(element);
+  for (std::size_t k = 0; k < inside.size(); ++k) {
+    const auto weights = carriers.weights_at(element, k);
     for (int a = 0; a < free.width; ++a) {
-      places.clear();
-      for (std::size_t k = 0; k < inside.size(); ++k) {
-        const std::size_t slot = slot_of(free, inside[k], a);
-        if (free.number[slot] == no_index && free.prescribed[slot] == 0.0) places.push_back(k);
+      bool moves = false;
+      for (std::size_t c = 0; c < nodes.size(); ++c) {
+        moves |= std::abs(weights[c]) > negligible && held[slot_of(free, nodes[c], a)] == 0;
       }
-      if (places.empty()) continue;
-      const std::vector<std::uint8_t> own = nodes_held_by(carriers, e, places);
-      for (std::size_t c = 0; c < nodes.size(); ++c) held[slot_of(free, nodes[c], a)] |= own[c];
+      const bool particle_moves = free.at(inside[k], a) != no_index;
+      const bool driven = free.prescribed[slot_of(free, inside[k], a)] != 0.0;
+      if (driven || moves != particle_moves) return false;
     }
   }
-  return held;
+  return true;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> fit_supports(const Carriers& carriers, const Unknowns& free) {
-  std::vector<std::uint8_t> fits(static_cast<std::size_t>(carriers.size()), 1);
-  const std::vector<std::uint8_t> held = held_nodes(carriers, free, fits);
+  std::vector<std::uint8_t> fitting(static_cast<std::size_t>(carriers.size()), 0);
+  HeldNodes own = none_held(carriers, free), held = own;
   for (Index e = 0; e < carriers.size(); ++e) {
-    const auto nodes = carriers.nodes_of.row(e);
-    const auto inside = carriers.inside.row(e);
-    for (std::size_t k = 0; k < inside.size(); ++k) {
-      const auto weights = carriers.weights_at(e, k);
+    hold_nodes(carriers, free, e, own);
+    fitting[e] = fits(carriers, free, e, own);
+    // What an element holds that does not fit by itself counts for no other.
+    for (const Index node : carriers.nodes_of.row(e)) {
       for (int a = 0; a < free.width; ++a) {
-        bool moves = false;
-        for (std::size_t c = 0; c < nodes.size(); ++c) {
-          moves |= std::abs(weights[c]) > negligible && held[slot_of(free, nodes[c], a)] == 0;
-        }
-        const bool particle_moves = free.at(inside[k], a) != no_index;
-        const bool driven = free.prescribed[slot_of(free, inside[k], a)] != 0.0;
-        if (driven || moves != particle_moves) fits[e] = 0;
+        const std::size_t slot = slot_of(free, node, a);
+        if (fitting[e] != 0) held[slot] |= own[slot];
+        own[slot] = 0;
       }
     }
   }
-  return fits;
+  for (Index e = 0; e < carriers.size(); ++e) {
+    if (fitting[e] != 0) fitting[e] = fits(carriers, free, e, held);
+  }
+  return fitting;
 }
 
 std::vector<Index> carrier_of_particles(const Carriers& carriers,
@@ -105,7 +124,10 @@ Unknowns carried_motion(const Carriers& carriers, const Unknowns& free,
     held[slot] = free.number[slot] == no_index || carrier[slot / free.width] != no_index ? 1 : 0;
   }
   Unknowns unknowns = number_unknowns(free.width, held, free.prescribed);
-  const std::vector<std::uint8_t> node_held = held_nodes(carriers, free, whole);
+  HeldNodes node_held = none_held(carriers, free);
+  for (Index e = 0; e < carriers.size(); ++e) {
+    if (whole[e] != 0) hold_nodes(carriers, free, e, node_held);
+  }
   std::vector<Index> number(node_held.size(), no_index);
   std::vector<Unknowns::Share> shares;
   for (Index e = 0; e < carriers.size(); ++e) {

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "app/model/from_case/configure.hpp"
+#include "app/run/damage_run.hpp"
 #include "app/run/quasistatic.hpp"
+#include "io/fields/vtu.hpp"
 #include "support/simplex_meshes.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -215,7 +217,7 @@ struct Events final : StepObserver {
   }
 };
 
-DamageResult run(const std::string& text, Events& events) {
+DamageResult run_case_of(const std::string& text, Events& events) {
   const CaseFile input = parse_case(text, "beam.toml");
   const Model model = build_model(input);
   return run_damage_analysis(model, damage_options(input, 1), events);
@@ -223,8 +225,8 @@ DamageResult run(const std::string& text, Events& events) {
 
 TEST(Carriers, ConversionKeepsTheEventsAndTheEnergies) {
   Events free, carried;
-  const DamageResult all = run(beam_case(""), free);
-  const DamageResult some = run(beam_case("[elements]\nspacings = 4\n"), carried);
+  const DamageResult all = run_case_of(beam_case(""), free);
+  const DamageResult some = run_case_of(beam_case("[elements]\nspacings = 4\n"), carried);
   EXPECT_EQ(some.ending, all.ending) << some.reason;
   EXPECT_GT(some.conversions, 0);
   EXPECT_EQ(some.late_conversions, 0);
@@ -285,8 +287,8 @@ broken_bonds = 40
 
 TEST(Carriers, BondsOfConcreteKeepTheirLimitsWhenTheyAreFreed) {
   Events free, carried;
-  const DamageResult all = run(concrete_plate(""), free);
-  const DamageResult some = run(concrete_plate("[elements]\nspacings = 4\n"), carried);
+  const DamageResult all = run_case_of(concrete_plate(""), free);
+  const DamageResult some = run_case_of(concrete_plate("[elements]\nspacings = 4\n"), carried);
   EXPECT_NEAR(some.peak_load, all.peak_load, 0.01 * all.peak_load);
   EXPECT_NEAR(carried.load_factors[0], free.load_factors[0], 0.02 * free.load_factors[0]);
   EXPECT_EQ(carried.elements[0], free.elements[0]);
@@ -316,8 +318,8 @@ TEST_P(CarriedFeatures, AreThoseOfFreeParticles) {
     return text;
   };
   Events free, carried;
-  const DamageResult all = run(with(""), free);
-  const DamageResult some = run(with("[elements]\nspacings = 4\n"), carried);
+  const DamageResult all = run_case_of(with(""), free);
+  const DamageResult some = run_case_of(with("[elements]\nspacings = 4\n"), carried);
   EXPECT_EQ(some.ending, all.ending) << some.reason << " / " << all.reason;
   EXPECT_GT(some.conversions, 0);
   EXPECT_EQ(some.late_conversions, 0);
@@ -377,12 +379,55 @@ INSTANTIATE_TEST_SUITE_P(
         Feature{"two_tips", {}, "[[cracks]]\npoints = [[71, -1], [71, 11]]\n"}),
     [](const auto& feature) { return std::string(feature.param.name); });
 
+/// An alert as late as this, and no halo, miss bonds that are past their limit.
+const std::string late_elements = "[elements]\nspacings = 4\nalert = 0.99\nhalo = 0.01\n";
+
+TEST(Carriers, LateConversionsAreCounted) {
+  const CaseFile input = parse_case(beam_case(late_elements), "beam.toml");
+  const Model model = build_model(input);
+  DamageOptions options = damage_options(input, 1);
+  Events events;
+  EXPECT_EQ(run_damage_analysis(model, options, events).late_conversions, 1);
+  options.begins_again = true;
+  try {
+    run_damage_analysis(model, options, events);
+    FAIL() << "began with an element too many";
+  } catch (const LateConversion& late) {
+    const auto whole = [](const std::vector<std::uint8_t>& flags) {
+      return std::count(flags.begin(), flags.end(), 1);
+    };
+    EXPECT_LT(whole(late.whole), whole(model.carried->whole));
+  }
+}
+
+/// The history is that of the run that needed no elements too many; the beginnings leave nothing.
+TEST(Carriers, ARunBeginsAgainAfterALateConversion) {
+  const test::TemporaryDirectory work;
+  const CaseFile input =
+      parse_case(beam_case(late_elements + "[output]\nfields_every = 40\n"), "beam.toml");
+  DamageRun run(input, 1, true);
+  RunFiles& files = run.open(work.path(), true);
+  run.analyse();
+  files.finish();
+  Events free;
+  const DamageResult all = run_case_of(beam_case(""), free);
+  const std::vector<StepRecord> rows = read_history((work / "history.csv").string());
+  ASSERT_EQ(rows.size(), free.elements.size());
+  double peak = 0.0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(rows[k].step, static_cast<Index>(k + 1));
+    peak = std::max(peak, rows[k].load);
+  }
+  EXPECT_NEAR(peak, all.peak_load, 0.01 * all.peak_load);
+  EXPECT_EQ(read_pvd((work / "fields.pvd").string()).size(), 4u);  // after 0, 40, 80 and 120
+}
+
 TEST(Carriers, StepsConvertWhatTheyReachAlone) {
   std::string steps = beam_case(
       "[elements]\nspacings = 4\nalert = 0.9\n[analysis]\n"
       "control = \"steps\"\nload_factors = [1e-4, 2e-4]\n");
   Events events;
-  const DamageResult result = run(steps, events);
+  const DamageResult result = run_case_of(steps, events);
   EXPECT_EQ(result.conversions, 0);
 }
 

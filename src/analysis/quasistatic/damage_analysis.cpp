@@ -149,7 +149,9 @@ void EventRun::note_late_conversions(const Event& event, double sense) {
     const bool freed = std::binary_search(bonds.begin(), bonds.end(), event.element);
     const bool earlier =
         event.avalanche || sense * (alert - event.load_factor) > tie_tolerance * std::abs(alert);
-    if (events_ > 0 && freed && earlier) ++result_.late_conversions;
+    if (row_.step == 0 || !freed || !earlier) continue;
+    if (options_.begins_again) throw LateConversion{conversion_->whole()};
+    ++result_.late_conversions;
   }
   freed_.clear();
 }

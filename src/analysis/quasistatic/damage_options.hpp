@@ -52,6 +52,15 @@ struct DamageOptions {
   /// Asked after each row: unknowns that move the particles from now on, which must outlive the
   /// run; null: those of before. Empty: they never change.
   std::function<const Unknowns*(StateSource&)> new_motion;
+  /// Whether a conversion that comes late ends the analysis by a LateConversion, so that it begins
+  /// again; otherwise these are counted.
+  bool begins_again = false;
+};
+
+/// A bond that finite elements let go of was past its limit before: the analysis has to begin again
+/// with these elements alone.
+struct LateConversion {
+  std::vector<std::uint8_t> whole;  ///< as CarriedBody::whole
 };
 
 struct DamageResult {
@@ -68,8 +77,8 @@ struct DamageResult {
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;
   Index conversions = 0;  ///< times that finite elements let go of particles
-  /// Conversions after which a bond was farther beyond its limit than the alert allowed for: it
-  /// may have failed before, unseen.
+  /// Conversions after which a bond was farther beyond its limit than the alert allowed for: it may
+  /// have failed before, unseen.
   Index late_conversions = 0;
   Index elements = 0;  ///< that carry particles now
   Index unknowns = 0;  ///< now

@@ -41,6 +41,7 @@ class EventRun {
   EventRun(const LoadedNetwork& problem, const DamageOptions& options, StepObserver& observer);
   EventRun(const EventRun&) = delete;
 
+  /// \throws LateConversion  if the options want it
   DamageResult go();
   /// \throws SolverError where the body as it is at first finds none
   void require_equilibrium() { check(); }

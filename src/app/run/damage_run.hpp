@@ -14,9 +14,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
  public:
   DamageRun(const CaseFile& of_case, int on_threads, bool quiet);
 
-  void analyse() override {
-    result_ = run_damage_analysis(model_, damage_options(input, threads), *this);
-  }
+  void analyse() override;
   Verdict verdict() override { return {result_.ending, result_.reason}; }
   void tell(Summary& summary) const override;
 
@@ -28,14 +26,16 @@ class DamageRun final : public NetworkRun, public StepObserver {
   double scale_of(const StepRecord& record) const;
   void note_places(const StepRecord& record, StateSource& source);
   void tell_elements(Summary& summary) const;
+  void begin_again(const LateConversion& late);
   void note_broken(const StepRecord& record, StateSource& source);
   bool wants_fields(Index broken_bonds) const;
   void write_state(const StepRecord& record, StateSource& source);
   void show_progress(const StepRecord& record);
 
   DamageResult result_;
-  Csr families_;               ///< made with the first field file
-  std::vector<Index> broken_;  ///< bonds and ties, in the order of breaking
+  Index late_conversions_ = 0;  ///< after each of which the run began again
+  Csr families_;                ///< made with the first field file
+  std::vector<Index> broken_;   ///< bonds and ties, in the order of breaking
   std::vector<std::uint8_t> is_broken_;
   Index last_element_ = no_index;   ///< that failed at the end of the last row
   Index broken_at_fields_ = 0;      ///< number of broken bonds in the last field file

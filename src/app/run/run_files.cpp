@@ -29,19 +29,28 @@ RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, bool 
     : input_(input),
       directory_(std::move(directory)),
       bar_(quiet),
-      history_(directory_.string(), input),
+      history_(std::in_place, directory_.string(), input),
       peaks_(is_relaxation(input) ? 1 : vibrating_rows) {}
 
 void RunFiles::add_row(const StepRecord& record, std::span<const double> gauges) {
-  history_.append(record, gauges);
+  history_->append(record, gauges);
   ++rows_;
 }
 
 void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gauges) {
-  history_.append(record, gauges);
+  history_->append(record, gauges);
   ++rows_;
   const bool intact = record.broken_bonds == 0 && record.cracked_particles == 0;
   peaks_.add({record.displacement, record.load}, intact);
+}
+
+void RunFiles::begin_again() {
+  history_.reset();
+  history_.emplace(directory_.string(), input_);
+  for (const PvdEntry& entry : series_) std::filesystem::remove(directory_ / entry.file);
+  series_.clear();
+  std::filesystem::remove(directory_ / "fields.pvd");
+  rows_ = 0;
 }
 
 bool RunFiles::fields_are_due(double time) {
@@ -71,7 +80,7 @@ void RunFiles::show_steps(const ExplicitRecord& record, Index steps) {
 
 void RunFiles::finish() {
   bar_.finish();
-  history_.finish();
+  history_->finish();
 }
 
 }  // namespace perilink

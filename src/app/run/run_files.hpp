@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ class RunFiles {
   /// \param gauges  their values, in the order of the case
   void add_row(const StepRecord& record, std::span<const double> gauges);
   void add_row(const ExplicitRecord& record, std::span<const double> gauges);
+  /// Takes back all rows and field files. \throws FileError
+  void begin_again();
   /// Whether the row over time that was added last is one whose fields the case asks for: the
   /// first, the first at or after each of output.fields_times, of a relaxation every one.
   bool fields_are_due(double time);
@@ -49,7 +52,7 @@ class RunFiles {
   const CaseFile& input_;
   std::filesystem::path directory_;
   ProgressBar bar_;
-  HistoryFile history_;
+  std::optional<HistoryFile> history_;
   Index rows_ = 0;
   PeakWatch peaks_;
   std::size_t next_time_ = 0;  ///< next entry of the case's output.fields_times

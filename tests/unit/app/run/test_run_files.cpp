@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "support/cracked_field.hpp"
 #include "support/temporary_directory.hpp"
@@ -58,6 +60,23 @@ TEST(RunFiles, AStateIsWrittenOnce) {
 }
 
 /// Loads of explicit runs vibrate: one row below half of the peak says nothing.
+TEST(RunFiles, BeginAgainWithoutFormerRowsAndFields) {
+  const test::TemporaryDirectory work;
+  const CaseFile input = case_of(AnalysisType::explicit_);
+  RunFiles files(input, work.path(), true);
+  files.add_row(ExplicitRecord{}, {});
+  files.write_fields(7, 0.5, [] { return test::make_cracked_field({}, true); });
+  files.begin_again();
+  EXPECT_EQ(files.rows(), 0);
+  EXPECT_FALSE(files.has_fields());
+  EXPECT_FALSE(std::filesystem::exists(work / "fields_000007.vtu"));
+  EXPECT_FALSE(std::filesystem::exists(work / "fields.pvd"));
+  files.add_row(ExplicitRecord{}, {});
+  files.finish();
+  const std::string text = test::read_text(work / "history.csv");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+}
+
 TEST(RunFiles, FollowThePeaksOfRunsOverTime) {
   const test::TemporaryDirectory work;
   for (const AnalysisType type : {AnalysisType::explicit_, AnalysisType::relaxation}) {
