@@ -25,8 +25,8 @@ struct FactorStatistics {
 };
 
 /// Cholesky factor of a symmetric positive definite matrix K that follows changes of low rank, and
-/// a solution u of K u = f with it. It is looked at by solve(), columns(), compliance() and pivot(),
-/// in any order, and changed by downdate() and update(); it keeps no load and no solution.
+/// a solution u of K u = f with it. It is looked at by solve(), columns(), compliance() and
+/// pivot(), in any order, and changed by downdate() and update(); it keeps no load, no solution.
 class Factor {
  public:
   virtual ~Factor() = default;

@@ -232,7 +232,7 @@ void InPlaceFactor::clear_path() {
 /// D of K -+ x x' on the path, whose recurrence is a chain of scalars, and what the change of the
 /// columns needs; sets vector_ to the right-hand side D^-1 p (old D) of the backward pass.
 void InPlaceFactor::start_change(double sign) {
-  on_path_of_ = {};  // of the factor as it is now
+  on_path_of_ = {};  // p_ is that of the factor before the change
   std::fill(vector_.begin(), vector_.end(), 0.0);
   double sigma = sign;
   for (const Index s : path_) {
