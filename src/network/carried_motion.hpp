@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct CarriedBody {
   /// An element is converted before the next event where one of its bonds has come to this fraction
   /// of its limit, at the load factor of that event [-].
   double alert = 0.5;
+  /// Instead: where its mean principal strain has come to this [-].
+  std::optional<double> alert_strain = {};
   double halo = 0.0;  ///< elements within this distance of one that converts do so too [length]
 };
 

@@ -299,6 +299,7 @@ struct Feature {
   const char* name;
   std::vector<std::pair<std::string, std::string>> edits;
   std::string more;
+  std::string elements = "";  ///< more keys of theirs
 };
 
 void PrintTo(const Feature& feature, std::ostream* out) { *out << feature.name; }
@@ -319,7 +320,8 @@ TEST_P(CarriedFeatures, AreThoseOfFreeParticles) {
   };
   Events free, carried;
   const DamageResult all = run_case_of(with(""), free);
-  const DamageResult some = run_case_of(with("[elements]\nspacings = 4\n"), carried);
+  const DamageResult some =
+      run_case_of(with("[elements]\nspacings = 4\n" + GetParam().elements), carried);
   EXPECT_EQ(some.ending, all.ending) << some.reason << " / " << all.reason;
   EXPECT_GT(some.conversions, 0);
   EXPECT_EQ(some.late_conversions, 0);
@@ -376,6 +378,8 @@ INSTANTIATE_TEST_SUITE_P(
                 {},
                 "[[rebar]]\nfrom = [4, 4]\nto = [156, 4]\nyoungs_modulus = 2e5\narea = 4\n"
                 "yield_strength = 500\n"},
+        // Bonds break at 3.9e-4.
+        Feature{"strains", {}, "", "alert_strain = 1e-4\n"},
         Feature{"two_tips", {}, "[[cracks]]\npoints = [[71, -1], [71, 11]]\n"}),
     [](const auto& feature) { return std::string(feature.param.name); });
 

@@ -1,6 +1,7 @@
 #include "analysis/quasistatic/conversion.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace perilink {
@@ -68,13 +69,54 @@ std::vector<std::uint8_t> Conversion::with_halo(const std::vector<std::uint8_t>&
   return marked;
 }
 
-const Unknowns& Conversion::convert(std::span<const Index> bonds) {
-  std::vector<std::uint8_t> alarmed(whole_.size(), 0);
+std::vector<std::uint8_t> Conversion::carriers_of(std::span<const Index> bonds) const {
+  std::vector<std::uint8_t> elements(whole_.size(), 0);
   for (const Index bond : bonds) {
     for (const Index i : {network_.bonds.first[bond], network_.bonds.second[bond]}) {
-      if (carrier_[i] != no_index) alarmed[carrier_[i]] = 1;
+      if (carrier_[i] != no_index) elements[carrier_[i]] = 1;
     }
   }
+  return elements;
+}
+
+double Conversion::alert() const {
+  return strains() ? std::numeric_limits<double>::infinity() : body_.alert;
+}
+
+auto Conversion::strained(std::span<const double> motion, double fraction) -> Strained {
+  if (strains_.empty()) {
+    std::vector<Index> can_fail;
+    std::vector<std::uint8_t> has_such(carrier_.size(), 0);
+    for (Index bond = 0; bond < network_.num_elements(); ++bond) {
+      if (!network_.has_limit(bond)) continue;
+      can_fail.push_back(bond);
+      has_such[network_.bonds.first[bond]] = has_such[network_.bonds.second[bond]] = 1;
+    }
+    const std::vector<std::uint8_t> elements = carriers_of(can_fail);
+    for (Index e = 0; e < body_.carriers.size(); ++e) {
+      if (elements[e] == 0) continue;
+      std::vector<Index> inside;
+      for (const Index i : body_.carriers.inside.row(e)) {
+        if (has_such[i] != 0) inside.push_back(i);
+      }
+      strains_.emplace_back(network_.particles, e, inside);
+    }
+  }
+  std::vector<double> strain;
+  double largest = 0.0;
+  for (const ElementStrain& element : strains_) {
+    const bool whole = whole_[element.number()] != 0;
+    strain.push_back(whole ? element.principal(motion, network_.width()) : 0.0);
+    largest = std::max(largest, strain.back());
+  }
+  Strained found{std::vector<std::uint8_t>(whole_.size(), 0), *body_.alert_strain / largest};
+  for (std::size_t k = 0; k < strains_.size(); ++k) {
+    if (largest > 0.0 && strain[k] >= fraction * largest) found.elements[strains_[k].number()] = 1;
+  }
+  return found;
+}
+
+const Unknowns& Conversion::convert(const std::vector<std::uint8_t>& alarmed) {
   const std::vector<std::uint8_t> marked = with_halo(alarmed);
   for (std::size_t e = 0; e < whole_.size(); ++e) {
     if (marked[e] == 0) continue;

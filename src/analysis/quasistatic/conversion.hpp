@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/quasistatic/element_strain.hpp"
 #include "network/carried_motion.hpp"
 #include "network/network.hpp"
 
@@ -13,7 +14,9 @@ namespace perilink {
 /// The finite elements that go on carrying particles. A bond with a carried end does not fail: it
 /// has an alert instead, at a fraction of its limit, and what comes next in the search is the
 /// element around it, which lets go of its particles. So every bond that fails has two free ends,
-/// and none that might have failed before it is left in an element.
+/// and none that might have failed before it is left in an element. Where the body asks for it, the
+/// mean principal strain of the element gives the alert instead (Gerstle, Sau & Aguilera 2007,
+/// section 7).
 class Conversion {
  public:
   /// \param body  must outlive this
@@ -30,9 +33,25 @@ class Conversion {
   /// \param free  how they would without elements, where they move freely; must outlive this
   const Unknowns& hold(const Unknowns& free);
 
-  /// Converts the elements that carry these bonds, and those around them.
+  /// Fraction of its limit at which a carried bond gives the alert; infinity where strains do.
+  double alert() const;
+  /// Whether strains of elements give the alert.
+  bool strains() const { return body_.alert_strain.has_value(); }
+  struct Strained {
+    std::vector<std::uint8_t> elements;  ///< per element
+    double load_factor;                  ///< of the first; infinity: there is none
+  };
+  /// The whole elements whose strain comes to the alert first, of those with bonds that can fail.
+  /// \param motion    at load factor 1, shape (particles, width); right where bonds can fail
+  /// \param fraction  elements that have come this near to it then count too
+  Strained strained(std::span<const double> motion, double fraction);
+
+  /// Per element, whether it carries one of these bonds.
+  std::vector<std::uint8_t> carriers_of(std::span<const Index> bonds) const;
+
+  /// Converts these elements, and those around them.
   /// \return how the particles move from now on, valid until the call after the next one
-  const Unknowns& convert(std::span<const Index> bonds);
+  const Unknowns& convert(const std::vector<std::uint8_t>& alarmed);
   /// Bonds that the last call set free, ascending.
   const std::vector<Index>& freed() const { return freed_; }
   /// Per element, whether it carries its particles.
@@ -53,6 +72,7 @@ class Conversion {
   std::vector<Index> by_lower_x_;  ///< elements in the order of their lower ends along x
   double widest_ = 0.0;            ///< largest width of an element along x [length]
   std::vector<Index> freed_;
+  std::vector<ElementStrain> strains_;  ///< of elements with bonds that can fail; empty: not asked
   std::unique_ptr<Unknowns> present_, former_;
 };
 

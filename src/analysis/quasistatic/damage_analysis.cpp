@@ -37,7 +37,7 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options,
   if (problem.carried) {
     conversion_.emplace(network_, *problem.carried);
     state_.elements = &*conversion_;
-    engine_->set_alert(conversion_->carried_bonds(), problem.carried->alert);
+    engine_->set_alert(conversion_->carried_bonds(), conversion_->alert());
     result_.elements = conversion_->num_whole();
   }
   const LoadWork work = begin_work();
@@ -119,41 +119,6 @@ void EventRun::adopt(const Unknowns& unknowns) {
   energy_.add_freedom(freedom);
   compliance_ += freedom.growth;
   check();
-}
-
-/// Whether the event is not one yet: a bond that a finite element carries has come near its limit,
-/// and the element lets go of its particles first, with all others as near.
-bool EventRun::converts(const Event& event, double sense) {
-  if (!conversion_ || event.element == no_index || event.changes_side) return false;
-  if (!conversion_->is_carried(event.element)) {
-    note_late_conversions(event, sense);
-    return false;
-  }
-  constexpr double as_near = 0.9;
-  std::vector<Index> near = engine_->near_events(event, as_near);
-  near.push_back(event.element);
-  const Unknowns& unknowns = conversion_->convert(near);
-  adopt(unknowns);
-  engine_->set_alert(conversion_->freed(), 1.0);
-  freed_.emplace_back(conversion_->freed(), event.load_factor);
-  ++result_.conversions;
-  result_.unknowns = unknowns.count;
-  result_.elements = conversion_->num_whole();
-  return true;
-}
-
-/// A freed bond that fails before the load factor at which the alert came was beyond its limit by
-/// more than the alert allows for.
-void EventRun::note_late_conversions(const Event& event, double sense) {
-  for (const auto& [bonds, alert] : freed_) {
-    const bool freed = std::binary_search(bonds.begin(), bonds.end(), event.element);
-    const bool earlier =
-        event.avalanche || sense * (alert - event.load_factor) > tie_tolerance * std::abs(alert);
-    if (row_.step == 0 || !freed || !earlier) continue;
-    if (options_.begins_again) throw LateConversion{conversion_->whole()};
-    ++result_.late_conversions;
-  }
-  freed_.clear();
 }
 
 /// What round-off leaves grows in proportion to the displacements, which forces make without bound
@@ -309,7 +274,7 @@ DamageResult EventRun::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
     Event event = engine_->next_event();
-    while (event.load_factor <= load_factor && converts(event)) event = engine_->next_event();
+    while (converts(event, 1.0, load_factor)) event = engine_->next_event();
     Index last = no_index;
     while (event.element != no_index && event.load_factor <= load_factor) {
       energy_.advance(load_factor, engine_->load_work());
@@ -334,7 +299,7 @@ DamageResult EventRun::by_steps() {
         return finish();
       }
       event = engine_->next_event();
-      while (event.load_factor <= load_factor && converts(event)) event = engine_->next_event();
+      while (converts(event, 1.0, load_factor)) event = engine_->next_event();
     }
     record(load_factor, engine_->load_work(), last);
     if (stop_rule_met()) return finish();

@@ -65,7 +65,10 @@ class EventRun {
   void look_after(const EventOutcome& outcome);
   void follow_motion();
   void adopt(const Unknowns& unknowns);
-  bool converts(const Event& event, double sense = 1.0);
+  // Finite elements that let go of particles: converting_run.cpp.
+  bool converts(const Event& event, double sense = 1.0,
+                double most = std::numeric_limits<double>::infinity());
+  void take_over(const Unknowns& unknowns, double load_factor);
   void note_late_conversions(const Event& event, double sense);
   bool residual_may_be_large() const;
   int check_interval() const;

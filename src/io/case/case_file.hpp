@@ -212,6 +212,7 @@ struct ElementsSection {
   std::vector<std::string> regions;    ///< with elements; empty: the whole body
   std::vector<std::string> particles;  ///< regions without
   double alert = 0.5;  ///< part of its limit that a bond reaches before its element converts
+  std::optional<double> alert_strain;  ///< principal strain that an element reaches then instead
   std::optional<double> halo;  ///< around an element that is converted; absent: a horizon [length]
 };
 

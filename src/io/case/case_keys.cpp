@@ -268,6 +268,7 @@ const std::vector<TableSchema>& case_schema() {
         "regions",
         "particles",
         {"alert", set_aside(elastic)},
+        {"alert_strain", set_aside(elastic)},
         {"halo", set_aside(elastic)}},
        carriers},
       {"gauges", true, {"name", "between", "at", "region", "axis", "stress"}},

@@ -35,6 +35,9 @@ class EventEngine {
   /// width), prescribed ones and all: equilibrium of the network as it stands.
   virtual std::span<const double> displacement() = 0;
 
+  /// Those that are right wherever an element can fail, and cost nothing.
+  virtual std::span<const double> where_elements_fail() const = 0;
+
   virtual LoadWork load_work() = 0;
 
   /// Present stiffness of every element as a fraction of the intact one.

@@ -18,6 +18,9 @@ class SingleEventEngine : public EventEngine {
   Event next_event() override;
   EventOutcome apply(const Event& event) override;
   std::span<const double> displacement() override { return equilibrium_.displacement(); }
+  std::span<const double> where_elements_fail() const override {
+    return equilibrium_.where_elements_fail();
+  }
   LoadWork load_work() override { return equilibrium_.work(); }
   Secants secants() const override { return equilibrium_.secants(); }
   Balance check_equilibrium() override { return equilibrium_.check(); }

@@ -184,6 +184,7 @@ void carry_particles(const CaseFile& input, Model& model) {
   body.carriers = find_carriers(input, model);
   body.free = std::move(model.unknowns);
   body.alert = input.elements->alert;
+  body.alert_strain = input.elements->alert_strain;
   body.halo = input.elements->halo.value_or(model.horizon);
   const std::vector<std::uint8_t> carry = particles_to_carry(input, model);
   const std::vector<std::uint8_t> cracked = cracked_elements(input, model, body.carriers);

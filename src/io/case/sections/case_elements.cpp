@@ -20,6 +20,10 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
   assign(elements.regions, table.texts("regions"));
   assign(elements.particles, table.texts("particles"));
   assign(elements.alert, table.fraction("alert"));
+  elements.alert_strain = table.positive("alert_strain");
+  if (elements.alert_strain && table.has("alert")) {
+    table.refuse("alert_strain", "is given beside `alert`", "delete one of the two");
+  }
   elements.halo = table.positive("halo");
   return elements;
 }
@@ -34,6 +38,12 @@ void check_elements(const CaseFile& input) {
                     quoted(std::string(word_of(input.body.surface)))),
         "delete the line, or the table [elements]");
   }
+  if (input.elements->alert_strain && !input.stages.empty()) {
+    throw InputError(input.where("elements.alert_strain"),
+                     "is given, but the case has [[stages]], under which strains do not grow in "
+                     "proportion",
+                     "give `alert` instead");
+  }
 }
 
 void write_elements(TomlWriter& out, const ElementsSection& elements) {
@@ -45,7 +55,8 @@ void write_elements(TomlWriter& out, const ElementsSection& elements) {
   out.write("order", elements.order);
   if (!elements.regions.empty()) out.write("regions", elements.regions);
   if (!elements.particles.empty()) out.write("particles", elements.particles);
-  out.write("alert", elements.alert);
+  if (!elements.alert_strain) out.write("alert", elements.alert);
+  out.write("alert_strain", elements.alert_strain);
   out.write("halo", elements.halo);
 }
 

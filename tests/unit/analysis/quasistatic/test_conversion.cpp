@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/model/from_case/configure.hpp"
 #include "support/strip_case.hpp"
@@ -36,7 +37,7 @@ TEST(Conversion, FreesTheElementAndItsNeighbours) {
   };
   const auto bond = std::find_if(carried.begin(), carried.end(), in_the_middle);
   ASSERT_NE(bond, carried.end());
-  const Unknowns& motion = conversion.convert(std::vector<Index>{*bond});
+  const Unknowns& motion = conversion.convert(conversion.carriers_of({{*bond}}));
   EXPECT_EQ(conversion.num_whole(), before - 9) << "those that it touches";
   EXPECT_GT(motion.count, model.unknowns.count);
   EXPECT_FALSE(conversion.is_carried(*bond));
@@ -50,10 +51,31 @@ TEST(Conversion, FreesTheElementAndItsNeighbours) {
 TEST(Conversion, EndsWithTheMotionOfFreeParticles) {
   const Model model = strip_model();
   Conversion conversion(model.network, *model.carried);
-  const Unknowns& motion = conversion.convert(conversion.carried_bonds());
+  const Unknowns& motion = conversion.convert(conversion.carriers_of(conversion.carried_bonds()));
   EXPECT_EQ(conversion.num_whole(), 0);
   EXPECT_FALSE(motion.carries());
   EXPECT_EQ(motion.number, model.carried->free.number);
+}
+
+/// A strain of 0.02 along y in the lower half, 0.01 in the upper one.
+TEST(Conversion, FindsTheElementsThatAreStrainedTheMost) {
+  Model model = strip_model();
+  model.carried->alert_strain = 0.03;
+  Conversion conversion(model.network, *model.carried);
+  EXPECT_TRUE(std::isinf(conversion.alert())) << "bonds give none";
+  std::vector<double> motion;
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    const double y = model.network.particles.position(i)[1];
+    motion.insert(motion.end(), {0.0, y < 40.0 ? 0.02 * y : 0.4 + 0.01 * y});
+  }
+  const auto [elements, load_factor] = conversion.strained(motion, 0.9);
+  EXPECT_NEAR(load_factor, 1.5, 1e-12);
+  for (Index e = 0; e < model.carried->carriers.size(); ++e) {
+    const bool lower = model.carried->carriers.upper[static_cast<std::size_t>(e) * 2 + 1] < 41.0;
+    EXPECT_EQ(elements[e] != 0, lower && conversion.whole()[e] != 0) << e;
+  }
+  conversion.convert(elements);
+  EXPECT_NEAR(conversion.strained(motion, 0.9).load_factor, 3.0, 1e-12) << "the next ones";
 }
 
 }  // namespace

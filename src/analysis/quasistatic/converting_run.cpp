@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/quasistatic/event_run.hpp"
+
+namespace perilink {
+namespace {
+
+/// What has come to this part of the alert that comes first is converted with it.
+constexpr double as_near = 0.9;
+
+}  // namespace
+
+/// Whether the event is not one yet: finite elements let go of particles first. Those that carry
+/// the bond that comes next, with all whose bonds are as near, or those that are strained the most.
+/// \param most  load factor up to which anything happens
+bool EventRun::converts(const Event& event, double sense, double most) {
+  if (!conversion_ || event.changes_side) return false;
+  const bool fails = event.element != no_index && event.load_factor <= most;
+  if (conversion_->strains()) {
+    const auto [flags, load_factor] =
+        conversion_->strained(engine_->where_elements_fail(), as_near);
+    if (load_factor <= (fails ? event.load_factor : most)) {
+      take_over(conversion_->convert(flags), load_factor);
+      return true;
+    }
+  }
+  if (!fails) return false;
+  if (!conversion_->is_carried(event.element)) {
+    note_late_conversions(event, sense);
+    return false;
+  }
+  std::vector<Index> near = engine_->near_events(event, as_near);
+  near.push_back(event.element);
+  take_over(conversion_->convert(conversion_->carriers_of(near)), event.load_factor);
+  return true;
+}
+
+/// The motion after a conversion.
+/// \param load_factor  at which the alert came
+void EventRun::take_over(const Unknowns& unknowns, double load_factor) {
+  adopt(unknowns);
+  engine_->set_alert(conversion_->freed(), 1.0);
+  freed_.emplace_back(conversion_->freed(), load_factor);
+  ++result_.conversions;
+  result_.unknowns = unknowns.count;
+  result_.elements = conversion_->num_whole();
+}
+
+/// A freed bond that fails before the load factor at which the alert came was beyond its limit by
+/// more than the alert allows for.
+void EventRun::note_late_conversions(const Event& event, double sense) {
+  for (const auto& [bonds, alert] : freed_) {
+    const bool freed = std::binary_search(bonds.begin(), bonds.end(), event.element);
+    const bool earlier =
+        event.avalanche || sense * (alert - event.load_factor) > tie_tolerance * std::abs(alert);
+    if (row_.step == 0 || !freed || !earlier) continue;
+    if (options_.begins_again) throw LateConversion{conversion_->whole()};
+    ++result_.late_conversions;
+  }
+  freed_.clear();
+}
+
+}  // namespace perilink

@@ -1,0 +1,47 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analysis/quasistatic/event_run.hpp"
+#include "app/model/from_case/configure.hpp"
+#include "support/strip_case.hpp"
+
+namespace perilink {
+namespace {
+
+struct Rows final : StepObserver {
+  std::vector<StepRecord> rows;
+  void on_step(const StepRecord& row, StateSource&) override { rows.push_back(row); }
+};
+
+/// The first events of a strip in elements of four spacings.
+DamageResult run_strip(const std::string& elements, Rows& rows) {
+  std::string text = test::strip_text;
+  text.replace(text.find("spacing = 10.0"), 14, "spacing = 2.5");
+  text.replace(text.find("horizon = 31.0"), 14, "horizon = 7.6");
+  const CaseFile input = parse_case(text + elements, "strip.toml");
+  const Model model = build_model(input);
+  DamageOptions options = damage_options(input, 1);
+  options.stop = {};
+  options.stop.broken_bonds = 10;
+  return run_damage_analysis(model, options, rows);
+}
+
+/// Elements with bonds that can fail are converted before the first of these does, all of them where
+/// hardly any strain is enough: then events are those of free particles.
+TEST(ConvertingRun, StrainsConvertElementsBeforeTheBondsInThemFail) {
+  Rows free, carried;
+  run_strip("", free);
+  const DamageResult result =
+      run_strip("[elements]\nspacings = 4\norder = 1\nalert_strain = 1e-9\n", carried);
+  EXPECT_GE(result.conversions, 1);
+  EXPECT_EQ(result.late_conversions, 0);
+  ASSERT_EQ(carried.rows.size(), free.rows.size());
+  for (std::size_t k = 0; k < free.rows.size(); ++k) {
+    EXPECT_EQ(carried.rows[k].element, free.rows[k].element);
+    EXPECT_NEAR(carried.rows[k].load, free.rows[k].load, 0.02 * free.rows[k].load);
+  }
+}
+
+}  // namespace
+}  // namespace perilink
