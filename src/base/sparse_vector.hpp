@@ -12,6 +12,7 @@ struct SparseVector {
   std::vector<Index> rows;
   std::vector<double> values;
 
+  bool operator==(const SparseVector&) const = default;
   int size() const { return static_cast<int>(rows.size()); }
 
   /// Adds to the entry of the row, which need not be there.

@@ -46,31 +46,6 @@ MicropolarModuli continuum_micropolar(Problem problem, const ElasticConstants& e
   return {6.0 * E / (pi * square * square * (1.0 - 2.0 * nu)), shear / (4.0 * pi * square)};
 }
 
-ElasticConstants elastic_constants(Problem problem, const MicropolarModuli& moduli, double horizon,
-                                   double thickness) {
-  const double square = horizon * horizon;
-  if (problem == Problem::three_dimensional) {
-    const double axial = moduli.micromodulus * square;
-    const double bending = moduli.bending_modulus;
-    const double sum = axial + 6.0 * bending;
-    return {pi * square * axial * (axial + 36.0 * bending) / (12.0 * sum),
-            (axial - 24.0 * bending) / (4.0 * sum)};
-  }
-  const double axial = moduli.micromodulus * square * thickness;
-  const double bending = moduli.bending_modulus * thickness;
-  if (problem == Problem::plane_stress) {
-    const double sum = axial + 12.0 * bending;
-    return {pi * horizon * axial * (axial + 36.0 * bending) / (9.0 * sum),
-            (axial - 36.0 * bending) / (3.0 * sum)};
-  }
-  return {pi * horizon * (axial + 36.0 * bending) * (5.0 * axial - 36.0 * bending) / (48.0 * axial),
-          (axial - 36.0 * bending) / (4.0 * axial)};
-}
-
-double uniaxial_micromodulus(double youngs_modulus, double area, double horizon) {
-  return 2.0 * youngs_modulus / (area * horizon * horizon);
-}
-
 MicropolarModuli lattice_micropolar(Problem problem, std::span<const Vector3> offsets,
                                     double cell_volume, const ElasticConstants& elastic) {
   const double E = elastic.youngs_modulus;

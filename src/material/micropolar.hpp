@@ -37,14 +37,6 @@ struct ElasticConstants {
 MicropolarModuli continuum_micropolar(Problem problem, const ElasticConstants& elastic,
                                       double horizon, double thickness);
 
-/// The way back (Gerstle, Sau & Aguilera 2007, Eqs. 16, 18 and 21).
-ElasticConstants elastic_constants(Problem problem, const MicropolarModuli& moduli, double horizon,
-                                   double thickness);
-
-/// Micromodulus of a bar of cross-section A: c = 2 E / (A delta^2) (Gerstle, Sau & Aguilera 2007,
-/// Eq. 19, printed for A = 1).
-double uniaxial_micromodulus(double youngs_modulus, double area, double horizon);
-
 /// Constants that give a particle inside the lattice the energies of the continuum in two strains:
 /// unit biaxial (hydrostatic) stretch, where bonds do not bend, settles c; unit pure shear along
 /// the lattice's axes, in three dimensions the Voigt mean of the shear modulus, settles d. With

@@ -45,6 +45,42 @@ struct FrameModes {
   }
 };
 
+/// How a bond is deformed, without the vectors of its modes: what searches and forces need, once
+/// for every bond.
+template <int Dim>
+struct FrameDeformation {
+  double extension = 0.0;
+  double shear[Dim] = {};              ///< vector across n; in the plane the first entry is along t
+  double bend[Dim == 2 ? 1 : 3] = {};  ///< relative rotation but its part about n
+  double twist = 0.0;                  ///< relative rotation about n
+
+  /// \param n          unit vector from the first end to the second
+  /// \param first_arm  from the first end to the inflection, as the second one [length]
+  /// \param i, j       motions of the first end and the second
+  [[gnu::always_inline]] FrameDeformation(const double* n, double first_arm, double second_arm,
+                                          const double* i, const double* j) {
+    if constexpr (Dim == 2) {
+      const double dx = j[0] - i[0], dy = j[1] - i[1];
+      extension = n[0] * dx + n[1] * dy;
+      shear[0] = n[0] * dy - n[1] * dx - (first_arm * i[2] + second_arm * j[2]);
+      bend[0] = j[2] - i[2];
+    } else {
+      double turn[3], arm[3];
+      for (int a = 0; a < 3; ++a) {
+        extension += n[a] * (j[a] - i[a]);
+        turn[a] = j[3 + a] - i[3 + a];
+        twist += n[a] * turn[a];
+        arm[a] = first_arm * i[3 + a] + second_arm * j[3 + a];
+      }
+      for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        shear[a] = j[a] - i[a] - n[a] * extension + n[b] * arm[c] - n[c] * arm[b];
+        bend[a] = turn[a] - n[a] * twist;
+      }
+    }
+  }
+};
+
 namespace detail {
 
 inline FrameModes<2> plane_modes(const double* n, double xi, double k, double kb,

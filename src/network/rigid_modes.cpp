@@ -112,25 +112,21 @@ int rank(const Gram& gram) {
   return static_cast<int>((eigenvalues.array() > least).count());
 }
 
-/// Rank of the rigid-body modes on all unknowns of a fragment, and on the held ones.
-struct ModeRanks {
-  int all;
-  int held;
-};
+/// Products of the rigid-body modes on all unknowns of a fragment, and on the held ones.
+struct ModeProducts {
+  Gram all = Gram::Zero(), held = Gram::Zero();
 
-ModeRanks mode_ranks(const std::vector<Index>& members, const RigidModes& modes,
-                     const std::vector<std::uint8_t>& held) {
-  Gram all = Gram::Zero();
-  Gram constrained = Gram::Zero();
-  for (const Index i : members) {
-    for (int a = 0; a < modes.components(i); ++a) {
-      const Row row = modes.row(i, a);
-      all += row * row.transpose();
-      if (held[modes.slot(i, a)]) constrained += row * row.transpose();
+  ModeProducts(const std::vector<Index>& members, const RigidModes& modes,
+               const std::vector<std::uint8_t>& is_held) {
+    for (const Index i : members) {
+      for (int a = 0; a < modes.components(i); ++a) {
+        const Row row = modes.row(i, a);
+        all += row * row.transpose();
+        if (is_held[modes.slot(i, a)]) held += row * row.transpose();
+      }
     }
   }
-  return {rank(all), rank(constrained)};
-}
+};
 
 /// Orthonormal rows that the held unknowns span.
 class HeldSpan {
@@ -187,8 +183,8 @@ std::vector<Fragment> find_fragments(const Network& network,
   }
   for (Fragment& fragment : fragments) {
     const RigidModes modes(network, rotating, fragment.particles);
-    const ModeRanks ranks = mode_ranks(fragment.particles, modes, resisted);
-    fragment.free_modes = ranks.all - ranks.held;
+    const ModeProducts products(fragment.particles, modes, resisted);
+    fragment.free_modes = rank(products.all) - rank(products.held);
   }
   return fragments;
 }
@@ -197,20 +193,14 @@ std::vector<std::vector<double>> free_motions(const Network& network, const Frag
                                               const std::vector<std::uint8_t>& held) {
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const RigidModes modes(network, rotating, fragment.particles);
-  Gram all = Gram::Zero(), constrained = Gram::Zero();
-  for (const Index i : fragment.particles) {
-    for (int a = 0; a < modes.components(i); ++a) {
-      const Row row = modes.row(i, a);
-      all += row * row.transpose();
-      if (held[modes.slot(i, a)]) constrained += row * row.transpose();
-    }
-  }
-  const Eigen::SelfAdjointEigenSolver<Gram> solver(constrained);
+  const ModeProducts products(fragment.particles, modes, held);
+  const Eigen::SelfAdjointEigenSolver<Gram> solver(products.held);
   std::vector<std::vector<double>> motions;
   for (int m = 0; m < 6; ++m) {
     const Row mode = solver.eigenvectors().col(m);
-    if (solver.eigenvalues()[m] > rank_tolerance * constrained.trace()) continue;
-    if (!(mode.dot(all * mode) > rank_tolerance * all.trace())) continue;  // moves nothing
+    if (solver.eigenvalues()[m] > rank_tolerance * products.held.trace()) continue;
+    const double moved = mode.dot(products.all * mode);
+    if (!(moved > rank_tolerance * products.all.trace())) continue;
     std::vector<double>& motion = motions.emplace_back(held.size(), 0.0);
     for (const Index i : fragment.particles) {
       for (int a = 0; a < modes.components(i); ++a) {
@@ -268,7 +258,7 @@ void pin_rigid_modes(const Network& network, const Fragment& fragment,
                      std::vector<std::uint8_t>& held) {
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const RigidModes modes(network, rotating, fragment.particles);
-  const ModeRanks ranks = mode_ranks(fragment.particles, modes, held);
+  const ModeProducts products(fragment.particles, modes, held);
   const auto unbreakable = unbreakable_particles(network);
   HeldSpan span;
   for (const Index i : fragment.particles) {
@@ -279,7 +269,7 @@ void pin_rigid_modes(const Network& network, const Fragment& fragment,
   // The unknown that the modes left free move most comes next; one of a particle that cannot be
   // torn off is taken unless its lever is a thousand times too short.
   constexpr double least_preferred = 1e-3;
-  for (int pinned = ranks.held; pinned < ranks.all; ++pinned) {
+  for (int missing = rank(products.all) - rank(products.held); missing > 0; --missing) {
     struct Best {
       double residual = 0.0;
       Index particle = no_index;

@@ -3,8 +3,10 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "base/error.hpp"
 #include "solver/dense_kernels.hpp"
@@ -138,6 +140,37 @@ std::vector<double> CholmodRoute::solve_system(int system, std::vector<double> r
 
 void CholmodRoute::solve(std::span<const double> rhs, std::span<double> solution) {
   std::ranges::copy(solve_system(CHOLMOD_A, {rhs.begin(), rhs.end()}), solution.begin());
+}
+
+std::vector<double> CholmodRoute::columns(std::span<const SparseVector> x) {
+  std::vector<double> result;
+  for (const SparseVector& column : x) {
+    std::vector<double> rhs(factor_->n, 0.0);
+    for (int k = 0; k < column.size(); ++k) rhs[column.rows[k]] = column.values[k];
+    std::ranges::copy(solve_system(CHOLMOD_A, std::move(rhs)), std::back_inserter(result));
+  }
+  return result;
+}
+
+void CholmodRoute::compliance(std::span<const SparseVector> x, std::span<double> result) {
+  const std::vector<double> motions = columns(x);
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    for (std::size_t b = 0; b < x.size(); ++b) {
+      double sum = 0.0;
+      for (int k = 0; k < x[a].size(); ++k) {
+        sum += x[a].values[k] * motions[b * factor_->n + x[a].rows[k]];
+      }
+      result[a * x.size() + b] = sum;
+    }
+  }
+}
+
+void CholmodRoute::follow(std::span<const SparseVector> x, std::span<const double> load_changes,
+                          std::span<double> solution) {
+  if (solution.empty()) return;
+  const SparseVector missing = combine(x, extensions(x, load_changes, solution));
+  const std::vector<double> motion = columns({&missing, 1});
+  for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
 }
 
 FactorStatistics CholmodRoute::statistics() const {

@@ -56,6 +56,8 @@ cholmod_dense view_column(std::span<double> values);
 class CholmodRoute : public Factor {
  public:
   void solve(std::span<const double> rhs, std::span<double> solution) override;
+  std::vector<double> columns(std::span<const SparseVector> x) override;
+  void compliance(std::span<const SparseVector> x, std::span<double> result) override;
   int factorizations() const override { return factorizations_; }
   FactorStatistics statistics() const override;
 
@@ -69,6 +71,10 @@ class CholmodRoute : public Factor {
   /// \param system  CHOLMOD_A, CHOLMOD_L, ...
   /// \param rhs     in the factor's order unless the system is CHOLMOD_A
   std::vector<double> solve_system(int system, std::vector<double> rhs);
+  /// The solution after a downdate, with the changed factor: what is missing to K u = f is
+  /// sum (load_change + x'u) x. Nothing here rests on pivots or the Sherman-Morrison formula.
+  void follow(std::span<const SparseVector> x, std::span<const double> load_changes,
+              std::span<double> solution);
 
   CholmodSession session_;
   CholmodFactorPtr factor_;

@@ -37,22 +37,10 @@ void CholmodUpdownFactor::refactorize(const SparseMatrix& matrix) {
   }
 }
 
-void CholmodUpdownFactor::follow_load(std::span<const double> load, std::span<double> solution) {
-  std::vector<double> permuted(load.size());
-  for (std::size_t k = 0; k < load.size(); ++k) permuted[position_[k]] = load[k];
-  forward_ = solve_system(CHOLMOD_L, std::move(permuted));
-  backward(solution);
-}
-
-/// solution = P' (D L')^-1 forward_
-void CholmodUpdownFactor::backward(std::span<double> solution) {
-  const std::vector<double> values = solve_system(CHOLMOD_DLt, forward_);
-  for (std::size_t k = 0; k < solution.size(); ++k) solution[k] = values[position_[k]];
-}
-
-double CholmodUpdownFactor::prepare_downdate(const SparseVector& x) {
-  x_ = x;
-  if (x.size() == 0) return 1.0;
+/// L^-1 P x, along the path of x.
+std::vector<double> CholmodUpdownFactor::forward(const SparseVector& x) {
+  std::vector<double> result(factor_->n, 0.0);
+  if (x.size() == 0) return result;
   PermutedColumn column(x, position_, static_cast<Index>(factor_->n));
   std::vector<double> rhs(factor_->n, 0.0);
   const SparseVector& entries = column.entries();
@@ -65,37 +53,50 @@ double CholmodUpdownFactor::prepare_downdate(const SparseVector& x) {
   const Index* rows = static_cast<const Index*>(solved_set_->i);
   const Index count = static_cast<const Index*>(solved_set_->p)[1];
   const double* p = static_cast<const double*>(solved_->x);
-  const double* values = static_cast<const double*>(factor_->x);
-  const Index* starts = static_cast<const Index*>(factor_->p);
-  double removed = 0.0;
-  for (Index k = 0; k < count; ++k) removed += p[rows[k]] * p[rows[k]] / values[starts[rows[k]]];
-  return 1.0 - removed;
+  for (Index k = 0; k < count; ++k) result[rows[k]] = p[rows[k]];
+  return result;
 }
 
-/// K -+ x x' and f + load_change x, the forward solution of f with them.
-void CholmodUpdownFactor::change(bool add, const SparseVector& x, double load_change) {
+std::vector<double> CholmodUpdownFactor::columns(std::span<const SparseVector> x) {
+  std::vector<double> result;
+  result.reserve(x.size() * factor_->n);
+  for (const SparseVector& column : x) {
+    const std::vector<double> values = solve_system(CHOLMOD_DLt, forward(column));
+    for (const Index place : position_) result.push_back(values[place]);
+  }
+  return result;
+}
+
+void CholmodUpdownFactor::compliance(std::span<const SparseVector> x, std::span<double> result) {
+  const double* values = static_cast<const double*>(factor_->x);
+  const Index* starts = static_cast<const Index*>(factor_->p);
+  std::vector<std::vector<double>> p;
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    p.push_back(forward(x[a]));
+    for (std::size_t b = 0; b <= a; ++b) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < p[a].size(); ++k) sum += p[a][k] * p[b][k] / values[starts[k]];
+      result[a * x.size() + b] = result[b * x.size() + a] = sum;
+    }
+  }
+}
+
+/// K -+ x x'
+void CholmodUpdownFactor::change(bool add, const SparseVector& x) {
   if (x.size() == 0) return;
   PermutedColumn column(x, position_, static_cast<Index>(factor_->n));
-  std::vector<double> change(forward_.size(), 0.0);
-  const SparseVector& entries = column.entries();
-  for (int k = 0; k < entries.size(); ++k)
-    change[entries.rows[k]] = load_change * entries.values[k];
-  cholmod_dense forward = view_column(forward_);
-  cholmod_dense delta = view_column(change);
-  if (!cholmod_updown_solve(add, column.get(), factor_.get(), &forward, &delta, session_.get())) {
+  if (!cholmod_updown(add, column.get(), factor_.get(), session_.get())) {
     throw SolverError("out of memory while changing the factor");
   }
 }
 
-void CholmodUpdownFactor::commit_downdate(double load_change, std::span<double> solution) {
-  change(false, x_, load_change);
-  backward(solution);
+void CholmodUpdownFactor::downdate(std::span<const SparseVector> x,
+                                   std::span<const double> load_changes,
+                                   std::span<const double> /*pivots*/, std::span<double> solution) {
+  for (const SparseVector& column : x) change(false, column);
+  follow(x, load_changes, solution);
 }
 
-void CholmodUpdownFactor::update(const SparseVector& x, std::span<const double> solution) {
-  double extension = 0.0;
-  for (int k = 0; k < x.size(); ++k) extension += x.values[k] * solution[x.rows[k]];
-  change(true, x, extension);
-}
+void CholmodUpdownFactor::update(const SparseVector& x) { change(true, x); }
 
 }  // namespace perilink

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <Eigen/SparseCore>
 
@@ -23,8 +24,9 @@ struct FactorStatistics {
   int factorizations = 0;    ///< so far
 };
 
-/// Cholesky factor of a symmetric positive definite matrix K that follows rank-one changes, and the
-/// solution u of K u = f for one load f that follows with it.
+/// Cholesky factor of a symmetric positive definite matrix K that follows changes of low rank, and
+/// a solution u of K u = f with it. It is looked at by solve(), columns(), compliance() and
+/// pivot(), in any order, and changed by downdate() and update(); it keeps no load, no solution.
 class Factor {
  public:
   virtual ~Factor() = default;
@@ -37,47 +39,49 @@ class Factor {
   /// \throws SolverError when K is not positive definite or does not fit in memory
   virtual void factorize(const SparseMatrix& matrix, std::span<const Index> groups) = 0;
 
-  /// Factorises another matrix of the same pattern; the load to be followed is forgotten.
+  /// Factorises another matrix of the same pattern.
   virtual void refactorize(const SparseMatrix& matrix) = 0;
 
   /// solution = K^-1 rhs, both of size n; they may be the same memory.
   virtual void solve(std::span<const double> rhs, std::span<double> solution) = 0;
 
-  /// Solves K u = f and follows this load through the downdates to come.
-  virtual void follow_load(std::span<const double> load, std::span<double> solution) = 0;
-
-  /// Says which entries of the solution commit_downdate has to keep current, size n; the others may
-  /// be left as they are until follow_load is called again. A route may ignore it.
+  /// Says which entries of the solution a downdate has to keep current, size n; it may leave the
+  /// others as they are. A route may ignore it.
   virtual void keep_current(std::span<const std::uint8_t> /*wanted*/) {}
 
-  /// Looks at the removal of x x' and changes nothing: the pivot 1 - x' K^-1 x, which is
-  /// det(K - x x') / det(K). At or below zero the removal would leave a mechanism.
-  virtual double prepare_downdate(const SparseVector& x) = 0;
-
-  /// Carries out the removal prepared last: K <- K - x x', f <- f + load_change x.
-  /// \param solution  under the load followed: before the removal on entry, after it on return
-  virtual void commit_downdate(double load_change, std::span<double> solution) = 0;
+  /// K^-1 x of many vectors at once, one after the other in the result, shape (count, n). Entries
+  /// that keep_current() does not want may be zero.
+  virtual std::vector<double> columns(std::span<const SparseVector> x) = 0;
 
   /// x_a' K^-1 x_b of a few vectors that share a path (those of one bond), row after row in
-  /// `result`, shape (n, n). Changes nothing, but forgets what prepare_downdate prepared.
-  virtual void compliance(std::span<const SparseVector> x, std::span<double> result);
+  /// `result`, shape (count, count).
+  virtual void compliance(std::span<const SparseVector> x, std::span<double> result) = 0;
+
+  /// 1 - x' K^-1 x, which is det(K - x x') / det(K). At or below zero the removal of x x' would
+  /// leave a mechanism.
+  virtual double pivot(const SparseVector& x);
 
   /// K <- K - sum x x', f <- f + sum load_change x for vectors that do not interact: x_a' K^-1
   /// x_b = 0 where a and b differ.
-  /// \param pivots    1 - x' K^-1 x of each, all positive
-  /// \param solution  as in commit_downdate
+  /// \param pivots    pivot(x) of each, all positive
+  /// \param solution  before the removal on entry, after it on return; empty: none is wanted
   virtual void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
-                        std::span<const double> pivots, std::span<double> solution);
+                        std::span<const double> pivots, std::span<double> solution) = 0;
 
-  /// K <- K + x x' (a ground spring); the pattern of x must lie in that of the matrix. The load
-  /// that is followed grows by x (x'u), the force of the spring, so that its solution u stays where
-  /// it is.
-  virtual void update(const SparseVector& x, std::span<const double> solution) = 0;
+  /// K <- K + x x' (a ground spring); the pattern of x must lie in that of the matrix.
+  virtual void update(const SparseVector& x) = 0;
 
   /// Numerical factorisations so far.
   virtual int factorizations() const = 0;
 
   virtual FactorStatistics statistics() const = 0;
 };
+
+/// sum over a of weights_a x_a
+SparseVector combine(std::span<const SparseVector> x, std::span<const double> weights);
+
+/// load_change + x'u of each vector.
+std::vector<double> extensions(std::span<const SparseVector> x,
+                               std::span<const double> load_changes, std::span<const double> u);
 
 }  // namespace perilink

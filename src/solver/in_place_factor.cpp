@@ -46,6 +46,7 @@ void InPlaceFactor::factorize(const SparseMatrix& matrix, std::span<const Index>
 }
 
 void InPlaceFactor::refactorize(const SparseMatrix& matrix) {
+  on_path_of_ = {};
   factorize_numerically(session_, matrix, factor_.get());
   turn_into_ldl();
   ++factorizations_;
@@ -198,18 +199,16 @@ void InPlaceFactor::solve(std::span<const double> rhs, std::span<double> solutio
   for (Index k = 0; k < size_; ++k) solution[k] = vector_[position_[k]];
 }
 
-void InPlaceFactor::follow_load(std::span<const double> load, std::span<double> solution) {
-  solve(load, solution);
-}
-
-/// Eliminates x along its path and leaves p = L^-1 x in p_.
+/// Eliminates x along its path and leaves p = L^-1 x in p_, where it may be already.
 void InPlaceFactor::forward_path(const SparseVector& permuted) {
+  if (permuted.size() > 0 && permuted == on_path_of_) return;
   forward_path(permuted, permuted.size() == 0 ? no_index : permuted.rows[0]);
 }
 
 /// The same along the path from column `start`, at or before the first row of x; no_index: none.
 void InPlaceFactor::forward_path(const SparseVector& permuted, Index start) {
   clear_path();
+  on_path_of_ = permuted;
   if (start == no_index) return;
   for (int k = 0; k < permuted.size(); ++k) p_[permuted.rows[k]] = permuted.values[k];
   for (Index s = supernode_of_[start]; s != no_index; s = parent_[s]) {
@@ -230,24 +229,10 @@ void InPlaceFactor::clear_path() {
   path_.clear();
 }
 
-double InPlaceFactor::prepare_downdate(const SparseVector& x) {
-  x_ = permute(x, position_);
-  forward_path(x_);
-  double removed = 0.0;
-  for (const Index s : path_) {
-    const Block b = block(s);
-    for (Index j = 0; j < b.columns; ++j) {
-      const double p = p_[b.first_column + j];
-      removed += p * p / *diagonal(s, j);
-    }
-  }
-  pivot_ = 1.0 - removed;
-  return pivot_;
-}
-
 /// D of K -+ x x' on the path, whose recurrence is a chain of scalars, and what the change of the
 /// columns needs; sets vector_ to the right-hand side D^-1 p (old D) of the backward pass.
 void InPlaceFactor::start_change(double sign) {
+  on_path_of_ = {};  // p_ is that of the factor before the change
   std::fill(vector_.begin(), vector_.end(), 0.0);
   double sigma = sign;
   for (const Index s : path_) {
@@ -265,21 +250,17 @@ void InPlaceFactor::start_change(double sign) {
   }
 }
 
-void InPlaceFactor::commit_downdate(double load_change, std::span<double> solution) {
-  const Index* permutation = ints(factor_->Perm);
-  double extension = load_change;
-  for (int k = 0; k < x_.size(); ++k) extension += x_.values[k] * solution[permutation[x_.rows[k]]];
-  const double scale = extension / pivot_;
-  start_change(-1.0);
-  descend([this](Index s, double* local) {
-    if (on_path_[s]) {
-      backward_and_change_on(s, vector_.data(), local);
-    } else if (wanted_.empty() || wanted_[s]) {
-      backward_on(s, vector_.data(), local);
+double InPlaceFactor::pivot(const SparseVector& x) {
+  forward_path(permute(x, position_));
+  double removed = 0.0;
+  for (const Index s : path_) {
+    const Block b = block(s);
+    for (Index j = 0; j < b.columns; ++j) {
+      const double p = p_[b.first_column + j];
+      removed += p * p / *diagonal(s, j);
     }
-  });
-  // Supernodes that were skipped left zeros: their solution stays as it is.
-  for (Index k = 0; k < size_; ++k) solution[k] += scale * vector_[position_[k]];
+  }
+  return 1.0 - removed;
 }
 
 void InPlaceFactor::compliance(std::span<const SparseVector> x, std::span<double> result) {
@@ -308,29 +289,63 @@ void InPlaceFactor::compliance(std::span<const SparseVector> x, std::span<double
   }
 }
 
-/// With K^-1 x_b across each other the new solution is u + sum (load_change + x'u) / pivot K^-1 x.
+std::vector<double> InPlaceFactor::columns(std::span<const SparseVector> x) {
+  std::vector<double> motions(x.size() * static_cast<std::size_t>(size_), 0.0);
+  for (std::size_t c = 0; c < x.size(); ++c) {
+    forward_path(permute(x[c], position_));
+    for (const Index s : path_) {
+      const Block b = block(s);
+      double* const motion = motions.data() + c * size_ + b.first_column;
+      for (Index j = 0; j < b.columns; ++j) motion[j] = p_[b.first_column + j] / *diagonal(s, j);
+    }
+  }
+  descend([&](Index s, double* local) {
+    if (!is_wanted(s)) return;
+    for (std::size_t c = 0; c < x.size(); ++c) backward_on(s, motions.data() + c * size_, local);
+  });
+  std::vector<double> result;
+  result.reserve(motions.size());
+  for (std::size_t c = 0; c < x.size(); ++c) {
+    for (Index k = 0; k < size_; ++k) result.push_back(motions[c * size_ + position_[k]]);
+  }
+  return result;
+}
+
+/// One vector: the backward pass for K^-1 x changes the columns of the path as it comes by.
+void InPlaceFactor::downdate_one(const SparseVector& x, double load_change, double pivot,
+                                 std::span<double> solution) {
+  const SparseVector permuted = permute(x, position_);
+  const Index* permutation = ints(factor_->Perm);
+  double extension = load_change;
+  for (int k = 0; k < x.size(); ++k) {
+    extension += permuted.values[k] * solution[permutation[permuted.rows[k]]];
+  }
+  forward_path(permuted);
+  start_change(-1.0);
+  descend([this](Index s, double* local) {
+    if (on_path_[s]) {
+      backward_and_change_on(s, vector_.data(), local);
+    } else if (is_wanted(s)) {
+      backward_on(s, vector_.data(), local);
+    }
+  });
+  // Supernodes that were skipped left zeros: the solution stays as it is there.
+  const double scale = extension / pivot;
+  for (Index k = 0; k < size_; ++k) solution[k] += scale * vector_[position_[k]];
+}
+
+/// With K^-1 x_b across each other the solution goes over to
+/// u + sum (load_change + x'u) / pivot K^-1 x.
 void InPlaceFactor::downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                              std::span<const double> pivots, std::span<double> solution) {
-  SparseVector sum;
-  for (std::size_t a = 0; a < x.size(); ++a) {
-    double extension = load_changes[a];
-    for (int k = 0; k < x[a].size(); ++k) extension += x[a].values[k] * solution[x[a].rows[k]];
-    for (int k = 0; k < x[a].size(); ++k) {
-      sum.add(x[a].rows[k], extension / pivots[a] * x[a].values[k]);
-    }
+  if (!solution.empty()) {
+    if (x.size() == 1) return downdate_one(x[0], load_changes[0], pivots[0], solution);
+    std::vector<double> shares = extensions(x, load_changes, solution);
+    for (std::size_t a = 0; a < x.size(); ++a) shares[a] /= pivots[a];
+    const SparseVector sum = combine(x, shares);
+    const std::vector<double> motion = columns({&sum, 1});
+    for (Index k = 0; k < size_; ++k) solution[k] += motion[k];
   }
-  forward_path(permute(sum, position_));
-  std::fill(vector_.begin(), vector_.end(), 0.0);
-  for (const Index s : path_) {
-    const Block b = block(s);
-    for (Index j = 0; j < b.columns; ++j) {
-      vector_[b.first_column + j] = p_[b.first_column + j] / *diagonal(s, j);
-    }
-  }
-  descend([this](Index s, double* local) {
-    if (on_path_[s] || wanted_.empty() || wanted_[s]) backward_on(s, vector_.data(), local);
-  });
-  for (Index k = 0; k < size_; ++k) solution[k] += vector_[position_[k]];
   for (const SparseVector& column : x) change_path(permute(column, position_), -1.0);
 }
 
@@ -343,9 +358,7 @@ void InPlaceFactor::change_path(const SparseVector& permuted, double sign) {
   }
 }
 
-void InPlaceFactor::update(const SparseVector& x, std::span<const double> /*solution*/) {
-  change_path(permute(x, position_), 1.0);
-}
+void InPlaceFactor::update(const SparseVector& x) { change_path(permute(x, position_), 1.0); }
 
 /// Trapezoids of the supernodes that the backward pass of the last event computed, those of the
 /// path once more for the forward elimination.
@@ -356,7 +369,7 @@ double InPlaceFactor::bytes_read_by_event() const {
     const double trapezoid = b.columns * (b.rows - 0.5 * (b.columns - 1.0));
     if (on_path_[s]) {
       numbers += 2.0 * trapezoid;
-    } else if (wanted_.empty() || wanted_[s]) {
+    } else if (is_wanted(s)) {
       numbers += trapezoid;
     }
   }

@@ -13,9 +13,9 @@ namespace perilink {
 /// into a simplicial factor and lose their speed.
 ///
 /// Per event: the forward elimination of x runs along one path of the elimination tree only (the
-/// unknowns of a bond are mutually coupled, so one path holds them all); one backward pass gives
-/// K^-1 x, and with it the new solution (Sherman & Morrison), and changes the columns of the path
-/// as it comes by.
+/// unknowns of a bond are mutually coupled, so one path holds them all), once for its pivot and the
+/// downdate after it; one backward pass gives K^-1 x, and with it the new solution (Sherman &
+/// Morrison), and changes the columns of the path as it comes by.
 class InPlaceFactor final : public Factor {
  public:
   explicit InPlaceFactor(int threads);
@@ -23,15 +23,14 @@ class InPlaceFactor final : public Factor {
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
   void refactorize(const SparseMatrix& matrix) override;
   void solve(std::span<const double> rhs, std::span<double> solution) override;
-  void follow_load(std::span<const double> load, std::span<double> solution) override;
   void keep_current(std::span<const std::uint8_t> wanted) override;
-  double prepare_downdate(const SparseVector& x) override;
-  void commit_downdate(double load_change, std::span<double> solution) override;
+  /// Forward along each path, one backward pass for all.
+  std::vector<double> columns(std::span<const SparseVector> x) override;
+  double pivot(const SparseVector& x) override;
   void compliance(std::span<const SparseVector> x, std::span<double> result) override;
-  /// One backward pass for the solution; the columns of the path change vector by vector.
   void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                 std::span<const double> pivots, std::span<double> solution) override;
-  void update(const SparseVector& x, std::span<const double> solution) override;
+  void update(const SparseVector& x) override;
   int factorizations() const override { return factorizations_; }
   FactorStatistics statistics() const override;
 
@@ -58,8 +57,11 @@ class InPlaceFactor final : public Factor {
   /// Runs `on_supernode(supernode, local)` from the roots to the leaves.
   template <typename Function>
   void descend(const Function& on_supernode);
+  bool is_wanted(Index supernode) const { return wanted_.empty() || wanted_[supernode]; }
   void forward_path(const SparseVector& permuted);
   void forward_path(const SparseVector& permuted, Index start);
+  void downdate_one(const SparseVector& x, double load_change, double pivot,
+                    std::span<double> solution);
   void change_path(const SparseVector& permuted, double sign);
   void clear_path();
   void start_change(double sign);
@@ -78,16 +80,15 @@ class InPlaceFactor final : public Factor {
   std::vector<std::pair<Index, Index>> subtrees_;  ///< [first, last] supernodes of each
   Index longest_ = 0;                              ///< most rows of a supernode
 
-  std::vector<double> vector_;         ///< work vector in the factor's order
-  std::vector<double> local_;          ///< rows of a supernode, two parts per thread
-  SparseVector x_;                     ///< change prepared, in the factor's order
-  std::vector<Index> path_;            ///< supernodes of the path, ascending
+  std::vector<double> vector_;  ///< work vector in the factor's order
+  std::vector<double> local_;   ///< rows of a supernode, two parts per thread
+  SparseVector on_path_of_;  ///< the x, in the factor's order, whose L^-1 x p_ holds; empty: none
+  std::vector<Index> path_;  ///< supernodes of the path, ascending
   std::vector<std::uint8_t> on_path_;  ///< per supernode
   std::vector<std::uint8_t> wanted_;   ///< supernodes that backward passes compute; empty: all
   std::vector<double> p_;              ///< L^-1 x along the path, in the factor's order
   std::vector<double> beta_;           ///< per column of the path
   std::vector<double> w_;              ///< x less its eliminations, along the path
-  double pivot_ = 0.0;
 };
 
 }  // namespace perilink

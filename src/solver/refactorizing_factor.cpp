@@ -16,21 +16,6 @@ void RefactorizingFactor::refactorize(const SparseMatrix& matrix) {
   compute(matrix_);
 }
 
-void RefactorizingFactor::follow_load(std::span<const double> load, std::span<double> solution) {
-  load_.assign(load.begin(), load.end());
-  solve(load_, solution);
-}
-
-double RefactorizingFactor::prepare_downdate(const SparseVector& x) {
-  x_ = x;
-  std::vector<double> direction(static_cast<std::size_t>(matrix_.cols()), 0.0);
-  for (int k = 0; k < x.size(); ++k) direction[x.rows[k]] = x.values[k];
-  solve(direction, direction);
-  double removed = 0.0;
-  for (int k = 0; k < x.size(); ++k) removed += x.values[k] * direction[x.rows[k]];
-  return 1.0 - removed;
-}
-
 /// Adds sign * x x' to the lower triangle.
 void RefactorizingFactor::change_matrix(const SparseVector& x, double sign) {
   for (int a = 0; a < x.size(); ++a) {
@@ -47,30 +32,16 @@ void RefactorizingFactor::change_matrix(const SparseVector& x, double sign) {
   }
 }
 
-void RefactorizingFactor::add_to_load(const SparseVector& x, double factor) {
-  for (int k = 0; k < x.size(); ++k) load_[x.rows[k]] += factor * x.values[k];
-}
-
-void RefactorizingFactor::commit_downdate(double load_change, std::span<double> solution) {
-  downdate({&x_, 1}, {&load_change, 1}, {}, solution);
-}
-
 void RefactorizingFactor::downdate(std::span<const SparseVector> x,
                                    std::span<const double> load_changes,
                                    std::span<const double> /*pivots*/, std::span<double> solution) {
-  for (std::size_t a = 0; a < x.size(); ++a) {
-    change_matrix(x[a], -1.0);
-    add_to_load(x[a], load_changes[a]);
-  }
+  for (const SparseVector& column : x) change_matrix(column, -1.0);
   compute(matrix_);
-  solve(load_, solution);
+  follow(x, load_changes, solution);
 }
 
-void RefactorizingFactor::update(const SparseVector& x, std::span<const double> solution) {
+void RefactorizingFactor::update(const SparseVector& x) {
   change_matrix(x, 1.0);
-  double extension = 0.0;
-  for (int k = 0; k < x.size(); ++k) extension += x.values[k] * solution[x.rows[k]];
-  add_to_load(x, extension);
   compute(matrix_);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "analysis/quasistatic/observer.hpp"
@@ -25,6 +26,9 @@ struct ExplicitOptions {
   bool driven = true;
   int threads = 1;
   bool refuse_unstable = true;  ///< false: a step beyond the critical one runs until it is noticed
+
+  /// Where the time step is given.
+  Index steps() const { return static_cast<Index>(std::ceil(duration / time_step)); }
 };
 
 /// Where the energy is [force length].
@@ -56,6 +60,20 @@ struct ExplicitRecord {
   Index yielded_particles = 0;    ///< lattices only
   Index broken_bonds = 0;         ///< networks of bonds only
   EnergyBalance energy;
+};
+
+/// Watches a run over time; the state is valid during the call only. By itself it looks at nothing.
+template <class State>
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  virtual void on_row(const ExplicitRecord& /*record*/, const State& /*state*/) {}
+  /// Once, after the last row.
+  virtual void on_end(const ExplicitRecord& /*last*/, const State& /*state*/) {}
+  /// Every few hundred iterations of a dynamic relaxation.
+  virtual void on_iteration(Index /*load_step*/, Index /*iteration*/, double /*residual*/) {}
+  /// Asked before every row and every few hundred steps; after a yes comes one more row.
+  virtual bool stop_requested() { return false; }
 };
 
 /// How an explicit run ended.

@@ -194,9 +194,16 @@ void print_extents(const LatticeRows& lattice) {
   fmt::print("#   particles lie in   {}\n", text);
 }
 
-void print_run_of_steps(double seconds, bool breakable) {
-  fmt::print("#   run                about {} on one core{}\n", time_text(seconds),
-             breakable ? ", more where much cracks" : "");
+void print_steps(double critical_time_step, const ExplicitOptions& options) {
+  fmt::print("#   critical time step {:.6g}\n", critical_time_step);
+  fmt::print("#   time step          {:.6g}\n", options.time_step);
+  fmt::print("#   steps              {}, about {} rows of history\n", options.steps(),
+             std::min<Index>(options.steps(), options.rows));
+  fmt::print("# expected cost of a run\n");
+}
+
+void print_case(const std::string& path, const CaseFile& input) {
+  fmt::print("# {}: the case as resolved\n\n{}\n", path, write_case(input));
 }
 
 int check_explicit(const std::string& case_path, const CaseFile& input) {
@@ -207,7 +214,7 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
   const double set_up = timer.seconds();
   std::size_t prescribed = 0;
   for (const auto& row : model.prescribed) prescribed += row.size();
-  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_case(case_path, input);
   fmt::print("# sizes\n");
   fmt::print("#   particles          {} in {} rows\n", model.lattice.particles(),
              model.lattice.rows.size());
@@ -227,14 +234,12 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
   print_period([&] {
     return built.fundamental_period > 0.0 ? built.fundamental_period : fundamental_period(model);
   });
-  fmt::print("#   critical time step {:.6g}\n", built.critical_time_step);
-  fmt::print("#   time step          {:.6g}\n", built.time_step);
-  fmt::print("#   steps              {}, about {} rows of history\n", built.steps,
-             std::min<Index>(built.steps, built.options.rows));
-  fmt::print("# expected cost of a run\n");
+  print_steps(built.critical_time_step, built.options);
   fmt::print("#   memory             {:.3g} GB\n", peak_memory_bytes() / 1e9);
   fmt::print("#   set-up             {} (as it took now)\n", time_text(set_up));
-  print_run_of_steps(set_up + built.steps * seconds_per_step(built), model.material.breakable);
+  fmt::print("#   run                about {} on one core{}\n",
+             time_text(set_up + built.options.steps() * seconds_per_step(built)),
+             model.material.breakable ? ", more where much cracks" : "");
   return exit_done;
 }
 
@@ -252,17 +257,14 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   const double paid =
       calibrated && model.network.calibration ? model.network.calibration->seconds : 0.0;
   const ExpectedSetUp set_up(model, timer.seconds() - paid);
-  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_case(case_path, input);
   print_sizes(model);
   std::fflush(stdout);
   print_period([&] { return fundamental_period(model.network, model.unknowns, built.inertia); });
-  fmt::print("#   critical time step {:.6g}\n", built.inertia.critical_time_step());
-  fmt::print("#   time step          {:.6g}\n", built.options.time_step);
-  fmt::print("#   steps              {}, about {} rows of history\n", built.steps,
-             std::min<Index>(built.steps, built.options.rows));
-  fmt::print("# expected cost of a run\n");
+  print_steps(built.inertia.critical_time_step(), built.options);
   print_set_up(set_up);
-  print_run_of_steps(set_up.seconds + built.steps * seconds_per_step(model, built), false);
+  fmt::print("#   run                about {} on one core\n",
+             time_text(set_up.seconds + built.options.steps() * seconds_per_step(model, built)));
   return exit_done;
 }
 
@@ -271,7 +273,7 @@ int check_relaxation(const std::string& case_path, const CaseFile& input) {
   const Model model = draft_model(input);
   const ExpectedSetUp set_up(model, timer.seconds());
   const double iterations = expected_iterations(model, relaxation_options(input, 1));
-  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_case(case_path, input);
   print_sizes(model);
   fmt::print("#   load steps         {}, the first of about {:.2g} iterations\n",
              input.analysis.load_factors.size(), iterations);
@@ -297,7 +299,7 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   Model model = draft_model(input);
   const ExpectedSetUp set_up(model, timer.seconds());
   if (const auto note = note_of_separated_body(input, model, 1)) model.notes.push_back(*note);
-  fmt::print("# {}: the case as resolved\n\n{}\n", case_path, write_case(input));
+  print_case(case_path, input);
   print_sizes(model);
   std::fflush(stdout);  // the order of the unknowns of a large body takes a while
 

@@ -29,16 +29,6 @@ void write_text(const fs::path& path, const std::string& text) {
   write_whole_file(path.string(), text);
 }
 
-/// The study is written to DIR/study.toml; it must not take the place of the user's own file.
-void refuse_own_study(const fs::path& directory, const std::string& study_path) {
-  std::error_code error;
-  if (!fs::equivalent(directory / "study.toml", study_path, error) || error) return;
-  throw FileError(
-      fmt::format("{}: the results would overwrite this study\n"
-                  "  choose another directory with --out DIR",
-                  study_path));
-}
-
 /// A study, its combinations and what has been run of them.
 struct Results {
   StudyFile study;
@@ -140,7 +130,7 @@ int converge(const RunOptions& options) {
 
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
-  refuse_own_study(directory, options.case_path);
+  refuse_own_file(directory, "study.toml", options.case_path, "this study");
   const ResultDirectory hold(directory, options.force);
   catch_stop_signals();
   write_text(directory / "study.toml", write_study(results.study, directory.string()));

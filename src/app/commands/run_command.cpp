@@ -75,17 +75,6 @@ void attempt(const Verdict& verdict, const Action& action) {
   }
 }
 
-/// The resolved case is written to DIR/case.toml; it must not take the place of the user's own
-/// file.
-void refuse_own_case(const fs::path& directory, const std::string& case_path) {
-  std::error_code error;
-  if (!fs::equivalent(directory / "case.toml", case_path, error) || error) return;
-  throw FileError(
-      fmt::format("{}: the results would overwrite this case with its resolved form\n"
-                  "  choose another directory with --out DIR",
-                  case_path));
-}
-
 int exit_status_of(Ending ending) {
   if (ending == Ending::interrupted) return exit_interrupted;
   return ending == Ending::failed ? exit_solver : exit_done;
@@ -156,7 +145,7 @@ int run_case(const RunOptions& options) {
   input.trust_geometry = options.trust_geometry;
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
-  refuse_own_case(directory, options.case_path);
+  refuse_own_file(directory, "case.toml", options.case_path, "this case with its resolved form");
   refuse_old_results(directory, options.force);  // at once: the model may take minutes
   return run_in(directory, options, input, threads);
 }

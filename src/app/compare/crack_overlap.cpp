@@ -1,5 +1,6 @@
 #include "app/compare/crack_overlap.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -30,17 +31,6 @@ double total(std::span<const double> volumes) {
   return sum;
 }
 
-/// Volume of the particles that have one of `others` within the radius.
-double volume_near(const CrackPattern& part, const CrackPattern& others, double radius) {
-  if (part.volumes.empty() || others.volumes.empty()) return 0.0;
-  const Csr near = find_neighbors(others.positions, part.positions, part.dim, radius);
-  double sum = 0.0;
-  for (Index q = 0; q < near.rows(); ++q) {
-    if (!near.row(q).empty()) sum += part.volumes[static_cast<std::size_t>(q)];
-  }
-  return sum;
-}
-
 double square_distance(const CrackPattern& p, Index i, const CrackPattern& q, Index j) {
   double sum = 0.0;
   for (int a = 0; a < p.dim; ++a) {
@@ -51,23 +41,33 @@ double square_distance(const CrackPattern& p, Index i, const CrackPattern& q, In
   return sum;
 }
 
-/// Volume of the particles whose nearest one of a whole body is cracked.
-double volume_inside(const CrackPattern& part, const CrackPattern& body, double radius) {
-  if (part.volumes.empty() || body.volumes.empty()) return 0.0;
-  const Csr near = find_neighbors(body.positions, part.positions, part.dim, radius);
+/// Volume of the particles for which `counts` says so of their neighbours in another body.
+/// \param counts  takes a particle and those of `others` within the radius
+template <class Counts>
+double volume_where(const CrackPattern& part, const CrackPattern& others, double radius,
+                    Counts counts) {
+  if (part.volumes.empty() || others.volumes.empty()) return 0.0;
+  const Csr near = find_neighbors(others.positions, part.positions, part.dim, radius);
   double sum = 0.0;
   for (Index q = 0; q < near.rows(); ++q) {
-    double least = std::numeric_limits<double>::infinity();
-    double damage = 0.0;
-    for (const Index j : near.row(q)) {
-      const double distance = square_distance(part, q, body, j);
-      if (distance >= least) continue;
-      least = distance;
-      damage = body.damage[static_cast<std::size_t>(j)];
-    }
-    if (damage >= cracked_damage) sum += part.volumes[static_cast<std::size_t>(q)];
+    if (counts(q, near.row(q))) sum += part.volumes[static_cast<std::size_t>(q)];
   }
   return sum;
+}
+
+/// Volume of the particles that have one of `others` within the radius.
+double volume_near(const CrackPattern& part, const CrackPattern& others, double radius) {
+  return volume_where(part, others, radius, [](Index, auto near) { return !near.empty(); });
+}
+
+/// Volume of the particles whose nearest one of a whole body is cracked.
+double volume_inside(const CrackPattern& part, const CrackPattern& body, double radius) {
+  return volume_where(part, body, radius, [&](Index q, auto near) {
+    const auto distance = [&](Index j) { return square_distance(part, q, body, j); };
+    const auto nearest = std::ranges::min_element(near, {}, distance);
+    return nearest != near.end() &&
+           body.damage[static_cast<std::size_t>(*nearest)] >= cracked_damage;
+  });
 }
 
 double share(double part, double whole) {

@@ -92,17 +92,11 @@ std::vector<CurvePoint> scaled(std::span<const CurvePoint> path, CurvePoint larg
 }  // namespace
 
 std::vector<CurvePoint> path_of(std::span<const StepRecord> records) {
-  double low = 0.0, high = 0.0;
-  for (const StepRecord& record : records) {
-    low = std::min(low, record.displacement);
-    high = std::max(high, record.displacement);
-  }
-  const double sign = -low > high ? -1.0 : 1.0;
-  std::vector<CurvePoint> path = {{0.0, 0.0}};
-  path.reserve(records.size() + 1);
-  for (const StepRecord& record : records) {
-    path.push_back({sign * record.displacement, sign * record.load});
-  }
+  std::vector<CurvePoint> path = points_of(records);
+  path.insert(path.begin(), CurvePoint{});
+  const auto [low, high] = std::ranges::minmax(path, {}, &CurvePoint::displacement);
+  const double sign = -low.displacement > high.displacement ? -1.0 : 1.0;
+  for (CurvePoint& point : path) point = {sign * point.displacement, sign * point.load};
   return path;
 }
 

@@ -37,15 +37,6 @@ std::string pale(const Look& look) {
       look.color);
 }
 
-std::vector<CurvePoint> points_of(const RunResult& result) {
-  std::vector<CurvePoint> points;
-  points.reserve(result.records.size());
-  for (const StepRecord& record : result.records) {
-    points.push_back({record.displacement, record.load});
-  }
-  return points;
-}
-
 /// The smooth curve of a long path of events, else none.
 std::vector<CurvePoint> envelope_of(const RunResult& result) {
   const std::vector<CurvePoint> path = event_path_of(result.records, result.labels);
@@ -85,7 +76,8 @@ void draw_legend(Svg& svg, double left, const std::string& text, std::size_t num
 
 Svg draw_comparison(const RunResult& a, const RunResult& b) {
   const std::array<const RunResult*, 2> results = {&a, &b};
-  const std::array<std::vector<CurvePoint>, 2> points = {points_of(a), points_of(b)};
+  const std::array<std::vector<CurvePoint>, 2> points = {points_of(a.records),
+                                                         points_of(b.records)};
   std::vector<CurvePoint> all = points[0];
   all.insert(all.end(), points[1].begin(), points[1].end());
   const CurveFrame frame = make_curve_frame(all, frame_top);

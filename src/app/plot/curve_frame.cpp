@@ -17,9 +17,11 @@ CurveFrame make_curve_frame(std::span<const CurvePoint> points, double top) {
           make_axis(low.load, high.load, curve_figure_height - 72.0, top)};
 }
 
-SvgPath curve_path(const CurveFrame& frame, std::span<const CurvePoint> points) {
+SvgPath curve_path(const CurveFrame& frame, std::span<const CurvePoint> points, CurvePoint from) {
+  // Thousands of events that fall on one pixel would make large files [px].
+  constexpr double visible_distance = 0.3;
   SvgPath path;
-  SvgPoint last = frame.at({});
+  SvgPoint last = frame.at(from);
   path.move_to(last);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const SvgPoint at = frame.at(points[k]);

@@ -14,10 +14,6 @@ namespace perilink {
 inline constexpr double curve_figure_width = 820.0;   ///< [px]
 inline constexpr double curve_figure_height = 560.0;  ///< [px]
 
-/// Smallest distance worth a line [px]: thousands of events that fall on one pixel would make large
-/// files.
-inline constexpr double visible_distance = 0.3;
-
 /// Displacements to the right, loads upwards.
 struct CurveFrame {
   Axis x;
@@ -30,7 +26,9 @@ struct CurveFrame {
 /// \param top  upper edge of the frame on the page [px]
 CurveFrame make_curve_frame(std::span<const CurvePoint> points, double top);
 
-/// The curve from the origin through the points, without those that fall on the pixel of another.
-SvgPath curve_path(const CurveFrame& frame, std::span<const CurvePoint> points);
+/// The curve from a point, else the origin, through others, without those that fall on the pixel of
+/// another.
+SvgPath curve_path(const CurveFrame& frame, std::span<const CurvePoint> points,
+                   CurvePoint from = {});
 
 }  // namespace perilink

@@ -135,6 +135,12 @@ std::size_t peak_row(std::span<const StepRecord> records) {
   return static_cast<std::size_t>(peak - records.begin());
 }
 
+std::vector<CurvePoint> points_of(std::span<const StepRecord> records) {
+  std::vector<CurvePoint> points;
+  for (const StepRecord& record : records) points.push_back({record.displacement, record.load});
+  return points;
+}
+
 std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
                                       const PlotLabels& labels) {
   const bool breaks_bonds = labels.analysis.empty() || labels.analysis == "damage";
@@ -143,9 +149,7 @@ std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
 
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
                            const std::optional<CurvePoint>& first_peak) {
-  std::vector<CurvePoint> events;
-  events.reserve(records.size());
-  for (const StepRecord& record : records) events.push_back({record.displacement, record.load});
+  const std::vector<CurvePoint> events = points_of(records);
   const CurveFrame frame = make_curve_frame(events, 62.0);
   Svg svg(curve_figure_width, curve_figure_height);
   svg.text({frame.x.pixel_low, 32}, labels.title, "start", title_style);

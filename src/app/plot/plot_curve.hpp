@@ -18,6 +18,9 @@ inline constexpr std::size_t events_for_envelope = 200;
 /// Row of the largest absolute load; `records` must not be empty.
 std::size_t peak_row(std::span<const StepRecord> records);
 
+/// Loads over displacements of the rows, signs as they are.
+std::vector<CurvePoint> points_of(std::span<const StepRecord> records);
+
 /// event_path() of the rows of a run; empty where its summary says that it breaks no single bonds.
 std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
                                       const PlotLabels& labels);

@@ -239,16 +239,14 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
 
 std::string caption_text(const FieldsCaption& caption, const PlotBody& body,
                          const PlotLabels& labels, double scale) {
+  std::string begin;
   if (caption.time) {
-    return fmt::format("time {} · load factor {} · load {} · displacements × {}",
-                       short_number(*caption.time), short_number(caption.load_factor),
-                       in_unit(short_number(caption.load), labels.force), short_number(scale));
+    begin = fmt::format("time {} · ", short_number(*caption.time));
+  } else if (body.stress.empty()) {
+    begin = fmt::format("{} broken bond{} · ", caption.broken_bonds,
+                        caption.broken_bonds == 1 ? "" : "s");
   }
-  const std::string broken = body.stress.empty()
-                                 ? fmt::format("{} broken bond{} · ", caption.broken_bonds,
-                                               caption.broken_bonds == 1 ? "" : "s")
-                                 : "";
-  return fmt::format("{}load factor {} · load {} · displacements × {}", broken,
+  return fmt::format("{}load factor {} · load {} · displacements × {}", begin,
                      short_number(caption.load_factor),
                      in_unit(short_number(caption.load), labels.force), short_number(scale));
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 namespace perilink {
 namespace {
@@ -54,19 +53,10 @@ std::vector<StagePath> paths_of_stages(std::span<const StepRecord> records,
 void draw_stages(Svg& svg, const CurveFrame& frame, std::span<const StagePath> stages,
                  SvgPoint legend, double line_height) {
   for (const StagePath& stage : stages) {
-    SvgPath path;
-    path.move_to(frame.at(stage.points.front()));
-    SvgPoint last = frame.at(stage.points.front());
-    for (std::size_t k = 1; k < stage.points.size(); ++k) {
-      const SvgPoint at = frame.at(stage.points[k]);
-      const bool end = k + 1 == stage.points.size();
-      if (!end && std::hypot(at.x - last.x, at.y - last.y) < visible_distance) continue;
-      path.line_to(at);
-      last = at;
-    }
-    svg.path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.2\" "
-                               "stroke-linejoin=\"round\"",
-                               color_of(stage)));
+    svg.path(curve_path(frame, std::span(stage.points).subspan(1), stage.points.front()),
+             fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.2\" "
+                         "stroke-linejoin=\"round\"",
+                         color_of(stage)));
   }
   for (const StagePath& stage : stages) mark(svg, stage, frame.at(stage.points.front()));
   for (const StagePath& stage : stages) {

@@ -16,20 +16,28 @@ namespace {
 
 constexpr double seconds_between_flushes = 0.5;
 
+/// What a case has to have for a column.
+enum class With { nothing, stages, elements };
+
 /// The one list of columns of quasistatic runs, from which both the writer and the reader are made.
 struct Column {
   const char* name;
   double (*get)(const StepRecord&);
   void (*set)(StepRecord&, double);
   bool counts;  ///< holds whole numbers
+  With with;
+
+  bool is_shown(bool stages, bool elements) const {
+    return with == With::nothing || (with == With::stages ? stages : elements);
+  }
 };
 
 template <auto Member>
-constexpr Column column(const char* name) {
+constexpr Column column(const char* name, With with = With::nothing) {
   using Value = std::remove_reference_t<decltype(StepRecord{}.*Member)>;
   return {name, [](const StepRecord& record) { return static_cast<double>(record.*Member); },
           [](StepRecord& record, double value) { record.*Member = static_cast<Value>(value); },
-          std::is_integral_v<Value>};
+          std::is_integral_v<Value>, with};
 }
 
 /// Squares of what is larger leave the range of double precision, and axes of what is finite.
@@ -54,19 +62,11 @@ constexpr std::array columns = {
     column<&StepRecord::residual>("residual"),
     column<&StepRecord::factorizations>("factorizations"),
     column<&StepRecord::element>("element"),
-};
-
-/// Beside them in cases with stages.
-constexpr std::array stage_columns = {
-    column<&StepRecord::stage>("stage"),
-    column<&StepRecord::avalanche>("avalanche"),
-    column<&StepRecord::side_change>("side_change"),
-};
-
-/// Beside them in cases with elements.
-constexpr std::array element_columns = {
-    column<&StepRecord::elements>("elements"),
-    column<&StepRecord::freed_energy>("freed_energy"),
+    column<&StepRecord::stage>("stage", With::stages),
+    column<&StepRecord::avalanche>("avalanche", With::stages),
+    column<&StepRecord::side_change>("side_change", With::stages),
+    column<&StepRecord::elements>("elements", With::elements),
+    column<&StepRecord::freed_energy>("freed_energy", With::elements),
 };
 
 struct TimeColumn {
@@ -117,12 +117,10 @@ std::vector<std::string> all_columns(const CaseFile& input) {
 std::vector<std::string> history_columns(const CaseFile& input) {
   std::vector<std::string> names;
   if (!is_over_time(input)) {
-    for (const Column& column : columns) names.emplace_back(column.name);
-    for (const Column& column : stage_columns) {
-      if (!input.stages.empty()) names.emplace_back(column.name);
-    }
-    for (const Column& column : element_columns) {
-      if (input.elements) names.emplace_back(column.name);
+    for (const Column& column : columns) {
+      if (column.is_shown(!input.stages.empty(), input.elements.has_value())) {
+        names.emplace_back(column.name);
+      }
     }
     return names;
   }
@@ -142,12 +140,8 @@ HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input)
 
 void HistoryFile::append(const StepRecord& record, std::span<const double> gauges) {
   std::vector<double> row;
-  for (const Column& column : columns) row.push_back(column.get(record));
-  for (const Column& column : stage_columns) {
-    if (has_stages_) row.push_back(column.get(record));
-  }
-  for (const Column& column : element_columns) {
-    if (has_elements_) row.push_back(column.get(record));
+  for (const Column& column : columns) {
+    if (column.is_shown(has_stages_, has_elements_)) row.push_back(column.get(record));
   }
   write(std::move(row), gauges, record.seconds);
 }
@@ -188,10 +182,7 @@ std::vector<StepRecord> history_records(const CsvTable& table, const std::string
     }
   }
   std::vector<StepRecord> records(table.rows.size());
-  std::vector<Column> all(columns.begin(), columns.end());
-  all.insert(all.end(), stage_columns.begin(), stage_columns.end());
-  all.insert(all.end(), element_columns.begin(), element_columns.end());
-  for (const Column& column : all) {
+  for (const Column& column : columns) {
     const int place = table.column(column.name);
     if (place < 0) continue;
     for (std::size_t row = 0; row < records.size(); ++row) {
@@ -209,10 +200,6 @@ std::vector<StepRecord> history_records(const CsvTable& table, const std::string
                                 records[row].step, records[row - 1].step));
   }
   return records;
-}
-
-std::vector<StepRecord> read_history(const std::string& path) {
-  return history_records(read_csv(path), path);
 }
 
 }  // namespace perilink

@@ -53,7 +53,4 @@ inline constexpr const char* cut_off_note =
 /// cannot be those of a run: counts that are no whole numbers, steps that do not grow
 std::vector<StepRecord> history_records(const CsvTable& table, const std::string& path);
 
-/// The same from the file.
-std::vector<StepRecord> read_history(const std::string& path);
-
 }  // namespace perilink

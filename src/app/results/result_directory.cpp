@@ -81,6 +81,16 @@ std::vector<fs::path> refuse_old_results(const fs::path& directory, bool force) 
   return old;
 }
 
+void refuse_own_file(const fs::path& directory, const char* copy, const std::string& own,
+                     const char* written) {
+  std::error_code error;
+  if (!fs::equivalent(directory / copy, own, error) || error) return;
+  throw FileError(
+      fmt::format("{}: the results would overwrite {}\n"
+                  "  choose another directory with --out DIR",
+                  own, written));
+}
+
 ResultDirectory::ResultDirectory(const fs::path& directory, bool force) {
   std::error_code error;
   if (!fs::is_directory(directory, error)) {

@@ -16,6 +16,14 @@ std::filesystem::path default_result_directory(const std::string& case_path);
 std::vector<std::filesystem::path> refuse_old_results(const std::filesystem::path& directory,
                                                       bool force);
 
+/// Refuses a directory in which a copy that is written there would take the place of the user's own
+/// file.
+/// \param copy     name of the copy
+/// \param written  "this case with its resolved form"
+/// \throws FileError
+void refuse_own_file(const std::filesystem::path& directory, const char* copy,
+                     const std::string& own, const char* written);
+
 /// The directory of a run while it writes. An existing result is refused unless `force` is set;
 /// then the files that a run writes, and only those, are removed. No second run can have the
 /// directory at the same time; when the process ends, in whatever way, it is free again.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/model/body/particle_model.hpp"
+#include "app/model/from_case/lattice_case.hpp"
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
 #include "app/run/run_warnings.hpp"
@@ -17,35 +18,10 @@
 namespace perilink {
 namespace {
 
-constexpr double most_steps = 2e9;  ///< steps have 32-bit numbers
-
 std::vector<double> densities(const CaseFile& input) {
   std::vector<double> density;
   for (const MaterialSection& material : input.materials) density.push_back(*material.density);
   return density;
-}
-
-void choose_steps(const CaseFile& input, BondRunCase& built) {
-  const AnalysisSection& analysis = input.analysis;
-  const double critical = built.inertia.critical_time_step();
-  const double step = analysis.time_step.value_or(analysis.safety * critical);
-  if (step > critical) {
-    throw InputError(
-        input.where("analysis.time_step"),
-        fmt::format("is {:.6g}, larger than the critical time step {:.6g}", step, critical),
-        "take less, or leave it out: `safety` takes a part of the critical one");
-  }
-  const double steps = std::ceil(analysis.duration / step);
-  if (!(steps <= most_steps)) {
-    throw InputError(input.where("analysis.duration"),
-                     fmt::format("takes {:.1e} steps of {:.4g}", steps, step),
-                     fmt::format("at most {:.0e} are possible", most_steps));
-  }
-  built.steps = static_cast<Index>(steps);
-  built.options.duration = analysis.duration;
-  built.options.ramp = analysis.ramp_time;
-  built.options.time_step = step;
-  built.options.rows = analysis.rows;
 }
 
 /// Parts of the body, of a hundredth of its particles or more, that have no elastic supports and in
@@ -92,7 +68,7 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model) {
   }
   built.inertia =
       lumped_inertia(model.network, densities(input), input.analysis.masses, built.rules.strain);
-  choose_steps(input, built);
+  choose_steps(input, built.inertia.critical_time_step(), built.options);
   return built;
 }
 
@@ -146,7 +122,7 @@ class BondRun final : public MovingBondsRun {
   BondRun(const CaseFile& of_case, int on_threads, bool quiet)
       : MovingBondsRun(of_case, on_threads, quiet), built_(build_bond_run(of_case, model_)) {
     built_.options.threads = threads;
-    steps_ = built_.steps;
+    steps_ = built_.options.steps();
     plan += fmt::format(", {} steps of {:.4g} (critical {:.4g})", steps_, built_.options.time_step,
                         built_.inertia.critical_time_step());
   }

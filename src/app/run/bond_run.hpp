@@ -11,7 +11,6 @@ struct BondRunCase {
   Inertia inertia;
   BondRunRules rules;
   ExplicitOptions options;  ///< threads left at one
-  Index steps = 0;
 };
 
 /// Masses and steps of a case with type = "explicit" whose body has bonds.

@@ -16,8 +16,8 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     built_.options.threads = threads;
     notes = built_.notes;
     plan = fmt::format("{} particles, {} bonds, {} steps of {:.4g} (critical {:.4g})",
-                       built_.model.lattice.particles(), built_.bonds, built_.steps,
-                       built_.time_step, built_.critical_time_step);
+                       built_.model.lattice.particles(), built_.bonds, built_.options.steps(),
+                       built_.options.time_step, built_.critical_time_step);
   }
 
   void analyse() override {
@@ -57,7 +57,7 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     }
     files_->add_row(record, gauges);
     if (files_->fields_are_due(record.time)) write_state(record, state);
-    files_->show_steps(record, built_.steps);
+    files_->show_steps(record, built_.options.steps());
   }
 
   void on_end(const ExplicitRecord& last, const ExplicitState& state) override {

@@ -39,14 +39,6 @@ bool can_break(const Network& network) {
   return false;
 }
 
-struct SilentBonds final : BondRunObserver {
-  void on_row(const ExplicitRecord&, const BondRunState&) override {}
-};
-
-struct SilentLattice final : ExplicitObserver {
-  void on_row(const ExplicitRecord&, const ExplicitState&) override {}
-};
-
 /// \param run  takes a number of steps; what it sets up before the first cancels out
 template <class Run>
 double time_of_step(Index most, Run run) {
@@ -67,9 +59,8 @@ double time_of_step(Index most, Run run) {
 }
 
 /// So many steps, as the run takes them, with no rows between the first and the last.
-ExplicitOptions some_steps(ExplicitOptions options, double time_step, Index steps) {
-  options.time_step = time_step;
-  options.duration = time_step * static_cast<double>(steps);
+ExplicitOptions some_steps(ExplicitOptions options, Index steps) {
+  options.duration = options.time_step * static_cast<double>(steps);
   options.rows = 1;
   options.threads = 1;
   return options;
@@ -89,20 +80,18 @@ ExpectedCost expected_cost(const Network& network, const FactorStatistics& facto
 }
 
 double seconds_per_step(const Model& model, const BondRunCase& built) {
-  const double at_rest = time_of_step(built.steps, [&](Index steps) {
-    SilentBonds silent;
-    run_explicit_bonds(model, built.inertia, built.rules,
-                       some_steps(built.options, built.options.time_step, steps), silent);
+  const double at_rest = time_of_step(built.options.steps(), [&](Index steps) {
+    BondRunObserver silent;
+    run_explicit_bonds(model, built.inertia, built.rules, some_steps(built.options, steps), silent);
   });
   return can_break(model.network) ? breaking * at_rest : at_rest;
 }
 
 double seconds_per_step(const ExplicitCase& built) {
-  const double at_rest = time_of_step(built.steps, [&](Index steps) {
+  const double at_rest = time_of_step(built.options.steps(), [&](Index steps) {
     ExplicitState state(built.model);
-    SilentLattice silent;
-    run_explicit_analysis(built.model, state, some_steps(built.options, built.time_step, steps),
-                          silent);
+    ExplicitObserver silent;
+    run_explicit_analysis(built.model, state, some_steps(built.options, steps), silent);
   });
   return built.model.material.breakable ? breaking * at_rest : at_rest;
 }

@@ -21,13 +21,7 @@ std::vector<double> share_cells(const LatticeInput& input, const Lattice& lattic
   for (Index k = 0; k < layers; ++k) {
     for (Index j = 0; j < steps[1]; ++j) {
       for (Index i = 0; i < steps[0]; ++i) {
-        const Vector3 centre = {bounds.lower[0] + (i + 0.5) * lattice.step[0],
-                                bounds.lower[1] + (j + 0.5) * lattice.step[1],
-                                bounds.lower[2] + (k + 0.5) * lattice.step[2]};
-        if (material_at(input, {centre.data(), static_cast<std::size_t>(lattice.dim)}) ==
-            no_index) {
-          continue;
-        }
+        if (cell_material(input, lattice, bounds, {i, j, k}) == no_index) continue;
         for (int corner = 0; corner < 4 * corner_layers; ++corner) {
           const Index a = i + (corner & 1);
           const Index b = j + ((corner >> 1) & 1);

@@ -9,22 +9,19 @@ namespace {
 /// The grid of a conforming lattice: cells with their materials and points with their particles.
 class Grid {
  public:
-  Grid(const LatticeInput& input, const Lattice& lattice, const Outline& outline)
-      : lattice_(lattice), steps_(count_steps(lattice, outline.bounds)) {
-    if (lattice.dim == 2) steps_[2] = 1;  // one layer of cells
+  Grid(const LatticeInput& input, const Lattice& lattice, const Box& bounds,
+       const Particles& particles)
+      : dim_(lattice.dim),
+        steps_(count_steps(lattice, bounds)),
+        points_(lattice, bounds, particles) {
+    if (dim_ == 2) steps_[2] = 1;  // one layer of cells
     for (Index k = 0; k < steps_[2]; ++k) {
       for (Index j = 0; j < steps_[1]; ++j) {
         for (Index i = 0; i < steps_[0]; ++i) {
-          const Box& box = outline.bounds;
-          const Vector3 centre = {box.lower[0] + (i + 0.5) * lattice.step[0],
-                                  box.lower[1] + (j + 0.5) * lattice.step[1],
-                                  box.lower[2] + (k + 0.5) * lattice.step[2]};
-          materials_.push_back(
-              material_at(input, {centre.data(), static_cast<std::size_t>(lattice.dim)}));
+          materials_.push_back(cell_material(input, lattice, bounds, {i, j, k}));
         }
       }
     }
-    number_particles();
   }
 
   const std::array<Index, 3>& steps() const { return steps_; }
@@ -41,63 +38,30 @@ class Grid {
   /// Particles at the corners of the face below a cell along an axis.
   std::vector<Index> corners(const std::array<Index, 3>& cell, int axis) const {
     std::vector<Index> found;
-    const int y = (axis + 1) % lattice_.dim;
-    for (int b = 0; b < (lattice_.dim == 3 ? 2 : 1); ++b) {
+    const int y = (axis + 1) % dim_;
+    for (int b = 0; b < (dim_ == 3 ? 2 : 1); ++b) {
       for (int a = 0; a < 2; ++a) {
         std::array<Index, 3> point = cell;
         point[y] += b ? 1 - a : a;  // around the face, not across
-        if (lattice_.dim == 3) point[(axis + 2) % 3] += b;
-        if (!is_particle(point)) continue;
-        found.push_back(particles_[slot(point)]);
+        if (dim_ == 3) point[(axis + 2) % 3] += b;
+        if (points_.particle(point) != no_index) found.push_back(points_.particle(point));
       }
     }
     return found;
   }
 
  private:
-  bool is_particle(const std::array<Index, 3>& point) const {
-    return lattice_.pattern != Pattern::face_centred || (point[0] + point[1] + point[2]) % 2 == 0;
-  }
-  std::size_t slot(const std::array<Index, 3>& point) const {
-    return point[0] + static_cast<std::size_t>(steps_[0] + 1) *
-                          (point[1] + static_cast<std::size_t>(steps_[1] + 1) * point[2]);
-  }
-
-  /// In the order of fill_conforming_grid: the points at the corners of solid cells, x fastest.
-  void number_particles() {
-    const Index layers = lattice_.dim == 3 ? steps_[2] : 0;
-    particles_.assign(static_cast<std::size_t>(steps_[0] + 1) * (steps_[1] + 1) * (layers + 1),
-                      no_index);
-    Index count = 0;
-    for (Index k = 0; k <= layers; ++k) {
-      for (Index j = 0; j <= steps_[1]; ++j) {
-        for (Index i = 0; i <= steps_[0]; ++i) {
-          if (is_particle({i, j, k}) && touches_solid(i, j, k)) {
-            particles_[slot({i, j, k})] = count++;
-          }
-        }
-      }
-    }
-  }
-
-  bool touches_solid(Index i, Index j, Index k) const {
-    for (int corner = 0; corner < (lattice_.dim == 3 ? 8 : 4); ++corner) {
-      const Index layer = lattice_.dim == 3 ? k - (corner >> 2) : 0;
-      if (material({i - (corner & 1), j - ((corner >> 1) & 1), layer}) != no_index) return true;
-    }
-    return false;
-  }
-
-  const Lattice& lattice_;
+  int dim_;
   std::array<Index, 3> steps_;
+  PointGrid points_;
   std::vector<Index> materials_;  // per cell, x fastest
-  std::vector<Index> particles_;  // at the points, x fastest
 };
 
 }  // namespace
 
-Facets grid_facets(const LatticeInput& input, const Lattice& lattice, const Outline& outline) {
-  const Grid grid(input, lattice, outline);
+Facets grid_facets(const LatticeInput& input, const Lattice& lattice, const Outline& outline,
+                   const Particles& particles) {
+  const Grid grid(input, lattice, outline.bounds, particles);
   Facets facets;
   facets.dim = lattice.dim;
   for (int axis = 0; axis < lattice.dim; ++axis) {

@@ -80,4 +80,32 @@ void add_particle(Particles& particles, const Vector3& point, double volume, Ind
   particles.kind.push_back(kind);
 }
 
+Index cell_material(const LatticeInput& input, const Lattice& lattice, const Box& bounds,
+                    const std::array<Index, 3>& cell) {
+  const Vector3 centre = {bounds.lower[0] + (cell[0] + 0.5) * lattice.step[0],
+                          bounds.lower[1] + (cell[1] + 0.5) * lattice.step[1],
+                          bounds.lower[2] + (cell[2] + 0.5) * lattice.step[2]};
+  return material_at(input, {centre.data(), static_cast<std::size_t>(lattice.dim)});
+}
+
+PointGrid::PointGrid(const Lattice& lattice, const Box& bounds, const Particles& particles)
+    : lower_(bounds.lower), step_(lattice.step), size_(count_steps(lattice, bounds)) {
+  if (lattice.pattern == Pattern::hexagonal) {
+    step_[0] *= 0.5;
+    size_[0] *= 2;
+  }
+  for (Index& count : size_) ++count;
+  particles_.assign(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2], no_index);
+  for (Index i = 0; i < particles.size(); ++i) particles_[slot(point_of(particles, i))] = i;
+}
+
+PointGrid::Point PointGrid::point_of(const Particles& particles, Index i) const {
+  Point point{};
+  const std::span<const double> x = particles.position(i);
+  for (int axis = 0; axis < particles.dim; ++axis) {
+    point[axis] = static_cast<Index>(std::lround((x[axis] - lower_[axis]) / step_[axis]));
+  }
+  return point;
+}
+
 }  // namespace perilink

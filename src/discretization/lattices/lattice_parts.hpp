@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "base/types.hpp"
 #include "discretization/lattices/lattice.hpp"
@@ -37,13 +38,18 @@ Particles fill_conforming_hexagonal(const LatticeInput& input, const Lattice& la
 
 /// Surface and material interfaces of a rectangular, cubic or face-centred lattice: faces of the
 /// cells of its grid (of a face-centred lattice half cubes, whose faces have two particles each).
-Facets grid_facets(const LatticeInput& input, const Lattice& lattice, const Outline& outline);
+Facets grid_facets(const LatticeInput& input, const Lattice& lattice, const Outline& outline,
+                   const Particles& particles);
 
 /// Peri2D's grid: solid particles, then ghosts.
 Body make_ghost_body(const LatticeInput& input, const Outline& outline);
 
 /// Material of a point, no_index outside the body.
 Index material_at(const LatticeInput& input, std::span<const double> point);
+
+/// The same at the middle of a cell of the lattice's grid, counted from the lower corner.
+Index cell_material(const LatticeInput& input, const Lattice& lattice, const Box& bounds,
+                    const std::array<Index, 3>& cell);
 
 /// Coordinate of a plane of the lattice; the last one ends exactly on the boundary.
 inline double plane(const Box& bounds, const Lattice& lattice, int axis, Index number,
@@ -55,5 +61,31 @@ inline double plane(const Box& bounds, const Lattice& lattice, int axis, Index n
 /// Appends a particle.
 void add_particle(Particles& particles, const Vector3& point, double volume, Index material,
                   ParticleKind kind);
+
+/// Particles at the points of a lattice, which are counted from the lower corner of the body's
+/// bounding box in steps (half steps along the rows of a hexagonal lattice).
+class PointGrid {
+ public:
+  using Point = std::array<Index, 3>;
+
+  PointGrid(const Lattice& lattice, const Box& bounds, const Particles& particles);
+
+  /// Points along an axis; cells are one fewer.
+  Index size(int axis) const { return size_[axis]; }
+  /// no_index: there is none.
+  Index particle(const Point& point) const { return particles_[slot(point)]; }
+  Point point_of(const Particles& particles, Index i) const;
+
+ private:
+  std::size_t slot(const Point& point) const {
+    return point[0] + static_cast<std::size_t>(size_[0]) *
+                          (point[1] + static_cast<std::size_t>(size_[1]) * point[2]);
+  }
+
+  Vector3 lower_;
+  Vector3 step_;
+  Point size_;
+  std::vector<Index> particles_;
+};
 
 }  // namespace perilink

@@ -38,7 +38,7 @@ Body make_body(const LatticeInput& input) {
     body.facets = facets_of(triangles, body.particles.positions, input.thickness);
   } else {
     body.particles = fill_conforming_grid(input, body.lattice, outline);
-    body.facets = grid_facets(input, body.lattice, outline);
+    body.facets = grid_facets(input, body.lattice, outline, body.particles);
   }
   const double exact = volume(outline) * (dim == 2 ? input.thickness : 1.0);
   const double sum =

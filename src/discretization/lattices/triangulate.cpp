@@ -11,47 +11,6 @@
 namespace perilink {
 namespace {
 
-/// Particles at the points of a lattice, which are counted from the lower corner of the body's
-/// bounding box in steps (half steps along the rows of a hexagonal lattice).
-class PointGrid {
- public:
-  using Point = std::array<Index, 3>;
-
-  PointGrid(const Lattice& lattice, const Box& bounds, const Particles& particles)
-      : lower_(bounds.lower), step_(lattice.step), size_(count_steps(lattice, bounds)) {
-    if (lattice.pattern == Pattern::hexagonal) {
-      step_[0] *= 0.5;
-      size_[0] *= 2;
-    }
-    for (Index& count : size_) ++count;
-    particles_.assign(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2], no_index);
-    for (Index i = 0; i < particles.size(); ++i) particles_[slot(point_of(particles, i))] = i;
-  }
-
-  /// Points along an axis; cells are one fewer.
-  Index size(int axis) const { return size_[axis]; }
-  Index particle(const Point& point) const { return particles_[slot(point)]; }
-  Point point_of(const Particles& particles, Index i) const {
-    Point point{};
-    const std::span<const double> x = particles.position(i);
-    for (int axis = 0; axis < particles.dim; ++axis) {
-      point[axis] = static_cast<Index>(std::lround((x[axis] - lower_[axis]) / step_[axis]));
-    }
-    return point;
-  }
-
- private:
-  std::size_t slot(const Point& point) const {
-    return point[0] + static_cast<std::size_t>(size_[0]) *
-                          (point[1] + static_cast<std::size_t>(size_[1]) * point[2]);
-  }
-
-  Vector3 lower_;
-  Vector3 step_;
-  Point size_;
-  std::vector<Index> particles_;
-};
-
 using Point = PointGrid::Point;
 
 void append(Simplices& cells, std::initializer_list<Index> vertices, Index material) {
@@ -98,11 +57,7 @@ Simplices split_grid(const LatticeInput& input, const Body& body, const Box& bou
   for (Index k = 0; k < layers; ++k) {
     for (Index j = 0; j + 1 < grid.size(1); ++j) {
       for (Index i = 0; i + 1 < grid.size(0); ++i) {
-        const Vector3 centre = {bounds.lower[0] + (i + 0.5) * lattice.step[0],
-                                bounds.lower[1] + (j + 0.5) * lattice.step[1],
-                                bounds.lower[2] + (k + 0.5) * lattice.step[2]};
-        const Index material =
-            material_at(input, {centre.data(), static_cast<std::size_t>(lattice.dim)});
+        const Index material = cell_material(input, lattice, bounds, {i, j, k});
         if (material == no_index) continue;
         lattice.dim == 3 ? split_cube(grid, {i, j, k}, material, cells)
                          : split_square(grid, {i, j, k}, material, cells);

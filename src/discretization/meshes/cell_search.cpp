@@ -7,47 +7,16 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "discretization/facet_geometry.hpp"
+#include "discretization/meshes/cell_corners.hpp"
 
 namespace perilink {
 namespace {
 
-/// Heights below this part of the longest edge are round-off of the coordinates.
-constexpr double flattest_cell = 1e-10;
 constexpr double most_steps = 2000;  ///< most cells of the grid along an axis
 
-struct Corners {
-  int count = 0;
-  std::array<Vector3, 4> at{};
-};
-
-Corners corners_of(const Mesh& mesh, Index cell) {
-  Corners corners;
-  corners.count = mesh.dim + 1;
-  for (int k = 0; k < corners.count; ++k) {
-    const auto point =
-        static_cast<std::size_t>(mesh.cells[static_cast<std::size_t>(cell) * corners.count + k]);
-    for (int a = 0; a < mesh.dim; ++a) corners.at[k][a] = mesh.positions[point * mesh.dim + a];
-  }
-  return corners;
-}
-
-double longest_edge(const Corners& corners) {
-  double longest = 0.0;
-  for (int a = 0; a < corners.count; ++a) {
-    for (int b = 0; b < a; ++b) {
-      longest = std::max(longest, norm(minus(corners.at[a], corners.at[b])));
-    }
-  }
-  return longest;
-}
-
-/// Normal of the side opposite to corner k, as long as twice its size.
-Vector3 normal_of_side(const Corners& corners, int k) {
-  const Vector3& a = corners.at[(k + 1) % corners.count];
-  const Vector3 u = minus(corners.at[(k + 2) % corners.count], a);
-  if (corners.count == 3) return {-u[1], u[0], 0.0};
-  return cross(u, minus(corners.at[(k + 3) % corners.count], a));
+CellCorners corners_of(const Mesh& mesh, Index cell) {
+  const std::size_t width = static_cast<std::size_t>(mesh.dim) + 1;
+  return {mesh.positions, mesh.dim, std::span(mesh.cells).subspan(cell * width, width)};
 }
 
 }  // namespace
@@ -58,14 +27,7 @@ CellSearch::CellSearch(const Mesh& mesh, std::span<const Index> cells, double to
   std::vector<Box> boxes;
   for (const Index cell : cells) {
     add_sides(mesh, cell);
-    const Corners corners = corners_of(mesh, cell);
-    Box box{corners.at[0], corners.at[0]};
-    for (int k = 1; k < corners.count; ++k) {
-      for (int a = 0; a < dim_; ++a) {
-        box.lower[a] = std::min(box.lower[a], corners.at[k][a]);
-        box.upper[a] = std::max(box.upper[a], corners.at[k][a]);
-      }
-    }
+    Box box = corners_of(mesh, cell).box;
     for (int a = 0; a < dim_; ++a) {
       box.lower[a] -= tolerance;
       box.upper[a] += tolerance;
@@ -76,22 +38,16 @@ CellSearch::CellSearch(const Mesh& mesh, std::span<const Index> cells, double to
 }
 
 void CellSearch::add_sides(const Mesh& mesh, Index cell) {
-  const Corners corners = corners_of(mesh, cell);
-  const double flat = flattest_cell * longest_edge(corners);
+  const CellCorners corners = corners_of(mesh, cell);
   for (int k = 0; k < corners.count; ++k) {
-    Vector3 normal = normal_of_side(corners, k);
+    Vector3 normal = corners.normal_of_side(k);
     const double length = norm(normal);
     double height = 0.0;
     if (length > 0.0) {
       for (double& entry : normal) entry /= length;
       height = dot(normal, minus(corners.at[k], corners.at[(k + 1) % corners.count]));
     }
-    if (!(std::abs(height) > flat)) {
-      const Vector3& x = corners.at[0];
-      throw std::invalid_argument(
-          fmt::format("the cell with a corner at ({:.6g}) is flat: it has no {}",
-                      fmt::join(x.begin(), x.begin() + dim_, ", "), dim_ == 2 ? "area" : "volume"));
-    }
+    if (!(std::abs(height) > CellCorners::flattest * corners.size)) corners.refuse_flat();
     const double sign = height > 0.0 ? 1.0 : -1.0;
     for (int a = 0; a < dim_; ++a) sides_.push_back(sign * normal[a]);
     sides_.push_back(-sign * dot(normal, corners.at[(k + 1) % corners.count]));

@@ -8,17 +8,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "discretization/facet_geometry.hpp"
+#include "discretization/lattices/triangulate.hpp"
 #include "discretization/mesh_faces.hpp"
+#include "discretization/meshes/cell_corners.hpp"
 #include "discretization/meshes/mesh_conformity.hpp"
 #include "discretization/meshes/mesh_overlap.hpp"
 
 namespace perilink {
 namespace {
-
-/// Cells flatter than this, volume over the longest edge to the power dim, have no usable shape
-/// functions: the regular triangle has 0.4, round-off of the coordinates leaves 1e-16.
-constexpr double flattest_cell = 1e-10;
 
 /// Area or volume, negative where the corners run the wrong way.
 double signed_volume(std::span<const double> positions, int dim, std::span<const Index> cell) {
@@ -27,18 +24,6 @@ double signed_volume(std::span<const double> positions, int dim, std::span<const
   const Vector3 v = minus(point_of(positions, dim, cell[2]), a);
   if (dim == 2) return 0.5 * (u[0] * v[1] - u[1] * v[0]);
   return dot(cross(u, v), minus(point_of(positions, dim, cell[3]), a)) / 6.0;
-}
-
-double longest_edge(std::span<const double> positions, int dim, std::span<const Index> cell) {
-  double square = 0.0;
-  for (std::size_t a = 0; a < cell.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      const Vector3 edge =
-          minus(point_of(positions, dim, cell[a]), point_of(positions, dim, cell[b]));
-      square = std::max(square, dot(edge, edge));
-    }
-  }
-  return std::sqrt(square);
 }
 
 /// Particle of every point of the mesh; no_index where no cell with a material needs it.
@@ -84,12 +69,9 @@ std::vector<Index> add_cells(const Mesh& mesh, std::span<const Index> material, 
     for (std::size_t k = 0; k < width; ++k) corners[k] = particle[mesh.cells[cell * width + k]];
     const auto& positions = body.particles.positions;
     const double volume = signed_volume(positions, dim, corners);
-    if (!(std::abs(volume) >
-          flattest_cell * std::pow(longest_edge(positions, dim, corners), dim))) {
-      const Vector3 x = point_of(positions, dim, corners[0]);
-      throw std::invalid_argument(
-          fmt::format("the cell with a corner at ({:.6g}) is flat: it has no {}",
-                      fmt::join(x.begin(), x.begin() + dim, ", "), dim == 2 ? "area" : "volume"));
+    const CellCorners shape(positions, dim, corners);
+    if (!(std::abs(volume) > CellCorners::flattest * std::pow(shape.size, dim))) {
+      shape.refuse_flat();
     }
     if (volume < 0.0) std::swap(corners[width - 2], corners[width - 1]);
     number[cell] = body.cells.size();
@@ -121,21 +103,12 @@ std::vector<Index> number_surface_facets(const CellFaces& faces, const Simplices
 }
 
 double mean_edge_length(const Body& body) {
-  std::vector<std::pair<Index, Index>> edges;
-  for (Index cell = 0; cell < body.cells.size(); ++cell) {
-    const std::span<const Index> corners = body.cells.cell(cell);
-    for (std::size_t a = 0; a < corners.size(); ++a) {
-      for (std::size_t b = 0; b < a; ++b) {
-        edges.emplace_back(std::min(corners[a], corners[b]), std::max(corners[a], corners[b]));
-      }
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const Bonds edges = edges_of(body.cells, body.particles);
   double sum = 0.0;
-  for (const auto& [i, j] : edges) {
-    const Vector3 edge = minus(point_of(body.particles.positions, body.particles.dim, i),
-                               point_of(body.particles.positions, body.particles.dim, j));
+  for (Index e = 0; e < edges.size(); ++e) {
+    const Vector3 edge =
+        minus(point_of(body.particles.positions, body.particles.dim, edges.first[e]),
+              point_of(body.particles.positions, body.particles.dim, edges.second[e]));
     sum += std::sqrt(dot(edge, edge));
   }
   return sum / static_cast<double>(edges.size());

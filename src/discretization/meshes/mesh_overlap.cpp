@@ -5,8 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "discretization/facet_geometry.hpp"
-#include "discretization/region.hpp"
+#include "discretization/meshes/cell_corners.hpp"
 
 namespace perilink {
 namespace {
@@ -18,28 +17,10 @@ constexpr double touching = 1e-6;
 /// Axes across two edges that are parallel to this sine have no direction.
 constexpr double parallel = 1e-9;
 
-struct Cell {
-  int count = 0;
-  std::array<Vector3, 4> at{};
-  Box box;
-  double size = 0.0;  ///< longest edge [length]
-};
+using Cell = CellCorners;
 
 Cell cell_at(const Simplices& cells, std::span<const double> positions, Index number) {
-  Cell cell;
-  for (const Index i : cells.cell(number)) {
-    cell.at[cell.count++] = point_of(positions, cells.dim, i);
-  }
-  cell.box = {cell.at[0], cell.at[0]};
-  for (int k = 1; k < cell.count; ++k) {
-    for (int a = 0; a < 3; ++a) {
-      cell.box.lower[a] = std::min(cell.box.lower[a], cell.at[k][a]);
-      cell.box.upper[a] = std::max(cell.box.upper[a], cell.at[k][a]);
-    }
-    for (int j = 0; j < k; ++j)
-      cell.size = std::max(cell.size, norm(minus(cell.at[k], cell.at[j])));
-  }
-  return cell;
+  return {positions, cells.dim, cells.cell(number)};
 }
 
 /// Whether the shadows of two cells on an axis overlap by no more than the tolerance.
@@ -59,10 +40,7 @@ bool separates(const Vector3& axis, double length, const Cell& a, const Cell& b,
 
 bool separated_by_side(const Cell& of, const Cell& a, const Cell& b, double tolerance) {
   for (int k = 0; k < of.count; ++k) {
-    const Vector3& from = of.at[k];
-    const Vector3 u = minus(of.at[(k + 1) % of.count], from);
-    const Vector3 axis = of.count == 3 ? Vector3{-u[1], u[0], 0.0}
-                                       : cross(u, minus(of.at[(k + 2) % of.count], from));
+    const Vector3 axis = of.normal_of_side(k);
     if (separates(axis, norm(axis), a, b, tolerance)) return true;
   }
   return false;

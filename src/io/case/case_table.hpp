@@ -69,6 +69,11 @@ class CaseTable {
     return *std::move(value);
   }
 
+  /// The name of a region. \param use  what the region is for: "that is held"
+  std::string need_region(const std::string& use) const {
+    return need("region", text("region"), "the name of the region " + use);
+  }
+
   /// Refuses both and none of keys that exclude each other.
   void need_one_of(const std::vector<std::string>& keys) const;
 

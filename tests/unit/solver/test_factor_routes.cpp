@@ -31,6 +31,12 @@ Eigen::VectorXd dense_vector(const SparseVector& x, Index size) {
   return dense;
 }
 
+/// Removes one vector, whose load grows by `load_change` x.
+void remove(Factor& factor, const SparseVector& x, double load_change, std::span<double> solution) {
+  const double pivot = factor.pivot(x);
+  factor.downdate({&x, 1}, {&load_change, 1}, {&pivot, 1}, solution);
+}
+
 class EveryRoute : public testing::TestWithParam<std::pair<FactorRoute, int>> {
  protected:
   std::unique_ptr<Factor> make() const { return make_factor(GetParam().first, GetParam().second); }
@@ -52,13 +58,11 @@ TEST_P(EveryRoute, PivotIsTheRatioOfDeterminants) {
   const auto lattice = make_spring_lattice(9, 9, 2.3);
   const auto factor = make();
   factor->factorize(lattice.lower, lattice.groups);
-  std::vector<double> solution(static_cast<std::size_t>(lattice.size));
-  factor->follow_load(random_vector(lattice.size, 2), solution);
 
   for (std::size_t k = 0; k < lattice.springs.size(); k += 37) {
     const Eigen::VectorXd x = dense_vector(lattice.springs[k], lattice.size);
     const double expected = 1.0 - x.dot(lattice.dense().ldlt().solve(x));
-    EXPECT_NEAR(factor->prepare_downdate(lattice.springs[k]), expected, tolerance);
+    EXPECT_NEAR(factor->pivot(lattice.springs[k]), expected, tolerance);
   }
 }
 
@@ -68,14 +72,13 @@ TEST_P(EveryRoute, FollowsRemovalsAndTheirLoadChanges) {
   std::vector<double> solution(load.size());
   const auto factor = make();
   factor->factorize(lattice.lower, lattice.groups);
-  factor->follow_load(load, solution);
+  factor->solve(load, solution);
   Eigen::MatrixXd expected = lattice.dense();
 
   for (std::size_t k = 5; k < lattice.springs.size(); k += 11) {
     const SparseVector& x = lattice.springs[k];
     const double load_change = k % 2 == 0 ? 0.0 : 0.25;
-    factor->prepare_downdate(x);
-    factor->commit_downdate(load_change, solution);
+    remove(*factor, x, load_change, solution);
     const Eigen::VectorXd dense = dense_vector(x, lattice.size);
     expected -= dense * dense.transpose();
     for (int a = 0; a < x.size(); ++a) load[x.rows[a]] += load_change * x.values[a];
@@ -87,36 +90,46 @@ TEST_P(EveryRoute, FollowsRemovalsAndTheirLoadChanges) {
   EXPECT_LT(relative_difference(solution, dense_solution(expected, other)), tolerance);
 }
 
-TEST_P(EveryRoute, PreparingChangesNothing) {
+TEST_P(EveryRoute, LookingChangesNothing) {
   const auto lattice = make_spring_lattice(8, 8, 2.3);
   const auto rhs = random_vector(lattice.size, 5);
   std::vector<double> before(rhs.size()), after(rhs.size());
   const auto factor = make();
   factor->factorize(lattice.lower, lattice.groups);
-  factor->follow_load(rhs, before);
+  factor->solve(rhs, before);
 
-  for (const SparseVector& x : lattice.springs) factor->prepare_downdate(x);
+  std::vector<double> compliance(4);
+  for (std::size_t k = 1; k < lattice.springs.size(); ++k) {
+    factor->pivot(lattice.springs[k]);
+    factor->compliance(std::span(lattice.springs).subspan(k, 1), compliance);
+    factor->columns(std::span(lattice.springs).subspan(k - 1, 2));
+  }
   factor->solve(rhs, after);
 
   EXPECT_LT(relative_difference(after, before), 1e-14);
 }
 
-TEST_P(EveryRoute, UpdateKeepsTheSolutionAndTheNextDowndateUndoesIt) {
+TEST_P(EveryRoute, UpdateAddsASpringAndTheNextDowndateUndoesIt) {
   const auto lattice = make_spring_lattice(8, 8, 2.3);
   const auto load = random_vector(lattice.size, 6);
   std::vector<double> solution(load.size());
   const auto factor = make();
   factor->factorize(lattice.lower, lattice.groups);
-  factor->follow_load(load, solution);
+  factor->solve(load, solution);
   const auto before = solution;
   SparseVector spring;
   spring.add(17, 2.0);
 
-  factor->update(spring, solution);
-  EXPECT_EQ(solution, before);
-  factor->prepare_downdate(spring);
-  factor->commit_downdate(-2.0 * solution[17], solution);
+  factor->update(spring);
+  auto grown = load;  // by the force of the spring: the solution stays
+  grown[17] += 2.0 * 2.0 * before[17];
+  std::vector<double> with_spring(load.size());
+  factor->solve(grown, with_spring);
+  EXPECT_LT(relative_difference(with_spring, before), tolerance);
+  remove(*factor, spring, -2.0 * solution[17], solution);
 
+  EXPECT_LT(relative_difference(solution, before), tolerance);
+  factor->solve(load, solution);
   EXPECT_LT(relative_difference(solution, before), tolerance);
 }
 
@@ -126,9 +139,8 @@ TEST_P(EveryRoute, RefactorizeForgetsTheRemovals) {
   std::vector<double> before(load.size()), after(load.size());
   const auto factor = make();
   factor->factorize(lattice.lower, lattice.groups);
-  factor->follow_load(load, before);
-  factor->prepare_downdate(lattice.springs[3]);
-  factor->commit_downdate(0.0, after = before);
+  factor->solve(load, before);
+  remove(*factor, lattice.springs[3], 0.0, after = before);
 
   factor->refactorize(lattice.lower);
   factor->solve(load, after);
@@ -185,7 +197,7 @@ TEST_P(EveryRoute, DowndatesOfSeveralVectorsFollowTheLoad) {
   factor->factorize(lattice.lower, lattice.groups);
   std::vector<double> load = random_vector(lattice.size, 2);
   std::vector<double> solution(load.size());
-  factor->follow_load(load, solution);
+  factor->solve(load, solution);
   Eigen::MatrixXd matrix = lattice.dense();
   for (std::size_t s = 0; s < lattice.springs.size(); s += 37) {
     // Vectors that do not interact: the second less its share of the first.
@@ -210,6 +222,68 @@ TEST_P(EveryRoute, DowndatesOfSeveralVectorsFollowTheLoad) {
     factor->solve(load, other);
     EXPECT_LT(relative_difference(other, dense_solution(matrix, load)), tolerance);
   }
+}
+
+TEST_P(EveryRoute, ColumnsOfManyBondsAreThoseOfTheDenseInverse) {
+  const auto lattice = make_spring_lattice(9, 9, 2.3);
+  const auto factor = make();
+  factor->factorize(lattice.lower, lattice.groups);
+  const auto size = static_cast<std::size_t>(lattice.size);
+  std::vector<double> solution(size);
+  remove(*factor, lattice.springs[5], 0.0, solution);  // the columns are those of the changed K
+  const Eigen::VectorXd gone = dense_vector(lattice.springs[5], lattice.size);
+  const Eigen::MatrixXd inverse = (lattice.dense() - gone * gone.transpose()).inverse();
+  std::vector<SparseVector> x;  // from all over the lattice, on different paths
+  for (std::size_t s = 0; s < lattice.springs.size(); s += 37) x.push_back(lattice.springs[s]);
+  x.emplace_back();  // none of its unknowns moves
+
+  const std::vector<double> columns = factor->columns(x);
+
+  ASSERT_EQ(columns.size(), x.size() * size);
+  for (std::size_t c = 0; c < x.size(); ++c) {
+    const Eigen::VectorXd expected = inverse * dense_vector(x[c], lattice.size);
+    for (std::size_t k = 0; k < size; ++k) {
+      EXPECT_NEAR(columns[c * size + k], expected[k], tolerance * inverse.norm());
+    }
+  }
+}
+
+TEST_P(EveryRoute, DowndatesWithoutASolutionChangeTheFactorAlone) {
+  const auto lattice = make_spring_lattice(9, 9, 2.3);
+  const auto rhs = random_vector(lattice.size, 8);
+  const auto factor = make();
+  factor->factorize(lattice.lower, lattice.groups);
+  Eigen::MatrixXd matrix = lattice.dense();
+  for (const std::size_t k : {3, 50, 51}) {
+    remove(*factor, lattice.springs[k], 0.0, {});
+    const Eigen::VectorXd x = dense_vector(lattice.springs[k], lattice.size);
+    matrix -= x * x.transpose();
+  }
+
+  std::vector<double> solution(rhs.size());
+  factor->solve(rhs, solution);
+  EXPECT_LT(relative_difference(solution, dense_solution(matrix, rhs)), tolerance);
+}
+
+TEST_P(EveryRoute, KeepsWhatIsWantedCurrent) {
+  const auto lattice = make_spring_lattice(13, 17, 3.0);
+  const auto load = random_vector(lattice.size, 9);
+  std::vector<double> solution(load.size());
+  const auto factor = make();
+  factor->factorize(lattice.lower, lattice.groups);
+  factor->solve(load, solution);
+  const SparseVector& x = lattice.springs[40];
+  std::vector<std::uint8_t> wanted(load.size(), 0);
+  for (const Index row : x.rows) wanted[row] = 1;
+  factor->keep_current(wanted);
+
+  remove(*factor, x, 0.0, solution);
+
+  const Eigen::VectorXd dense = dense_vector(x, lattice.size);
+  const auto expected = dense_solution(lattice.dense() - dense * dense.transpose(), load);
+  const double size =
+      std::abs(*std::ranges::max_element(expected, {}, [](double u) { return std::abs(u); }));
+  for (const Index row : x.rows) EXPECT_NEAR(solution[row], expected[row], tolerance * size);
 }
 
 INSTANTIATE_TEST_SUITE_P(Routes, EveryRoute,

@@ -21,10 +21,11 @@ TEST(InPlaceFactor, GivesTheSameBytesForAnyNumberOfThreads) {
     factor->factorize(lattice.lower, lattice.groups);
     EXPECT_GT(factor->statistics().entries, 2e6) << "too small to be solved in parallel";
     std::vector<double> solution(load.size());
-    factor->follow_load(load, solution);
+    factor->solve(load, solution);
     for (std::size_t k = 0; k < 20; ++k) {
-      factor->prepare_downdate(lattice.springs[100 * k]);
-      factor->commit_downdate(0.0, solution);
+      const SparseVector& x = lattice.springs[100 * k];
+      const double pivot = factor->pivot(x), load_change = 0.0;
+      factor->downdate({&x, 1}, {&load_change, 1}, {&pivot, 1}, solution);
     }
     solutions.push_back(solution);
   }
@@ -39,8 +40,8 @@ TEST(InPlaceFactor, AnIndefiniteRemovalShowsInThePivotOnly) {
   SparseVector twice = lattice.springs[10];
   for (int k = 0; k < twice.size(); ++k) twice.values[k] *= 2.0;
 
-  EXPECT_LT(factor->prepare_downdate(twice), 0.0);
-  EXPECT_GT(factor->prepare_downdate(lattice.springs[10]), 0.0);
+  EXPECT_LT(factor->pivot(twice), 0.0);
+  EXPECT_GT(factor->pivot(lattice.springs[10]), 0.0);
 }
 
 TEST(InPlaceFactor, CountsItsFactorizations) {

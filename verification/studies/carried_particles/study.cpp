@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bodies.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace perilink::verification {
@@ -42,9 +42,8 @@ std::string row_of(const Scene& scene, int size, bool graded) {
 
 /// What finite elements that carry particles save, and what they change: beams with and without
 /// them, into result.csv. `carried_particles small` leaves out the large ones.
-int main(int argc, char** argv) try {
-  using namespace perilink::verification;
-  const bool small = argc > 1 && std::string(argv[1]) == "small";
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  const bool small = !arguments.empty() && arguments[0] == "small";
   std::vector<Scene> scenes = {
       {false, 2.5, {0, 4, 8}}, {false, 1.0, {0, 4, 8, 12}, 8}, {true, 10.0, {0, 3}}};
   if (!small) {
@@ -67,8 +66,5 @@ int main(int argc, char** argv) try {
     }
   }
   if (!small) write_result(PERILINK_STUDY_DIR, table);
-  return 0;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "carried_particles: {}\n", error.what());
-  return 1;
+  return true;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "homogeneous.hpp"
 #include "pictures.hpp"
 #include "plates.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace perilink::verification {
@@ -122,23 +122,19 @@ void draw_pictures() {
 /// The law of concrete with two limits in bodies: `concrete homogeneous` and `concrete plates`
 /// write the tables of the study, `concrete pictures` draws them, `concrete case BODY X Y` prints
 /// the case of a plate.
-int main(int argc, char** argv) try {
-  using namespace perilink::verification;
-  const std::string part = argc > 1 ? argv[1] : "";
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  const std::string part = arguments.empty() ? "" : arguments[0];
   if (part == "homogeneous") {
     run_homogeneous();
   } else if (part == "plates") {
     run_plates();
   } else if (part == "pictures") {
     draw_pictures();
-  } else if (part == "case" && argc == 5) {
-    fmt::print("{}", plate_case({argv[2], std::stod(argv[3]), std::stod(argv[4])}));
+  } else if (part == "case" && arguments.size() == 4) {
+    fmt::print("{}", plate_case({arguments[1], std::stod(arguments[2]), std::stod(arguments[3])}));
   } else {
     throw std::invalid_argument(
         "name homogeneous, plates, pictures, or case with a body and two tractions");
   }
-  return 0;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "concrete: {}\n", error.what());
-  return 1;
+  return true;
 }

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
 
 #include "app/plot/plot_fields.hpp"
 #include "cracks.hpp"
 #include "draw.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace perilink::verification {
@@ -88,10 +88,8 @@ void draw_body(const CrackRun& run, const std::string& path) {
 }  // namespace
 }  // namespace perilink::verification
 
-int main(int argc, char** argv) try {
-  using namespace perilink;
-  using namespace perilink::verification;
-  const std::string directory = argc > 1 ? argv[1] : ".";
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  const std::string directory = arguments.empty() ? "." : arguments[0];
   Table table;
   std::vector<CrackRun> runs;
   for (const Shape shape : {Shape::block, Shape::notched_beam, Shape::cracked_beam}) {
@@ -112,8 +110,5 @@ int main(int argc, char** argv) try {
   draw_paths(runs).save(directory + "/paths.svg");
   draw_energies(runs).save(directory + "/energies.svg");
   write_result(directory, table.text);
-  return table.good ? 0 : 1;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "cracks: {}\n", error.what());
-  return 1;
+  return table.good;
 }

@@ -65,7 +65,7 @@ std::vector<Drift> measure_drift(const Model& model, int downdates, int interval
                     model.unknowns.owners());
   const auto load = assemble_right_hand_side(model.network, secants, model.unknowns, model.loads);
   std::vector<double> solution(load.size()), again(load.size());
-  factor->follow_load(load, solution);
+  factor->solve(load, solution);
   std::mt19937_64 random(12345);
   std::vector<Drift> table;
   int done = 0;
@@ -81,8 +81,9 @@ std::vector<Drift> measure_drift(const Model& model, int downdates, int interval
     if (secants[element] == 0.0) continue;
     const SparseVector x =
         element_vector(model.network, model.unknowns, element, model.network.stiffness[element]);
-    if (factor->prepare_downdate(x) < 1e-2) continue;
-    factor->commit_downdate(0.0, solution);
+    const double pivot = factor->pivot(x), load_change = 0.0;
+    if (pivot < 1e-2) continue;
+    factor->downdate({&x, 1}, {&load_change, 1}, {&pivot, 1}, solution);
     secants[element] = 0.0;
     if (++done % interval == 0) measure();
   }

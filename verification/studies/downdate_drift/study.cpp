@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include <exception>
 #include <string>
 #include <vector>
 
 #include "drift.hpp"
 #include "network/rigid_modes.hpp"
 #include "problems/block.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 #include "problems/surface_option.hpp"
 
@@ -69,10 +69,7 @@ bool run_study(const std::string& surface) {
 /// How accurate are factor and displacement after 20 000 downdates, and the rest of a body from
 /// which a part was cut?
 /// downdate_drift [--surface calibrated|none]
-int main(int argc, char** argv) try {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  return run_study(take_surface_option(arguments)) ? 0 : 1;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "downdate_drift: {}\n", error.what());
-  return 1;
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  std::vector<std::string> rest = arguments;
+  return run_study(take_surface_option(rest));
 }

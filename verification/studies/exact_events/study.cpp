@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
 #include "compare.hpp"
 #include "problems/block.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 #include "problems/surface_option.hpp"
 #include "softening.hpp"
@@ -51,16 +51,11 @@ bool run_sizes(const std::string& surface, bool quick) {
 /// Is every event of the downdated factor the event that a run breaks which factorises anew each
 /// time? exact_events [--surface calibrated|none] [--quick]: quick is the smallest size only;
 /// exact_events --softening [large]: bonds that soften.
-int main(int argc, char** argv) try {
-  using namespace perilink::verification;
-  std::vector<std::string> arguments(argv + 1, argv + argc);
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   if (!arguments.empty() && arguments.front() == "--softening") {
-    return run_softening(arguments.back() == "large") ? 0 : 1;
+    return run_softening(arguments.back() == "large");
   }
-  const std::string surface = take_surface_option(arguments);
-  const bool quick = std::find(arguments.begin(), arguments.end(), "--quick") != arguments.end();
-  return run_sizes(surface, quick) ? 0 : 1;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "exact_events: {}\n", error.what());
-  return 1;
+  std::vector<std::string> rest = arguments;
+  const std::string surface = take_surface_option(rest);
+  return run_sizes(surface, std::find(rest.begin(), rest.end(), "--quick") != rest.end());
 }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <utility>
 
 #include "comparison.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace perilink::verification {
@@ -25,7 +25,11 @@ std::string row(const Specimen& specimen, const std::string& mode, double period
                      outcome.seconds);
 }
 
-void run_study() {
+}  // namespace
+
+/// Do explicit runs of the same bonds find the peak load and crack of the implicit mode as they
+/// become slower, and what do they cost? Writes result.csv.
+bool run_program(const std::vector<std::string>& /*arguments*/) {
   std::string table =
       "specimen,mode,periods,peak_load,peak_over_implicit,dissipated,steps,crack_overlap,"
       "broken_bonds,energy_surplus,seconds\n";
@@ -48,17 +52,7 @@ void run_study() {
     }
   }
   write_result(PERILINK_STUDY_DIR, table);
+  return true;
 }
 
-}  // namespace
 }  // namespace perilink::verification
-
-/// Do explicit runs of the same bonds find the peak load and crack of the implicit mode as they
-/// become slower, and what do they cost? Writes result.csv.
-int main() try {
-  perilink::verification::run_study();
-  return 0;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "explicit_against_implicit: {}\n", error.what());
-  return 1;
-}

@@ -7,14 +7,7 @@
 #include "base/timer.hpp"
 
 namespace perilink::verification {
-namespace {
-
-class Silent final : public BondRunObserver {
- public:
-  void on_row(const ExplicitRecord&, const BondRunState&) override {}
-};
-
-}  // namespace
+namespace {}  // namespace
 
 Solution solve(const Specimen& specimen) {
   const Model& model = specimen.model;
@@ -35,7 +28,7 @@ Solution relax(const Specimen& specimen, Strain strain, double tolerance, int th
   options.tolerance = tolerance;
   options.strain = strain;
   options.threads = threads;
-  Silent observer;
+  BondRunObserver observer;
   const Timer timer;
   RelaxationResult result = run_dynamic_relaxation(model, options, observer);
   Solution solution;

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <exception>
 #include <stdexcept>
 #include <string>
 
 #include "comparison.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace perilink::verification {
@@ -101,10 +101,7 @@ class Study {
 
 /// How far are explicit runs of bonds in space off the deflections of beams and a plate, and off
 /// the implicit mode? Writes result.csv.
-int main() try {
-  perilink::verification::Study().run();
-  return 0;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "explicit_beams: {}\n", error.what());
-  return 1;
+bool perilink::verification::run_program(const std::vector<std::string>& /*arguments*/) {
+  Study().run();
+  return true;
 }

@@ -13,16 +13,6 @@ namespace {
 
 constexpr double steps = 20000.0;
 
-class SilentBonds final : public BondRunObserver {
- public:
-  void on_row(const ExplicitRecord&, const BondRunState&) override {}
-};
-
-class SilentLattice final : public ExplicitObserver {
- public:
-  void on_row(const ExplicitRecord&, const ExplicitState&) override {}
-};
-
 std::string case_text(const MovingBody& body) {
   const bool lattice = body.name == "lattice", moments = body.name == "frame";
   std::string text = lattice ? "[body]\nmodel = \"lattice\"\nspacing = 0.05\nrotation = 15\n"
@@ -88,13 +78,13 @@ ExplicitResult run_at(const MovingBody& body, double factor, bool refuse) {
     ExplicitCase built = build_explicit_case(input);
     choose(built.options, built.critical_time_step, factor, refuse);
     ExplicitState state(built.model);
-    SilentLattice observer;
+    ExplicitObserver observer;
     return run_explicit_analysis(built.model, state, built.options, observer);
   }
   const Model model = build_model(input);
   BondRunCase built = build_bond_run(input, model);
   choose(built.options, built.inertia.critical_time_step(), factor, refuse);
-  SilentBonds observer;
+  BondRunObserver observer;
   return run_explicit_bonds(model, built.inertia, built.rules, built.options, observer);
 }
 

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <exception>
 #include <stdexcept>
 #include <string>
 
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 #include "stability.hpp"
 
@@ -37,7 +37,10 @@ double limit_of_growth(const MovingBody& body) {
   return grows;
 }
 
-void run_study() {
+}  // namespace
+
+/// Which steps are stable, and what becomes of those that are not? Writes result.csv.
+bool run_program(const std::vector<std::string>& /*arguments*/) {
   std::string table =
       "bonds,material,step_over_critical,above_critical,ending,steps,energy_surplus,cracked,"
       "last_row\n";
@@ -49,16 +52,7 @@ void run_study() {
   }
   fmt::print("{}", table);
   write_result(PERILINK_STUDY_DIR, table);
+  return true;
 }
 
-}  // namespace
 }  // namespace perilink::verification
-
-/// Which steps are stable, and what becomes of those that are not? Writes result.csv.
-int main() try {
-  perilink::verification::run_study();
-  return 0;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "explicit_stability: {}\n", error.what());
-  return 1;
-}

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
 #include "problems/block.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 #include "problems/surface_option.hpp"
 
@@ -68,10 +68,7 @@ bool run_study(const std::string& surface) {
 
 /// Does the tension block dissipate G_F per area of its crack, whatever the spacing?
 /// fracture_energy [--surface calibrated|none]
-int main(int argc, char** argv) try {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  return run_study(take_surface_option(arguments)) ? 0 : 1;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "fracture_energy: {}\n", error.what());
-  return 1;
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  std::vector<std::string> rest = arguments;
+  return run_study(take_surface_option(rest));
 }

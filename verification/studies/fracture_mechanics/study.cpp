@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -21,6 +20,7 @@
 #include "draw.hpp"
 #include "measures.hpp"
 #include "problems/handbook.hpp"
+#include "problems/program.hpp"
 
 namespace perilink::verification {
 namespace {
@@ -170,9 +170,8 @@ void run_kinks() {
 }  // namespace
 }  // namespace perilink::verification
 
-int main(int argc, char** argv) try {
-  using namespace perilink::verification;
-  const std::string part = argc > 1 ? argv[1] : "";
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  const std::string part = arguments.empty() ? "" : arguments[0];
   const std::vector<std::pair<std::string, void (*)()>> parts = {{"strips", run_strips},
                                                                  {"beams", run_beams},
                                                                  {"directions", run_directions},
@@ -181,10 +180,7 @@ int main(int argc, char** argv) try {
     if (name != part) continue;
     run();
     std::filesystem::remove_all(temporary_folder());
-    return 0;
+    return true;
   }
   throw std::invalid_argument("name strips, beams, directions or kinks");
-} catch (const std::exception& error) {
-  fmt::print(stderr, "fracture_mechanics: {}\n", error.what());
-  return 1;
 }

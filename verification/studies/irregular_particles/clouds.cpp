@@ -59,11 +59,6 @@ void scatter(const Cloud& cloud, Body& body) {
   }
 }
 
-class Silent final : public BondRunObserver {
- public:
-  void on_row(const ExplicitRecord&, const BondRunState&) override {}
-};
-
 }  // namespace
 
 ParticleNetwork build(const Cloud& cloud) {
@@ -155,7 +150,7 @@ ExplicitResult tear(const Cloud& cloud, const ParticleNetwork& built) {
   ReferenceLoad reference;
   reference.driven = true;
   reference.value = extension;
-  Silent observer;
+  BondRunObserver observer;
   return run_explicit_bonds({network, unknowns, loads, reference}, inertia, rules, options,
                             observer);
 }

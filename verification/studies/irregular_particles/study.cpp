@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
 
 #include "clouds.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace perilink::verification {
@@ -30,7 +30,10 @@ std::string row(const Cloud& cloud, bool torn) {
                             result.last.cracked_particles, result.largest_surplus);
 }
 
-void run_study() {
+}  // namespace
+
+/// How stiff and how strong are bars whose particles stand at random? Writes result.csv.
+bool run_program(const std::vector<std::string>& /*arguments*/) {
   std::string table =
       "body,spacing_over_width,scatter,particles,mean_residual,largest_residual,ill_posed,"
       "modulus,displacement_error,peak_over_strength,fractured_over_gf,cracked,energy_surplus\n";
@@ -53,16 +56,7 @@ void run_study() {
   }
   fmt::print("\n{}", table);
   write_result(PERILINK_STUDY_DIR, table);
+  return true;
 }
 
-}  // namespace
 }  // namespace perilink::verification
-
-/// How stiff and how strong are bars whose particles stand at random? Writes result.csv.
-int main() try {
-  perilink::verification::run_study();
-  return 0;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "irregular_particles: {}\n", error.what());
-  return 1;
-}

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
 #include "io/text/csv.hpp"
+#include "problems/program.hpp"
 
 namespace perilink::verification {
 namespace {
@@ -76,11 +76,10 @@ void print_diffuse(const std::string& case_file, const std::string& results) {
 
 /// l_panel CASE.toml RESULTS: how much of the energy a run of the case dissipated away from the
 /// crack.
-int main(int argc, char** argv) try {
-  if (argc != 3) throw std::invalid_argument("name a case and the directory of its results");
-  perilink::verification::print_diffuse(argv[1], argv[2]);
-  return 0;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "l_panel: {}\n", error.what());
-  return 1;
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  if (arguments.size() != 2) {
+    throw std::invalid_argument("name a case and the directory of its results");
+  }
+  print_diffuse(arguments[0], arguments[1]);
+  return true;
 }

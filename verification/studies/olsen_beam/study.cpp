@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -14,6 +13,7 @@
 #include "io/case/case_file.hpp"
 #include "io/text/csv.hpp"
 #include "problems/block.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace perilink::verification {
@@ -91,7 +91,10 @@ void draw(const std::vector<Run>& runs) {
   svg.save(PERILINK_STUDY_DIR "/load_deflection.svg");
 }
 
-void run_study() {
+}  // namespace
+
+/// The notched beam of Olsen: writes result.csv and load_deflection.svg.
+bool run_program(const std::vector<std::string>& /*arguments*/) {
   const std::vector<CurvePoint> measured = measured_curve();
   std::vector<Run> runs{{"measured", "#222", measured}};
   std::string table = "model,spacing,tensile_strength,peak_load,peak_deflection,mean_difference\n";
@@ -118,16 +121,7 @@ void run_study() {
   add(5.0, "bond_based", 2.7, "#c1440e");
   write_result(PERILINK_STUDY_DIR, table);
   draw(runs);
+  return true;
 }
 
-}  // namespace
 }  // namespace perilink::verification
-
-/// The notched beam of Olsen: writes result.csv and load_deflection.svg.
-int main() try {
-  perilink::verification::run_study();
-  return 0;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "olsen_beam: {}\n", error.what());
-  return 1;
-}

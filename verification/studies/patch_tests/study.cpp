@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
 #include "base/timer.hpp"
 #include "draw.hpp"
 #include "patch.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace perilink::verification {
@@ -49,10 +49,6 @@ bool run_study(const std::string& directory) {
 }  // namespace
 }  // namespace perilink::verification
 
-int main(int argc, char** argv) try {
-  using namespace perilink::verification;
-  return run_study(argc > 1 ? argv[1] : PERILINK_STUDY_DIR) ? 0 : 1;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "patch_tests: {}\n", error.what());
-  return 1;
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  return run_study(arguments.empty() ? PERILINK_STUDY_DIR : arguments[0]);
 }

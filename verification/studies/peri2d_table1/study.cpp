@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <exception>
 #include <string>
 
 #include "draw_table.hpp"
 #include "io/text/csv.hpp"
+#include "problems/program.hpp"
 #include "table1.hpp"
 
 namespace perilink::verification {
@@ -76,15 +76,11 @@ bool judge(const std::vector<TableRow>& rows) {
 }  // namespace
 }  // namespace perilink::verification
 
-int main(int argc, char** argv) try {
-  using namespace perilink::verification;
-  const std::string directory = argc > 1 ? argv[1] : ".";
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  const std::string directory = arguments.empty() ? "." : arguments[0];
   const auto rows = reproduce_table(PERILINK_STUDY_DIR "/reference.csv");
   print_table(rows);
   write_result(rows, directory + "/result.csv");
   draw_table(rows).save(directory + "/errors.svg");
-  return judge(rows) ? 0 : 1;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "peri2d_table1: {}\n", error.what());
-  return 1;
+  return judge(rows);
 }

@@ -16,6 +16,7 @@
 #include "calculix.hpp"
 #include "io/case/case_overrides.hpp"
 #include "io/case/sections/case_sections.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace {
@@ -222,11 +223,11 @@ void write_text(const fs::path& path, const std::string& text) {
 /// same particles, one thread. Without arguments everything is run and the files beside this one
 /// are written; `growth` runs only the growth of the calibration, a number only so many refinements
 /// of the comparison, which are not kept.
-int main(int argc, char** argv) {
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   omp_set_num_threads(1);
-  const std::string what = argc > 1 ? argv[1] : "";
-  const std::size_t most =
-      argc > 1 ? std::strtoul(argv[1], nullptr, 10) : std::numeric_limits<std::size_t>::max();
+  const std::string what = arguments.empty() ? "" : arguments[0];
+  const std::size_t most = what.empty() ? std::numeric_limits<std::size_t>::max()
+                                        : std::strtoul(what.c_str(), nullptr, 10);
   const fs::path work = fs::temp_directory_path() / "perilink_run_time_against_error";
   fs::create_directories(work);
   std::string table =
@@ -241,5 +242,5 @@ int main(int argc, char** argv) {
   if (what.empty()) write_result(PERILINK_STUDY_DIR, table);
   if (what.empty() || what == "growth") write_text(here / "growth.csv", growth(work));
   fs::remove_all(work);
-  return 0;
+  return true;
 }

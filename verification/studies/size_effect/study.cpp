@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
 
 #include "draw.hpp"
 #include "io/text/csv.hpp"
+#include "problems/program.hpp"
 #include "size_effect.hpp"
 
 namespace perilink::verification {
@@ -113,13 +113,9 @@ bool run_bars(const std::string& directory) {
 }  // namespace
 }  // namespace perilink::verification
 
-int main(int argc, char** argv) try {
-  using namespace perilink::verification;
-  const std::string directory = argc > 1 ? argv[1] : ".";
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  const std::string directory = arguments.empty() ? "." : arguments[0];
   const bool families = run_families(directory);
   const bool bars = run_bars(directory);
-  return families && bars ? 0 : 1;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "size_effect: {}\n", error.what());
-  return 1;
+  return families && bars;
 }

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <exception>
 #include <map>
 #include <stdexcept>
 #include <string>
 
 #include "hinge.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 #include "specimens.hpp"
 
@@ -147,20 +147,16 @@ void run_hinge() {
 
 /// Strength and energy of strips and beams whose bonds soften, over what the material says:
 /// `softening strips` writes strips.csv, and so beams, unnotched, knees and hinge.
-int main(int argc, char** argv) try {
-  using namespace perilink::verification;
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   const std::map<std::string, void (*)()> parts = {{"strips", run_strips},
                                                    {"beams", run_beams},
                                                    {"unnotched", run_unnotched},
                                                    {"knees", run_knees},
                                                    {"hinge", run_hinge}};
-  const auto part = parts.find(argc > 1 ? argv[1] : "");
+  const auto part = parts.find(arguments.empty() ? "" : arguments[0]);
   if (part == parts.end()) {
     throw std::invalid_argument("name strips, beams, unnotched, knees or hinge");
   }
   part->second();
-  return 0;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "softening: {}\n", error.what());
-  return 1;
+  return true;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 #include "tests.hpp"
 
@@ -37,15 +38,15 @@ std::vector<LatticeTest> dog_bones() {
 
 }  // namespace
 
-int main(int count, char** names) {
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   constexpr int threads = 2;
   const auto run = [&](const std::string& name, const std::vector<LatticeTest>& tests) {
-    if (count > 1 && std::find(names + 1, names + count, name) == names + count) return;
+    if (!arguments.empty() && std::ranges::find(arguments, name) == arguments.end()) return;
     write_result(PERILINK_STUDY_DIR, run_lattice_tests(tests, threads), name + ".csv");
   };
   run("tension", turned(tension_test));
   run("compression", turned(compression_test));
   run("cylinder", turned(cylinder_test));
   run("dog_bone", dog_bones());
-  return 0;
+  return true;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 #include "tests.hpp"
 
@@ -149,10 +150,10 @@ std::string continuum_table() {
 
 }  // namespace
 
-int main(int count, char** names) {
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   constexpr int threads = 2;
   const auto is_wanted = [&](const std::string& name) {
-    return count == 1 || std::find(names + 1, names + count, name) != names + count;
+    return arguments.empty() || std::ranges::find(arguments, name) != arguments.end();
   };
   const auto run = [&](const std::string& name, const std::vector<LatticeTest>& tests) {
     if (!is_wanted(name)) return;
@@ -169,5 +170,5 @@ int main(int count, char** names) {
     write_result(PERILINK_STUDY_DIR, placement_table(threads), "placements.csv");
   }
   if (is_wanted("cohesive")) write_result(PERILINK_STUDY_DIR, continuum_table(), "cohesive.csv");
-  return 0;
+  return true;
 }

@@ -10,12 +10,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
 #include "bodies.hpp"
 #include "io/case/case_words.hpp"
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 #include "strip.hpp"
 
@@ -176,14 +176,8 @@ bool measure_cases() {
 }  // namespace
 }  // namespace perilink::verification
 
-int main(int argc, char** argv) try {
-  using namespace perilink::verification;
-  if (argc > 1 && std::string(argv[1]) == "table") {
-    measure_table();
-    return 0;
-  }
-  return measure_cases() ? 0 : 1;
-} catch (const std::exception& error) {
-  fmt::print(stderr, "toughness: {}\n", error.what());
-  return 1;
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments[0] != "table") return measure_cases();
+  measure_table();
+  return true;
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "network/network.hpp"
+#include "network/frame.hpp"
 
 /// \file
 /// Half of an element, as the particle at one of its ends sees it: `own` and `far` are the motions
@@ -161,38 +161,9 @@ struct FrameHalf {
     return stretch * length * stretch * length;
   }
 
-  /// How an element is deformed.
-  struct Deformation {
-    double extension = 0.0;
-    double shear[Dim] = {};  ///< vector across n; in the plane the first entry is along t
-    double bend[Dim == 2 ? 1 : 3] = {};  ///< relative rotation but its part about n
-    double twist = 0.0;                  ///< relative rotation about n
-  };
-
+  using Deformation = FrameDeformation<Dim>;
   Deformation deformation(const double* own, const double* far) const {
-    const double* i = first ? own : far;
-    const double* j = first ? far : own;
-    Deformation d;
-    if constexpr (Dim == 2) {
-      const double dx = j[0] - i[0], dy = j[1] - i[1];
-      d.extension = n[0] * dx + n[1] * dy;
-      d.shear[0] = n[0] * dy - n[1] * dx - (first_arm * i[2] + second_arm * j[2]);
-      d.bend[0] = j[2] - i[2];
-    } else {
-      double turn[3], arm[3];
-      for (int a = 0; a < 3; ++a) {
-        d.extension += n[a] * (j[a] - i[a]);
-        turn[a] = j[3 + a] - i[3 + a];
-        d.twist += n[a] * turn[a];
-        arm[a] = first_arm * i[3 + a] + second_arm * j[3 + a];
-      }
-      for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        d.shear[a] = j[a] - i[a] - n[a] * d.extension + n[b] * arm[c] - n[c] * arm[b];
-        d.bend[a] = turn[a] - n[a] * d.twist;
-      }
-    }
-    return d;
+    return {n, first_arm, second_arm, first ? own : far, first ? far : own};
   }
 
   /// Square of the equivalent stretch times the length; of bars that of the extension.

@@ -23,18 +23,7 @@ struct BondRunState {
   const std::vector<Index>& broken;
 };
 
-/// Watches a run.
-class BondRunObserver {
- public:
-  virtual ~BondRunObserver() = default;
-  virtual void on_row(const ExplicitRecord& record, const BondRunState& state) = 0;
-  /// Once, after the last row.
-  virtual void on_end(const ExplicitRecord& /*last*/, const BondRunState& /*state*/) {}
-  /// Every few hundred iterations of a dynamic relaxation.
-  virtual void on_iteration(Index /*load_step*/, Index /*iteration*/, double /*residual*/) {}
-  /// Asked before every row and every few hundred steps; after a yes comes one more row.
-  virtual bool stop_requested() { return false; }
-};
+using BondRunObserver = RunObserver<BondRunState>;
 
 /// Sums over the particles of a block, or of all blocks.
 struct MotionSums {

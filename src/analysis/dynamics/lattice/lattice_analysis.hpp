@@ -5,16 +5,7 @@
 
 namespace perilink {
 
-/// Watches a run; the state is valid during the call only.
-class ExplicitObserver {
- public:
-  virtual ~ExplicitObserver() = default;
-  virtual void on_row(const ExplicitRecord& record, const ExplicitState& state) = 0;
-  /// Once, after the last row.
-  virtual void on_end(const ExplicitRecord& /*last*/, const ExplicitState& /*state*/) {}
-  /// Asked before every row and every few hundred steps; after a yes comes one more row.
-  virtual bool stop_requested() { return false; }
-};
+using ExplicitObserver = RunObserver<ExplicitState>;
 
 /// Runs a body from the given state by Euler–Cromer: forces at step n change velocities, those the
 /// displacements. Sums are the same for any number of threads.

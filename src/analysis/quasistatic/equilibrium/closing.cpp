@@ -112,17 +112,16 @@ std::vector<Index> Equilibrium::on_wrong_side() const {
 void Equilibrium::close(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
   axial_[element] = 1.0;
-  if (axial.x[0].size() > 0) factor_->update(axial.x[0], solution_);
+  factor_->update(axial.x[0]);
 }
 
 /// \return false where nothing but the bond holds the body: then all is as it was
 bool Equilibrium::open(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
-  const SparseVector& x = axial.x[0];
-  const double pivot = x.size() > 0 ? factor_->prepare_downdate(x) : 1.0;
+  const double pivot = factor_->pivot(axial.x[0]);
   axial_[element] = secants_[element];
   if (pivot > doubtful_pivot) {
-    if (x.size() > 0) factor_->commit_downdate(axial.prescribed[0], solution_);
+    factor_->downdate(axial.vectors(), axial.load_changes(), {&pivot, 1}, {});
     return true;
   }
   try {

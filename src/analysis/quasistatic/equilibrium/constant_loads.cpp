@@ -11,12 +11,6 @@
 namespace perilink {
 namespace {
 
-double norm(const std::vector<double>& values) {
-  double square = 0.0;
-  for (const double value : values) square += value * value;
-  return std::sqrt(square);
-}
-
 /// Over the slots that something but a prescription moves.
 double work_on(const Unknowns& unknowns, const Loads& loads, std::span<const double> motion) {
   double work = 0.0;
@@ -167,18 +161,11 @@ double Equilibrium::release_constant(const Removal& removal, Index element,
   return 2.0 * (now * now * outcome.released + outcome.released_beside.at(now));
 }
 
-/// One backward pass for both fields: that of the factor makes K^-1 x / pivot of a solution that is
-/// zero. Routes that follow a load of their own need a solve.
+/// One backward pass for both fields: K^-1 x / pivot is what a solution that is zero goes over to.
 void Equilibrium::commit_both(const Removal& removal) {
-  if (options_.route != FactorRoute::in_place) {
-    move_constant(removal);
-    factor_->prepare_downdate(removal.x[0]);
-    factor_->commit_downdate(removal.prescribed[0], solution_);
-    return;
-  }
-  const double growing = removal.deformation(0, solution_);
+  const double growing = removal.deformation(0, solution_), one = 1.0;
   std::vector<double> motion(solution_.size(), 0.0);
-  factor_->commit_downdate(1.0, motion);
+  factor_->downdate(removal.vectors(), {&one, 1}, removal.pivots(), motion);
   for (std::size_t k = 0; k < motion.size(); ++k) {
     solution_[k] += growing * motion[k];
     constant_->solution[k] += removal.constant[0] * motion[k];
@@ -187,15 +174,12 @@ void Equilibrium::commit_both(const Removal& removal) {
 
 /// Displacements by constant loads after a removal that the factor is still to make.
 void Equilibrium::move_constant(const Removal& removal) {
-  std::vector<double> load(solution_.size(), 0.0);
-  for (int m = 0; m < removal.rank; ++m) {
-    const SparseVector& x = removal.x[m];
-    const double scale = removal.constant[m] / removal.pivot[m];
-    for (int k = 0; k < x.size(); ++k) load[x.rows[k]] += scale * x.values[k];
-  }
   if (constant_->rests) return;
-  factor_->solve(load, load);
-  for (std::size_t k = 0; k < load.size(); ++k) constant_->solution[k] += load[k];
+  Deformations shares{};
+  for (int m = 0; m < removal.rank; ++m) shares[m] = removal.constant[m] / removal.pivot[m];
+  const SparseVector sum = combine(removal.vectors(), shares);
+  const std::vector<double> motion = factor_->columns({&sum, 1});
+  for (std::size_t k = 0; k < motion.size(); ++k) constant_->solution[k] += motion[k];
 }
 
 }  // namespace perilink

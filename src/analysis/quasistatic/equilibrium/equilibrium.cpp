@@ -25,12 +25,6 @@ constexpr double cancelled_work = 1e-7;
 /// summed over the elements again.
 constexpr int most_events_to_follow = 16;
 
-double norm(const std::vector<double>& values) {
-  double square = 0.0;
-  for (const double value : values) square += value * value;
-  return std::sqrt(square);
-}
-
 /// A force on a prescribed displacement is a part of the reaction there, whose work counts.
 std::vector<std::size_t> loaded_slots(const Unknowns& unknowns, const Loads& loads) {
   std::vector<std::size_t> slots;
@@ -59,6 +53,12 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
   find_driven_elements();
   adopt_motion();
   if (problem.sets.empty()) open_cut_elements();  // stages open them as their loads begin to grow
+}
+
+double Equilibrium::norm(std::span<const double> values) {
+  double square = 0.0;
+  for (const double value : values) square += value * value;
+  return std::sqrt(square);
 }
 
 void Equilibrium::find_driven_elements() {
@@ -183,7 +183,7 @@ std::vector<double> Equilibrium::present_load() const {
 
 /// Solves for all displacements with the factor as it stands.
 void Equilibrium::refresh() {
-  factor_->follow_load(present_load(), solution_);
+  factor_->solve(present_load(), solution_);
   scatter_solution();
   stale_ = false;
   force_work_ = work_of_forces();

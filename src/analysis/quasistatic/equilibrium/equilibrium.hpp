@@ -160,6 +160,7 @@ class Equilibrium {
 
  private:
   using Deformations = std::array<double, Removal::capacity>;
+  static double norm(std::span<const double> values);
   void refresh_constant();
   void polish_constant();
   void scatter_constant();
@@ -306,7 +307,6 @@ class Equilibrium {
   InternalForce internal_;
   ForcesAndEnergy<long double> fine_;
   double stiffness_sum_ = 0.0;        ///< sum over all elements and supports
-  int prepared_with_ = 0;             ///< factorisations when the factor last prepared a removal
   bool must_rebuild_ = false;         ///< the pivot is known better than the factor can follow
   bool look_closer_ = false;          ///< pivots that are not small may be noise too
   bool supports_alone_ = false;       ///< elastic supports hold most of the motion looked at last

@@ -48,8 +48,7 @@ auto Equilibrium::deformations(const Removal& removal, Index element) const -> D
 /// Decouples the modes and gives them the pivots that the factor has for them.
 /// \return the smallest
 double Equilibrium::prepare(Removal& removal) {
-  prepared_with_ = factor_->factorizations();
-  if (removal.rank == 1) return removal.pivot[0] = factor_->prepare_downdate(removal.x[0]);
+  if (removal.rank == 1) return removal.pivot[0] = factor_->pivot(removal.x[0]);
   std::vector<double> compliance(static_cast<std::size_t>(removal.rank * removal.rank));
   factor_->compliance(removal.vectors(), compliance);
   decouple(removal, compliance);
@@ -159,15 +158,10 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
   const bool is_first = secants_[element] == 1.0;
   if (!axial_.empty() && is_first && network_.law(element).closes()) damaged_.push_back(element);
   set_secant(element, secant);
-  if (must_rebuild_) return;  // done already
-  if (removal.rank == 1) {
-    if (removal.x[0].size() == 0) return;  // nothing unknown is held by this element
-    if (prepared_with_ != factor_->factorizations()) factor_->prepare_downdate(removal.x[0]);
-    if (constant_) {
-      commit_both(removal);
-    } else {
-      factor_->commit_downdate(removal.prescribed[0], solution_);
-    }
+  if (must_rebuild_) return;                                  // done already
+  if (removal.rank == 1 && removal.x[0].size() == 0) return;  // holds nothing that is unknown
+  if (constant_ && removal.rank == 1) {
+    commit_both(removal);
   } else {
     if (constant_) move_constant(removal);
     factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
@@ -235,9 +229,7 @@ int Equilibrium::cut(Index element) {
 }
 
 Index Equilibrium::most_mobile_unknown(const SparseVector& x) {
-  std::vector<double> direction(solution_.size(), 0.0);
-  for (int k = 0; k < x.size(); ++k) direction[x.rows[k]] = x.values[k];
-  factor_->solve(direction, direction);
+  const std::vector<double> direction = factor_->columns({&x, 1});
   const auto largest = std::max_element(direction.begin(), direction.end(), [](double a, double b) {
     return std::abs(a) < std::abs(b);
   });
@@ -266,7 +258,7 @@ void Equilibrium::add_ground_spring(Index unknown) {
   const double stiffness = ground_stiffness_of(unknown);
   SparseVector x;
   x.add(unknown, std::sqrt(stiffness));
-  factor_->update(x, solution_);
+  factor_->update(x);
   ground_stiffness_[unknown] += stiffness;
   ground_load_[unknown] += stiffness * solution_[unknown];
   if (!constant_) return;

@@ -7,6 +7,7 @@
 
 #include "analysis/quasistatic/events/block_search.hpp"
 #include "analysis/quasistatic/events/break_search.hpp"
+#include "network/frame.hpp"
 
 namespace perilink {
 namespace {
@@ -101,26 +102,16 @@ template <int Dim, bool Turns, class Element>
 Measure<Dim, Turns> measure(const Element& bond, const double* u, double scale, double torsion) {
   const double* i = u + bond.first;
   const double* j = u + bond.second;
-  const double* n = bond.n;
   Measure<Dim, Turns> result{};
-  double extension = 0.0;
-  for (int a = 0; a < Dim; ++a) extension += n[a] * (j[a] - i[a]);
-  result.part[0] = extension;
-  if constexpr (Turns && Dim == 2) {
-    const double shear = n[0] * (j[1] - i[1]) - n[1] * (j[0] - i[0]);
-    result.part[1] = bond.shear_share * (shear - (bond.first_arm * i[2] + bond.second_arm * j[2]));
-    result.part[2] = bond.rotation_share * (j[2] - i[2]);
-  } else if constexpr (Turns) {
-    double twist = 0.0;
-    for (int a = 0; a < 3; ++a) twist += n[a] * (j[3 + a] - i[3 + a]);
-    const auto arm = [&](int a) { return bond.first_arm * i[3 + a] + bond.second_arm * j[3 + a]; };
-    for (int a = 0; a < 3; ++a) {
-      const int b = (a + 1) % 3, c = (a + 2) % 3;
-      result.part[1 + a] =
-          bond.shear_share * (j[a] - i[a] - n[a] * extension + n[b] * arm(c) - n[c] * arm(b));
-      result.part[4 + a] = bond.rotation_share * (j[3 + a] - i[3 + a] - n[a] * twist);
-    }
-    result.part[7] = bond.rotation_share * std::sqrt(torsion) * twist;
+  if constexpr (Turns) {
+    const FrameDeformation<Dim> d(bond.n, bond.first_arm, bond.second_arm, i, j);
+    double* part = result.part;
+    *part++ = d.extension;
+    for (int a = 0; a < (Dim == 2 ? 1 : 3); ++a) *part++ = bond.shear_share * d.shear[a];
+    for (const double bend : d.bend) *part++ = bond.rotation_share * bend;
+    if constexpr (Dim == 3) *part = bond.rotation_share * std::sqrt(torsion) * d.twist;
+  } else {
+    for (int a = 0; a < Dim; ++a) result.part[0] += bond.n[a] * (j[a] - i[a]);
   }
   for (double& part : result.part) part *= scale;
   return result;

@@ -5,6 +5,7 @@
 
 #include "analysis/quasistatic/events/block_search.hpp"
 #include "analysis/quasistatic/events/limit_search.hpp"
+#include "network/frame.hpp"
 
 namespace perilink {
 namespace {
@@ -54,38 +55,23 @@ double FrameLimitSearch::inverse_of(Index element, double limit) const {
 
 template <int Dim>
 double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const {
-  const double* i = u + bond.first;
-  const double* j = u + bond.second;
-  const double* n = bond.n;
-  double extension = 0.0, square = 0.0;
+  const FrameDeformation<Dim> d(bond.n, bond.first_arm, bond.second_arm, u + bond.first,
+                                u + bond.second);
+  double square = 0.0;
   if constexpr (Dim == 2) {
-    const double dx = j[0] - i[0], dy = j[1] - i[1];
-    extension = n[0] * dx + n[1] * dy;
-    const double shear = n[0] * dy - n[1] * dx - (bond.first_arm * i[2] + bond.second_arm * j[2]);
-    const double bend = j[2] - i[2];
-    square = bond.bending_share * shear * shear + bond.rotation_share * bend * bend;
+    square =
+        bond.bending_share * d.shear[0] * d.shear[0] + bond.rotation_share * d.bend[0] * d.bend[0];
   } else {
-    double twist = 0.0;
-    for (int a = 0; a < 3; ++a) {
-      extension += n[a] * (j[a] - i[a]);
-      twist += n[a] * (j[3 + a] - i[3 + a]);
-    }
     double shear_square = 0.0, bend_square = 0.0;
     for (int a = 0; a < 3; ++a) {
-      const int b = (a + 1) % 3, c = (a + 2) % 3;
-      // Across the bond: u_j - u_i less its axial part, plus n x (the arms' rotations).
-      const double shear = j[a] - i[a] - n[a] * extension +
-                           n[b] * (bond.first_arm * i[3 + c] + bond.second_arm * j[3 + c]) -
-                           n[c] * (bond.first_arm * i[3 + b] + bond.second_arm * j[3 + b]);
-      const double bend = j[3 + a] - i[3 + a] - n[a] * twist;
-      shear_square += shear * shear;
-      bend_square += bend * bend;
+      shear_square += d.shear[a] * d.shear[a];
+      bend_square += d.bend[a] * d.bend[a];
     }
     square = bond.bending_share * shear_square +
-             bond.rotation_share * (bend_square + torsion_ * twist * twist);
+             bond.rotation_share * (bend_square + torsion_ * d.twist * d.twist);
   }
-  square += extension * extension;
-  const bool stretched = extension > 0.0 && extension * extension > least_tension * square;
+  square += d.extension * d.extension;
+  const bool stretched = d.extension > 0.0 && d.extension * d.extension > least_tension * square;
   // Not a number where the square is none.
   return square * (stretched ? bond.inverse : bond.compressed);
 }

@@ -88,31 +88,26 @@ void damp_externally(const CaseFile& input, ExplicitCase& built) {
   built.model.mass_damping = mass_damping_rate(material.external_damping, built.fundamental_period);
 }
 
-/// Chooses the step and refuses one that is not stable for certain.
-void choose_steps(const CaseFile& input, ExplicitCase& built) {
+}  // namespace
+
+void choose_steps(const CaseFile& input, double critical_time_step, ExplicitOptions& options) {
   const AnalysisSection& analysis = input.analysis;
-  built.critical_time_step = critical_time_step(built.model);
-  built.time_step = analysis.time_step.value_or(analysis.safety * built.critical_time_step);
-  if (built.time_step > built.critical_time_step) {
+  options.duration = analysis.duration;
+  options.ramp = analysis.ramp_time;
+  options.time_step = analysis.time_step.value_or(analysis.safety * critical_time_step);
+  options.rows = analysis.rows;
+  if (options.time_step > critical_time_step) {
     throw InputError(input.where("analysis.time_step"),
                      fmt::format("is {:.6g}, larger than the critical time step {:.6g}",
-                                 built.time_step, built.critical_time_step),
+                                 options.time_step, critical_time_step),
                      "take less, or leave it out: `safety` takes a part of the critical one");
   }
-  const double steps = std::ceil(analysis.duration / built.time_step);
-  if (!(steps <= most_steps)) {
-    throw InputError(input.where("analysis.duration"),
-                     fmt::format("takes {:.1e} steps of {:.4g}", steps, built.time_step),
-                     fmt::format("at most {:.0e} are possible", most_steps));
-  }
-  built.steps = static_cast<Index>(steps);
-  built.options.duration = analysis.duration;
-  built.options.ramp = analysis.ramp_time;
-  built.options.time_step = built.time_step;
-  built.options.rows = analysis.rows;
+  const double steps = std::ceil(analysis.duration / options.time_step);
+  if (steps <= most_steps) return;
+  throw InputError(input.where("analysis.duration"),
+                   fmt::format("takes {:.1e} steps of {:.4g}", steps, options.time_step),
+                   fmt::format("at most {:.0e} are possible", most_steps));
 }
-
-}  // namespace
 
 ExplicitCase build_explicit_case(const CaseFile& input) {
   ExplicitCase built;
@@ -122,7 +117,8 @@ ExplicitCase build_explicit_case(const CaseFile& input) {
   const LatticeRows& lattice = built.model.lattice;
   load_body(input, shape, built);
   damp_externally(input, built);
-  choose_steps(input, built);
+  built.critical_time_step = critical_time_step(built.model);
+  choose_steps(input, built.critical_time_step, built.options);
   for (const Index slot : lattice.particle_slot) built.bonds += lattice.bond_count[slot];
   built.bonds /= 2;
   return built;

@@ -15,15 +15,17 @@ struct ExplicitCase {
   ExplicitModel model;
   ExplicitOptions options;          ///< threads left at one
   double critical_time_step = 0.0;  ///< [time]
-  double time_step = 0.0;           ///< the one that the run takes [time]
   /// The period to which external damping refers, given or computed; 0: not asked for [time].
   double fundamental_period = 0.0;
-  Index steps = 0;
   Index bonds = 0;
   std::vector<Gauge> gauges;       ///< their particles are numbered in the order of their slots
   std::vector<std::string> notes;  ///< what the user should know: what holes take, point loads
                                    ///< that had to move
 };
+
+/// Duration, rows and steps of a case with type = "explicit", of bonds or of lattice particles.
+/// \throws InputError for a time step above the critical one, or too many steps
+void choose_steps(const CaseFile& input, double critical_time_step, ExplicitOptions& options);
 
 /// Builds the lattice of a case with type = "explicit".
 /// \throws InputError where the case makes no sense for its body: no lattice point in a region,

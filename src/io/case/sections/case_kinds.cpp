@@ -72,29 +72,30 @@ void read_mesh_file(const CaseTable& table, std::optional<std::string>& mesh,
   }
 }
 
-double read_fracture_energy(const CaseTable& table) {
-  const std::string key = "fracture_energy";
+double read_energy(const CaseTable& table, const std::string& key, const std::string& meaning) {
   const TomlValue* value = table.value(key);
   if (value != nullptr && value->kind == TomlValue::Kind::text) {
+    if (value->text == infinite_energy) return std::numeric_limits<double>::infinity();
     if (is_number(value->text)) {
       table.refuse(
           key,
           fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
           fmt::format("write the number without quotes: {} = {}", key, value->text));
     }
-    if (value->text != "infinite") {
-      table.refuse(key,
-                   fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
-                   "write numbers without quotes and units. " + suggest(value->text, {"infinite"}));
-    }
-    return std::numeric_limits<double>::infinity();
+    table.refuse(
+        key, fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
+        "write numbers without quotes and units. " + suggest(value->text, {infinite_energy}));
   }
   if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
     table.refuse(key, fmt::format("is {}", describe(*value)),
-                 "write fracture_energy = \"infinite\" for a material that cannot break");
+                 fmt::format("write {} = \"infinite\"", key));
   }
-  return table.need(key, table.positive(key),
-                    "the fracture energy, or \"infinite\" for a material that cannot break");
+  return table.need(key, table.positive(key), meaning);
+}
+
+double read_fracture_energy(const CaseTable& table) {
+  return read_energy(table, "fracture_energy",
+                     "the fracture energy, or \"infinite\" for a material that cannot break");
 }
 
 }  // namespace perilink

@@ -40,7 +40,12 @@ std::string what_rotates(const BodySection& body);
 void read_mesh_file(const CaseTable& table, std::optional<std::string>& mesh,
                     std::optional<double>& size);
 
-/// A positive number, or infinity for "infinite".
+/// The word for an energy that no crack or flow takes up.
+inline constexpr const char* infinite_energy = "infinite";
+
+/// A positive number, or infinity for that word.
+/// \param meaning  what the key is, where it is missing
+double read_energy(const CaseTable& table, const std::string& key, const std::string& meaning);
 double read_fracture_energy(const CaseTable& table);
 
 }  // namespace perilink

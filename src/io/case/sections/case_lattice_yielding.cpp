@@ -7,25 +7,6 @@
 #include "io/case/sections/case_lattice.hpp"
 
 namespace perilink {
-namespace {
-
-constexpr const char* infinite = "infinite";
-
-double read_crushing_energy(const CaseTable& table) {
-  const std::string key = "crushing_energy";
-  const TomlValue* value = table.value(key);
-  if (value != nullptr && value->kind == TomlValue::Kind::text) {
-    if (value->text == infinite) return std::numeric_limits<double>::infinity();
-    table.refuse(key, fmt::format("is \"{}\", neither a number nor \"infinite\"", value->text),
-                 "write numbers without quotes and units");
-  }
-  return table.need(key, table.positive(key),
-                    "the energy per area that crushing takes, or \"infinite\" for a material "
-                    "that keeps its ultimate strength");
-}
-
-}  // namespace
-
 void read_lattice_yielding(const CaseTable& table, const BodySection& body,
                            LatticeMaterialSection& section) {
   section.yield_strength = table.positive("yield_strength");
@@ -52,7 +33,10 @@ void read_lattice_yielding(const CaseTable& table, const BodySection& body,
       table.need("ultimate_plastic_strain", table.positive("ultimate_plastic_strain"),
                  "the plastic strain at the ultimate strength");
   if (body.variant == LatticeRules::consistent) {
-    section.crushing_energy = read_crushing_energy(table);
+    section.crushing_energy = read_energy(
+        table, "crushing_energy",
+        "the energy per area that crushing takes, or \"infinite\" for a material that keeps its "
+        "ultimate strength");
   } else if (table.has("crushing_energy")) {
     table.refuse(
         "crushing_energy",
@@ -68,7 +52,7 @@ void write_lattice_yielding(TomlWriter& out, const LatticeMaterialSection& secti
   out.write("ultimate_plastic_strain", section.ultimate_plastic_strain);
   if (!section.crushing_energy) return;
   if (*section.crushing_energy == std::numeric_limits<double>::infinity()) {
-    out.write("crushing_energy", infinite);
+    out.write("crushing_energy", infinite_energy);
   } else {
     out.write("crushing_energy", section.crushing_energy);
   }

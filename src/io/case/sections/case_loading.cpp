@@ -13,10 +13,6 @@
 namespace perilink {
 namespace {
 
-std::string need_region(const CaseTable& table, const std::string& use) {
-  return table.need("region", table.text("region"), "the name of the region " + use);
-}
-
 /// Moments turn about z in two dimensions: a number; about each axis in three.
 Vector3 read_moment(const CaseTable& table, const BodySection& body) {
   if (!table.has("moment")) return {};
@@ -41,7 +37,7 @@ std::optional<Vector3> read_stiffness(const CaseTable& table, const std::string&
 
 TractionSection read_traction(const CaseTable& table, int dim) {
   TractionSection section;
-  section.region = need_region(table, "whose surface is loaded");
+  section.region = table.need_region("whose surface is loaded");
   table.need_one_of({"traction", "pressure"});
   section.traction = table.expressions("traction", dim);
   section.pressure = table.expression("pressure", dim);
@@ -87,7 +83,7 @@ SymmetrySection read_symmetry(const CaseTable& table, int dim) {
 
 SpringSection read_springs(const CaseTable& table, int dim) {
   SpringSection section;
-  section.region = need_region(table, "that is held elastically");
+  section.region = table.need_region("that is held elastically");
   table.need_one_of({"stiffness", "total"});
   section.stiffness = read_stiffness(table, "stiffness", dim);
   section.total = read_stiffness(table, "total", dim);

@@ -139,29 +139,25 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.unused = find_unused(root, input);
   input.body = read_body(document.table("body"), input.body);
   const int dim = dimension_of(input.body);
-  const auto in_dimension = [dim](auto reader) {
-    return [dim, reader](const CaseTable& table, std::size_t) { return reader(table, dim); };
+  const auto about = [](auto reader, const auto& known) {
+    return [reader, &known](const CaseTable& table, std::size_t) { return reader(table, known); };
   };
-  input.regions = document.needed_list("regions", in_dimension(read_region));
+  input.regions = document.needed_list("regions", about(read_region, dim));
   input.materials =
       document.needed_list("materials", [&input](const CaseTable& table, std::size_t index) {
         return read_material(table, input.body, index);
       });
-  const auto in_body = [&input](auto reader) {
-    return
-        [&input, reader](const CaseTable& table, std::size_t) { return reader(table, input.body); };
-  };
-  input.supports = document.list("supports", in_body(read_support));
-  input.displacements = document.list("displacements", in_body(read_displacement));
-  input.velocities = document.list("velocities", in_body(read_displacement));
-  input.loads = document.list("loads", in_dimension(read_load));
-  input.tractions = document.list("tractions", in_dimension(read_traction));
-  input.point_loads = document.list("point_loads", in_body(read_point_load));
-  input.symmetry = document.list("symmetry", in_dimension(read_symmetry));
-  input.springs = document.list("springs", in_dimension(read_springs));
-  input.cracks = document.list("cracks", in_dimension(read_crack));
-  input.rebar = document.list("rebar", in_dimension(read_rebar));
-  input.gauges = document.list("gauges", in_dimension(read_gauge));
+  input.supports = document.list("supports", about(read_support, input.body));
+  input.displacements = document.list("displacements", about(read_displacement, input.body));
+  input.velocities = document.list("velocities", about(read_displacement, input.body));
+  input.loads = document.list("loads", about(read_load, dim));
+  input.tractions = document.list("tractions", about(read_traction, dim));
+  input.point_loads = document.list("point_loads", about(read_point_load, input.body));
+  input.symmetry = document.list("symmetry", about(read_symmetry, dim));
+  input.springs = document.list("springs", about(read_springs, dim));
+  input.cracks = document.list("cracks", about(read_crack, dim));
+  input.rebar = document.list("rebar", about(read_rebar, dim));
+  input.gauges = document.list("gauges", about(read_gauge, dim));
   input.elements = read_elements(document.table("elements"));
   input.analysis = read_analysis(document.table("analysis"), input.analysis.type);
   const StopSection stop = read_stop(document.table("stop"));

@@ -49,15 +49,11 @@ void read_events(const CaseTable& table, AnalysisSection& analysis) {
   assign(analysis.factor, table.choice<FactorRoute>("factor"));
 }
 
-std::string need_region(const CaseTable& table, const std::string& use) {
-  return table.need("region", table.text("region"), "the name of the region " + use);
-}
-
 }  // namespace
 
 SupportSection read_support(const CaseTable& table, const BodySection& body) {
   SupportSection support;
-  support.region = need_region(table, "that is held");
+  support.region = table.need_region("that is held");
   const std::vector<std::string> names =
       table.need("fix", table.texts("fix"), "the axes that are held, fix = [\"x\", \"y\"]");
   if (names.empty()) table.refuse("fix", "names no axis", "write fix = [\"x\", \"y\"]");
@@ -72,7 +68,7 @@ SupportSection read_support(const CaseTable& table, const BodySection& body) {
 DisplacementSection read_displacement(const CaseTable& table, const BodySection& body) {
   const int dim = dimension_of(body);
   DisplacementSection driven;
-  driven.region = need_region(table, "that is driven");
+  driven.region = table.need_region("that is driven");
   assign(driven.stage, table.text("stage"));
   bool any = false;
   for (std::size_t component = 0; component < 6; ++component) {
@@ -89,7 +85,7 @@ DisplacementSection read_displacement(const CaseTable& table, const BodySection&
 
 LoadSection read_load(const CaseTable& table, int dim) {
   LoadSection load;
-  load.region = need_region(table, "that is loaded");
+  load.region = table.need_region("that is loaded");
   table.need_one_of({"force", "body_force"});
   load.force = table.vector("force", dim);
   load.body_force = table.expressions("body_force", dim);

@@ -22,6 +22,10 @@ class HistoryFileTest : public ::testing::Test {
   std::string directory_;
 };
 
+std::vector<StepRecord> read_history(const std::string& path) {
+  return history_records(read_csv(path), path);
+}
+
 StepRecord make_record() {
   StepRecord record;
   record.step = 3;

@@ -77,7 +77,7 @@ TEST_F(BondRunTest, StepsAndPeriodFollowFromTheMaterial) {
   EXPECT_GT(period, 4.0 / shear_speed);
   EXPECT_LT(period, 8.0 / shear_speed);
   EXPECT_DOUBLE_EQ(built_.options.time_step, 0.9 * built_.inertia.critical_time_step());
-  EXPECT_EQ(built_.steps, static_cast<Index>(std::ceil(8.0 / built_.options.time_step)));
+  EXPECT_EQ(built_.options.steps(), static_cast<Index>(std::ceil(8.0 / built_.options.time_step)));
   // A wave crosses a spacing in about a step.
   const double wave = 0.1 / std::sqrt(30.0 / 2.5);
   EXPECT_GT(built_.inertia.critical_time_step(), 0.3 * wave);
@@ -224,7 +224,7 @@ TEST_F(BondRunTest, SummaryTellsHowItEnded) {
   const test::WholeRun run(input_);
   const auto& json = run.summary.json;
   EXPECT_EQ(json["status"], "completed");
-  EXPECT_EQ(json["steps"], built_.steps);
+  EXPECT_EQ(json["steps"], built_.options.steps());
   EXPECT_FALSE(json.contains("fundamental_period")) << "nothing asks for it";
   EXPECT_EQ(json["bonds"], model_.network.num_elements());
   EXPECT_LT(json["energy_error"], 1e-11) << "round-off of some hundred steps";

@@ -185,7 +185,8 @@ TEST_F(DamageRunTest, YieldingBreaksNothing) {
 TEST_F(DamageRunTest, EveryRowGoesToTheHistory) {
   const auto observer = make_run();
   run(*observer, {7, 3, 11});
-  const std::vector<StepRecord> rows = read_history((work_ / "history.csv").string());
+  const std::vector<StepRecord> rows =
+      history_records(read_csv((work_ / "history.csv").string()), "history.csv");
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[2].element, 11);
   EXPECT_EQ(rows[3].broken_bonds, 3);

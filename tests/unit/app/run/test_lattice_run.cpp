@@ -36,9 +36,9 @@ TEST(LatticeRun, WritesFieldsAtTheBeginningAtTheTimesAndAtTheEnd) {
   ASSERT_EQ(files.size(), 3u) << "two times within one row are one file, and so is the end";
   EXPECT_EQ(files[0].time, 0.0);
   EXPECT_EQ(files[0].file, "fields_000000.vtu");
-  EXPECT_NEAR(files[1].time, 0.5, 4.0 * built.time_step) << "a row of four steps";
+  EXPECT_NEAR(files[1].time, 0.5, 4.0 * built.options.time_step) << "a row of four steps";
   EXPECT_GE(files[1].time, 0.5 * (1.0 - 1e-9));
-  EXPECT_NEAR(files[2].time, 1.0, built.time_step);
+  EXPECT_NEAR(files[2].time, 1.0, built.options.time_step);
   for (std::size_t k = 0; k < files.size(); ++k) {
     const VtuGrid grid = run.fields(k);
     EXPECT_EQ(grid.field("time", -1.0), files[k].time);
@@ -62,14 +62,14 @@ TEST(LatticeRun, TellsWhatItWas) {
   const ExplicitCase built = build_explicit_case(run.input);
   const auto& json = run.summary.json;
   EXPECT_EQ(json["status"], "completed");
-  EXPECT_EQ(json["steps"], built.steps);
+  EXPECT_EQ(json["steps"], built.options.steps());
   EXPECT_EQ(json["particles"], built.model.lattice.particles());
   EXPECT_EQ(json["bonds"], built.bonds);
-  EXPECT_EQ(json["time_step"], built.time_step);
+  EXPECT_EQ(json["time_step"], built.options.time_step);
   EXPECT_EQ(json["critical_time_step"], built.critical_time_step);
   EXPECT_FALSE(json.contains("yielded_particles"));
   EXPECT_FALSE(json.contains("fundamental_period")) << "nothing asks for it";
-  const double steps = static_cast<double>(built.steps) * built.model.lattice.particles();
+  const double steps = static_cast<double>(built.options.steps()) * built.model.lattice.particles();
   EXPECT_EQ(json["particle_steps_per_second"], 0.5 * steps) << "in two seconds";
   for (const char* part : {"completed", "peak load", "particle-steps/s", "balance to",
                            "cracked particles", "216 particles"}) {

@@ -106,16 +106,15 @@ TEST(ExplicitCase, PrescribesSupportsAndDisplacements) {
 TEST(ExplicitCase, TakesAPartOfTheCriticalStep) {
   const ExplicitCase strip = built(test::lattice_strip_case());
   EXPECT_EQ(strip.critical_time_step, critical_time_step(strip.model));
-  EXPECT_EQ(strip.time_step, 0.9 * strip.critical_time_step);
-  EXPECT_EQ(strip.steps, static_cast<Index>(std::ceil(2.0 / strip.time_step)));
-  EXPECT_EQ(strip.options.time_step, strip.time_step);
+  EXPECT_EQ(strip.options.time_step, 0.9 * strip.critical_time_step);
+  EXPECT_EQ(strip.options.steps(), static_cast<Index>(std::ceil(2.0 / strip.options.time_step)));
   EXPECT_EQ(strip.options.duration, 2.0);
   EXPECT_EQ(strip.options.ramp, 1.0);
   EXPECT_EQ(strip.options.rows, 100);
   const std::string text =
       replaced(test::lattice_strip_case(), "duration", "time_step = 1e-4\nduration");
-  EXPECT_EQ(built(text).time_step, 1e-4);
-  EXPECT_EQ(built(text).steps, 20000);
+  EXPECT_EQ(built(text).options.time_step, 1e-4);
+  EXPECT_EQ(built(text).options.steps(), 20000);
 }
 
 TEST(ExplicitCase, FindsThePeriodThatExternalDampingRefersTo) {

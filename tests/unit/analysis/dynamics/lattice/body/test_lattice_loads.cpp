@@ -15,10 +15,6 @@ namespace {
 
 using namespace testing_support;
 
-class Nobody final : public ExplicitObserver {
-  void on_row(const ExplicitRecord&, const ExplicitState&) override {}
-};
-
 /// A block of particles, each pushed by its share of a force.
 ExplicitModel pushed_block(double force, bool held, double external_damping) {
   LatticeMaterial material = elastic_concrete();
@@ -61,7 +57,7 @@ TEST(ExplicitLoads, AccelerateAFreeBody) {
   for (const Index slot : model.lattice.particle_slot) mass += model.mass[slot];
   ExplicitState state(model);
   ExplicitOptions options = slowly(1e-4, 1e-4);
-  Nobody nobody;
+  ExplicitObserver nobody;
   const ExplicitResult result = run_explicit_analysis(model, state, options, nobody);
   // Forces in proportion to the masses move the body as a whole, by their impulse.
   double impulse = 0.0;
@@ -79,7 +75,7 @@ TEST(ExplicitLoads, AccelerateAFreeBody) {
 TEST(ExplicitLoads, ComeToTheElasticAnswer) {
   const ExplicitModel model = pushed_block(100.0, true, 0.3);
   ExplicitState state(model);
-  Nobody nobody;
+  ExplicitObserver nobody;
   const ExplicitResult moving = run_explicit_analysis(model, state, slowly(4e-3, 2e-3), nobody);
   const LatticeNetwork body = lattice_network(model);
   ASSERT_EQ(body.left_out, 0);
