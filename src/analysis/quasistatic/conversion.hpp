@@ -39,7 +39,7 @@ class Conversion {
   bool strains() const { return body_.alert_strain.has_value(); }
   struct Strained {
     std::vector<std::uint8_t> elements;  ///< per element
-    double load_factor;                  ///< of the first; infinity: there is none
+    double load_factor;                  ///< when the first is; infinity: there is none
   };
   /// The whole elements whose strain comes to the alert first, of those with bonds that can fail.
   /// \param motion    at load factor 1, shape (particles, width); right where bonds can fail
@@ -72,7 +72,7 @@ class Conversion {
   std::vector<Index> by_lower_x_;  ///< elements in the order of their lower ends along x
   double widest_ = 0.0;            ///< largest width of an element along x [length]
   std::vector<Index> freed_;
-  std::vector<ElementStrain> strains_;  ///< of elements with bonds that can fail; empty: not asked
+  std::vector<ElementStrain> strains_;  ///< where bonds can fail; empty: not asked for
   std::unique_ptr<Unknowns> present_, former_;
 };
 

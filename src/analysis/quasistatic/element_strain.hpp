@@ -24,8 +24,7 @@ class ElementStrain {
   int dim_;
   Index number_;
   std::vector<Index> inside_;
-  std::vector<double>
-      gradient_;  ///< of the motion, per unit of each particle's, shape (inside, dim)
+  std::vector<double> gradient_;  ///< that each particle adds by its motion, shape (inside, dim)
 };
 
 }  // namespace perilink

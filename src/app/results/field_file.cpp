@@ -126,7 +126,8 @@ void add_carriers(VtuGrid& grid, const Particles& particles, const Carriers& car
       const auto away = [&](Index i) {
         double square = 0.0;
         for (std::size_t a = 0; a < dim; ++a) {
-          const double gap = particles.position(i)[a] - carriers.nodes[static_cast<std::size_t>(node) * dim + a];
+          const double gap =
+              particles.position(i)[a] - carriers.nodes[static_cast<std::size_t>(node) * dim + a];
           square += gap * gap;
         }
         return square;

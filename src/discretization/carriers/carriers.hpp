@@ -12,10 +12,10 @@
 
 namespace perilink {
 
-/// Finite elements that carry particles: inside one, particles move by the linear or quadratic shape
-/// functions of its nodes. Nodes belong to no particle; elements with common nodes deform together,
-/// others are joined by the bonds between their particles alone (Gerstle, Sau & Aguilera 2007,
-/// section 4).
+/// Finite elements that carry particles: inside one, particles move by the linear or quadratic
+/// shape functions of its nodes. Nodes belong to no particle; elements with common nodes deform
+/// together, others are joined by the bonds between their particles alone (Gerstle, Sau & Aguilera
+/// 2007, section 4).
 struct Carriers {
   int dim = 2;
   std::vector<double> nodes;         ///< positions [length], shape (nodes, dim)

@@ -58,7 +58,7 @@ class CellSearch {
   double tolerance_ = 0.0;
   Box box_;
   std::vector<double> sides_;  ///< unit normal inwards and offset, shape (cells, dim + 1, dim + 1)
-  std::vector<double> heights_;         ///< of corners above their sides, shape (cells, dim + 1)
+  std::vector<double> heights_;  ///< how far corners are above their sides, shape (cells, dim + 1)
   std::array<int, 3> counts_{1, 1, 1};  ///< boxes of the grid along each axis
   Csr buckets_;                         ///< cells that touch each of them
 };

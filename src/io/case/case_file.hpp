@@ -207,7 +207,7 @@ struct ElementsSection {
   std::optional<int> spacings;         ///< between particles, along each side of an element
   std::optional<double> size;          ///< length of each side, about [length]
   std::optional<std::string> mesh;     ///< file of a mesh whose cells they are, or of a geometry
-  std::optional<double> mesh_size;     ///< of the cells, where that is a geometry [length]
+  std::optional<double> mesh_size;     ///< wanted for its cells, where that is a geometry
   int order = 2;                       ///< degree of the polynomials along each axis: 1 or 2
   std::vector<std::string> regions;    ///< with elements; empty: the whole body
   std::vector<std::string> particles;  ///< regions without

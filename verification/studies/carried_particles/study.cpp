@@ -48,8 +48,8 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
       {false, 2.5, {0, 4, 8}}, {false, 1.0, {0, 4, 8, 12}, 8}, {true, 10.0, {0, 3}}};
   if (!small) {
     scenes.push_back({false, 0.5, {0, 8, 12}, 12});
-    scenes.push_back({true, 5.0, {0, 4, 5}, 4});
-    scenes.push_back({true, 25.0 / 6.0, {0, 4, 6}, 4});
+    scenes.push_back({true, 5.0, {0, 4, 5}, 5});
+    scenes.push_back({true, 25.0 / 6.0, {0, 4, 6}, 6});
   }
   std::string table =
       "body,spacing,element_spacings,unknowns,unknowns_at_end,events,conversions,peak,"

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "problems/program.hpp"
 #include "problems/result.hpp"
 
 namespace perilink::verification {
@@ -64,7 +65,7 @@ class Stencil {
         for (int c = 0; c < 3; ++c) entry[c] += 0.5 * stiffness * wa * wb * n[c];
       }
     }
-    energy_ += 0.25 * stiffness * dx * dx * n[0];  // of a unit strain along x, with lateral none
+    energy_ += 0.25 * stiffness * dx * dx * n[0];  // under a unit strain along x alone
   }
 
   /// Both as stiff against a uniform strain, the Frobenius norm of the difference over that of the
@@ -100,7 +101,7 @@ class Stencil {
 
 /// How particles stand in an element, and where their bonds end.
 struct Lattice {
-  double offset;  ///< of the first particle from the side of the element, in spacings
+  double offset;  ///< from the side of the element to the first particle, in spacings
   bool ramps;     ///< bonds fade over one spacing around the horizon, with the part of the volume
                   ///< inside (Hu, Ha & Bobaru 2010), and do not end at once
 };
@@ -174,12 +175,10 @@ Stencil of_continuum(double horizon, int order, int outer, int angles, int radii
 }
 
 }  // namespace
-}  // namespace perilink::verification
 
 /// How many particles an element needs to be as stiff as the double integral over pairs of elements:
 /// into result.csv.
-int main() {
-  using namespace perilink::verification;
+bool run_program(const std::vector<std::string>& /*arguments*/) {
   std::string table =
       "order,element_over_horizon,particles_per_side,horizon_ratio,on_sides,on_sides_ramp,inside,"
       "inside_ramp\n";
@@ -205,5 +204,7 @@ int main() {
     }
   }
   write_result(PERILINK_STUDY_DIR, table);
-  return 0;
+  return true;
 }
+
+}  // namespace perilink::verification

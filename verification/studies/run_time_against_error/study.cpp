@@ -70,6 +70,25 @@ void run_study(Comparison& comparison) {
   }
 }
 
+/// Calibrated bonds whose particles finite elements carry.
+void run_elements(const fs::path& work, Comparison& comparison) {
+  std::ifstream file(comparison.study.case_path);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  StudyFile study = comparison.study;
+  study.case_path = (work / "elements.toml").string();
+  for (const int spacings : {4, 8}) {
+    std::ofstream(study.case_path) << text << "\n[elements]\nspacings = " << spacings << "\n";
+    for (const double ratio : study.vary.horizon_ratio) {
+      const StudySeries series = {
+          fmt::format("elements of {} spacings, horizon ratio {}", spacings, ratio),
+          {body_key("horizon_ratio", ratio)}};
+      for (const TomlValue& value : study.vary.values) {
+        keep(comparison, series, run_member(study, series, value, 1));
+      }
+    }
+  }
+}
+
 void replace_all(std::string& text, const std::string& word, double value) {
   for (std::size_t at; (at = text.find(word)) != std::string::npos;) {
     text.replace(at, word.size(), fmt::format("{}", value));
@@ -167,6 +186,7 @@ Comparison compare(const std::string& name, const fs::path& work, std::size_t mo
     study.vary.values[k] = make_mesh(work, 0.2 / std::pow(2.0, static_cast<double>(k)));
   }
   run_study(comparison);
+  run_elements(work, comparison);
   if (name == "cantilever") run_ghosts(work, comparison);
   if (has_calculix()) run_calculix_series(work, comparison, !meshed);
   compare_members(study, comparison.members);

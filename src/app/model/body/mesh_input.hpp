@@ -20,7 +20,7 @@ struct MeshInput {
 /// Reads a file of a mesh, or meshes a geometry.
 /// \param key   that names the file, for messages
 /// \param file  as seen from the folder of the case
-/// \param size  of the cells, where it is a geometry
+/// \param size  wanted for the cells, where it is a geometry
 /// \throws InputError  where it cannot be read
 Mesh read_mesh(const CaseFile& input, const std::string& key, const std::string& file,
                std::optional<double> size, int dim);

@@ -15,7 +15,7 @@ Mesh make_mesh(int dim) {
   mesh.dim = dim;
   if (dim == 2) {
     mesh.positions = {0, 0, 8, 0, 8, 8, 0, 8};
-    mesh.cells = {0, 1, 2, 0, 3, 2};  // of both orientations
+    mesh.cells = {0, 1, 2, 0, 3, 2};  // either way round
   } else {
     mesh.positions = {0, 0, 0, 8, 0, 0, 8, 8, 0, 0, 8, 0, 0, 0, 8, 8, 0, 8, 8, 8, 8, 0, 8, 8};
     mesh.cells = {0, 1, 2, 5, 0, 2, 3, 7, 0, 5, 7, 4, 2, 5, 6, 7, 0, 2, 5, 7};
