@@ -7,8 +7,8 @@
 
 namespace perilink {
 
-/// Mean strain of an element that carries particles: that of the linear motion nearest to theirs, by
-/// least squares. Particles in one line or plane tell the strain in it alone.
+/// Mean strain of an element that carries particles: that of the linear motion nearest to theirs,
+/// by least squares. Particles in one line or plane tell the strain in it alone.
 class ElementStrain {
  public:
   /// \param inside  particles of the element that count

@@ -16,8 +16,6 @@ namespace {
 
 /// A step at settled weights that leaves more than this of the residual leaves contradictions.
 constexpr double contradiction = 0.9;
-/// So does one that makes the multipliers grow by this factor and leaves this of the residual.
-constexpr double runaway = 100.0, runaway_rest = 0.1;
 constexpr int most_newton_steps = 40;
 /// Newton's method is lost where the dual function stops growing this early along a step.
 constexpr double shortest_step = 1e-5;
@@ -146,13 +144,9 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
     const double coarse = step == 0 ? 1e-2 : settled ? 0.0 : 1e-3;
     const double reduction = std::max({coarse, 0.3 * target / size, 1e-12});
     result_.iterations += normal_.solve(residual_, reduction, direction);
-    const double size_of_y = norm(y);
     const double length = last_length = search_line(residual_, direction, y);
     normal_.measure(weights_, y, residual_);
     if (length < shortest_step) break;
-    // In the plane multipliers of long waves grow like this too.
-    const bool grown = equations_.dim == 3 && step > 0 && norm(y) > runaway * size_of_y;
-    if (grown && norm(residual_) > runaway_rest * size) break;
   }
   result_.converged = norm(residual_) <= reached();
 }

@@ -176,8 +176,8 @@ Stencil of_continuum(double horizon, int order, int outer, int angles, int radii
 
 }  // namespace
 
-/// How many particles an element needs to be as stiff as the double integral over pairs of elements:
-/// into result.csv.
+/// How many particles an element needs to be as stiff as the double integral over pairs of
+/// elements: into result.csv.
 bool run_program(const std::vector<std::string>& /*arguments*/) {
   std::string table =
       "order,element_over_horizon,particles_per_side,horizon_ratio,on_sides,on_sides_ramp,inside,"

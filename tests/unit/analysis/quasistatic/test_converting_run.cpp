@@ -27,8 +27,8 @@ DamageResult run_strip(const std::string& elements, Rows& rows) {
   return run_damage_analysis(model, options, rows);
 }
 
-/// Elements with bonds that can fail are converted before the first of these does, all of them where
-/// hardly any strain is enough: then events are those of free particles.
+/// Elements with bonds that can fail are converted before the first of these does, all of them
+/// where hardly any strain is enough: then events are those of free particles.
 TEST(ConvertingRun, StrainsConvertElementsBeforeTheBondsInThemFail) {
   Rows free, carried;
   run_strip("", free);

@@ -57,8 +57,8 @@ TEST(MeshCarriers, ElementsShareTheNodesOfTheirCommonEdges) {
   EXPECT_EQ(space.num_nodes(), 8 + 18);  // twelve edges and six diagonals
 }
 
-/// Shape functions add up to one and reproduce every polynomial of their order. Tolerance: round-off
-/// of numbers below 100.
+/// Shape functions add up to one and reproduce every polynomial of their order. Tolerance:
+/// round-off of numbers below 100.
 TEST(MeshCarriers, ShapeFunctionsReproducePolynomials) {
   for (const int dim : {2, 3}) {
     const Particles particles = fill(dim);
