@@ -153,7 +153,8 @@ TEST(BoxSpace, KeepsIterationsFromGrowing) {
   EXPECT_GT(iterations(10, false), 4 * small);
 }
 
-/// From the start to exact balance, where blocks of points alone take 10900 iterations.
+/// From the start to exact balance, where blocks of points alone take 10900 iterations. Boxes from
+/// the first step on took less than 2000, but more time: their fields cost more than they save.
 TEST(BoxSpace, BalancesANotchedPrismInFewIterations) {
   Problem problem = make_problem(notched_box(15, 6), 3.0, 0.0, false);
   const CalibrationInput given{problem.body.particles,
@@ -165,7 +166,7 @@ TEST(BoxSpace, BalancesANotchedPrismInFewIterations) {
   EXPECT_GT(report.residual_before, 0.1);
   EXPECT_LT(report.residual_after, 1e-10);
   EXPECT_EQ(report.unmet, 0);
-  EXPECT_LT(report.iterations, 2000);
+  EXPECT_LT(report.iterations, 10900 / 4);
 }
 
 }  // namespace
