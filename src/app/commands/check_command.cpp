@@ -146,7 +146,7 @@ void print_sizes(const Model& model) {
 }
 
 void print_set_up(const ExpectedSetUp& set_up) {
-  fmt::print("#   set-up             {}", time_text(set_up.seconds));
+  fmt::print("#   set-up             {}", time_text(set_up.seconds()));
   if (set_up.calibration > 0.0) {
     fmt::print(", of it calibration {}", time_text(set_up.calibration));
   }
@@ -166,7 +166,7 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
     fmt::print("#   each broken bond   {:.2g} ms; 1000 of them {}\n", 1e3 * cost.broken_bond,
                time_text(1e3 * cost.broken_bond));
   }
-  fmt::print("#   run                {}\n", run_text(input, set_up.seconds, cost));
+  fmt::print("#   run                {}\n", run_text(input, set_up.seconds(), cost));
 }
 
 /// Prints the fundamental period, with which loading times are compared.
@@ -254,9 +254,9 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   const bool calibrated = input.analysis.time_step && input.body.surface == Surface::calibrated;
   const Model model = calibrated ? build_model_visibly(input, false) : draft_model(input);
   const BondRunCase built = build_bond_run(input, model);
-  const double paid =
-      calibrated && model.network.calibration ? model.network.calibration->seconds : 0.0;
-  const ExpectedSetUp set_up(model, timer.seconds() - paid);
+  const double built_in = timer.seconds();
+  const double calibration = time_of_calibration(input, model);
+  const ExpectedSetUp set_up{built_in - (calibrated ? calibration : 0.0), calibration};
   print_case(case_path, input);
   print_sizes(model);
   std::fflush(stdout);
@@ -264,14 +264,15 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   print_steps(built.inertia.critical_time_step(), built.options);
   print_set_up(set_up);
   fmt::print("#   run                about {} on one core\n",
-             time_text(set_up.seconds + built.options.steps() * seconds_per_step(model, built)));
+             time_text(set_up.seconds() + built.options.steps() * seconds_per_step(model, built)));
   return exit_done;
 }
 
 int check_relaxation(const std::string& case_path, const CaseFile& input) {
   const Timer timer;
   const Model model = draft_model(input);
-  const ExpectedSetUp set_up(model, timer.seconds());
+  const double drafted = timer.seconds();
+  const ExpectedSetUp set_up{drafted, time_of_calibration(input, model)};
   const double iterations = expected_iterations(model, relaxation_options(input, 1));
   print_case(case_path, input);
   print_sizes(model);
@@ -297,7 +298,8 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   if (input.analysis.type == AnalysisType::relaxation) return check_relaxation(case_path, input);
   const Timer timer;
   Model model = draft_model(input);
-  const ExpectedSetUp set_up(model, timer.seconds());
+  const double drafted = timer.seconds();
+  const ExpectedSetUp set_up{drafted, time_of_calibration(input, model)};
   if (const auto note = note_of_separated_body(input, model, 1)) model.notes.push_back(*note);
   print_case(case_path, input);
   print_sizes(model);

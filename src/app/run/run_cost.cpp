@@ -31,6 +31,9 @@ constexpr double long_enough = 0.02;  // [s]
 /// meshes/moving_block.toml, irregular_plate.toml and splm_tension.toml.
 constexpr double breaking = 2.0;
 
+/// Calibrations that are expected to take less are tried [s].
+constexpr double short_calibration = 0.5;
+
 bool can_break(const Network& network) {
   if (network.has_states()) return true;
   for (Index e = 0; e < network.num_elements(); ++e) {
@@ -67,6 +70,14 @@ ExplicitOptions some_steps(ExplicitOptions options, Index steps) {
 }
 
 }  // namespace
+
+double time_of_calibration(const CaseFile& input, const Model& model) {
+  if (!model.network.calibration) return 0.0;
+  const CalibrationReport& report = *model.network.calibration;
+  const bool done = report.iterations > 0 || report.seconds == 0.0;
+  if (done || report.seconds > short_calibration) return report.seconds;
+  return build_model(input).network.calibration->seconds;
+}
 
 ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor) {
   const double bond_bytes = 100.0 * network.num_elements();

@@ -11,13 +11,14 @@
 
 namespace perilink {
 
-/// From a draft (draft_model()) and the time that it took [s].
+/// Time of the calibration [s], of a draft (draft_model()) the expected one. Where that is short it
+/// is tried: how the search goes on the body at hand no rate can tell.
+double time_of_calibration(const CaseFile& input, const Model& model);
+
 struct ExpectedSetUp {
-  ExpectedSetUp(const Model& draft, double drafted)
-      : calibration(draft.network.calibration ? draft.network.calibration->seconds : 0.0),
-        seconds(drafted + calibration) {}
+  double drafted;      ///< time that the draft took [s]
   double calibration;  ///< [s]
-  double seconds;      ///< with the calibration
+  double seconds() const { return drafted + calibration; }
 };
 
 /// What a quasistatic run costs after its set-up.

@@ -18,6 +18,18 @@ TEST(CalibrationCost, CountsTheBondsThatMayChange) {
   EXPECT_EQ(expected_calibration(input, false).free_bonds, 2);
 }
 
+/// Factors of all equations grow faster than their number.
+TEST(CalibrationCost, CloudsInThePlaneAreDearerPerBondTheLargerTheyAre) {
+  const auto per_bond = [](double side) {
+    const test::Problem body =
+        test::make_problem(test::box(Pattern::rectangular, 1.0, {side, side, 0}), 2.0, 0.0, false);
+    const CalibrationInput input{body.body.particles, body.bonds, {}, {}};
+    const CalibrationReport report = expected_calibration(input, false);
+    return report.seconds / report.free_bonds;
+  };
+  EXPECT_GT(per_bond(16.0), 1.5 * per_bond(8.0));
+}
+
 TEST(CalibrationCost, MomentsAndSpaceAreDearer) {
   const test::Problem square =
       test::make_problem(test::box(Pattern::rectangular, 1.0, {4, 4, 0}), 2.0, 0.0, false);

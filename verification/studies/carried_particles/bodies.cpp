@@ -59,14 +59,28 @@ Run run_here(const std::string& text) {
 }
 
 std::string region(const std::string& name, double x0, double x1, double y0, double y1,
-                   bool in_space) {
+                   bool in_space = false) {
   return fmt::format("[[regions]]\nname = \"{}\"\nx = [{}, {}]\ny = [{}, {}]\n{}", name, x0, x1, y0,
                      y1, in_space ? "z = [0, 50]\n" : "");
 }
 
-}  // namespace
+std::string material(const std::string& regions, const std::string& fracture_energy) {
+  return fmt::format(
+      "[[materials]]\nregions = [{}]\nyoungs_modulus = 30000.0\nfracture_energy = {}\n", regions,
+      fracture_energy);
+}
 
-std::string beam_case(bool in_space, double spacing, const std::string& elements) {
+std::string support(const std::string& region, const std::string& axes) {
+  return fmt::format("[[supports]]\nregion = \"{}\"\nfix = [{}]\n", region, axes);
+}
+
+std::string load(const std::string& force) {
+  return fmt::format("[[loads]]\nregion = \"load\"\nforce = [{}]\n", force);
+}
+
+constexpr const char* unbreakable = "\"infinite\"";
+
+std::string beam(bool in_space, double spacing) {
   const auto box = [&](const std::string& name, double x0, double x1, double y0, double y1) {
     return region(name, x0, x1, y0, y1, in_space);
   };
@@ -77,22 +91,46 @@ std::string beam_case(bool in_space, double spacing, const std::string& elements
                      "51]]\n",
                      x)
                : fmt::format("points = [[{0}, -1], [{0}, 30]]\n", x);
-  return fmt::format("[body]\nproblem = \"{}\"\nspacing = {}\nhorizon_ratio = {}\n{}",
-                     in_space ? "three_dimensional" : "plane_stress", spacing, in_space ? 2 : 3,
-                     in_space ? "pattern = \"cubic\"\n" : "thickness = 50.0\n") +
-         box("beam", 0, 400, 0, 100) + box("left part", 0, 140, 0, 100) +
+  return box("beam", 0, 400, 0, 100) + box("left part", 0, 140, 0, 100) +
          box("right part", 260, 400, 0, 100) + box("top patch", 140, 260, 85, 100) +
          box("left support", 15, 25, 0, 0) + box("right support", 375, 385, 0, 0) +
-         box("load", 190, 210, 100, 100) +
-         "[[materials]]\nregion = \"beam\"\nyoungs_modulus = 30000.0\nfracture_energy = 0.1\n"
-         "[[materials]]\nregions = [\"left part\", \"right part\", \"top patch\"]\n"
-         "youngs_modulus = 30000.0\nfracture_energy = \"infinite\"\n[[cracks]]\n" +
-         crack + "[[supports]]\nregion = \"left support\"\nfix = [\"x\", \"y\"" +
-         (in_space ? ", \"z\"" : "") +
-         "]\n[[supports]]\nregion = \"right support\"\nfix = [\"y\"]\n[[loads]]\n"
-         "region = \"load\"\nforce = [0, -1000" +
-         (in_space ? ", 0" : "") + "]\n[stop]\n" +
-         (in_space ? "broken_bonds = 600\n" : "load_fraction = 0.3\n") + elements;
+         box("load", 190, 210, 100, 100) + material("\"beam\"", "0.1") +
+         material("\"left part\", \"right part\", \"top patch\"", unbreakable) + "[[cracks]]\n" +
+         crack + support("left support", in_space ? "\"x\", \"y\", \"z\"" : "\"x\", \"y\"") +
+         support("right support", "\"y\"") + load(in_space ? "0, -1000, 0" : "0, -1000");
+}
+
+std::string panel() {
+  return region("leg", 0, 250, 0, 500) + region("arm", 250, 500, 250, 500) +
+         region("foot", 0, 250, 0, 60) + region("tip", 430, 500, 250, 500) +
+         region("clamp", 0, 250, 0, 0) + region("load", 460, 480, 250, 250) +
+         material("\"leg\", \"arm\"", "0.1") + material("\"foot\", \"tip\"", unbreakable) +
+         support("clamp", "\"x\", \"y\"") + load("0, 1000");
+}
+
+std::string block() {
+  return region("specimen", 0, 100, 0, 200) + region("lower cap", 0, 100, -50, 0) +
+         region("upper cap", 0, 100, 200, 250) + region("weak place", 0, 10, 95, 105) +
+         region("bottom", 0, 100, -50, -50) + region("middle", 50, 50, -50, -50) +
+         region("load", 0, 100, 250, 250) + material("\"specimen\"", "0.1") +
+         material("\"lower cap\", \"upper cap\"", unbreakable) +
+         material("\"weak place\"", "0.07") + support("bottom", "\"y\"") +
+         support("middle", "\"x\"") + load("0, 1000");
+}
+
+}  // namespace
+
+std::string case_of(Scene scene, double spacing, const std::string& elements) {
+  const bool in_space = scene == Scene::prism;
+  const std::string body =
+      fmt::format("[body]\nproblem = \"{}\"\nspacing = {}\nhorizon_ratio = {}\n{}",
+                  in_space ? "three_dimensional" : "plane_stress", spacing, in_space ? 2 : 3,
+                  in_space ? "pattern = \"cubic\"\n" : "thickness = 50.0\n");
+  const std::string what = scene == Scene::panel   ? panel()
+                           : scene == Scene::block ? block()
+                                                   : beam(in_space, spacing);
+  const char* stop = in_space ? "broken_bonds = 600\n" : "load_fraction = 0.3\n";
+  return body + what + "[stop]\n" + stop + elements;
 }
 
 Run measure(const std::string& text) {

@@ -4,11 +4,17 @@
 
 namespace perilink::verification {
 
-/// A beam on three points with a pre-crack of 0.3 of its height, 400 by 100 mm, that forces push
-/// until the load has fallen to 0.3 of its peak. Only the middle 120 mm can break.
-/// \param in_space  50 mm wide in space with a horizon of two spacings, until 600 bonds are broken
+/// Bodies of brittle bonds, E = 30 000 MPa, G_F = 0.1 N/mm, that forces break until the load has
+/// fallen to 0.3 of its peak.
+enum class Scene {
+  beam,   ///< on three points, pre-crack of 0.3 of its height, 400 by 100 mm; its middle can break
+  prism,  ///< the beam, 50 mm wide in space, horizon of two spacings, until 600 bonds are broken
+  panel,  ///< L-shaped, 500 by 500 mm, clamped below, pushed up at its arm; crack from the corner
+  block,  ///< in tension between caps, 100 by 200 mm, with a weak place on its left side
+};
+
 /// \param elements  the table [elements]; empty: all particles are free
-std::string beam_case(bool in_space, double spacing, const std::string& elements);
+std::string case_of(Scene scene, double spacing, const std::string& elements);
 
 /// A run of its own process, so that time and memory are its own.
 struct Run {

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bodies.hpp"
@@ -12,54 +11,77 @@
 namespace perilink::verification {
 namespace {
 
-struct Scene {
-  bool in_space;
-  double spacing;
-  std::vector<int> sizes;  ///< spacings along the sides of elements; 0: none
-  int graded = 0;          ///< the same of the smallest elements of a graded mesh; 0: none
+/// Elements of a body: none, a grid, or a mesh that is fine where the crack runs.
+struct Elements {
+  int spacings = 0;  ///< along a side, of the smallest where graded; 0: none
+  bool graded = false;
+  double alert = 0.5;  ///< the default
 };
 
-/// The table [elements] for elements of so many spacings, evenly or at the smallest.
-std::string elements_of(const Scene& scene, int size, bool graded) {
-  if (size == 0) return "";
-  if (!graded) return fmt::format("[elements]\nspacings = {}\n", size);
-  return fmt::format("[elements]\nmesh = \"{}/{}.geo\"\nmesh_size = {}\n", PERILINK_STUDY_DIR,
-                     scene.in_space ? "prism" : "beam", size * scene.spacing);
+struct Body {
+  Scene scene;
+  const char* name;
+  double spacing;
+  std::vector<Elements> elements;
+};
+
+std::string label(const Elements& elements) {
+  return fmt::format("{}{}{}", elements.graded ? "graded " : "", elements.spacings,
+                     elements.alert == 0.5 ? "" : fmt::format(" alert {}", elements.alert));
 }
 
-std::string row_of(const Scene& scene, int size, bool graded) {
-  const std::string elements = elements_of(scene, size, graded);
-  const Run run = measure(beam_case(scene.in_space, scene.spacing, elements));
+/// The table [elements].
+std::string table_of(const Body& body, const Elements& elements) {
+  if (elements.spacings == 0) return "";
+  const std::string size =
+      elements.graded ? fmt::format("mesh = \"{}/{}.geo\"\nmesh_size = {}", PERILINK_STUDY_DIR,
+                                    body.name, elements.spacings * body.spacing)
+                      : fmt::format("spacings = {}", elements.spacings);
+  return fmt::format("[elements]\n{}\nalert = {}\n", size, elements.alert);
+}
+
+std::string row_of(const Body& body, const Elements& elements) {
+  const Run run = measure(case_of(body.scene, body.spacing, table_of(body, elements)));
   return fmt::format(
-      "{},{},{}{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.3g},{:.4f},{:.2f},{:.2f},{:.2f},{:.3f}\n",
-      scene.in_space ? "space" : "plane", scene.spacing, graded ? "graded " : "", size,
-      run.unknowns, run.unknowns_at_end, run.events, run.conversions, run.peak, run.smoothed_peak,
-      run.dissipated, run.freed, run.crack, run.height, run.seconds, run.set_up, run.gigabytes);
+      "{},{:.6g},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.3g},{:.4f},{:.2f},{:.2f},{:.2f},{:.3f}\n",
+      body.name, body.spacing, label(elements), run.unknowns, run.unknowns_at_end, run.events,
+      run.conversions, run.peak, run.smoothed_peak, run.dissipated, run.freed, run.crack,
+      run.height, run.seconds, run.set_up, run.gigabytes);
 }
 
 }  // namespace
 }  // namespace perilink::verification
 
-/// What finite elements that carry particles save, and what they change: beams with and without
+/// What finite elements that carry particles save, and what they change: bodies with and without
 /// them, into result.csv. `carried_particles small` leaves out the large ones.
 bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   const bool small = !arguments.empty() && arguments[0] == "small";
-  std::vector<Scene> scenes = {
-      {false, 2.5, {0, 4, 8}}, {false, 1.0, {0, 4, 8, 12}, 8}, {true, 10.0, {0, 3}}};
+  const auto graded = [](int spacings) { return Elements{spacings, true}; };
+  std::vector<Body> bodies = {
+      {Scene::beam, "beam", 2.5, {{0}, {4}, {8}}},
+      {Scene::beam, "beam", 1.0, {{0}, {4}, {8}, {12}, graded(8)}},
+      {Scene::prism, "prism", 10.0, {{0}, {3}}},
+  };
   if (!small) {
-    scenes.push_back({false, 0.5, {0, 8, 12}, 12});
-    scenes.push_back({true, 5.0, {0, 4, 5}, 5});
-    scenes.push_back({true, 25.0 / 6.0, {0, 4, 6}, 6});
+    // 50 000 and 300 000 particles
+    const std::vector<Elements> of_panel = {{0}, {8}, {12}};
+    const std::vector<Elements> of_block = {{0}, {12}, {12, false, 0.97}};
+    bodies.insert(bodies.end(), {
+                                    {Scene::beam, "beam", 0.5, {{0}, {8}, {12}, graded(12)}},
+                                    {Scene::panel, "panel", 250.0 / 130.0, of_panel},
+                                    {Scene::panel, "panel", 250.0 / 316.0, of_panel},
+                                    {Scene::block, "block", 100.0 / 130.0, of_block},
+                                    {Scene::block, "block", 100.0 / 316.0, of_block},
+                                    {Scene::prism, "prism", 5.0, {{0}, {4}, {5}, graded(5)}},
+                                    {Scene::prism, "prism", 25.0 / 6.0, {{0}, {4}, {6}, graded(6)}},
+                                });
   }
   std::string table =
       "body,spacing,element_spacings,unknowns,unknowns_at_end,events,conversions,peak,"
       "smoothed_peak,dissipated,freed,crack_x,crack_y,seconds,set_up_seconds,gigabytes\n";
-  for (const Scene& scene : scenes) {
-    std::vector<std::pair<int, bool>> kinds;
-    for (const int size : scene.sizes) kinds.emplace_back(size, false);
-    if (scene.graded > 0) kinds.emplace_back(scene.graded, true);
-    for (const auto& [size, graded] : kinds) {
-      const std::string row = row_of(scene, size, graded);
+  for (const Body& body : bodies) {
+    for (const Elements& elements : body.elements) {
+      const std::string row = row_of(body, elements);
       fmt::print("{}", row);
       std::fflush(stdout);
       table += row;

@@ -52,6 +52,11 @@ void keep(Comparison& comparison, const StudySeries& series, StudyMember member)
   comparison.members.push_back(std::move(member));
 }
 
+/// In the meshes of the plate.
+double size_of_cells(std::size_t refinement) {
+  return 0.2 / std::pow(2.0, static_cast<double>(refinement));
+}
+
 /// The plate meshed with cells of one size by the program gmsh. \return the key that names the mesh
 TomlValue make_mesh(const fs::path& work, double size) {
   const std::string mesh = (work / fmt::format("plate_{}.msh", size)).string();
@@ -71,20 +76,20 @@ void run_study(Comparison& comparison) {
 }
 
 /// Calibrated bonds whose particles finite elements carry.
-void run_elements(const fs::path& work, Comparison& comparison) {
+/// \param table  writes what stands in [elements] for a member
+template <class Table>
+void run_elements(const fs::path& work, Comparison& comparison, const std::string& name,
+                  Table table) {
   std::ifstream file(comparison.study.case_path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   StudyFile study = comparison.study;
   study.case_path = (work / "elements.toml").string();
-  for (const int spacings : {4, 8}) {
-    std::ofstream(study.case_path) << text << "\n[elements]\nspacings = " << spacings << "\n";
-    for (const double ratio : study.vary.horizon_ratio) {
-      const StudySeries series = {
-          fmt::format("elements of {} spacings, horizon ratio {}", spacings, ratio),
-          {body_key("horizon_ratio", ratio)}};
-      for (const TomlValue& value : study.vary.values) {
-        keep(comparison, series, run_member(study, series, value, 1));
-      }
+  for (const double ratio : study.vary.horizon_ratio) {
+    const StudySeries series = {fmt::format("{}, horizon ratio {}", name, ratio),
+                                {body_key("horizon_ratio", ratio)}};
+    for (std::size_t k = 0; k < study.vary.values.size(); ++k) {
+      std::ofstream(study.case_path) << text << "\n[elements]\n" << table(k) << "\n";
+      keep(comparison, series, run_member(study, series, study.vary.values[k], 1));
     }
   }
 }
@@ -183,10 +188,19 @@ Comparison compare(const std::string& name, const fs::path& work, std::size_t mo
   study.vary.values.resize(std::min(most, study.vary.values.size()));
   const bool meshed = study.vary.refinement == Refinement::mesh;
   for (std::size_t k = 0; meshed && k < study.vary.values.size(); ++k) {
-    study.vary.values[k] = make_mesh(work, 0.2 / std::pow(2.0, static_cast<double>(k)));
+    study.vary.values[k] = make_mesh(work, size_of_cells(k));
   }
   run_study(comparison);
-  run_elements(work, comparison);
+  for (const int spacings : {4, 8}) {
+    run_elements(work, comparison, fmt::format("elements of {} spacings", spacings),
+                 [&](std::size_t) { return fmt::format("spacings = {}", spacings); });
+  }
+  if (meshed) {
+    run_elements(work, comparison, "graded elements", [](std::size_t k) {
+      return fmt::format("mesh = \"{}\"\nmesh_size = {}", (here / "plate_elements.geo").string(),
+                         4.0 * size_of_cells(k));
+    });
+  }
   if (name == "cantilever") run_ghosts(work, comparison);
   if (has_calculix()) run_calculix_series(work, comparison, !meshed);
   compare_members(study, comparison.members);

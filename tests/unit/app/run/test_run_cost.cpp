@@ -20,15 +20,19 @@ TEST(RunCost, GrowsWithTheFactorAndTheMomentsOfBonds) {
   EXPECT_GE(more.memory, large.bytes);
 }
 
-TEST(RunCost, TheSetUpOfADraftLacksItsCalibration) {
+/// Long calibrations are told as expected, short ones are tried.
+TEST(RunCost, ShortCalibrationsAreTried) {
   Model draft = draft_model(test::strip_case());
   ASSERT_TRUE(draft.network.calibration.has_value());
   draft.network.calibration->seconds = 3.0;
-  const ExpectedSetUp calibrated(draft, 0.5);
-  EXPECT_DOUBLE_EQ(calibrated.calibration, 3.0);
-  EXPECT_DOUBLE_EQ(calibrated.seconds, 3.5);
+  EXPECT_EQ(time_of_calibration(test::strip_case(), draft), 3.0);
+  EXPECT_EQ((ExpectedSetUp{0.5, 3.0}.seconds()), 3.5);
+  draft.network.calibration->seconds = 1e-9;
+  EXPECT_GT(time_of_calibration(test::strip_case(), draft), 1e-9);
+  draft.network.calibration->iterations = 1;  // a model that has been calibrated
+  EXPECT_EQ(time_of_calibration(test::strip_case(), draft), 1e-9);
   draft.network.calibration.reset();
-  EXPECT_DOUBLE_EQ(ExpectedSetUp(draft, 0.5).seconds, 0.5);
+  EXPECT_EQ(time_of_calibration(test::strip_case(), draft), 0.0);
 }
 
 /// A draft answers what does not depend on the calibration as the model does.
