@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "assembly/cell_terms.hpp"
 #include "assembly/element_blocks.hpp"
 #include "base/csr.hpp"
 
@@ -117,7 +119,9 @@ class Assembler {
         bundles_(network, unknowns),
         coupled_(coupled_unknowns(network, bundles_, families_, unknowns.count)),
         matrix_(lay_out(bundles_, coupled_, unknowns.count)),
-        row_of_(static_cast<std::size_t>(unknowns.count)) {}
+        row_of_(static_cast<std::size_t>(unknowns.count)) {
+    if (network.cells) cells_.emplace(*network.cells);
+  }
 
   SparseMatrix build() {
     for (Index b = 0; b < bundles_.size(); ++b) {
@@ -169,6 +173,7 @@ class Assembler {
         }
       }
     }
+    if (cells_) add_cells_of(i, num_rows);
     for (int col = 0; col < width; ++col) {
       for (int row = 0; row < width; ++row) {
         add(slot + row, diagonal[row * width + col], col * num_rows);
@@ -182,6 +187,17 @@ class Assembler {
     }
   }
 
+  void add_cells_of(Index i, std::size_t num_rows) {
+    cells_->visit(i, [&](Index j, auto&& entry) {
+      const std::size_t slot = static_cast<std::size_t>(j) * Element::width;
+      for (int col = 0; col < Element::dim; ++col) {
+        for (int row = 0; row < Element::dim; ++row) {
+          add(slot + row, entry(row, col), col * num_rows);
+        }
+      }
+    });
+  }
+
   void add(std::size_t slot, double value, std::size_t first) {
     unknowns_.for_each(slot,
                        [&](Index k, double weight) { own_[first + row_of_[k]] += weight * value; });
@@ -191,6 +207,7 @@ class Assembler {
   Secants secants_;
   const Unknowns& unknowns_;
   Csr families_;
+  std::optional<CellBlocks<Element::dim>> cells_;
   Bundles bundles_;
   Csr coupled_;
   SparseMatrix matrix_;

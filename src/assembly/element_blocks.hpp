@@ -9,7 +9,7 @@ namespace perilink {
 /// Entries of an element's stiffness between two of its ends: 0 the first, 1 the second.
 template <int Dim>
 struct Truss {
-  static constexpr int width = Dim;
+  static constexpr int dim = Dim, width = Dim;
 
   Truss(const Network& network, Index element, Secants secants)
       : n(network.bonds.direction(element).data()),
@@ -26,7 +26,7 @@ struct Truss {
 template <int Dim>
 struct Frame {
   using Modes = FrameModes<Dim>;
-  static constexpr int width = Modes::width;
+  static constexpr int dim = Dim, width = Modes::width;
 
   /// Flat, so that the modes are rounded as in the rest of this file and not as in one that is
   /// compiled for more of the machine's instructions.

@@ -1,5 +1,6 @@
 #include "assembly/internal_force.hpp"
 
+#include "assembly/cell_terms.hpp"
 #include "network/frame.hpp"
 
 namespace perilink {
@@ -125,6 +126,10 @@ void add_all(const Network& network, Secants secants, std::span<const Real> disp
   if (network.has_states()) {
     network.dim() == 2 ? add_states<2>(network, secants, displacement, result)
                        : add_states<3>(network, secants, displacement, result);
+  }
+  if (network.cells) {
+    network.dim() == 2 ? add_cells<2>(*network.cells, displacement, network.width(), result)
+                       : add_cells<3>(*network.cells, displacement, network.width(), result);
   }
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
     const Real force = network.support_stiffness[slot] * displacement[slot];

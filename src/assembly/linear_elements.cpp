@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "assembly/cell_terms.hpp"
 #include "assembly/lower_triangle.hpp"
-#include "base/csr.hpp"
 
 namespace perilink {
 namespace {
@@ -15,97 +15,11 @@ namespace {
 template <int Dim>
 using Tensor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
 
-/// Gradients of a cell's shape functions, one row for each vertex.
-template <int Dim>
-using Gradients = Eigen::Map<const Eigen::Matrix<double, Dim + 1, Dim, Eigen::RowMajor>>;
-
-template <int Dim>
-Gradients<Dim> gradients_of(const LinearElements& elements, Index cell) {
-  return Gradients<Dim>(elements.gradients.data() +
-                        static_cast<std::size_t>(cell) * (Dim + 1) * Dim);
-}
-
 template <int Dim>
 Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double> values, Index i) {
   return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(values.data() +
                                                          static_cast<std::size_t>(i) * Dim);
 }
-
-/// With x = x_0 + J xi the gradients of the last Dim shape functions xi are the rows of J^-1, and
-/// all sum to zero.
-template <int Dim>
-void fill_geometry(std::span<const double> positions, double thickness, LinearElements& elements) {
-  for (Index number = 0; number < elements.cells.size(); ++number) {
-    const std::span<const Index> cell = elements.cells.cell(number);
-    Eigen::Matrix<double, Dim, Dim> jacobian;
-    for (int v = 0; v < Dim; ++v) {
-      jacobian.col(v) = vector_at<Dim>(positions, cell[v + 1]) - vector_at<Dim>(positions, cell[0]);
-    }
-    const double determinant = jacobian.determinant();
-    if (!(determinant > 0.0)) {
-      throw std::invalid_argument("cell " + std::to_string(number + 1) +
-                                  " of the mesh is turned inside out or has no volume");
-    }
-    elements.volumes.push_back(determinant * (Dim == 2 ? 0.5 * thickness : 1.0 / 6.0));
-    Eigen::Matrix<double, Dim + 1, Dim, Eigen::RowMajor> gradients;
-    gradients.template bottomRows<Dim>() = jacobian.inverse();
-    gradients.row(0) = -gradients.template bottomRows<Dim>().colwise().sum();
-    elements.gradients.insert(elements.gradients.end(), gradients.data(),
-                              gradients.data() + gradients.size());
-  }
-}
-
-void fill_moduli(Problem problem, std::span<const IsotropicMaterial> materials,
-                 LinearElements& elements) {
-  for (const Index m : elements.cells.material) {
-    const HookeConstants constants =
-        hooke_constants(problem, materials[m].youngs_modulus, materials[m].poissons_ratio);
-    elements.mu.push_back(constants.mu);
-    elements.lambda.push_back(constants.lambda);
-  }
-}
-
-Csr cells_of_particles(const LinearElements& elements) {
-  return sorted_into_rows(elements.num_particles, [&](auto&& act) {
-    for (Index number = 0; number < elements.cells.size(); ++number) {
-      for (const Index i : elements.cells.cell(number)) act(i, number);
-    }
-  });
-}
-
-/// Blocks of cells, see LowerTriangle: V (lambda g_j g_i' + mu g_i g_j' + mu (g_i g_j) 1).
-template <int Dim>
-class CellBlocks {
- public:
-  static constexpr int width = Dim;
-
-  explicit CellBlocks(const LinearElements& elements)
-      : elements_(elements), cells_(cells_of_particles(elements)) {}
-
-  Index num_particles() const { return elements_.num_particles; }
-
-  void visit(Index particle, auto&& sink) const {
-    for (const Index number : cells_.row(particle)) {
-      const std::span<const Index> cell = elements_.cells.cell(number);
-      const Gradients<Dim> gradients = gradients_of<Dim>(elements_, number);
-      const auto own = std::find(cell.begin(), cell.end(), particle) - cell.begin();
-      const auto g_i = gradients.row(own);
-      const double lambda = elements_.volumes[number] * elements_.lambda[number];
-      const double mu = elements_.volumes[number] * elements_.mu[number];
-      for (int v = 0; v <= Dim; ++v) {
-        const auto g_j = gradients.row(v);
-        sink(cell[v], [&](int row, int col) {
-          return lambda * g_j[row] * g_i[col] + mu * g_i[row] * g_j[col];
-        });
-        sink(cell[v], [&](int row, int col) { return row == col ? mu * g_i.dot(g_j) : 0.0; });
-      }
-    }
-  }
-
- private:
-  const LinearElements& elements_;
-  Csr cells_;
-};
 
 template <int Dim>
 Tensor<Dim> strain_of(const LinearElements& elements, Index number,
@@ -123,24 +37,6 @@ template <int Dim>
 Tensor<Dim> stress_of(const LinearElements& elements, Index number, const Tensor<Dim>& strain) {
   return elements.lambda[number] * strain.trace() * Tensor<Dim>::Identity() +
          2.0 * elements.mu[number] * strain;
-}
-
-template <int Dim>
-void add_cells(const LinearElements& elements, std::span<const double> displacement,
-               InternalForce& result) {
-  for (Index number = 0; number < elements.cells.size(); ++number) {
-    const Tensor<Dim> strain = strain_of<Dim>(elements, number, displacement);
-    const Tensor<Dim> stress = stress_of<Dim>(elements, number, strain);
-    const double volume = elements.volumes[number];
-    result.energy += 0.5 * volume * stress.cwiseProduct(strain).sum();
-    const Gradients<Dim> gradients = gradients_of<Dim>(elements, number);
-    const std::span<const Index> cell = elements.cells.cell(number);
-    for (int v = 0; v <= Dim; ++v) {
-      Eigen::Map<Eigen::Matrix<double, Dim, 1>>(result.forces.data() +
-                                                static_cast<std::size_t>(cell[v]) * Dim) +=
-          volume * stress * gradients.row(v).transpose();
-    }
-  }
 }
 
 template <int Dim, class TensorOf>
@@ -178,19 +74,6 @@ std::vector<double> eigenvalues_of(std::span<const double> tensors) {
 
 }  // namespace
 
-LinearElements make_linear_elements(Simplices cells, std::span<const double> positions,
-                                    double thickness, Problem problem,
-                                    std::span<const IsotropicMaterial> materials) {
-  LinearElements elements;
-  elements.cells = std::move(cells);
-  elements.num_particles =
-      static_cast<Index>(positions.size() / static_cast<std::size_t>(elements.dim()));
-  elements.dim() == 2 ? fill_geometry<2>(positions, thickness, elements)
-                      : fill_geometry<3>(positions, thickness, elements);
-  fill_moduli(problem, materials, elements);
-  return elements;
-}
-
 SparseMatrix assemble_stiffness(const LinearElements& elements, const Unknowns& unknowns) {
   expect_nothing_carried(unknowns);
   return elements.dim() == 2 ? LowerTriangle(CellBlocks<2>(elements), unknowns).build()
@@ -200,9 +83,42 @@ SparseMatrix assemble_stiffness(const LinearElements& elements, const Unknowns& 
 InternalForce internal_force(const LinearElements& elements, std::span<const double> displacement) {
   InternalForce result;
   result.forces.assign(displacement.size(), 0.0);
-  elements.dim() == 2 ? add_cells<2>(elements, displacement, result)
-                      : add_cells<3>(elements, displacement, result);
+  elements.dim() == 2 ? add_cells<2, double>(elements, displacement, 2, result)
+                      : add_cells<3, double>(elements, displacement, 3, result);
   return result;
+}
+
+namespace {
+
+template <int Dim>
+double work_in_cells(const LinearElements& elements, int width,
+                     std::span<const double> displacement, std::span<const double> other) {
+  double work = 0.0;
+  for (Index number = 0; number < elements.cells.size(); ++number) {
+    const std::span<const Index> cell = elements.cells.cell(number);
+    const Gradients<Dim> gradients = gradients_of<Dim>(elements, number);
+    Tensor<Dim> first = Tensor<Dim>::Zero(), second = first;
+    for (int v = 0; v <= Dim; ++v) {
+      const std::size_t slot = static_cast<std::size_t>(cell[v]) * width;
+      for (int a = 0; a < Dim; ++a) {
+        first.row(a) += displacement[slot + a] * gradients.row(v);
+        second.row(a) += other[slot + a] * gradients.row(v);
+      }
+    }
+    if (second.isZero(0.0)) continue;
+    const Tensor<Dim> strain = 0.5 * (first + first.transpose());
+    work += elements.volumes[number] *
+            stress_of<Dim>(elements, number, strain).cwiseProduct(second).sum();
+  }
+  return work;
+}
+
+}  // namespace
+
+double work_between(const LinearElements& elements, int width, std::span<const double> displacement,
+                    std::span<const double> other) {
+  return elements.dim() == 2 ? work_in_cells<2>(elements, width, displacement, other)
+                             : work_in_cells<3>(elements, width, displacement, other);
 }
 
 std::vector<double> cell_strains(const LinearElements& elements,

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "assembly/internal_force.hpp"
-#include "discretization/simplices.hpp"
-#include "material/elasticity.hpp"
-#include "network/loaded_network.hpp"
+#include "network/linear_elements.hpp"
+#include "network/unknowns.hpp"
 
 /// \file
 /// Linear finite elements on the particles: constant-strain triangles and tetrahedra. The yardstick
@@ -15,35 +14,18 @@
 
 namespace perilink {
 
-/// A mesh ready for assembly.
-struct LinearElements {
-  Simplices cells;
-  std::vector<double> volumes;  ///< per cell [length^3]
-  /// Gradients of the shape functions, shape (cells, dim + 1, dim) [1/length].
-  std::vector<double> gradients;
-  std::vector<double> lambda;  ///< Lame's first constant per cell; in plane stress that for which
-                               ///< stress = lambda trace(strain) + 2 mu strain holds in the plane
-                               ///< [force/length^2]
-  std::vector<double> mu;      ///< shear modulus per cell [force/length^2]
-  Index num_particles = 0;
-
-  int dim() const { return cells.dim; }
-};
-
-/// \param positions  shape (particles, dim) [length]
-/// \param thickness  two-dimensional bodies only [length]
-/// \param materials  by the numbers in `cells.material`
-/// \throws std::invalid_argument for a cell that is turned inside out or has no volume
-LinearElements make_linear_elements(Simplices cells, std::span<const double> positions,
-                                    double thickness, Problem problem,
-                                    std::span<const IsotropicMaterial> materials);
-
 /// Lower triangle of K = sum over cells of V B' C B between the unknowns.
 Eigen::SparseMatrix<double, Eigen::ColMajor, Index> assemble_stiffness(
     const LinearElements& elements, const Unknowns& unknowns);
 
 /// K u for given displacements of all particles, and the energy.
 InternalForce internal_force(const LinearElements& elements, std::span<const double> displacement);
+
+/// Work of the cells' stresses under one motion on the strains of another, summed over cells at
+/// which the other moves [force length].
+/// \param width  of both motions, shape (particles, width)
+double work_between(const LinearElements& elements, int width, std::span<const double> displacement,
+                    std::span<const double> other);
 
 /// Strain of every cell, shape (cells, dim, dim) [-].
 std::vector<double> cell_strains(const LinearElements& elements,

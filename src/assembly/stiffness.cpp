@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "assembly/carried_stiffness.hpp"
+#include "assembly/cell_terms.hpp"
 #include "assembly/element_blocks.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/lower_triangle.hpp"
@@ -24,13 +26,16 @@ class NetworkBlocks {
   NetworkBlocks(const Network& network, Secants secants)
       : network_(network),
         secants_(secants),
-        families_(bonds_of_particles(network.bonds, network.particles.size())) {}
+        families_(bonds_of_particles(network.bonds, network.particles.size())) {
+    if (network.cells) cells_.emplace(*network.cells);
+  }
 
   Index num_particles() const { return families_.rows(); }
 
   void visit(Index i, auto&& sink) const {
     for (const Index e : families_.row(i)) visit_element(e, i, sink);
     visit_support(i, sink);
+    if (cells_) visit_cells(i, sink);
   }
 
  protected:
@@ -48,9 +53,17 @@ class NetworkBlocks {
     sink(i, [&](int row, int col) { return row == col ? springs[row] : 0.0; });
   }
 
+  void visit_cells(Index i, auto&& sink) const {
+    constexpr int dim = Element::dim;
+    cells_->visit(i, [&](Index j, auto&& entry) {
+      sink(j, [&](int row, int col) { return row < dim && col < dim ? entry(row, col) : 0.0; });
+    });
+  }
+
   const Network& network_;
   Secants secants_;
   Csr families_;
+  std::optional<CellBlocks<Element::dim>> cells_;
 };
 
 /// The same with c h h' of the states of all particles, h u the sum of the extensions of the

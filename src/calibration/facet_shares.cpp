@@ -94,6 +94,7 @@ class Part {
       }
       // Shares of a facet change without changing their sum.
       work.colwise() -= work.rowwise().mean().eval();
+      if (facets_.is_glued(f)) work.setZero();
       gram.noalias() += work * work.transpose();
     }
     if (defect.size() == 0 || defect.cwiseAbs().maxCoeff() <= balanced * size.maxCoeff()) return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,12 @@ struct Facets {
   std::vector<Index> inside;   ///< material of the cell that the normal points out of
   std::vector<Index> outside;  ///< material of the cell beyond; no_index: the surface of the body
 
+  /// Nonzero where an ordinary finite element holds the other side: its nodes take equal shares, and
+  /// so must these; empty: nowhere.
+  std::vector<std::uint8_t> glued = {};
+
   Index size() const { return static_cast<Index>(inside.size()); }
+  bool is_glued(Index facet) const { return !glued.empty() && glued[facet] != 0; }
   bool on_surface(Index facet) const { return outside[facet] == no_index; }
   std::span<const double> area_vector(Index facet) const {
     return {area_vectors.data() + static_cast<std::size_t>(facet) * dim,

@@ -13,6 +13,7 @@
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 #include "material/bond_law.hpp"
+#include "network/linear_elements.hpp"
 #include "network/secants.hpp"
 
 namespace perilink {
@@ -76,6 +77,10 @@ struct Network {
   std::vector<Index> cut_elements;
   std::vector<Index> cut_by_crack;  ///< bonds that each pre-crack took out
 
+  /// Ordinary finite elements where the body has no bonds. Particles are their vertices; their
+  /// edges are the last bonds of the solid, without stiffness: they connect, and carry nothing.
+  std::optional<LinearElements> cells;
+
   int dim() const { return particles.dim; }
   /// Components of the motion of a particle: displacements along the axes and, where bonds carry
   /// moments, rotations: (u, v) or (u, v, theta) in two dimensions, (u, v, w) or
@@ -94,6 +99,8 @@ struct Network {
     return state_of.empty() || (state_of[element] & end) != 0;
   }
   Index num_elements() const { return bonds.size(); }
+  /// Bonds of the solid.
+  Index num_bonds() const { return first_tie - (cells ? cells->num_edges : 0); }
   const BondLaw& law(Index element) const { return laws[law_of.empty() ? 0 : law_of[element]]; }
   /// Whether some elements close once they are damaged.
   bool has_closing() const {

@@ -12,6 +12,7 @@
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
 #include "network/bond_softening.hpp"
+#include "network/glued_cells.hpp"
 #include "network/surface_correction.hpp"
 #include "network/unknowns.hpp"
 
@@ -178,9 +179,10 @@ void cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
 
 }  // namespace
 
-Network build_network(const Body& body, const NetworkInput& input) {
-  check_input(body, input);
-  const PairConstants constants(body, input);
+namespace {
+
+/// Calibrated bonds of the solid, without those that pre-cracks cut.
+Network build_bonds(const Body& body, const NetworkInput& input, const PairConstants& constants) {
   Network network;
   network.particles = body.particles;
   network.bonds = make_bonds(network.particles, input.horizon);
@@ -198,6 +200,25 @@ Network build_network(const Body& body, const NetworkInput& input) {
     // After the calibration: a crack is not a surface on which a uniform strain finds its stress.
     cut_bonds(body, input, network);
   }
+  return network;
+}
+
+/// Bonds of a part of the body, and cells of the rest.
+Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
+                              const PairConstants& constants) {
+  const BondedPart part = bonded_part(body, input.thickness);
+  Network network = build_bonds(part.body, input, constants);
+  join_cells(body, part, input, network);
+  return network;
+}
+
+}  // namespace
+
+Network build_network(const Body& body, const NetworkInput& input) {
+  check_input(body, input);
+  const PairConstants constants(body, input);
+  Network network = body.glued.empty() ? build_bonds(body, input, constants)
+                                       : build_bonds_and_cells(body, input, constants);
   add_bars(body, input, constants, network);
   soften_bonds(body, input, network);
   for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
@@ -211,8 +232,10 @@ Network build_network(const Body& body, const NetworkInput& input) {
 std::vector<Index> find_loose_particles(const Network& network) {
   const auto is_loose = loosely_held(network.bonds, network.particles.size(), network.stiffness);
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  const std::vector<std::uint8_t> in_cells = vertices_of_cells(network);
   std::vector<Index> loose;
   for (Index i = 0; i < network.particles.size(); ++i) {
+    if (!in_cells.empty() && in_cells[i] != 0) continue;
     // One frame holds every direction.
     if (is_loose[i] && (rotating.empty() || !rotating[i])) loose.push_back(i);
   }

@@ -166,6 +166,10 @@ std::vector<Fragment> find_fragments(const Network& network,
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (network.stiffness[e] > 0.0) parts.join(network.bonds.first[e], network.bonds.second[e]);
   }
+  for (Index k = 0; network.cells && k < network.cells->cells.size(); ++k) {
+    const auto cell = network.cells->cells.cell(k);
+    for (const Index vertex : cell) parts.join(cell.front(), vertex);
+  }
   std::vector<Fragment> fragments;
   std::vector<Index> fragment_of_root(static_cast<std::size_t>(num_particles), no_index);
   for (Index i = 0; i < num_particles; ++i) {

@@ -90,8 +90,11 @@ void print_elements(const Model& model) {
     return;
   }
   const Network& network = model.network;
-  fmt::print("#   bonds              {} and {} ties of bars\n", network.first_tie,
+  fmt::print("#   bonds              {} and {} ties of bars\n", network.num_bonds(),
              network.first_segment - network.first_tie);
+  if (network.cells) {
+    fmt::print("#   linear elements    {} beside the bonds\n", network.cells->cells.size());
+  }
   if (network.calibration) {
     fmt::print("#   calibration        of {} bonds, by the run\n", network.calibration->free_bonds);
   }

@@ -75,6 +75,9 @@ struct Body {
   Facets facets;              ///< surface and faces between materials; empty with ghosts
   Simplices cells;            ///< meshes only
   std::vector<Group> groups;  ///< meshes only
+  /// Meshes only, per cell: nonzero where it is an ordinary finite element without bonds; empty:
+  /// nowhere. The lattice is then that of the others.
+  std::vector<std::uint8_t> glued = {};
 };
 
 /// Family of a particle far from every surface.

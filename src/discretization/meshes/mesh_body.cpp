@@ -102,16 +102,34 @@ std::vector<Index> number_surface_facets(const CellFaces& faces, const Simplices
   return number;
 }
 
-double mean_edge_length(const Body& body) {
-  const Bonds edges = edges_of(body.cells, body.particles);
-  double sum = 0.0;
-  for (Index e = 0; e < edges.size(); ++e) {
-    const Vector3 edge =
-        minus(point_of(body.particles.positions, body.particles.dim, edges.first[e]),
-              point_of(body.particles.positions, body.particles.dim, edges.second[e]));
-    sum += std::sqrt(dot(edge, edge));
+/// Cells between which bonds may lie.
+Simplices bonded_cells(const Body& body) {
+  if (body.glued.empty()) return body.cells;
+  Simplices bonded;
+  bonded.dim = body.cells.dim;
+  for (Index k = 0; k < body.cells.size(); ++k) {
+    if (body.glued[k] != 0) continue;
+    const auto cell = body.cells.cell(k);
+    bonded.vertices.insert(bonded.vertices.end(), cell.begin(), cell.end());
+    bonded.material.push_back(body.cells.material[k]);
   }
-  return sum / static_cast<double>(edges.size());
+  return bonded;
+}
+
+/// Means over the cells that have bonds.
+Lattice lattice_of(const Body& body, double thickness) {
+  const Simplices cells = bonded_cells(body);
+  const Bonds edges = edges_of(cells, body.particles);
+  const std::vector<double> volumes = shape_integrals(cells, body.particles.positions, thickness);
+  const auto without = std::count(volumes.begin(), volumes.end(), 0.0);
+  Lattice lattice;
+  lattice.pattern = Pattern::irregular;
+  lattice.dim = body.particles.dim;
+  lattice.spacing = std::accumulate(edges.lengths.begin(), edges.lengths.end(), 0.0) /
+                    static_cast<double>(edges.size());
+  lattice.cell_volume = std::accumulate(volumes.begin(), volumes.end(), 0.0) /
+                        static_cast<double>(static_cast<std::ptrdiff_t>(volumes.size()) - without);
+  return lattice;
 }
 
 /// What connects the numbers of the mesh with those of the body.
@@ -232,7 +250,8 @@ std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> 
   return result;
 }
 
-Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness) {
+Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness,
+                    std::span<const std::uint8_t> glued) {
   if (material.size() != static_cast<std::size_t>(mesh.num_cells())) {
     throw std::invalid_argument("every cell of the mesh needs a material or none");
   }
@@ -254,12 +273,10 @@ Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double th
   for (const MeshGroup& group : mesh.groups) {
     body.groups.push_back(body_group(mesh, group, faces, numbering, body.cells.size()));
   }
-  const std::vector<double>& volumes = body.particles.volumes;
-  body.lattice.pattern = Pattern::irregular;
-  body.lattice.dim = mesh.dim;
-  body.lattice.spacing = mean_edge_length(body);
-  body.lattice.cell_volume =
-      std::accumulate(volumes.begin(), volumes.end(), 0.0) / static_cast<double>(volumes.size());
+  for (Index cell = 0; !glued.empty() && cell < mesh.num_cells(); ++cell) {
+    if (numbering.cell[cell] != no_index) body.glued.push_back(glued[cell]);
+  }
+  body.lattice = lattice_of(body, thickness);
   return body;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,8 +26,10 @@ std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> 
 ///   particle.
 /// \param material   per cell; cells with no_index are left out
 /// \param thickness  two-dimensional bodies only [length]
+/// \param glued      per cell, nonzero: an ordinary finite element, see Body::glued; empty: none
 /// \throws std::invalid_argument where nothing is left, a cell has no volume, cells overlap, parts
 ///         touch without being joined, or a group's facet is no side of a cell
-Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness);
+Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness,
+                    std::span<const std::uint8_t> glued = {});
 
 }  // namespace perilink

@@ -211,6 +211,7 @@ struct ElementsSection {
   int order = 2;                       ///< degree of the polynomials along each axis: 1 or 2
   std::vector<std::string> regions;    ///< with elements; empty: the whole body
   std::vector<std::string> particles;  ///< regions without
+  std::vector<std::string> glued;      ///< regions of a mesh whose cells are ordinary elements
   double alert = 0.5;  ///< part of its limit that a bond reaches before its element converts
   std::optional<double> alert_strain;  ///< principal strain that an element reaches then instead
   std::optional<double> halo;  ///< around an element that is converted; absent: a horizon [length]

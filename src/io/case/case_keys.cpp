@@ -267,6 +267,7 @@ const std::vector<TableSchema>& case_schema() {
         "order",
         "regions",
         "particles",
+        "glued",
         {"alert", set_aside(elastic)},
         {"alert_strain", set_aside(elastic)},
         {"halo", set_aside(elastic)}},

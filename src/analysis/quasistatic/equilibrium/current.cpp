@@ -50,6 +50,9 @@ void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
     if (current[bonds.first[e]] == 0) inside[bonds.second[e]] = 0;
     if (current[bonds.second[e]] == 0) inside[bonds.first[e]] = 0;
   }
+  for (Index k = 0; network_.cells && k < network_.cells->cells.size(); ++k) {
+    for (const Index i : network_.cells->cells.cell(k)) inside[i] = 0;
+  }
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (inside[bonds.first[e]] + inside[bonds.second[e]] > 0) glanced_elements_.push_back(e);
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "assembly/linear_elements.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
 
@@ -251,6 +252,12 @@ LoadWork Equilibrium::sum_work() {
     const auto [share, size] = driven_work_of(e);
     work.supports += share;
     sizes += size;
+  }
+  if (network_.cells) {
+    const double share =
+        work_between(*network_.cells, network_.width(), displacement_, unknowns_->prescribed);
+    work.supports += share;
+    sizes += std::abs(share);
   }
   return work.forces + work.supports > cancelled_work * sizes ? work : work_by_energy();
 }

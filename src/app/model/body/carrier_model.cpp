@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "discretization/cuts/cracks.hpp"
 #include "discretization/neighbor_search.hpp"
+#include "network/glued_cells.hpp"
 
 namespace perilink {
 namespace {
@@ -23,6 +24,10 @@ constexpr double border_tolerance = 1e-6;
 
 /// Elements are at least so many spacings wide, or they would carry no particle of their own.
 constexpr double least_spacings = 2.0;
+
+bool carries_particles(const ElementsSection& section) {
+  return section.spacings || section.size || section.mesh;
+}
 
 /// Planes between elements of about one size, through rows of particles where these are evenly
 /// spaced, those of nodes between the planes too if the body has so many.
@@ -115,6 +120,10 @@ std::vector<std::uint8_t> particles_to_carry(const CaseFile& input, const Model&
       carry[i] = 0;
     }
   }
+  const std::vector<std::uint8_t> in_cells = vertices_of_cells(model.network);
+  for (std::size_t i = 0; i < in_cells.size(); ++i) {
+    if (in_cells[i] != 0) carry[i] = 0;
+  }
   return carry;
 }
 
@@ -179,7 +188,7 @@ bool is_gripped_later(const Model& model, const CarriedBody& body, Index element
 }  // namespace
 
 void carry_particles(const CaseFile& input, Model& model) {
-  if (!input.elements) return;
+  if (!input.elements || !carries_particles(*input.elements)) return;
   CarriedBody body;
   body.carriers = find_carriers(input, model);
   body.free = std::move(model.unknowns);

@@ -113,15 +113,53 @@ MeshInput read_mesh_input(const CaseFile& input, int dim) {
   return read;
 }
 
+namespace {
+
+/// Per cell of the mesh, nonzero where it is an ordinary finite element; empty: nowhere.
+std::vector<std::uint8_t> glued_cells(const CaseFile& input, const MeshInput& read) {
+  std::vector<std::uint8_t> glued;
+  if (!input.elements || input.elements->glued.empty()) return glued;
+  const std::string key = "elements.glued";
+  std::vector<Region> regions;
+  for (const std::string& name : input.elements->glued) {
+    regions.push_back(*std::find_if(input.regions.begin(), input.regions.end(),
+                                    [&](const Region& region) { return region.name == name; }));
+    if (!regions.back().group.empty()) {
+      group_of_cells(input, read.mesh, regions.back(), key, "elements");
+    }
+  }
+  const std::vector<Index> inside =
+      materials_of_cells(read.mesh, regions, std::vector<Index>(regions.size(), 0));
+  Index bonded = 0;
+  for (std::size_t cell = 0; cell < inside.size(); ++cell) {
+    glued.push_back(inside[cell] == no_index ? 0 : 1);
+    bonded += inside[cell] == no_index && read.material[cell] != no_index;
+  }
+  if (std::count(glued.begin(), glued.end(), 1) == 0) {
+    throw InputError(input.where(key), "holds no cell of the mesh",
+                     "name regions that hold the centres of cells");
+  }
+  if (bonded == 0) {
+    throw InputError(input.where(key), "leaves no cell for bonds",
+                     "leave a region where bonds can break, or set method = "
+                     "\"linear_elements\" in [body] and delete the table");
+  }
+  return glued;
+}
+
+}  // namespace
+
 Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes) {
-  const auto [mesh, material] = read_mesh_input(input, dim);
+  const MeshInput read = read_mesh_input(input, dim);
+  const auto& [mesh, material] = read;
   const auto left_out = std::count(material.begin(), material.end(), no_index);
   if (left_out > 0) {
     notes.push_back(fmt::format("{} of the {} cells of the mesh have no material and are left out",
                                 left_out, material.size()));
   }
   try {
-    return make_mesh_body(mesh, material, dim == 2 ? input.body.thickness : 1.0);
+    return make_mesh_body(mesh, material, dim == 2 ? input.body.thickness : 1.0,
+                          glued_cells(input, read));
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where("body.mesh"),
                      fmt::format("names {}: {}", mesh_path(input).string(), error.what()), "");

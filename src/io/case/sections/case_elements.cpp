@@ -15,7 +15,10 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
   elements.spacings = table.integer("spacings", 2, most_spacings);
   elements.size = table.positive("size");
   read_mesh_file(table, elements.mesh, elements.mesh_size);
-  table.need_one_of({"spacings", "size", "mesh"});
+  assign(elements.glued, table.texts("glued"));
+  if (elements.glued.empty() || elements.mesh || elements.mesh_size) {
+    table.need_one_of({"spacings", "size", "mesh"});
+  }
   assign(elements.order, table.integer("order", 1, 2));
   assign(elements.regions, table.texts("regions"));
   assign(elements.particles, table.texts("particles"));
@@ -28,8 +31,33 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
   return elements;
 }
 
+namespace {
+
+/// What ordinary elements cannot do.
+void check_glued(const CaseFile& input) {
+  if (input.elements->glued.empty()) return;
+  const auto refuse = [&](const char* why, const char* hint) {
+    throw InputError(input.where("elements.glued"), why, hint);
+  };
+  if (!input.body.mesh) {
+    refuse("is for bodies of a mesh, whose cells the elements are",
+           "give `mesh` in [body], or spacings = 8 here: elements that carry particles");
+  }
+  if (input.analysis.type == AnalysisType::explicit_ ||
+      input.analysis.type == AnalysisType::relaxation) {
+    refuse("is for elastic and damage analyses: explicit runs and relaxation move particles alone",
+           "delete the key, and mesh the whole body at one size");
+  }
+  if (!input.rebar.empty()) {
+    refuse("is given beside [[rebar]], which is tied to particles", "delete the key");
+  }
+}
+
+}  // namespace
+
 void check_elements(const CaseFile& input) {
   if (!input.elements) return;
+  check_glued(input);
   if (input.body.surface != Surface::calibrated) {
     throw InputError(
         input.where("body.surface"),
@@ -55,6 +83,7 @@ void write_elements(TomlWriter& out, const ElementsSection& elements) {
   out.write("order", elements.order);
   if (!elements.regions.empty()) out.write("regions", elements.regions);
   if (!elements.particles.empty()) out.write("particles", elements.particles);
+  if (!elements.glued.empty()) out.write("glued", elements.glued);
   if (!elements.alert_strain) out.write("alert", elements.alert);
   out.write("alert_strain", elements.alert_strain);
   out.write("halo", elements.halo);
