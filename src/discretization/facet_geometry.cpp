@@ -75,4 +75,12 @@ Vector3 nearest_point(const FacetGeometry& facet, const Vector3& point) {
   });
 }
 
+double signed_volume(std::span<const double> positions, int dim, std::span<const Index> cell) {
+  const Vector3 a = point_of(positions, dim, cell[0]);
+  const Vector3 u = minus(point_of(positions, dim, cell[1]), a);
+  const Vector3 v = minus(point_of(positions, dim, cell[2]), a);
+  if (dim == 2) return 0.5 * (u[0] * v[1] - u[1] * v[0]);
+  return dot(cross(u, v), minus(point_of(positions, dim, cell[3]), a)) / 6.0;
+}
+
 }  // namespace perilink

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "base/types.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
@@ -22,6 +24,10 @@ double height_above(const FacetGeometry& facet, const Vector3& point);
 
 /// Point of the facet nearest to a point.
 Vector3 nearest_point(const FacetGeometry& facet, const Vector3& point);
+
+/// Area of a triangle or volume of a tetrahedron, negative where the corners run the wrong way.
+/// \param positions  shape (points, dim) [length]
+double signed_volume(std::span<const double> positions, int dim, std::span<const Index> cell);
 
 double dot(const Vector3& a, const Vector3& b);
 Vector3 minus(const Vector3& a, const Vector3& b);

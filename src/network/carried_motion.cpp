@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+
+#include "discretization/facet_geometry.hpp"
 
 namespace perilink {
 namespace {
@@ -37,6 +40,45 @@ std::vector<std::uint8_t> nodes_held_by(const Carriers& carriers, Index element,
   return held;
 }
 
+/// Where a particle stands, from a node on.
+Vector3 arm_from(const Carriers& carriers, Index element, std::size_t place, Index node) {
+  const auto nodes = carriers.nodes_of.row(element);
+  const auto weights = carriers.weights_at(element, place);
+  Vector3 arm{};
+  for (int a = 0; a < carriers.dim; ++a) {
+    const auto at = [&](Index n) {
+      return carriers.nodes[static_cast<std::size_t>(n) * carriers.dim + a];
+    };
+    for (std::size_t c = 0; c < nodes.size(); ++c) arm[a] += weights[c] * (at(nodes[c]) - at(node));
+  }
+  return arm;
+}
+
+/// Whether the origin is one of some points, lies among them or on their border: whether some mean
+/// of the ways to them is about zero. By the algorithm of von Neumann, on ways of length one.
+bool lies_among(std::vector<Vector3> ways) {
+  constexpr double little = 0.05;
+  constexpr int most_steps = 200;
+  double farthest = 0.0;
+  for (const Vector3& way : ways) farthest = std::max(farthest, norm(way));
+  for (Vector3& way : ways) {
+    const double length = norm(way);
+    if (length <= negligible * farthest) return true;
+    for (double& component : way) component /= length;
+  }
+  Vector3 mean = ways.front();
+  for (int step = 0; step < most_steps && norm(mean) > little; ++step) {
+    const Vector3& next = *std::min_element(
+        ways.begin(), ways.end(),
+        [&](const Vector3& x, const Vector3& y) { return dot(x, mean) < dot(y, mean); });
+    const Vector3 change = minus(next, mean);
+    const double gain = -dot(mean, change), length = dot(change, change);
+    if (!(gain > negligible * length)) break;
+    for (int a = 0; a < 3; ++a) mean[a] += std::min(1.0, gain / length) * change[a];
+  }
+  return norm(mean) <= little;
+}
+
 /// Components of nodes that supports hold, shape (nodes, width).
 using HeldNodes = std::vector<std::uint8_t>;
 
@@ -44,17 +86,23 @@ HeldNodes none_held(const Carriers& carriers, const Unknowns& free) {
   return HeldNodes(static_cast<std::size_t>(carriers.num_nodes()) * free.width, 0);
 }
 
+/// Places in an element of the particles that supports hold along a component.
+std::vector<std::size_t> held_places(const Carriers& carriers, const Unknowns& free, Index element,
+                                     int component) {
+  const auto inside = carriers.inside.row(element);
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < inside.size(); ++k) {
+    const std::size_t slot = slot_of(free, inside[k], component);
+    if (free.number[slot] == no_index && free.prescribed[slot] == 0.0) places.push_back(k);
+  }
+  return places;
+}
+
 /// Adds what the particles of an element hold.
 void hold_nodes(const Carriers& carriers, const Unknowns& free, Index element, HeldNodes& held) {
   const auto nodes = carriers.nodes_of.row(element);
-  const auto inside = carriers.inside.row(element);
-  std::vector<std::size_t> places;
   for (int a = 0; a < free.width; ++a) {
-    places.clear();
-    for (std::size_t k = 0; k < inside.size(); ++k) {
-      const std::size_t slot = slot_of(free, inside[k], a);
-      if (free.number[slot] == no_index && free.prescribed[slot] == 0.0) places.push_back(k);
-    }
+    const std::vector<std::size_t> places = held_places(carriers, free, element, a);
     if (places.empty()) continue;
     const std::vector<std::uint8_t> own = nodes_held_by(carriers, element, places);
     for (std::size_t c = 0; c < nodes.size(); ++c) held[slot_of(free, nodes[c], a)] |= own[c];
@@ -80,14 +128,48 @@ bool fits(const Carriers& carriers, const Unknowns& free, Index element, const H
   return true;
 }
 
+/// Nodes that elements hold beyond the particles that are held: with them the support would grow.
+HeldNodes held_beyond_supports(const Carriers& carriers, const Unknowns& free) {
+  HeldNodes own = none_held(carriers, free), beyond = own;
+  std::map<std::size_t, std::vector<Vector3>> arms;  // from held nodes, by their components
+  for (Index e = 0; e < carriers.size(); ++e) {
+    hold_nodes(carriers, free, e, own);
+    for (const Index node : carriers.nodes_of.row(e)) {
+      for (int a = 0; a < free.width; ++a) {
+        const std::size_t slot = slot_of(free, node, a);
+        if (own[slot] == 0) continue;
+        own[slot] = 0;
+        for (const std::size_t place : held_places(carriers, free, e, a)) {
+          arms[slot].push_back(arm_from(carriers, e, place, node));
+        }
+      }
+    }
+  }
+  for (const auto& [slot, particles] : arms) beyond[slot] = lies_among(particles) ? 0 : 1;
+  return beyond;
+}
+
+/// Whether an element has a node with both marks on one component.
+bool shares_any(const Carriers& carriers, const Unknowns& free, Index element,
+                const HeldNodes& first, const HeldNodes& second) {
+  for (const Index node : carriers.nodes_of.row(element)) {
+    for (int a = 0; a < free.width; ++a) {
+      const std::size_t slot = slot_of(free, node, a);
+      if (first[slot] != 0 && second[slot] != 0) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> fit_supports(const Carriers& carriers, const Unknowns& free) {
   std::vector<std::uint8_t> fitting(static_cast<std::size_t>(carriers.size()), 0);
+  const HeldNodes beyond = held_beyond_supports(carriers, free);
   HeldNodes own = none_held(carriers, free), held = own;
   for (Index e = 0; e < carriers.size(); ++e) {
     hold_nodes(carriers, free, e, own);
-    fitting[e] = fits(carriers, free, e, own);
+    fitting[e] = fits(carriers, free, e, own) && !shares_any(carriers, free, e, own, beyond);
     // What an element holds that does not fit by itself counts for no other.
     for (const Index node : carriers.nodes_of.row(e)) {
       for (int a = 0; a < free.width; ++a) {

@@ -295,6 +295,20 @@ TEST(Carriers, ARunBeginsAgainAfterALateConversion) {
   EXPECT_EQ(read_pvd((work / "fields.pvd").string()).size(), 4u);  // after 0, 40, 80 and 120
 }
 
+/// One load step sees what many see, though it has no row before its end.
+TEST(Carriers, LateConversionsOfTheFirstLoadStepAreCounted) {
+  const auto late_in = [](const std::string& factors) {
+    const CaseFile input =
+        parse_case(beam_case(late_elements + "[analysis]\ncontrol = \"steps\"\nload_factors = [" +
+                             factors + "]\n"),
+                   "beam.toml");
+    const Model model = build_model(input);
+    Events events;
+    return run_damage_analysis(model, damage_options(input, 1), events).late_conversions;
+  };
+  EXPECT_GE(late_in("13.0"), 1);
+}
+
 TEST(Carriers, StepsConvertWhatTheyReachAlone) {
   std::string steps = beam_case(
       "[elements]\nspacings = 4\nalert = 0.9\n[analysis]\n"

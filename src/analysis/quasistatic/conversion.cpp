@@ -79,39 +79,43 @@ std::vector<std::uint8_t> Conversion::carriers_of(std::span<const Index> bonds) 
   return elements;
 }
 
-double Conversion::alert() const {
-  return strains() ? std::numeric_limits<double>::infinity() : body_.alert;
+double Conversion::alert() const { return strains() ? 1.0 : body_.alert; }
+
+void Conversion::watch_strains() {
+  strains_.emplace();
+  std::vector<Index> can_fail;
+  std::vector<std::uint8_t> has_such(carrier_.size(), 0);
+  for (Index bond = 0; bond < network_.num_elements(); ++bond) {
+    if (!network_.has_limit(bond)) continue;
+    can_fail.push_back(bond);
+    has_such[network_.bonds.first[bond]] = has_such[network_.bonds.second[bond]] = 1;
+  }
+  const std::vector<std::uint8_t> elements = carriers_of(can_fail);
+  for (Index e = 0; e < body_.carriers.size(); ++e) {
+    if (elements[e] == 0) continue;
+    std::vector<Index> inside;
+    for (const Index i : body_.carriers.inside.row(e)) {
+      if (has_such[i] != 0) inside.push_back(i);
+    }
+    strains_->emplace_back(network_.particles, e, inside);
+  }
 }
 
 auto Conversion::strained(std::span<const double> motion, double fraction) -> Strained {
-  if (strains_.empty()) {
-    std::vector<Index> can_fail;
-    std::vector<std::uint8_t> has_such(carrier_.size(), 0);
-    for (Index bond = 0; bond < network_.num_elements(); ++bond) {
-      if (!network_.has_limit(bond)) continue;
-      can_fail.push_back(bond);
-      has_such[network_.bonds.first[bond]] = has_such[network_.bonds.second[bond]] = 1;
-    }
-    const std::vector<std::uint8_t> elements = carriers_of(can_fail);
-    for (Index e = 0; e < body_.carriers.size(); ++e) {
-      if (elements[e] == 0) continue;
-      std::vector<Index> inside;
-      for (const Index i : body_.carriers.inside.row(e)) {
-        if (has_such[i] != 0) inside.push_back(i);
-      }
-      strains_.emplace_back(network_.particles, e, inside);
-    }
-  }
+  if (!strains_) watch_strains();
   std::vector<double> strain;
   double largest = 0.0;
-  for (const ElementStrain& element : strains_) {
+  for (const ElementStrain& element : *strains_) {
     const bool whole = whole_[element.number()] != 0;
     strain.push_back(whole ? element.principal(motion, network_.width()) : 0.0);
     largest = std::max(largest, strain.back());
   }
-  Strained found{std::vector<std::uint8_t>(whole_.size(), 0), *body_.alert_strain / largest};
-  for (std::size_t k = 0; k < strains_.size(); ++k) {
-    if (largest > 0.0 && strain[k] >= fraction * largest) found.elements[strains_[k].number()] = 1;
+  Strained found{std::vector<std::uint8_t>(whole_.size(), 0),
+                 std::numeric_limits<double>::infinity()};
+  if (largest <= 0.0) return found;
+  found.load_factor = *body_.alert_strain / largest;
+  for (std::size_t k = 0; k < strain.size(); ++k) {
+    if (strain[k] >= fraction * largest) found.elements[(*strains_)[k].number()] = 1;
   }
   return found;
 }

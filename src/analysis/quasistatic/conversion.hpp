@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,7 +34,8 @@ class Conversion {
   /// \param free  how they would without elements, where they move freely; must outlive this
   const Unknowns& hold(const Unknowns& free);
 
-  /// Fraction of its limit at which a carried bond gives the alert; infinity where strains do.
+  /// Fraction of its limit at which a carried bond gives the alert; the whole of it where strains
+  /// should have come first.
   double alert() const;
   /// Whether strains of elements give the alert.
   bool strains() const { return body_.alert_strain.has_value(); }
@@ -62,6 +64,7 @@ class Conversion {
  private:
   std::vector<std::uint8_t> with_halo(const std::vector<std::uint8_t>& alarmed) const;
   bool is_near(Index element, Index other) const;
+  void watch_strains();
 
   const Network& network_;
   const CarriedBody& body_;
@@ -72,7 +75,7 @@ class Conversion {
   std::vector<Index> by_lower_x_;  ///< elements in the order of their lower ends along x
   double widest_ = 0.0;            ///< largest width of an element along x [length]
   std::vector<Index> freed_;
-  std::vector<ElementStrain> strains_;  ///< where bonds can fail; empty: not asked for
+  std::optional<std::vector<ElementStrain>> strains_;  ///< where bonds can fail, once asked for
   std::unique_ptr<Unknowns> present_, former_;
 };
 

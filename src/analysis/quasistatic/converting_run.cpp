@@ -20,7 +20,8 @@ bool EventRun::converts(const Event& event, double sense, double most) {
   if (conversion_->strains()) {
     const auto [flags, load_factor] =
         conversion_->strained(engine_->where_elements_fail(), as_near);
-    if (load_factor <= (fails ? event.load_factor : most)) {
+    const double next = fails ? event.load_factor : most;
+    if (std::isfinite(load_factor) && load_factor <= next) {
       take_over(conversion_->convert(flags), load_factor);
       return true;
     }
@@ -54,7 +55,8 @@ void EventRun::note_late_conversions(const Event& event, double sense) {
     const bool freed = std::binary_search(bonds.begin(), bonds.end(), event.element);
     const bool earlier =
         event.avalanche || sense * (alert - event.load_factor) > tie_tolerance * std::abs(alert);
-    if (row_.step == 0 || !freed || !earlier) continue;
+    const bool begins = row_.step == 0 && events_ == 0;  // nothing has happened by then
+    if (begins || !freed || !earlier) continue;
     if (options_.begins_again) throw LateConversion{conversion_->whole()};
     ++result_.late_conversions;
   }

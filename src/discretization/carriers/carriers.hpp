@@ -50,7 +50,7 @@ Carriers carriers_on_grid(const Particles& particles, std::span<const double> fa
 
 /// The triangles or tetrahedra of a mesh, straight ones; order 2 adds a node on each edge. All else
 /// as in carriers_on_grid().
-/// \throws std::invalid_argument  where a cell is flat
+/// \throws std::invalid_argument  where a cell is flat, or cells overlap
 Carriers carriers_on_mesh(const Particles& particles, std::span<const double> faces,
                           const Mesh& mesh, int order, double tolerance);
 

@@ -1,11 +1,15 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "discretization/carriers/fill_carriers.hpp"
 #include "discretization/meshes/cell_search.hpp"
+#include "discretization/meshes/mesh_overlap.hpp"
 
 namespace perilink {
 namespace {
@@ -99,6 +103,11 @@ class MeshCells {
 
 Carriers carriers_on_mesh(const Particles& particles, std::span<const double> faces,
                           const Mesh& mesh, int order, double tolerance) {
+  if (const auto overlap = find_overlap(mesh)) {
+    throw std::invalid_argument(
+        fmt::format("the elements {} and {} overlap, so that both would carry the same particles",
+                    mesh.tag_of((*overlap)[0]), mesh.tag_of((*overlap)[1])));
+  }
   return fill_carriers(particles, faces, MeshCells(mesh, order, tolerance));
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "discretization/facet_geometry.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/meshes/cell_corners.hpp"
@@ -16,15 +17,6 @@
 
 namespace perilink {
 namespace {
-
-/// Area or volume, negative where the corners run the wrong way.
-double signed_volume(std::span<const double> positions, int dim, std::span<const Index> cell) {
-  const Vector3 a = point_of(positions, dim, cell[0]);
-  const Vector3 u = minus(point_of(positions, dim, cell[1]), a);
-  const Vector3 v = minus(point_of(positions, dim, cell[2]), a);
-  if (dim == 2) return 0.5 * (u[0] * v[1] - u[1] * v[0]);
-  return dot(cross(u, v), minus(point_of(positions, dim, cell[3]), a)) / 6.0;
-}
 
 /// Particle of every point of the mesh; no_index where no cell with a material needs it.
 std::vector<Index> number_particles(const Mesh& mesh, std::span<const Index> material) {
@@ -154,8 +146,7 @@ void refuse_overlap(const Mesh& mesh, const CellFaces& faces, const Numbering& n
   if (!overlap) return;
   const auto tag_of = [&](Index cell) {
     const auto found = std::find(numbering.cell.begin(), numbering.cell.end(), cell);
-    const auto number = static_cast<std::size_t>(found - numbering.cell.begin());
-    return mesh.cell_tags.empty() ? static_cast<std::int64_t>(number) + 1 : mesh.cell_tags[number];
+    return mesh.tag_of(static_cast<Index>(found - numbering.cell.begin()));
   };
   Vector3 centre{};
   for (const Index i : body.cells.cell((*overlap)[0])) {

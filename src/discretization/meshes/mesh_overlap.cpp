@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "discretization/facet_geometry.hpp"
 #include "discretization/meshes/cell_corners.hpp"
 
 namespace perilink {
@@ -173,6 +174,18 @@ std::optional<std::array<Index, 2>> find_overlap(const Simplices& cells,
     return std::array{std::min(outer[k], partner[k]), std::max(outer[k], partner[k])};
   }
   return std::nullopt;
+}
+
+std::optional<std::array<Index, 2>> find_overlap(const Mesh& mesh) {
+  Simplices cells;
+  cells.dim = mesh.dim;
+  cells.vertices = mesh.cells;
+  cells.material.assign(static_cast<std::size_t>(mesh.num_cells()), 0);
+  for (Index cell = 0; cell < cells.size(); ++cell) {
+    Index* last = cells.vertices.data() + static_cast<std::size_t>(cell + 1) * (mesh.dim + 1) - 1;
+    if (signed_volume(mesh.positions, mesh.dim, cells.cell(cell)) < 0.0) std::swap(last[-1], *last);
+  }
+  return find_overlap(cells, mesh.positions, find_faces(cells, mesh.positions));
 }
 
 }  // namespace perilink

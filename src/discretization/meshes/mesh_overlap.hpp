@@ -6,6 +6,7 @@
 
 #include "base/types.hpp"
 #include "discretization/mesh_faces.hpp"
+#include "discretization/meshes/mesh.hpp"
 #include "discretization/simplices.hpp"
 
 namespace perilink {
@@ -24,5 +25,8 @@ namespace perilink {
 std::optional<std::array<Index, 2>> find_overlap(const Simplices& cells,
                                                  std::span<const double> positions,
                                                  const CellFaces& faces);
+
+/// The same of a mesh, whichever way round its cells run.
+std::optional<std::array<Index, 2>> find_overlap(const Mesh& mesh);
 
 }  // namespace perilink

@@ -45,6 +45,15 @@ TEST(FacetGeometry, TheNearestPointOfATriangleIsNearerThanAnyOther) {
   }
 }
 
+TEST(FacetGeometry, VolumesHaveTheSignOfTheirCorners) {
+  const std::vector<double> plane = {0, 0, 2, 0, 0, 3};
+  EXPECT_DOUBLE_EQ(signed_volume(plane, 2, std::vector<Index>{0, 1, 2}), 3.0);
+  EXPECT_DOUBLE_EQ(signed_volume(plane, 2, std::vector<Index>{0, 2, 1}), -3.0);
+  const std::vector<double> space = {0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 4};
+  EXPECT_DOUBLE_EQ(signed_volume(space, 3, std::vector<Index>{0, 1, 2, 3}), 4.0);
+  EXPECT_DOUBLE_EQ(signed_volume(space, 3, std::vector<Index>{0, 1, 3, 2}), -4.0);
+}
+
 TEST(FacetGeometry, TheNearestPointOfAnEdgeIsBetweenItsEnds) {
   FacetGeometry edge;
   edge.a = {0, 0, 0};

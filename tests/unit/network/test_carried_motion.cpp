@@ -78,6 +78,27 @@ TEST(CarriedMotion, HeldEdgesHoldNodesBetweenParticles) {
   EXPECT_EQ(motion.count, 2 * 15 - 3) << "three nodes are held along x";
 }
 
+/// Two elements meet between the last of four held particles and the first free one: the node there
+/// would make the support longer. On the last held one it does not.
+TEST(CarriedMotion, SupportsDoNotGrowToTheEndsOfElements) {
+  for (const double end : {3.0, 3.4, 3.99}) {
+    Particles particles;
+    particles.dim = 2;
+    std::vector<std::uint8_t> held;
+    for (int y = 0; y < 9; ++y) {
+      for (int x = 0; x < 5; ++x) {
+        particles.positions.insert(particles.positions.end(), {1.0 * x, 1.0 * y});
+        particles.volumes.push_back(1.0);
+        particles.kind.push_back(ParticleKind::solid);
+        held.insert(held.end(), {x == 0 && y < 4, 0});
+      }
+    }
+    const Carriers carriers = carriers_on_grid(particles, {}, {{{0, 4}, {0, end, 8}, {}}}, 1, 1e-6);
+    const Unknowns free = number_unknowns(2, held, std::vector<double>(held.size(), 0.0));
+    EXPECT_EQ(fit_supports(carriers, free)[0], end == 3.0 ? 1 : 0) << end;
+  }
+}
+
 TEST(CarriedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {
   const TwoElements two;
   const std::vector<std::uint8_t> second = {0, 1};

@@ -10,8 +10,7 @@ namespace perilink {
 
 /// Under forces alone an event needs the displacements of elements that can fail, and no others:
 /// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
-/// events by its growth. Driven bodies and stages need
-/// the reactions and keep all.
+/// events by its growth. Driven bodies and stages need the reactions and keep all.
 void Equilibrium::choose_current_unknowns() {
   partial_ = false;
   moving_slots_.clear();

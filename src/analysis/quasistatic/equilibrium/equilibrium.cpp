@@ -335,6 +335,8 @@ Balance Equilibrium::restore() {
   const double usable = std::max(options_.residual_tolerance, factor_floor_);
   if (!(balance.residual <= tolerance) || !(factor_error_ <= usable)) {
     factorize();
+    std::vector<double> residual;
+    fresh_residual_ = measure_residual(residual);
     balance = polish();
     // A body on the verge of separation moves so far that even a fresh factor leaves more than the
     // tolerance; factorising again for less than twice that would be work for nothing.

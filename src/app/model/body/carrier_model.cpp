@@ -13,6 +13,7 @@
 #include "app/model/model_regions.hpp"
 #include "base/error.hpp"
 #include "discretization/cuts/cracks.hpp"
+#include "discretization/lattices/triangulate.hpp"
 #include "discretization/neighbor_search.hpp"
 #include "network/glued_cells.hpp"
 
@@ -127,15 +128,11 @@ std::vector<std::uint8_t> particles_to_carry(const CaseFile& input, const Model&
   return carry;
 }
 
-/// Elements with a particle whose nearest neighbours a pre-crack cuts off.
-std::vector<std::uint8_t> cracked_elements(const CaseFile& input, const Model& model,
-                                           const Carriers& carriers) {
-  constexpr double nearest = 1.8;  // spacings; lattices and meshes alike
-  std::vector<std::uint8_t> cracked(static_cast<std::size_t>(carriers.size()), 0);
-  if (input.cracks.empty()) return cracked;
+/// Pairs of neighbours: edges of the cells of a mesh, and in lattices what is about as near.
+Bonds nearest_pairs(const Model& model) {
+  constexpr double nearest = 1.8;  // spacings
   const Particles& particles = model.network.particles;
-  std::vector<Crack> cracks;
-  for (const CrackSection& crack : input.cracks) cracks.push_back({crack.points});
+  if (model.cells.size() > 0) return edges_of(model.cells, particles);
   const Csr neighbors =
       find_upper_neighbors(particles.positions, particles.dim, nearest * model.lattice.spacing);
   Bonds pairs;
@@ -145,6 +142,18 @@ std::vector<std::uint8_t> cracked_elements(const CaseFile& input, const Model& m
       pairs.second.push_back(j);
     }
   }
+  return pairs;
+}
+
+/// Elements with a particle whose nearest neighbours a pre-crack cuts off.
+std::vector<std::uint8_t> cracked_elements(const CaseFile& input, const Model& model,
+                                           const Carriers& carriers) {
+  std::vector<std::uint8_t> cracked(static_cast<std::size_t>(carriers.size()), 0);
+  if (input.cracks.empty()) return cracked;
+  const Particles& particles = model.network.particles;
+  std::vector<Crack> cracks;
+  for (const CrackSection& crack : input.cracks) cracks.push_back({crack.points});
+  const Bonds pairs = nearest_pairs(model);
   const CutBonds cut = find_cut_bonds(particles, pairs, cracks, model.lattice.spacing);
   std::vector<std::uint8_t> beside(static_cast<std::size_t>(particles.size()), 0);
   for (std::size_t k = 0; k < pairs.first.size(); ++k) {
@@ -159,16 +168,17 @@ std::vector<std::uint8_t> cracked_elements(const CaseFile& input, const Model& m
 
 /// Whether the particles of an element tell all its nodes apart: none can move without one of them.
 bool has_full_rank(const Carriers& carriers, Index element) {
-  constexpr auto many = 4;  // times as many particles as nodes do, wherever they are
-  const std::size_t nodes = carriers.nodes_of.row(element).size();
-  const std::size_t count = carriers.inside.row(element).size();
-  if (count >= many * nodes) return true;
+  constexpr double least = 1e-3;  // singular value, over the largest
+  const auto nodes = static_cast<Index>(carriers.nodes_of.row(element).size());
+  const auto count = static_cast<Index>(carriers.inside.row(element).size());
   if (count < nodes) return false;
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Weights> weights(carriers.weights_at(element, 0).data(),
-                                          static_cast<Index>(count), static_cast<Index>(nodes));
-  const Eigen::VectorXd sizes = weights.jacobiSvd().singularValues();
-  return sizes[sizes.size() - 1] > 1e-3 * sizes[0];
+  const Eigen::Map<const Weights> weights(carriers.weights_at(element, 0).data(), count, nodes);
+  const Eigen::MatrixXd products = weights.transpose() * weights;
+  const Eigen::VectorXd squares =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(products, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  return squares[0] > least * least * squares[nodes - 1];
 }
 
 /// Whether a later stage drives a particle of the element, or grips it.
@@ -212,8 +222,8 @@ void carry_particles(const CaseFile& input, Model& model) {
         input.where("elements"),
         "leaves no element whole: surfaces, supports, cracks or regions cross all of them, or "
         "there are fewer particles in them than nodes",
-        "make the elements smaller, as far as particles are left inside them, or delete the "
-        "table");
+        "make the elements smaller where they are crossed, larger where they are only a spacing or "
+        "two wide, or delete the table");
   }
   model.unknowns = carried_motion(body.carriers, body.free, body.whole);
   model.carried = std::move(body);

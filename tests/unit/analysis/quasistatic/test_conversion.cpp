@@ -62,7 +62,7 @@ TEST(Conversion, FindsTheElementsThatAreStrainedTheMost) {
   Model model = strip_model();
   model.carried->alert_strain = 0.03;
   Conversion conversion(model.network, *model.carried);
-  EXPECT_TRUE(std::isinf(conversion.alert())) << "bonds give none";
+  EXPECT_EQ(conversion.alert(), 1.0) << "bonds give none before their limits";
   std::vector<double> motion;
   for (Index i = 0; i < model.network.particles.size(); ++i) {
     const double y = model.network.particles.position(i)[1];
@@ -76,6 +76,19 @@ TEST(Conversion, FindsTheElementsThatAreStrainedTheMost) {
   }
   conversion.convert(elements);
   EXPECT_NEAR(conversion.strained(motion, 0.9).load_factor, 3.0, 1e-12) << "the next ones";
+}
+
+TEST(Conversion, StrainsOfCompressionGiveNoAlert) {
+  Model model = strip_model();
+  model.carried->alert_strain = 0.03;
+  Conversion conversion(model.network, *model.carried);
+  std::vector<double> motion;
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    motion.insert(motion.end(), {0.0, -0.01 * model.network.particles.position(i)[1]});
+  }
+  const auto [elements, load_factor] = conversion.strained(motion, 0.9);
+  EXPECT_TRUE(std::isinf(load_factor));
+  EXPECT_EQ(std::count(elements.begin(), elements.end(), 1), 0);
 }
 
 }  // namespace

@@ -43,5 +43,56 @@ TEST(ConvertingRun, StrainsConvertElementsBeforeTheBondsInThemFail) {
   }
 }
 
+/// Where no strain comes to the alert the bonds do, at their limits.
+TEST(ConvertingRun, BondsAtTheirLimitsConvertElementsThatNoStrainHas) {
+  Rows free, carried;
+  run_strip("", free);
+  run_strip("[elements]\nspacings = 4\norder = 1\nalert_strain = 1e9\n", carried);
+  ASSERT_EQ(carried.rows.size(), free.rows.size());
+  EXPECT_NEAR(carried.rows.back().load, free.rows.back().load, 0.1 * free.rows.back().load);
+}
+
+/// Under compression alone nothing fails and no strain is large: the run ends.
+TEST(ConvertingRun, EndsWhereNothingCanFailAndNoElementIsStrained) {
+  CaseFile input = parse_case(R"([body]
+spacing = 1
+horizon_ratio = 3
+[[regions]]
+name = "bar"
+x = [0, 16]
+y = [0, 8]
+[[regions]]
+name = "end"
+x = [16, 16]
+y = [0, 8]
+[[regions]]
+name = "start"
+x = [0, 0]
+y = [0, 8]
+[[materials]]
+region = "bar"
+youngs_modulus = 1000
+fracture_energy = 0.01
+[[supports]]
+region = "body"
+fix = ["y"]
+[[supports]]
+region = "start"
+fix = ["x"]
+[[displacements]]
+region = "end"
+x = -0.1
+[elements]
+spacings = 4
+alert_strain = 1e-3
+)",
+                              "bar.toml");
+  const Model model = build_model(input);
+  Rows rows;
+  const DamageResult result = run_damage_analysis(model, damage_options(input, 1), rows);
+  EXPECT_EQ(result.ending, Ending::nothing_breaks);
+  EXPECT_EQ(result.conversions, 0);
+}
+
 }  // namespace
 }  // namespace perilink

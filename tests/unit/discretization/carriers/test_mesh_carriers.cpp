@@ -92,6 +92,13 @@ TEST(MeshCarriers, LeavesOutCellsThatAFaceCuts) {
   EXPECT_EQ(carriers.corners_of.row(0).size(), 3u);
 }
 
+TEST(MeshCarriers, RefusesCellsThatOverlap) {
+  Mesh mesh = make_mesh(2);
+  mesh.cells.insert(mesh.cells.end(), {0, 1, 3});
+  mesh.cell_tags = {7, 8, 9};
+  EXPECT_THROW(carriers_on_mesh(fill(2), {}, mesh, 1, 1e-6), std::invalid_argument);
+}
+
 TEST(MeshCarriers, RefusesFlatCells) {
   Mesh mesh = make_mesh(2);
   mesh.positions = {0, 0, 8, 0, 4, 0, 0, 8};
