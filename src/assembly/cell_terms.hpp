@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <vector>
 
-#include "assembly/internal_force.hpp"
 #include "base/csr.hpp"
-#include "network/linear_elements.hpp"
+#include "network/cells/linear_elements.hpp"
 
 /// \file
 /// What linear finite elements add to stiffness and forces.
@@ -67,10 +67,11 @@ class CellBlocks {
 };
 
 /// Adds forces and energy of the cells.
-/// \param displacement  shape (particles, width); the first Dim components are the translations
+/// \param displacement  shape (particles, width), as `forces`; the first Dim components are the
+///                      translations
 template <int Dim, class Real>
 void add_cells(const LinearElements& elements, std::span<const Real> displacement, int width,
-               ForcesAndEnergy<Real>& result) {
+               std::vector<Real>& forces, Real& energy) {
   using Tensor = std::array<std::array<Real, Dim>, Dim>;
   for (Index number = 0; number < elements.cells.size(); ++number) {
     const Gradients<Dim> gradients = gradients_of<Dim>(elements, number);
@@ -92,9 +93,9 @@ void add_cells(const LinearElements& elements, std::span<const Real> displacemen
       }
     }
     const Real volume = elements.volumes[number];
-    result.energy += 0.5 * volume * density;
+    energy += 0.5 * volume * density;
     for (int v = 0; v <= Dim; ++v) {
-      Real* force = result.forces.data() + static_cast<std::size_t>(cell[v]) * width;
+      Real* force = forces.data() + static_cast<std::size_t>(cell[v]) * width;
       for (int a = 0; a < Dim; ++a) {
         for (int b = 0; b < Dim; ++b) force[a] += volume * stress[a][b] * gradients(v, b);
       }

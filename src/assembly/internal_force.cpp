@@ -128,8 +128,10 @@ void add_all(const Network& network, Secants secants, std::span<const Real> disp
                        : add_states<3>(network, secants, displacement, result);
   }
   if (network.cells) {
-    network.dim() == 2 ? add_cells<2>(*network.cells, displacement, network.width(), result)
-                       : add_cells<3>(*network.cells, displacement, network.width(), result);
+    const int width = network.width();
+    network.dim() == 2
+        ? add_cells<2>(*network.cells, displacement, width, result.forces, result.energy)
+        : add_cells<3>(*network.cells, displacement, width, result.forces, result.energy);
   }
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
     const Real force = network.support_stiffness[slot] * displacement[slot];

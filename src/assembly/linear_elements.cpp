@@ -83,8 +83,8 @@ SparseMatrix assemble_stiffness(const LinearElements& elements, const Unknowns& 
 InternalForce internal_force(const LinearElements& elements, std::span<const double> displacement) {
   InternalForce result;
   result.forces.assign(displacement.size(), 0.0);
-  elements.dim() == 2 ? add_cells<2, double>(elements, displacement, 2, result)
-                      : add_cells<3, double>(elements, displacement, 3, result);
+  elements.dim() == 2 ? add_cells<2>(elements, displacement, 2, result.forces, result.energy)
+                      : add_cells<3>(elements, displacement, 3, result.forces, result.energy);
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "assembly/internal_force.hpp"
-#include "network/linear_elements.hpp"
+#include "network/cells/linear_elements.hpp"
 #include "network/unknowns.hpp"
 
 /// \file
@@ -23,7 +23,7 @@ InternalForce internal_force(const LinearElements& elements, std::span<const dou
 
 /// Work of the cells' stresses under one motion on the strains of another, summed over cells at
 /// which the other moves [force length].
-/// \param width  of both motions, shape (particles, width)
+/// \param width  components of both motions, shape (particles, width)
 double work_between(const LinearElements& elements, int width, std::span<const double> displacement,
                     std::span<const double> other);
 

@@ -26,8 +26,8 @@ struct Facets {
   std::vector<Index> inside;   ///< material of the cell that the normal points out of
   std::vector<Index> outside;  ///< material of the cell beyond; no_index: the surface of the body
 
-  /// Nonzero where an ordinary finite element holds the other side: its nodes take equal shares, and
-  /// so must these; empty: nowhere.
+  /// Nonzero where an ordinary finite element holds the other side: its nodes take equal shares,
+  /// and so must these; empty: nowhere.
   std::vector<std::uint8_t> glued = {};
 
   Index size() const { return static_cast<Index>(inside.size()); }

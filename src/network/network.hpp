@@ -13,7 +13,7 @@
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 #include "material/bond_law.hpp"
-#include "network/linear_elements.hpp"
+#include "network/cells/linear_elements.hpp"
 #include "network/secants.hpp"
 
 namespace perilink {
@@ -99,8 +99,9 @@ struct Network {
     return state_of.empty() || (state_of[element] & end) != 0;
   }
   Index num_elements() const { return bonds.size(); }
-  /// Bonds of the solid.
-  Index num_bonds() const { return first_tie - (cells ? cells->num_edges : 0); }
+  /// Bonds of the solid, without the edges of cells.
+  Index num_bonds() const { return first_tie - num_edges_of_cells(); }
+  Index num_edges_of_cells() const { return cells ? cells->num_edges : 0; }
   const BondLaw& law(Index element) const { return laws[law_of.empty() ? 0 : law_of[element]]; }
   /// Whether some elements close once they are damaged.
   bool has_closing() const {

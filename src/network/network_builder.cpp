@@ -12,7 +12,7 @@
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
 #include "network/bond_softening.hpp"
-#include "network/glued_cells.hpp"
+#include "network/cells/glued_cells.hpp"
 #include "network/surface_correction.hpp"
 #include "network/unknowns.hpp"
 

@@ -28,10 +28,23 @@ std::string time_text(double seconds) {
   return seconds < 10.0 ? fmt::format("{:.2g} s", seconds) : format_duration(seconds);
 }
 
+/// Whether bonds give way by more than one event.
+bool softens(const Network& network) {
+  return std::any_of(network.strengths.begin(), network.strengths.end(),
+                     [](const MaterialStrength& strength) { return strength.teeth > 1; });
+}
+
 /// The whole run as far as the case tells its length.
-std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& cost) {
+std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& cost,
+                     bool softening) {
   const double begin = set_up + cost.factorization;
   if (input.analysis.type == AnalysisType::elastic) return "about " + time_text(begin);
+  if (softening) {
+    return fmt::format(
+        "about {} until the first event; how many there will be nothing tells: "
+        "bonds that soften have thousands before the peak",
+        time_text(begin));
+  }
   if (!input.stop.broken_bonds) {
     return fmt::format("about {} until the first bond breaks; the case does not tell how many will",
                        time_text(begin));
@@ -120,7 +133,7 @@ void print_spacing(const Model& model) {
   fmt::print("\n");
 }
 
-void print_sizes(const Model& model) {
+void print_sizes(const Model& model, bool damage = false) {
   const Network& network = model.network;
   Index ghosts = 0, bar_nodes = 0;
   for (const ParticleKind kind : network.particles.kind) {
@@ -134,11 +147,13 @@ void print_sizes(const Model& model) {
   print_elements(model);
   if (model.carried) {
     const std::vector<std::uint8_t>& whole = model.carried->whole;
-    fmt::print(
-        "#   finite elements    {} of {} carry particles, which would have {} unknowns; time and\n"
-        "#                      memory are for the unknowns at first and grow as elements "
-        "convert\n",
-        std::count(whole.begin(), whole.end(), 1), whole.size(), model.carried->free.count);
+    fmt::print("#   finite elements    {} of {} carry particles, which would have {} unknowns\n",
+               std::count(whole.begin(), whole.end(), 1), whole.size(), model.carried->free.count);
+    if (damage) {
+      fmt::print(
+          "#                      time and memory are for the unknowns at first and grow as "
+          "elements convert\n");
+    }
   }
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {
@@ -166,10 +181,12 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
   print_set_up(set_up);
   fmt::print("#   factorisation      {}\n", time_text(cost.factorization));
   if (input.analysis.type != AnalysisType::elastic) {
-    fmt::print("#   each broken bond   {:.2g} ms; 1000 of them {}\n", 1e3 * cost.broken_bond,
-               time_text(1e3 * cost.broken_bond));
+    fmt::print("#   {:<18} {:.2g} ms{}; 1000 of them {}\n",
+               softens(network) ? "each event" : "each broken bond", 1e3 * cost.broken_bond,
+               input.elements ? " at first" : "", time_text(1e3 * cost.broken_bond));
   }
-  fmt::print("#   run                {}\n", run_text(input, set_up.seconds(), cost));
+  fmt::print("#   run                {}\n",
+             run_text(input, set_up.seconds(), cost, softens(network)));
 }
 
 /// Prints the fundamental period, with which loading times are compared.
@@ -305,7 +322,7 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   const ExpectedSetUp set_up{drafted, time_of_calibration(input, model)};
   if (const auto note = note_of_separated_body(input, model, 1)) model.notes.push_back(*note);
   print_case(case_path, input);
-  print_sizes(model);
+  print_sizes(model, input.analysis.type == AnalysisType::damage);
   std::fflush(stdout);  // the order of the unknowns of a large body takes a while
 
   const Network& network = model.network;

@@ -30,9 +30,14 @@ std::vector<Vector3> as_vectors(const std::vector<double>& values) {
 }
 
 void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBody& body) {
+  // A body of linear elements alone is drawn by its particles.
+  const bool has_particles =
+      !element.empty() && element.front() == static_cast<double>(FieldElement::particle);
   for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
     const std::size_t end = static_cast<std::size_t>(grid.offsets[cell]);
-    if (body.dim == 2 && element[cell] == static_cast<double>(FieldElement::carrier)) {
+    const bool outlined = element[cell] == static_cast<double>(FieldElement::carrier) ||
+                          element[cell] == static_cast<double>(FieldElement::cell);
+    if (body.dim == 2 && has_particles && outlined) {
       const auto begin = static_cast<std::size_t>(cell > 0 ? grid.offsets[cell - 1] : 0);
       for (std::size_t k = begin; k < end; ++k) {
         body.elements.values.push_back(static_cast<Index>(grid.connectivity[k]));

@@ -36,6 +36,11 @@ void append_cell(VtuGrid& grid, VtuCell type, std::span<const Index> points, Fie
   grid.cell_data[1].values.push_back(broken_at);
 }
 
+VtuCell cell_of(std::size_t dim, std::size_t corners) {
+  if (corners == dim + 1) return dim == 2 ? VtuCell::triangle : VtuCell::tetrahedron;
+  return dim == 2 ? VtuCell::quadrilateral : VtuCell::hexahedron;
+}
+
 void append_cells(VtuGrid& grid, const Network& network, std::span<const Index> broken_elements) {
   grid.cell_data = {{"element", 1, {}}, {"broken_at", 1, {}}};
   for (Index i = 0; i < network.particles.size(); ++i) {
@@ -50,6 +55,11 @@ void append_cells(VtuGrid& grid, const Network& network, std::span<const Index> 
   }
   for (Index b = network.first_segment; b < network.num_elements(); ++b) {
     append_cell(grid, VtuCell::line, ends(b), FieldElement::rebar_segment, 0.0);
+  }
+  for (Index k = 0; network.cells && k < network.cells->cells.size(); ++k) {
+    const auto cell = network.cells->cells.cell(k);
+    append_cell(grid, cell_of(static_cast<std::size_t>(network.dim()), cell.size()), cell,
+                FieldElement::cell, 0.0);
   }
 }
 
@@ -105,15 +115,6 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
   grid.field_data = field_data_of(moment, dim);
   return grid;
 }
-
-namespace {
-
-VtuCell cell_of(std::size_t dim, std::size_t corners) {
-  if (corners == dim + 1) return dim == 2 ? VtuCell::triangle : VtuCell::tetrahedron;
-  return dim == 2 ? VtuCell::quadrilateral : VtuCell::hexahedron;
-}
-
-}  // namespace
 
 void add_carriers(VtuGrid& grid, const Particles& particles, const Carriers& carriers,
                   std::span<const std::uint8_t> whole) {

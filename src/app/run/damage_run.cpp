@@ -47,7 +47,7 @@ void DamageRun::begin_again(const LateConversion& late) {
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
   places_.clear();
   last_element_ = no_index;
-  broken_at_fields_ = 0;
+  broken_at_fields_ = last_stage_ = 0;
   highest_ = 0.0;
 }
 
@@ -75,8 +75,9 @@ void DamageRun::tell_elements(Summary& summary) const {
   summary.add("unknowns_at_end", result_.unknowns);
   summary.add("freed_energy", result_.last.freed_energy);
   const double work = std::abs(result_.last.external_work);
-  summary.line("", "{} at the end, with {} unknowns; {} conversions freed {:.2g} of the work",
-               result_.elements, result_.unknowns, result_.conversions,
+  summary.line("conversions",
+               "{}: {} elements at the end, with {} unknowns; freed {:.2g} of the work",
+               result_.conversions, result_.elements, result_.unknowns,
                work > 0.0 ? result_.last.freed_energy / work : 0.0);
 }
 
@@ -116,10 +117,13 @@ void DamageRun::note_places(const StepRecord& record, StateSource& source) {
   places_ = place_forces(model_, record.load_factor, state.secants, state.displacement);
 }
 
-/// A load step may pass a number that the case asks for; the first row beyond it counts then.
-bool DamageRun::wants_fields(Index broken_bonds) const {
-  if (!files_->has_fields()) return true;
-  const Index last = broken_at_fields_;
+/// The first row, the first of each stage, and what the case asks for: a load step may pass a number
+/// of broken bonds; the first row beyond it counts then.
+bool DamageRun::wants_fields(const StepRecord& record) const {
+  if (!files_->has_fields() || record.stage != last_stage_) return true;
+  const std::optional<int>& rows = input.output.fields_every_rows;
+  if (rows && record.step % *rows == 0) return true;
+  const Index last = broken_at_fields_, broken_bonds = record.broken_bonds;
   if (broken_bonds == last) return false;
   const std::vector<int>& at = input.output.fields_at;
   if (std::any_of(at.begin(), at.end(), [&](int n) { return n > last && n <= broken_bonds; })) {
@@ -159,9 +163,15 @@ void DamageRun::show_progress(const StepRecord& record) {
     done = std::max(done.value_or(0.0), std::abs(record.displacement) / *stop.displacement);
   }
   if (done) done = std::clamp(*done, 0.0, 1.0);
-  files_->bar().draw(
-      fmt::format("{} broken bonds, load factor {:.4g}", record.broken_bonds, record.load_factor),
-      done);
+  std::string state = fmt::format("{} broken bonds", record.broken_bonds);
+  if (record.yield_events > 0) state += fmt::format(", {} yield events", record.yield_events);
+  state += fmt::format(", load factor {:.4g}", record.load_factor);
+  if (record.stage > 0) {
+    const std::string& name = input.stages[static_cast<std::size_t>(record.stage - 1)].name;
+    state = fmt::format("{}: {}", name, state);
+  }
+  if (model_.carried) state += fmt::format(", {} elements", record.elements);
+  files_->bar().draw(state, done);
 }
 
 void DamageRun::on_step(const StepRecord& record, StateSource& source) {
@@ -171,8 +181,9 @@ void DamageRun::on_step(const StepRecord& record, StateSource& source) {
                                                 : gauge_values(model_, source.state().displacement,
                                                                scale_of(record)));
   show_progress(record);
-  if (wants_fields(record.broken_bonds)) write_state(record, source);
+  if (wants_fields(record)) write_state(record, source);
   last_element_ = record.element;
+  last_stage_ = record.stage;
 }
 
 void DamageRun::on_end(const StepRecord& last, StateSource& source) {

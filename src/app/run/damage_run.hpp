@@ -28,7 +28,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
   void tell_elements(Summary& summary) const;
   void begin_again(const LateConversion& late);
   void note_broken(const StepRecord& record, StateSource& source);
-  bool wants_fields(Index broken_bonds) const;
+  bool wants_fields(const StepRecord& record) const;
   void write_state(const StepRecord& record, StateSource& source);
   void show_progress(const StepRecord& record);
 
@@ -39,6 +39,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
   std::vector<std::uint8_t> is_broken_;
   Index last_element_ = no_index;   ///< that failed at the end of the last row
   Index broken_at_fields_ = 0;      ///< number of broken bonds in the last field file
+  Index last_stage_ = 0;            ///< of the last row
   double highest_ = 0.0;            ///< |load| so far
   std::vector<PlaceForce> places_;  ///< in the row of the largest |load|, where there are several
 };

@@ -70,11 +70,25 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
                                 result.largest_surplus);
 }
 
+namespace {
+
+Index bonds_and_ties(const Network& network) {
+  return network.first_segment - network.num_edges_of_cells();
+}
+
+std::string cells_text(const Network& network) {
+  if (!network.cells) return "";
+  return fmt::format(", {} linear elements beside them", network.cells->cells.size());
+}
+
+}  // namespace
+
 void tell_body(Summary& summary, const Model& model, const std::string& more) {
   const Network& network = model.network;
   summary.add("particles", network.particles.size());
-  summary.add("bonds", model.elements ? 0 : network.first_segment);
+  summary.add("bonds", model.elements ? 0 : bonds_and_ties(network));
   if (model.elements) summary.add("cells", model.elements->cells.size());
+  if (network.cells) summary.add("cells", network.cells->cells.size());
   summary.add("unknowns", model.unknowns.count);
   if (model.particle_fit) summary.add("constants", fit_json(*model.particle_fit));
   if (network.calibration) summary.add("calibration", calibration_json(*network.calibration));
@@ -85,10 +99,10 @@ void tell_body(Summary& summary, const Model& model, const std::string& more) {
 
 std::string size_text(const Model& model) {
   const Index particles = model.network.particles.size();
-  return model.elements
-             ? fmt::format("{} particles, {} linear elements", particles,
-                           model.elements->cells.size())
-             : fmt::format("{} particles, {} bonds", particles, model.network.first_segment);
+  return model.elements ? fmt::format("{} particles, {} linear elements", particles,
+                                      model.elements->cells.size())
+                        : fmt::format("{} particles, {} bonds{}", particles,
+                                      bonds_and_ties(model.network), cells_text(model.network));
 }
 
 double peak_memory_bytes() {

@@ -155,7 +155,8 @@ void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) 
   member.spacing = model.lattice.spacing;
   member.horizon = model.horizon;
   member.particles = model.network.particles.size();
-  member.bonds = model.elements ? 0 : model.network.first_segment;
+  member.bonds =
+      model.elements ? 0 : model.network.first_segment - model.network.num_edges_of_cells();
   member.unknowns = model.unknowns.count;
   member.note = repeat.note.value_or("");
   for (const ErrorSection& error : study.errors) {

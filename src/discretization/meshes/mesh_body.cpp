@@ -94,23 +94,9 @@ std::vector<Index> number_surface_facets(const CellFaces& faces, const Simplices
   return number;
 }
 
-/// Cells between which bonds may lie.
-Simplices bonded_cells(const Body& body) {
-  if (body.glued.empty()) return body.cells;
-  Simplices bonded;
-  bonded.dim = body.cells.dim;
-  for (Index k = 0; k < body.cells.size(); ++k) {
-    if (body.glued[k] != 0) continue;
-    const auto cell = body.cells.cell(k);
-    bonded.vertices.insert(bonded.vertices.end(), cell.begin(), cell.end());
-    bonded.material.push_back(body.cells.material[k]);
-  }
-  return bonded;
-}
-
 /// Means over the cells that have bonds.
 Lattice lattice_of(const Body& body, double thickness) {
-  const Simplices cells = bonded_cells(body);
+  const Simplices cells = cells_of(body, false);
   const Bonds edges = edges_of(cells, body.particles);
   const std::vector<double> volumes = shape_integrals(cells, body.particles.positions, thickness);
   const auto without = std::count(volumes.begin(), volumes.end(), 0.0);
@@ -239,6 +225,19 @@ std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> 
     }
   }
   return result;
+}
+
+Simplices cells_of(const Body& body, bool glued) {
+  if (body.glued.empty() && !glued) return body.cells;
+  Simplices chosen;
+  chosen.dim = body.cells.dim;
+  for (Index k = 0; k < static_cast<Index>(body.glued.size()); ++k) {
+    if ((body.glued[k] != 0) != glued) continue;
+    const auto cell = body.cells.cell(k);
+    chosen.vertices.insert(chosen.vertices.end(), cell.begin(), cell.end());
+    chosen.material.push_back(body.cells.material[k]);
+  }
+  return chosen;
 }
 
 Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness,

@@ -15,6 +15,9 @@ namespace perilink {
 std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> regions,
                                       std::span<const Index> material);
 
+/// The cells of a body that are ordinary finite elements, or all others.
+Simplices cells_of(const Body& body, bool glued);
+
 /// Body with a particle at every vertex of the cells that have a material.
 /// - Volume: integral of the vertex's linear shape function, a third of the triangles around it
 ///   times the thickness, a quarter of the tetrahedra.

@@ -219,9 +219,10 @@ struct ElementsSection {
 
 /// [output]
 struct OutputSection {
-  std::vector<int> fields_at;        ///< numbers of broken bonds at which fields are written
-  std::optional<int> fields_every;   ///< and after every so many
-  std::vector<double> fields_times;  ///< for type = explicit: times of fields [time]
+  std::vector<int> fields_at;            ///< numbers of broken bonds at which fields are written
+  std::optional<int> fields_every;       ///< and after every so many
+  std::optional<int> fields_every_rows;  ///< and after every so many rows of history.csv
+  std::vector<double> fields_times;      ///< for type = explicit: times of fields [time]
 };
 
 /// A whole case.

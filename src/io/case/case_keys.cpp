@@ -281,7 +281,10 @@ const std::vector<TableSchema>& case_schema() {
        stages},
       {"output",
        false,
-       {{"fields_at", of_events}, {"fields_every", of_events}, {"fields_times", of_time}}},
+       {{"fields_at", of_events},
+        {"fields_every", of_events},
+        {"fields_every_rows", of_events},
+        {"fields_times", of_time}}},
   };
   return schema;
 }

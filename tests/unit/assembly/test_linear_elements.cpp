@@ -202,16 +202,6 @@ TEST(LinearElements, TriangleByHand) {
   EXPECT_EQ(k(3, 0), 0.0);
 }
 
-TEST(LinearElements, ACellInsideOutIsRefused) {
-  Simplices cells;
-  cells.vertices = {0, 2, 1};
-  cells.material = {0};
-  const std::vector<double> positions = {0, 0, 2, 0, 0, 1};
-  const std::vector<IsotropicMaterial> materials = {{1.0, 0.0}};
-  EXPECT_THROW(make_linear_elements(cells, positions, 1.0, Problem::plane_stress, materials),
-               std::invalid_argument);
-}
-
 TEST(LinearElements, PrincipalValuesAreLargestFirst) {
   // Eigenvalues of [[2, 1], [1, 2]] are 3 and 1.
   const std::vector<double> plane = principal_values(std::vector<double>{2, 1, 1, 2}, 2);

@@ -87,6 +87,9 @@ Mesh read_mesh(const CaseFile& input, const std::string& key, const std::string&
   } catch (const FileError& error) {
     throw InputError(input.where(key), error.what(),
                      "give the file as seen from the folder of the case");
+  } catch (const InputError& error) {
+    if (key == "body.mesh") throw;
+    throw InputError(input.where(key), fmt::format("cannot be taken: {}", error.what()), "");
   }
 }
 
@@ -116,7 +119,7 @@ MeshInput read_mesh_input(const CaseFile& input, int dim) {
 namespace {
 
 /// Per cell of the mesh, nonzero where it is an ordinary finite element; empty: nowhere.
-std::vector<std::uint8_t> glued_cells(const CaseFile& input, const MeshInput& read) {
+std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInput& read) {
   std::vector<std::uint8_t> glued;
   if (!input.elements || input.elements->glued.empty()) return glued;
   const std::string key = "elements.glued";
@@ -159,7 +162,7 @@ Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& no
   }
   try {
     return make_mesh_body(mesh, material, dim == 2 ? input.body.thickness : 1.0,
-                          glued_cells(input, read));
+                          ordinary_elements(input, read));
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where("body.mesh"),
                      fmt::format("names {}: {}", mesh_path(input).string(), error.what()), "");

@@ -197,6 +197,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
                  "sort the numbers of broken bonds, each once");
   }
   output.fields_every = table.integer("fields_every", 1, largest_count);
+  output.fields_every_rows = table.integer("fields_every_rows", 1, largest_count);
   assign(output.fields_times, table.numbers("fields_times"));
   for (std::size_t i = 0; i < output.fields_times.size(); ++i) {
     const double before = i > 0 ? output.fields_times[i - 1] : 0.0;
@@ -210,6 +211,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
   if (!is_quasistatic(type)) {
     output.fields_at.clear();
     output.fields_every.reset();
+    output.fields_every_rows.reset();
   }
   if (type != AnalysisType::explicit_) output.fields_times.clear();
   return output;

@@ -176,6 +176,7 @@ void write_run(TomlWriter& out, const CaseFile& input) {
   out.header("[output]");
   out.write("fields_at", input.output.fields_at);
   out.write("fields_every", input.output.fields_every);
+  out.write("fields_every_rows", input.output.fields_every_rows);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "network/linear_elements.hpp"
+#include "network/cells/linear_elements.hpp"
 
 #include <Eigen/Dense>
 #include <stdexcept>

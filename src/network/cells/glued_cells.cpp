@@ -1,4 +1,4 @@
-#include "network/glued_cells.hpp"
+#include "network/cells/glued_cells.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "discretization/lattices/triangulate.hpp"
+#include "discretization/meshes/mesh_body.hpp"
 
 namespace perilink {
 namespace {
@@ -29,18 +30,6 @@ std::map<Corners, Index> facets_by_corners(const Facets& facets) {
   std::map<Corners, Index> number;
   for (Index f = 0; f < facets.size(); ++f) number[corners_of(facets, f, {})] = f;
   return number;
-}
-
-Simplices chosen_cells(const Body& whole, bool glued) {
-  Simplices chosen;
-  chosen.dim = whole.cells.dim;
-  for (Index k = 0; k < whole.cells.size(); ++k) {
-    if ((whole.glued[k] != 0) != glued) continue;
-    const auto cell = whole.cells.cell(k);
-    chosen.vertices.insert(chosen.vertices.end(), cell.begin(), cell.end());
-    chosen.material.push_back(whole.cells.material[k]);
-  }
-  return chosen;
 }
 
 LinearElements elements_of(Simplices cells, const Particles& particles, const NetworkInput& input) {
@@ -88,7 +77,7 @@ void append_edges(const Bonds& edges, Network& network) {
 BondedPart bonded_part(const Body& whole, double thickness) {
   BondedPart part;
   Body& body = part.body;
-  body.cells = chosen_cells(whole, false);
+  body.cells = cells_of(whole, false);
   body.lattice = whole.lattice;
   part.whole_of = body.cells.vertices;
   std::sort(part.whole_of.begin(), part.whole_of.end());
@@ -128,7 +117,7 @@ void join_cells(const Body& whole, const BondedPart& part, const NetworkInput& i
   Facets facets = whole.facets;
   copy_shares(network.facets, part.whole_of, facets);
   network.facets = std::move(facets);
-  LinearElements cells = elements_of(chosen_cells(whole, true), whole.particles, input);
+  LinearElements cells = elements_of(cells_of(whole, true), whole.particles, input);
   const Bonds edges = edges_of(cells.cells, whole.particles);
   cells.num_edges = edges.size();
   append_edges(edges, network);
