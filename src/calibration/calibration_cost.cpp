@@ -15,8 +15,8 @@ struct Rates {
 // moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 11 000 to 206 000 on one
 // core beside other programs: 60e-6 to 80e-6 of up to 30 000 bonds, 30e-6 above.
 constexpr Rates in_plane{8e-6, 10e-6}, in_plane_with_moments{12e-6, 30e-6};
-/// In the plane a factor of all equations takes most of the time of clouds: the rates are those of so
-/// many particles and grow with this power of the number (4 000 to 149 000 particles).
+/// In the plane a factor of all equations takes most of the time of clouds: the rates are those of
+/// so many particles and grow with this power of the number (4 000 to 149 000 particles).
 constexpr double particles_of_rates = 12000.0, growth_of_factor = 0.38;
 constexpr Rates in_space{35e-6, 40e-6}, in_space_with_moments{200e-6, 250e-6};
 /// Where particles have fewer bonds than this in space, all equations are factorised.

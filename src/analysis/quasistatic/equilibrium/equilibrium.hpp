@@ -316,7 +316,7 @@ class Equilibrium {
   double followed_compliance_ = 0.0;  ///< ... f'u - R'd, ...
   double followed_from_ = 0.0;        ///< ... since it was this
   double load_norm_ = 0.0;
-  double fresh_residual_ = 0.0;  ///< of what a fresh factor solves, unrefined
+  double fresh_residual_ = 0.0;  ///< what a fresh factor leaves, unrefined
   double residual_floor_ = 0.0;  ///< what a fresh factor can reach
   double factor_error_ = 0.0;    ///< Refined::factor_error where the body was last polished ...
   double factor_floor_ = 0.0;    ///< ... and with the last fresh factor

@@ -1,0 +1,19 @@
+// Elements for the L-shaped panel: of size h, a third of it at the corner where the crack begins.
+DefineConstant[ h = 60 ];
+Point(1) = {0, 0, 0, h};
+Point(2) = {250, 0, 0, h};
+Point(3) = {250, 250, 0, h/3};
+Point(4) = {480, 250, 0, h};
+Point(5) = {500, 250, 0, h};
+Point(6) = {500, 500, 0, h};
+Point(7) = {0, 500, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 7};
+Line(7) = {7, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6, 7};
+Plane Surface(1) = {1};
+Physical Surface("panel") = {1};
