@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
@@ -113,6 +114,40 @@ PathEnergy measure_clamped_strip(const CrackedBody& body) {
   };
   PathEnergy energy = measure_case(text, beside, beside + skipped, beside + skipped + grown);
   if (!body.space) return energy;
+  energy.dissipated /= depth;
+  energy.released /= depth;
+  return energy;
+}
+
+PathEnergy measure_strip_of_tetrahedra(const std::string& geometry, int algorithm, int seed,
+                                       const std::string& rule) {
+  CrackedBody body;
+  body.space = true;
+  const double horizon = body.horizon_ratio, clamp = 1.001 * horizon, depth = 2.0 * horizon;
+  const double height = 6.0 * horizon, skipped = 2.0 * horizon, grown = 6.0;
+  const double beside = 3.0 * horizon, length = 2.0 * beside + skipped + grown;
+  std::ofstream file(geometry);
+  file << fmt::format(
+      "SetFactory(\"OpenCASCADE\");\nBox(1) = {{0, 0, 0, {}, {}, {}}};\nMesh.MeshSizeMin = 1;\n"
+      "Mesh.MeshSizeMax = 1;\nGeneral.NumThreads = 1;\nMesh.Algorithm3D = {};\nMesh.RandomSeed = "
+      "{};\n"
+      "Physical Volume(\"body\") = {{1}};\n",
+      length, height, depth, algorithm, seed);
+  file.close();
+  body.heading =
+      fmt::format("problem = \"three_dimensional\"\nmesh = \"{}\"\ncritical_stretch = \"{}\"\n",
+                  geometry, rule);
+  const auto text = [&](double tip) {
+    return fmt::format("[body]\n{}horizon_ratio = {}\n", body.heading, body.horizon_ratio) +
+           region("strip", body, {0.0, length}, {0.0, height}, depth) +
+           region("low", body, {0.0, length}, {0.0, clamp}, depth) +
+           region("high", body, {0.0, length}, {height - clamp, height}, depth) +
+           material("strip", body, "1.0") + moved("low", body, -1.0, true) +
+           moved("high", body, 1.0, true) +
+           // not through a layer of nodes, should the mesh have one in the middle
+           crack(body, tip, 0.5 * height + 0.013, depth);
+  };
+  PathEnergy energy = measure_case(text, beside, beside + skipped, beside + skipped + grown);
   energy.dissipated /= depth;
   energy.released /= depth;
   return energy;

@@ -3,6 +3,7 @@
 //
 //   toughness table   measures the rows of src/network/crack_cost.cpp, writes result_table.csv
 //   toughness cases   clamped strips and double cantilevers as cases, writes result.csv
+//   toughness clouds  clamped strips of tetrahedra, writes result_clouds.csv
 //
 // Exit status 1 when a case misses its acceptance. Some minutes each.
 
@@ -10,6 +11,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -173,11 +175,33 @@ bool measure_cases() {
   return good;
 }
 
+bool measure_clouds() {
+  Table table("algorithm,seed,rule,dissipated_over_GF,released_over_GF,events\n");
+  const auto geometry = std::filesystem::temp_directory_path() / "toughness_cloud.geo";
+  double sum = 0.0;
+  constexpr std::pair<int, int> meshes[] = {{1, 1}, {10, 1}, {10, 2}};
+  for (const char* rule : {"continuum", "dissipated"}) {
+    sum = 0.0;
+    for (const auto& [algorithm, seed] : meshes) {
+      const PathEnergy energy =
+          measure_strip_of_tetrahedra(geometry.string(), algorithm, seed, rule);
+      table.add(fmt::format("{},{},{},{:.4f},{:.4f},{}\n", algorithm, seed, rule, energy.dissipated,
+                            energy.released, energy.events));
+      sum += energy.dissipated;
+    }
+  }
+  std::filesystem::remove(geometry);
+  write_result(PERILINK_STUDY_DIR, table.text, "result_clouds.csv");
+  return std::abs(sum / std::size(meshes) - 1.0) <= 0.03;
+}
+
 }  // namespace
 }  // namespace perilink::verification
 
 bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments[0] != "table") return measure_cases();
+  const std::string what = arguments.empty() ? "cases" : arguments[0];
+  if (what == "clouds") return measure_clouds();
+  if (what != "table") return measure_cases();
   measure_table();
   return true;
 }

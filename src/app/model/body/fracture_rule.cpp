@@ -66,8 +66,10 @@ std::optional<std::string> unmeasured_cost_note(const CaseFile& input, const Mod
         "taken; choose a spacing that divides all sides of the body more evenly",
         what, 100.0 * (ratio - 1.0));
   }
-  if (model.network.dim() == 2) return std::nullopt;
-  return fmt::format("{} in irregular clouds in space: bonds are taken to release all of it", what);
+  if (model.network.dim() == 2 || !model.network.carries_moments()) return std::nullopt;
+  return fmt::format(
+      "{} in irregular clouds in space whose bonds bend: that of bonds without bending is taken",
+      what);
 }
 
 }  // namespace perilink

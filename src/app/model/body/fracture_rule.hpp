@@ -22,7 +22,7 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
 std::optional<std::string> short_horizon_note(const CaseFile& input, const Model& model);
 
 /// Says that nobody measured what a crack costs in such a body, where its bonds can break: lattices
-/// whose steps differ by more than a tenth, and irregular clouds in space.
+/// whose steps differ by more than a tenth, and irregular clouds in space whose bonds bend.
 std::optional<std::string> unmeasured_cost_note(const CaseFile& input, const Model& model);
 
 }  // namespace perilink

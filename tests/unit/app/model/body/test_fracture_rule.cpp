@@ -99,12 +99,14 @@ TEST(FractureRule, NotesLatticesWhoseStepsDiffer) {
   EXPECT_FALSE(has_note(elastic, "not measured"));
 }
 
-TEST(FractureRule, NotesIrregularCloudsInSpace) {
+TEST(FractureRule, NotesIrregularCloudsInSpaceWhoseBondsBend) {
   Model model;
   model.crack_cost = {1.0};
   model.lattice.pattern = Pattern::irregular;
   model.network.particles.dim = 3;
   model.network.critical_stretch = {INFINITY, 0.1};
+  EXPECT_FALSE(unmeasured_cost_note(strip_case(), model)) << "measured";
+  model.network.bending = {1.0, 1.0};
   EXPECT_TRUE(unmeasured_cost_note(strip_case(), model));
   model.network.particles.dim = 2;
   EXPECT_FALSE(unmeasured_cost_note(strip_case(), model)) << "measured";
