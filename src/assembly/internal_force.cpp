@@ -1,5 +1,7 @@
 #include "assembly/internal_force.hpp"
 
+#include <array>
+
 #include "assembly/cell_terms.hpp"
 #include "network/frame.hpp"
 
@@ -13,27 +15,37 @@ struct AllElements {
   Index operator[](Index k) const { return k; }
 };
 
-/// One thread: the sums then have one order, and reading the elements costs most of the time.
+/// One thread: the sums then have one order, and reading the elements costs most of the time. Those
+/// of a particle mostly follow each other: its motion and its force stay at hand meanwhile.
 template <int Dim, class Real, class Elements>
 void add_elements(const Network& network, const Elements& elements, Secants secants,
                   std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   const Bonds& bonds = network.bonds;
   const auto count = static_cast<Index>(elements.size());
-  for (Index k = 0; k < count; ++k) {
-    const Index e = elements[k];
-    const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
-    const std::size_t first = static_cast<std::size_t>(bonds.first[e]) * Dim;
-    const std::size_t second = static_cast<std::size_t>(bonds.second[e]) * Dim;
-    Real extension = 0.0;
+  for (Index k = 0; k < count;) {
+    const Index own = bonds.first[elements[k]];
+    std::array<Real, Dim> motion, force;
+    const std::size_t first = static_cast<std::size_t>(own) * Dim;
     for (int axis = 0; axis < Dim; ++axis) {
-      extension += n[axis] * (displacement[second + axis] - displacement[first + axis]);
+      motion[axis] = displacement[first + axis];
+      force[axis] = result.forces[first + axis];
     }
-    const Real tension = network.stiffness[e] * secants.axial(e) * extension;
-    result.energy += 0.5 * tension * extension;
-    for (int axis = 0; axis < Dim; ++axis) {
-      result.forces[first + axis] -= tension * n[axis];
-      result.forces[second + axis] += tension * n[axis];
+    for (; k < count && bonds.first[elements[k]] == own; ++k) {
+      const Index e = elements[k];
+      const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
+      const std::size_t second = static_cast<std::size_t>(bonds.second[e]) * Dim;
+      Real extension = 0.0;
+      for (int axis = 0; axis < Dim; ++axis) {
+        extension += n[axis] * (displacement[second + axis] - motion[axis]);
+      }
+      const Real tension = network.stiffness[e] * secants.axial(e) * extension;
+      result.energy += 0.5 * tension * extension;
+      for (int axis = 0; axis < Dim; ++axis) {
+        force[axis] -= tension * n[axis];
+        result.forces[second + axis] += tension * n[axis];
+      }
     }
+    for (int axis = 0; axis < Dim; ++axis) result.forces[first + axis] = force[axis];
   }
 }
 

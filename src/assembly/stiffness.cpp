@@ -1,144 +1,19 @@
 #include "assembly/stiffness.hpp"
 
 #include <algorithm>
-#include <array>
-#include <limits>
-#include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "assembly/carried_stiffness.hpp"
-#include "assembly/cell_terms.hpp"
-#include "assembly/element_blocks.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/lower_triangle.hpp"
-#include "base/csr.hpp"
+#include "assembly/network_blocks.hpp"
 
 namespace perilink {
-namespace {
-
-/// Blocks of elements and springs of supports, see LowerTriangle.
-template <class Element>
-class NetworkBlocks {
- public:
-  static constexpr int width = Element::width;
-
-  NetworkBlocks(const Network& network, Secants secants)
-      : network_(network),
-        secants_(secants),
-        families_(bonds_of_particles(network.bonds, network.particles.size())) {
-    if (network.cells) cells_.emplace(*network.cells);
-  }
-
-  Index num_particles() const { return families_.rows(); }
-
-  void visit(Index i, auto&& sink) const {
-    for (const Index e : families_.row(i)) visit_element(e, i, sink);
-    visit_support(i, sink);
-    if (cells_) visit_cells(i, sink);
-  }
-
- protected:
-  void visit_element(Index e, Index i, auto&& sink) const {
-    const Element element(network_, e, secants_);
-    const int own = network_.bonds.first[e] == i ? 0 : 1;
-    sink(i, [&](int row, int col) { return element.entry(own, own, row, col); });
-    sink(own == 0 ? network_.bonds.second[e] : network_.bonds.first[e],
-         [&](int row, int col) { return element.entry(1 - own, own, row, col); });
-  }
-
-  void visit_support(Index i, auto&& sink) const {
-    if (network_.support_stiffness.empty()) return;
-    const double* springs = network_.support_stiffness.data() + static_cast<std::size_t>(i) * width;
-    sink(i, [&](int row, int col) { return row == col ? springs[row] : 0.0; });
-  }
-
-  void visit_cells(Index i, auto&& sink) const {
-    constexpr int dim = Element::dim;
-    cells_->visit(i, [&](Index j, auto&& entry) {
-      sink(j, [&](int row, int col) { return row < dim && col < dim ? entry(row, col) : 0.0; });
-    });
-  }
-
-  const Network& network_;
-  Secants secants_;
-  Csr families_;
-  std::optional<CellBlocks<Element::dim>> cells_;
-};
-
-/// The same with c h h' of the states of all particles, h u the sum of the extensions of the
-/// particle's bonds, each times its secant: particles that share a neighbour are coupled.
-template <int Dim>
-class StateBlocks : public NetworkBlocks<Truss<Dim>> {
- public:
-  StateBlocks(const Network& network, Secants secants)
-      : NetworkBlocks<Truss<Dim>>(network, secants),
-        own_(static_cast<std::size_t>(network.particles.size()), Vector::Zero()) {
-    for (Index e = 0; e < network.num_elements(); ++e) {
-      own_[network.bonds.first[e]] -= counted(e, first_end) * direction(e);
-      own_[network.bonds.second[e]] += counted(e, second_end) * direction(e);
-    }
-  }
-
-  void visit(Index i, auto&& sink) const {
-    visit_state(i, own_[i], sink);
-    for (const Index e : this->families_.row(i)) {
-      this->visit_element(e, i, sink);
-      const bool outward = this->network_.bonds.first[e] == i;
-      const double part = outward ? -counted(e, second_end) : counted(e, first_end);
-      visit_state(this->network_.bonds.other_end(e, i), part * direction(e), sink);
-    }
-    this->visit_support(i, sink);
-  }
-
- private:
-  using Vector = Eigen::Vector<double, Dim>;
-
-  Vector direction(Index e) const {
-    return Eigen::Map<const Vector>(this->network_.bonds.direction(e).data());
-  }
-
-  /// What the extension of a bond counts in the sum of its end.
-  double counted(Index e, BondEnd end) const {
-    return this->network_.counts_for(e, end) ? this->secants_[e] : 0.0;
-  }
-
-  /// Inlined, so that sinks keep what they refer to in registers.
-  /// \param by_i  derivative of the particle's sum of extensions by the motion of i
-  [[gnu::always_inline]] void visit_state(Index center, const Vector& by_i, auto&& sink) const {
-    const Vector column = this->network_.state_stiffness[center] * by_i;
-    const Vector& own = own_[center];
-    sink(center, [&](int row, int col) { return own[row] * column[col]; });
-    for (const Index e : this->families_.row(center)) {
-      const bool outward = this->network_.bonds.first[e] == center;
-      const double part = outward ? counted(e, first_end) : -counted(e, second_end);
-      const double* n = this->network_.bonds.direction(e).data();
-      sink(this->network_.bonds.other_end(e, center),
-           [&](int row, int col) { return part * n[row] * column[col]; });
-    }
-  }
-
-  std::vector<Vector> own_;  ///< derivative of the sum of extensions by the particle's own motion
-};
-
-template <class Blocks>
-SparseMatrix assemble(const Network& network, Secants secants, const Unknowns& unknowns) {
-  const Blocks blocks(network, secants);
-  return LowerTriangle(blocks, unknowns).build();
-}
-
-}  // namespace
 
 SparseMatrix assemble_stiffness(const Network& network, Secants secants, const Unknowns& unknowns) {
-  const bool plane = network.dim() == 2;
   if (unknowns.carries()) return assemble_carried(network, secants, unknowns);
-  const auto build =
-      network.has_states() ? plane ? assemble<StateBlocks<2>> : assemble<StateBlocks<3>>
-      : network.carries_moments()
-          ? plane ? assemble<NetworkBlocks<Frame<2>>> : assemble<NetworkBlocks<Frame<3>>>
-      : plane ? assemble<NetworkBlocks<Truss<2>>>
-              : assemble<NetworkBlocks<Truss<3>>>;
-  return build(network, secants, unknowns);
+  return with_blocks(network, secants,
+                     [&](const auto& blocks) { return LowerTriangle(blocks, unknowns).build(); });
 }
 
 std::vector<double> right_hand_side(const Unknowns& unknowns, const Loads& loads,

@@ -61,15 +61,20 @@ Csr bonds_of_particles(const Bonds& bonds, Index num_particles) {
   });
 }
 
-Index keep_bonds(const Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep) {
-  Bonds remaining;
-  remaining.dim = bonds.dim;
-  for (Index b = 0; b < bonds.size(); ++b) {
-    if (keep[b]) remaining.append(particles, bonds.first[b], bonds.second[b]);
-  }
-  const Index removed = bonds.size() - remaining.size();
-  if (removed > 0) bonds = std::move(remaining);
-  return removed;
+Index keep_bonds(Bonds& bonds, std::span<const std::uint8_t> keep) {
+  const auto keep_values = [&](auto& values, std::size_t width) {
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (keep[k / width]) values[next++] = values[k];
+    }
+    values.resize(next);
+  };
+  const Index before = bonds.size();
+  keep_values(bonds.first, 1);
+  keep_values(bonds.second, 1);
+  keep_values(bonds.lengths, 1);
+  keep_values(bonds.directions, static_cast<std::size_t>(bonds.dim));
+  return before - bonds.size();
 }
 
 void keep_particles(Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep) {

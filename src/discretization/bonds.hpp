@@ -42,7 +42,7 @@ Bonds make_bonds(const Particles& particles, double horizon);
 Csr bonds_of_particles(const Bonds& bonds, Index num_particles);
 
 /// Keeps the bonds that are marked, in their order. \return number of bonds taken out
-Index keep_bonds(const Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep);
+Index keep_bonds(Bonds& bonds, std::span<const std::uint8_t> keep);
 
 /// Keeps the particles that are marked, in their order, and the bonds between them.
 void keep_particles(Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep);

@@ -108,6 +108,7 @@ RebarMesh add_rebar(Particles& particles, const std::vector<RebarLine>& bars, do
       const auto [low, high] = std::minmax(placed[node], placed[node + 1]);
       mesh.segments.append(particles, low, high);
       mesh.bar_of_segment.push_back(static_cast<Index>(bar));
+      mesh.turned.push_back(placed[node] > placed[node + 1]);
     }
   }
   mesh.ties = tie_nodes(particles, first_node, horizon);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/types.hpp"
@@ -20,6 +21,7 @@ struct RebarMesh {
   /// the bar that each belongs to.
   Bonds segments;
   std::vector<Index> bar_of_segment;
+  std::vector<std::uint8_t> turned;  ///< nonzero: the second end comes first along the bar
   /// Bonds between nodes of bars and solid particles within the horizon, sorted as in Bonds; the
   /// second end is the node. A node that is a solid particle has that particle's bonds and no ties.
   Bonds ties;

@@ -72,16 +72,22 @@ FamilyStiffness bulk_stiffness(const Body& body, const NetworkInput& input,
   return stiffness;
 }
 
+/// With so many neighbours a lattice is as good as a continuum, and to pull it bond by bond takes
+/// the square of their number.
+constexpr std::size_t many_neighbors = 1000;
+
 /// Lattices are pulled along the axes, along which bodies lie and are loaded.
 Pulled pulled_cell(const Body& body, const NetworkInput& input, const SolidMaterial& material) {
   const Lattice& lattice = body.lattice;
-  if (lattice.pattern == Pattern::irregular) {
+  const std::vector<Vector3> offsets = lattice.pattern == Pattern::irregular
+                                           ? std::vector<Vector3>()
+                                           : bulk_family(lattice, input.horizon).offsets;
+  if (offsets.empty() || offsets.size() > many_neighbors) {
     const LameConstants lame = lame_constants(input, material);
     return {isotropic_cell(input.problem, lame.lambda / lame.mu), {{1.0, 0.0, 0.0}}, lattice.dim};
   }
   NetworkInput alone = input;
   alone.materials = {material};
-  const std::vector<Vector3> offsets = bulk_family(lattice, input.horizon).offsets;
   FamilyStiffness stiffness = bulk_stiffness(body, alone, offsets);
   for (std::size_t k = 0; k < stiffness.bending.size(); ++k) {
     stiffness.bending[k] /= stiffness.axial[k];

@@ -3,7 +3,7 @@
 namespace perilink {
 
 void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
-  keep_bonds(network.particles, network.bonds, keep);
+  keep_bonds(network.bonds, keep);
   const auto keep_values = [&](auto& values) {
     std::size_t next = 0;
     for (std::size_t e = 0; e < values.size(); ++e) {

@@ -32,6 +32,20 @@ struct MaterialStrength {
   Index teeth = 0;                    ///< events until a bond is broken
 };
 
+/// What segments of reinforcing bars are beside elements, in the order of these: bar after bar, from
+/// the beginning of each to its end.
+struct Bars {
+  std::vector<double> area;  ///< cross-section [length^2], per segment
+  std::vector<Index> bar;    ///< number of the bar, per segment
+  std::vector<std::uint8_t>
+      turned;  ///< nonzero: its second end is the nearer to the bar's beginning
+
+  /// Whether the segment and the one before belong to one bar.
+  bool continues(std::size_t segment) const {
+    return segment > 0 && segment < bar.size() && bar[segment] == bar[segment - 1];
+  }
+};
+
 /// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds
 /// of the solid first, then ties between bars and solid, then the segments of the bars.
 struct Network {
@@ -69,7 +83,8 @@ struct Network {
   std::vector<double> support_stiffness;
   Index first_tie = 0;      ///< number of the first tie
   Index first_segment = 0;  ///< number of the first bar segment
-  Facets facets;            ///< surface and interfaces, with the shares that the bonds balance
+  Bars bars;
+  Facets facets;  ///< surface and interfaces, with the shares that the bonds balance
   std::optional<CalibrationReport> calibration;  ///< where bonds were calibrated
 
   /// Bonds that pre-cracks have broken and that close where they are compressed, ascending; others

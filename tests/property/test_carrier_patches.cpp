@@ -48,7 +48,7 @@ std::string patch_case(const Patch& patch) {
 /// \param size  extent of the body, which displacements are a part of [length]
 /// \param rest  what the bonds leave out of balance where they have no exact solution
 void expect_linear_motion(const Model& model, double size, double rest = 0.0) {
-  const ElasticAnswer answer = solve_elastic(model, 1);
+  const ElasticAnswer answer = solve_elastic(model, {});
   const Particles& particles = model.network.particles;
   const int width = model.network.width();
   double error = 0.0;

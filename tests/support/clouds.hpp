@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "discretization/meshes/mesh_body.hpp"
-#include "network/network_builder.hpp"
+#include "network/builder/network_builder.hpp"
 #include "support/simplex_meshes.hpp"
 
 /// \file

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "discretization/lattices/make_body.hpp"
-#include "network/network_builder.hpp"
+#include "network/builder/network_builder.hpp"
 
 namespace perilink::test {
 

@@ -12,8 +12,8 @@
 #include "base/timer.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "discretization/lattices/make_body.hpp"
+#include "network/builder/network_builder.hpp"
 #include "network/loaded_network.hpp"
-#include "network/network_builder.hpp"
 
 using namespace perilink;
 

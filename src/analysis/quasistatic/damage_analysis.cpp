@@ -80,7 +80,9 @@ DamageResult EventRun::go() {
   }
   result_.last = row_;
   result_.broken_bonds = broken_bonds_;
-  result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
+  const std::vector<CurvePoint> path = event_path(rows_);
+  result_.smoothed_peak_load = smoothed_peak(path);
+  result_.dip = find_dip(path);
   result_.factor = engine_->factor_statistics();
   return result_;
 }
@@ -313,7 +315,9 @@ DamageResult EventRun::finish() {
   observer_.on_end(row_, state_);
   result_.last = row_;
   result_.broken_bonds += broken_bonds_;
-  result_.smoothed_peak_load = smoothed_peak(event_path(rows_));
+  const std::vector<CurvePoint> path = event_path(rows_);
+  result_.smoothed_peak_load = smoothed_peak(path);
+  result_.dip = find_dip(path);
   result_.factor = engine_->factor_statistics();
   return result_;
 }

@@ -74,6 +74,7 @@ struct DamageResult {
   PeakWatch peaks;                 ///< the same, and what the load did after its first peak
   Index broken_as_gave_way = 0;    ///< bonds broken when the body first gave way
   std::optional<double> smoothed_peak_load;  ///< where the path of events is long enough
+  std::optional<Dip> dip;                    ///< where the path of events climbed again
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;
   Index conversions = 0;  ///< times that finite elements let go of particles

@@ -1,6 +1,7 @@
 #include "analysis/quasistatic/elastic_analysis.hpp"
 
 #include <cmath>
+#include <memory>
 
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
@@ -10,24 +11,19 @@
 namespace perilink {
 namespace {
 
-/// \param assemble     gives K
-template <class Assemble>
-ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, int threads,
-                            Assemble assemble, const InternalForceOf& internal_of) {
+/// \param prepare  makes what solves K x = f: solve(f, x), where both may be the same memory
+template <class Prepare>
+ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, Prepare prepare,
+                            const InternalForceOf& internal_of) {
   ElasticResult result;
   Timer timer;
-  const SparseMatrix stiffness = assemble();
   const std::vector<double> load = right_hand_side(unknowns, loads, internal_of);
   result.seconds.assembly = timer.seconds();
-
-  timer.restart();
-  const std::unique_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
-  factor->factorize(stiffness, unknowns.owners());
-  result.seconds.factorization = timer.seconds();
+  const auto solve = prepare(result);
 
   timer.restart();
   std::vector<double> solution(load.size());
-  factor->solve(load, solution);
+  solve(load, solution);
   double load_norm = 0.0;
   for (const double value : load) load_norm += value * value;
   for (int pass = 0; pass < 2; ++pass) {
@@ -43,29 +39,77 @@ ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, int th
     result.strain_energy = internal.energy;
     result.residual = load_norm > 0.0 ? std::sqrt(square / load_norm) : std::sqrt(square);
     if (pass == 1) break;
-    factor->solve(residual, residual);
+    solve(residual, residual);
     for (std::size_t k = 0; k < solution.size(); ++k) solution[k] += residual[k];
   }
-  result.factor = factor->statistics();
   result.seconds.solve = timer.seconds();
   return result;
 }
 
+/// By a factor of the matrix that assemble() gives.
+template <class Assemble>
+auto by_factor(const Unknowns& unknowns, int threads, Assemble assemble) {
+  return [&unknowns, threads, assemble](ElasticResult& result) {
+    Timer timer;
+    const SparseMatrix stiffness = assemble();
+    result.seconds.assembly += timer.seconds();
+    timer.restart();
+    const std::shared_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
+    factor->factorize(stiffness, unknowns.owners());
+    result.seconds.factorization = timer.seconds();
+    result.factor = factor->statistics();
+    return [factor](std::span<const double> right, std::span<double> solution) {
+      factor->solve(right, solution);
+    };
+  };
+}
+
+auto by_boxes(const LoadedNetwork& problem, Secants secants, const BoxSolverOptions& options) {
+  return [&problem, secants, options](ElasticResult& result) {
+    const Timer timer;
+    const auto solver = std::make_shared<BoxSolver>(problem, secants, options);
+    result.seconds.factorization = timer.seconds();
+    result.factor = solver->coarse();
+    result.factor.factorizations = 0;  // none of the stiffness
+    result.boxes = solver->num_boxes();
+    return [solver, &result](std::span<const double> right, std::span<double> solution) {
+      solver->solve(right, solution);
+      result.iterations = solver->iterations();
+      result.error = solver->error();
+    };
+  };
+}
+
 }  // namespace
 
-ElasticResult run_elastic_analysis(const LoadedNetwork& problem, int threads) {
+bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver) {
+  if (solver != LinearSolver::automatic) return solver == LinearSolver::iterative;
+  return !problem.unknowns.carries() &&
+         problem.unknowns.count > (problem.network.dim() == 2 ? 20000 : 3000);
+}
+
+ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOptions& options) {
   const Network& network = problem.network;
+  const Unknowns& unknowns = problem.unknowns;
   const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
-  return solve_elastic(
-      problem.unknowns, problem.loads, threads,
-      [&] { return assemble_stiffness(network, secants, problem.unknowns); },
-      [&](std::span<const double> u) { return internal_force(network, secants, u); });
+  const auto internal_of = [&](std::span<const double> u) {
+    return internal_force(network, secants, u);
+  };
+  if (is_for_boxes(problem, options.solver)) {
+    return solve_elastic(unknowns, problem.loads, by_boxes(problem, secants, options.boxes),
+                         internal_of);
+  }
+  return solve_elastic(unknowns, problem.loads,
+                       by_factor(unknowns, options.threads,
+                                 [&] { return assemble_stiffness(network, secants, unknowns); }),
+                       internal_of);
 }
 
 ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknowns& unknowns,
                                    const Loads& loads, int threads) {
   return solve_elastic(
-      unknowns, loads, threads, [&] { return assemble_stiffness(elements, unknowns); },
+      unknowns, loads,
+      by_factor(unknowns, threads, [&] { return assemble_stiffness(elements, unknowns); }),
       [&](std::span<const double> u) { return internal_force(elements, u); });
 }
 

@@ -2,17 +2,29 @@
 
 #include <vector>
 
+#include "analysis/quasistatic/box_solver.hpp"
 #include "assembly/linear_elements.hpp"
 #include "network/loaded_network.hpp"
 #include "network/network.hpp"
 #include "solver/factor.hpp"
+#include "solver/linear_solver.hpp"
 
 namespace perilink {
+
+struct ElasticOptions {
+  int threads = 1;
+  LinearSolver solver = LinearSolver::automatic;
+  BoxSolverOptions boxes = {};
+};
+
+/// Whether conjugate gradients solve a problem: where they are chosen, or take less time than a
+/// factor of the stiffness and nothing carries particles (docs/theory/large_bodies.md).
+bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver);
 
 /// Wall seconds of the phases of an elastic analysis.
 struct ElasticSeconds {
   double assembly = 0.0;       ///< stiffness matrix and right-hand side
-  double factorization = 0.0;  ///< ordering and symbolic analysis too
+  double factorization = 0.0;  ///< ordering and symbolic analysis too; that of boxes
   double solve = 0.0;          ///< with the step of refinement
 };
 
@@ -21,15 +33,20 @@ struct ElasticResult {
   std::vector<double> displacement;  ///< shape (particles, width) [length], rotations [-]
   double strain_energy = 0.0;        ///< [force length]
   double residual = 0.0;             ///< |f - K u| / |f| after one step of refinement
-  FactorStatistics factor;
+  FactorStatistics factor;           ///< the stiffness has, or that of boxes
+  Index boxes = 0;                   ///< that conjugate gradients have taken; 0: a factor
+  int iterations = 0;                ///< conjugate gradients
+  double error = 0.0;                ///< they leave, over the solution, in the norm of energy
   ElasticSeconds seconds;
 };
 
-/// One assembly, one factorisation, one solve.
-/// \throws SolverError when the stiffness matrix is not positive definite
-ElasticResult run_elastic_analysis(const LoadedNetwork& problem, int threads);
+/// One assembly, one factorisation, one solve; or conjugate gradients.
+/// \throws SolverError when the stiffness matrix is not positive definite, or the iterations end
+///         before the tolerance
+ElasticResult run_elastic_analysis(const LoadedNetwork& problem,
+                                   const ElasticOptions& options = {});
 
-/// The same with linear finite elements in place of bonds.
+/// By a factor, with linear finite elements in place of bonds.
 ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknowns& unknowns,
                                    const Loads& loads, int threads);
 

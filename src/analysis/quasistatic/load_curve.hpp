@@ -38,6 +38,16 @@ std::size_t envelope_window(std::size_t events);
 /// load climbed again after the body gave way only the events before count.
 std::optional<double> smoothed_peak(std::span<const CurvePoint> path);
 
+/// A load that fell and climbed beyond its peak again.
+struct Dip {
+  double peak;    ///< |load| before [force]
+  double lowest;  ///< |load| after it [force]
+};
+
+/// The first peak of the smooth envelope behind which the load fell by a fifth or more and then
+/// climbed beyond it by a fifth or more: what cannot break may have stopped the crack there.
+std::optional<Dip> find_dip(std::span<const CurvePoint> path);
+
 /// Below this part of an earlier peak a body has given way.
 inline constexpr double collapsed_part = 0.5;
 

@@ -171,15 +171,25 @@ void print_set_up(const ExpectedSetUp& set_up) {
   fmt::print("\n");
 }
 
-void print_cost(const CaseFile& input, const Network& network, const FactorStatistics& factor,
-                const ExpectedSetUp& set_up) {
-  const ExpectedCost cost = expected_cost(network, factor);
+/// \param factor  that of the stiffness; none where conjugate gradients need none
+void print_cost(const CaseFile& input, const Network& network,
+                const std::optional<FactorStatistics>& factor, const ExpectedSetUp& set_up) {
+  const ExpectedCost cost =
+      factor ? expected_cost(network, *factor) : expected_cost_of_boxes(network);
   fmt::print("# expected cost of a run\n");
-  fmt::print("#   factor             {:.3g} M numbers, {:.3g} MB\n", factor.entries / 1e6,
-             factor.bytes / 1e6);
+  if (factor) {
+    fmt::print("#   factor             {:.3g} M numbers, {:.3g} MB\n", factor->entries / 1e6,
+               factor->bytes / 1e6);
+  } else {
+    fmt::print("#   solver             conjugate gradients with boxes, {}\n",
+               input.analysis.solver == LinearSolver::iterative
+                   ? "as asked for"
+                   : "faster than a factor for so many unknowns");
+  }
   fmt::print("#   memory             {:.3g} GB\n", cost.memory / 1e9);
   print_set_up(set_up);
-  fmt::print("#   factorisation      {}\n", time_text(cost.factorization));
+  fmt::print("#   {:<18} {}\n", factor ? "factorisation" : "solution",
+             time_text(cost.factorization));
   if (input.analysis.type != AnalysisType::elastic) {
     fmt::print("#   {:<18} {:.2g} ms{}; 1000 of them {}\n",
                softens(network) ? "each event" : "each broken bond", 1e3 * cost.broken_bond,
@@ -189,10 +199,16 @@ void print_cost(const CaseFile& input, const Network& network, const FactorStati
              run_text(input, set_up.seconds(), cost, softens(network)));
 }
 
-/// Prints the fundamental period, with which loading times are compared.
+/// Prints the fundamental period, with which loading times are compared, but of bodies for which it
+/// takes longer than all the rest.
 /// \param period  computes it
 template <class Period>
-void print_period(Period period) {
+void print_period(Index particles, Period period) {
+  constexpr Index most_particles = 20000;
+  if (particles > most_particles) {
+    fmt::print("#   fundamental period not computed for so many particles\n");
+    return;
+  }
   try {
     fmt::print("#   fundamental period {:.6g}\n", period());
   } catch (const SolverError& error) {
@@ -251,7 +267,7 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
   for (const auto& row : model.applied) loaded += row.size();
   if (loaded > 0) fmt::print("#   forces             {} on components of particles\n", loaded);
   for (const std::string& note : built.notes) fmt::print("#   note               {}\n", note);
-  print_period([&] {
+  print_period(built.fundamental_period > 0.0 ? 0 : model.lattice.particles(), [&] {
     return built.fundamental_period > 0.0 ? built.fundamental_period : fundamental_period(model);
   });
   print_steps(built.critical_time_step, built.options);
@@ -280,7 +296,8 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   print_case(case_path, input);
   print_sizes(model);
   std::fflush(stdout);
-  print_period([&] { return fundamental_period(model.network, model.unknowns, built.inertia); });
+  print_period(model.network.particles.size(),
+               [&] { return fundamental_period(model.network, model.unknowns, built.inertia); });
   print_steps(built.inertia.critical_time_step(), built.options);
   print_set_up(set_up);
   fmt::print("#   run                about {} on one core\n",
@@ -327,8 +344,12 @@ int check_case(const std::string& case_path, bool trust_geometry) {
 
   const Network& network = model.network;
   const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
-  const FactorStatistics factor =
-      estimate_factor(assemble_stiffness(network, intact, model.unknowns), model.unknowns.owners());
+  std::optional<FactorStatistics> factor;
+  if (input.analysis.type == AnalysisType::damage || model.elements ||
+      !is_for_boxes(model, input.analysis.solver)) {
+    factor = estimate_factor(assemble_stiffness(network, intact, model.unknowns),
+                             model.unknowns.owners());
+  }
   print_cost(input, network, factor, set_up);
   return exit_done;
 }

@@ -33,6 +33,7 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
   // A body of linear elements alone is drawn by its particles.
   const bool has_particles =
       !element.empty() && element.front() == static_cast<double>(FieldElement::particle);
+  const VtuArray* stress = grid.find_cell_data("axial_stress");
   for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
     const std::size_t end = static_cast<std::size_t>(grid.offsets[cell]);
     const bool outlined = element[cell] == static_cast<double>(FieldElement::carrier) ||
@@ -49,6 +50,7 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
     const Ends ends{grid.connectivity[end - 2], grid.connectivity[end - 1]};
     const bool bar = element[cell] == static_cast<double>(FieldElement::rebar_segment);
     (bar ? body.segments : body.broken_bonds).push_back(ends);
+    if (bar && stress != nullptr) body.bar_stress.push_back(stress->values[cell]);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -17,7 +18,6 @@ namespace perilink {
 namespace {
 
 constexpr int shades = 40;
-constexpr const char* bar_style = "stroke=\"#2f6ea3\" stroke-linecap=\"round\" fill=\"none\"";
 constexpr const char* ghost_style =
     "stroke=\"#9aa3ad\" stroke-linecap=\"round\" fill=\"none\" stroke-opacity=\"0.7\"";
 constexpr const char* face_color = "#5a0a12";
@@ -194,9 +194,43 @@ void draw_elements(Svg& svg, const Scene& scene) {
   svg.path(path, fmt::format("fill=\"{}\" {}", fill, element_style));
 }
 
-std::string bar_line(const Scene& scene) {
-  return std::string(bar_style) + " " +
-         stroke_width(std::clamp(0.35 * scene.spacing_px(), 2.0, 5.0));
+std::string bar_width(const Scene& scene) {
+  return stroke_width(std::clamp(0.35 * scene.spacing_px(), 2.0, 5.0));
+}
+
+/// Bars by their stress, where the file has it: from grey to red in tension, to blue in compression.
+void draw_bars(Svg& svg, const Scene& scene, std::vector<KeyEntry>& key) {
+  if (scene.body.segments.empty()) return;
+  const std::vector<double>& stress = scene.body.bar_stress;
+  constexpr int steps = 8;  // on either side of zero
+  double most = 0.0, least = 0.0;
+  for (const double value : stress) {
+    most = std::max(most, value);
+    least = std::min(least, value);
+  }
+  const double largest = std::max(most, -least);
+  std::map<int, SvgPath> paths;
+  for (std::size_t k = 0; k < scene.body.segments.size(); ++k) {
+    const int shade = stress.empty() || !(largest > 0.0)
+                          ? 0
+                          : static_cast<int>(std::lround(steps * stress[k] / largest));
+    paths[shade].move_to(scene.at(scene.body.segments[k].first));
+    paths[shade].line_to(scene.at(scene.body.segments[k].second));
+  }
+  const auto style = [&](int shade) {
+    const double part = std::abs(shade) / static_cast<double>(steps);
+    const auto mixed = [&](int to) { return std::lround(90 + part * (to - 90)); };
+    const std::array<int, 3> color = shade > 0 ? std::array{214, 20, 20} : std::array{20, 60, 214};
+    return fmt::format("fill=\"none\" stroke-linecap=\"round\" stroke=\"#{:02x}{:02x}{:02x}\" {}",
+                       mixed(color[0]), mixed(color[1]), mixed(color[2]), bar_width(scene));
+  };
+  for (const auto& [shade, path] : paths) svg.path(path, style(shade));
+  if (!(largest > 0.0)) {
+    key.push_back({"reinforcing bar", style(0)});
+    return;
+  }
+  if (most > 0.0) key.push_back({"bar, stress to " + short_number(most), style(steps)});
+  if (least < 0.0) key.push_back({"bar, stress to " + short_number(least), style(-steps)});
 }
 
 std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
@@ -221,13 +255,7 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
       key.push_back({"crack face", fmt::format("stroke=\"{}\" stroke-width=\"2\"", face_color)});
     }
   }
-  SvgPath bars;
-  for (const auto& [i, j] : scene.body.segments) {
-    bars.move_to(scene.at(i));
-    bars.line_to(scene.at(j));
-  }
-  svg.path(bars, bar_line(scene));
-  if (!bars.empty()) key.push_back({"reinforcing bar", bar_line(scene)});
+  draw_bars(svg, scene, key);
   if (!ghosts.empty()) {
     const std::string style = std::string(ghost_style) + " " +
                               stroke_width(std::clamp(0.22 * scene.spacing_px(), 1.0, 5.0));

@@ -34,6 +34,7 @@ void append_cell(VtuGrid& grid, VtuCell type, std::span<const Index> points, Fie
   grid.offsets.push_back(static_cast<Index>(grid.connectivity.size()));
   grid.cell_data[0].values.push_back(static_cast<double>(element));
   grid.cell_data[1].values.push_back(broken_at);
+  for (std::size_t k = 2; k < grid.cell_data.size(); ++k) grid.cell_data[k].values.push_back(0.0);
 }
 
 VtuCell cell_of(std::size_t dim, std::size_t corners) {
@@ -114,6 +115,24 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
   }
   grid.field_data = field_data_of(moment, dim);
   return grid;
+}
+
+void add_bars(VtuGrid& grid, const BarState& bars) {
+  const std::vector<double>& element = grid.cell_data[0].values;
+  const auto first = static_cast<std::size_t>(
+      std::find(element.begin(), element.end(), static_cast<double>(FieldElement::rebar_segment)) -
+      element.begin());
+  const auto add = [&](const char* name, const std::vector<double>& of_segments) {
+    std::vector<double> all(grid.types.size(), 0.0);
+    std::copy(of_segments.begin(), of_segments.end(),
+              all.begin() + static_cast<std::ptrdiff_t>(first));
+    grid.cell_data.push_back({name, 1, std::move(all)});
+  };
+  add("axial_strain", bars.strain);
+  add("axial_force", bars.force);
+  add("axial_stress", bars.stress);
+  add("slip", bars.slip);
+  add("bond_stress", bars.bond_stress);
 }
 
 void add_carriers(VtuGrid& grid, const Particles& particles, const Carriers& carriers,

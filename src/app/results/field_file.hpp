@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "assembly/bar_state.hpp"
 #include "assembly/linear_elements.hpp"
 #include "base/csr.hpp"
 #include "discretization/carriers/carriers.hpp"
@@ -46,6 +47,10 @@ struct FieldMoment {
 VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const double> motion,
                         const FieldMoment& moment, std::span<const Index> broken_elements_in_order,
                         const Csr& families);
+
+/// Adds what bars bear as fields of cells, zero but for their segments: axial_strain, axial_force,
+/// axial_stress, slip and bond_stress (BarState). Before anything else is added to the cells.
+void add_bars(VtuGrid& grid, const BarState& bars);
 
 /// Adds the finite elements that carry particles, between those nearest to their corners:
 /// quadrilaterals in the plane, hexahedra in space.

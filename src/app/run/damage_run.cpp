@@ -7,6 +7,7 @@
 
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
+#include "app/results/bar_file.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
@@ -117,8 +118,8 @@ void DamageRun::note_places(const StepRecord& record, StateSource& source) {
   places_ = place_forces(model_, record.load_factor, state.secants, state.displacement);
 }
 
-/// The first row, the first of each stage, and what the case asks for: a load step may pass a number
-/// of broken bonds; the first row beyond it counts then.
+/// The first row, the first of each stage, and what the case asks for: a load step may pass a
+/// number of broken bonds; the first row beyond it counts then.
 bool DamageRun::wants_fields(const StepRecord& record) const {
   if (!files_->has_fields() || record.stage != last_stage_) return true;
   const std::optional<int>& rows = input.output.fields_every_rows;
@@ -144,6 +145,11 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     for (double& u : motion) u *= scale_of(record);
     VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
                                    broken_, families_);
+    if (!network.bars.bar.empty()) {
+      const BarState bars = bar_state(network, state.secants, motion);
+      add_bars(grid, bars);
+      files_->write_bars(record.step, bar_table(network, bars));
+    }
     if (model_.carried) {
       add_carriers(grid, network.particles, model_.carried->carriers, state.whole);
     }

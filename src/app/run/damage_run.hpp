@@ -39,7 +39,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
   std::vector<std::uint8_t> is_broken_;
   Index last_element_ = no_index;   ///< that failed at the end of the last row
   Index broken_at_fields_ = 0;      ///< number of broken bonds in the last field file
-  Index last_stage_ = 0;            ///< of the last row
+  Index last_stage_ = 0;            ///< where the last row was
   double highest_ = 0.0;            ///< |load| so far
   std::vector<PlaceForce> places_;  ///< in the row of the largest |load|, where there are several
 };

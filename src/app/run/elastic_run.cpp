@@ -1,4 +1,7 @@
+#include <optional>
+
 #include "app/model/gauges.hpp"
+#include "app/results/bar_file.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "assembly/fields.hpp"
@@ -8,13 +11,14 @@ namespace perilink {
 namespace {
 
 VtuGrid make_grid(const Model& model, std::span<const double> displacement,
-                  const FieldMoment& moment) {
+                  const std::optional<BarState>& bars, const FieldMoment& moment) {
   const Network& network = model.network;
   const Csr families = bonds_of_particles(network.bonds, network.particles.size());
   const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
   VtuGrid grid = model.elements
                      ? make_element_grid(*model.elements, network.particles, displacement, moment)
                      : make_field_grid(network, intact, displacement, moment, {}, families);
+  if (bars) add_bars(grid, *bars);
   if (model.carried) {
     add_carriers(grid, network.particles, model.carried->carriers, model.carried->whole);
   }
@@ -33,7 +37,7 @@ class ElasticRun final : public NetworkRun {
   }
 
   void analyse() override {
-    answer_ = solve_elastic(model_, threads);
+    answer_ = solve_elastic(model_, elastic_options(input, threads));
     const ElasticSeconds& took = answer_.solution.seconds;
     seconds.parts.insert(seconds.parts.end(), {{"assembly", took.assembly},
                                                {"factorization", took.factorization},
@@ -46,8 +50,15 @@ class ElasticRun final : public NetworkRun {
       places_ = place_forces(model_, row.load_factor, intact, displacement);
     }
     files_->add_row(row, gauge_values(model_, displacement, row.load_factor));
+    std::optional<BarState> bars;
+    if (!model_.network.bars.bar.empty()) {
+      const std::vector<double> intact(static_cast<std::size_t>(model_.network.num_elements()),
+                                       1.0);
+      bars = bar_state(model_.network, intact, displacement);
+      files_->write_bars(row.step, bar_table(model_.network, *bars));
+    }
     files_->write_fields(row.step, row.step, [&] {
-      return make_grid(model_, displacement, moment_of(row, input, model_));
+      return make_grid(model_, displacement, bars, moment_of(row, input, model_));
     });
   }
 
@@ -57,6 +68,11 @@ class ElasticRun final : public NetworkRun {
     Equilibria found(answer_);
     found.places = places_;
     tell_quasistatic(summary, input, model_, found, seconds.analysis);
+    const ElasticResult& solution = answer_.solution;
+    if (solution.boxes == 0) return;
+    summary.add("iterations", solution.iterations);
+    summary.add("boxes", solution.boxes);
+    summary.add("solution_error", solution.error);
   }
 
  private:

@@ -9,11 +9,11 @@
 
 namespace perilink {
 
-ElasticAnswer solve_elastic(const Model& model, int threads) {
+ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options) {
   ElasticAnswer answer;
-  answer.solution =
-      model.elements ? run_elastic_analysis(*model.elements, model.unknowns, model.loads, threads)
-                     : run_elastic_analysis(model, threads);
+  answer.solution = model.elements ? run_elastic_analysis(*model.elements, model.unknowns,
+                                                          model.loads, options.threads)
+                                   : run_elastic_analysis(model, options);
   answer.reason = "elastic equilibrium at load factor 1";
   const double energy = answer.solution.strain_energy;
   StepRecord& row = answer.row;
@@ -23,7 +23,7 @@ ElasticAnswer solve_elastic(const Model& model, int threads) {
   row.load = model.reference.driven ? 2.0 * energy / model.reference.value : model.reference.value;
   row.displacement = row.load != 0.0 ? 2.0 * energy / row.load : 0.0;
   row.residual = answer.solution.residual;
-  row.factorizations = 1;
+  row.factorizations = answer.solution.boxes == 0 ? 1 : 0;
   answer.peaks.add({row.displacement, row.load});
   return answer;
 }
@@ -54,16 +54,28 @@ Equilibria::Equilibria(const DamageResult& result)
     : last(result.last),
       peaks(result.peaks),
       factor(result.factor),
+      solver(fmt::format("{} factorisations", result.factor.factorizations)),
       initial_stiffness(result.initial_stiffness),
       largest_residual(result.largest_residual),
       broken_bonds(result.broken_bonds),
       energy_error(result.energy_error),
       smoothed_peak_load(result.smoothed_peak_load) {}
 
+namespace {
+
+std::string solver_text(const ElasticResult& solution) {
+  if (solution.boxes == 0) return "1 factorisation";
+  return fmt::format("{} iterations of conjugate gradients with {} boxes, error {:.1e}",
+                     solution.iterations, solution.boxes, solution.error);
+}
+
+}  // namespace
+
 Equilibria::Equilibria(const ElasticAnswer& answer)
     : last(answer.row),
       peaks(answer.peaks),
       factor(answer.solution.factor),
+      solver(solver_text(answer.solution)),
       initial_stiffness(last.displacement != 0.0 ? last.load / last.displacement : 0.0),
       largest_residual(answer.solution.residual) {}
 
@@ -116,7 +128,7 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
 
 void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& model,
                       const Equilibria& found, double seconds) {
-  const Index rows = found.last.step, factorizations = found.factor.factorizations;
+  const Index rows = found.last.step;
   tell_equilibria(summary, input, found);
   summary.doubts = doubts_of_balance(found.energy_error, found.largest_residual);
   summary.doubts.insert(summary.doubts.end(), found.doubts.begin(), found.doubts.end());
@@ -130,12 +142,11 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
                  model.carried->free.count);
   }
   summary.add("notes", summary.notes);
-  summary.add("factorizations", factorizations);
+  summary.add("factorizations", found.factor.factorizations);
   summary.add("factor_bytes", found.factor.bytes);
-  summary.line("solver", "{} factorisations, largest residual {:.1e}", factorizations,
-               found.largest_residual);
-  summary.outcome = fmt::format("{} broken bonds, {} factorisations, largest residual {:.2e}",
-                                found.broken_bonds, factorizations, found.largest_residual);
+  summary.line("solver", "{}, largest residual {:.1e}", found.solver, found.largest_residual);
+  summary.outcome = fmt::format("{} broken bonds, {}, largest residual {:.2e}", found.broken_bonds,
+                                found.solver, found.largest_residual);
   summary.rate = fmt::format("{:.3g} ms per row", rows > 1 ? 1e3 * seconds / rows : 0.0);
 }
 

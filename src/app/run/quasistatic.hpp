@@ -25,7 +25,7 @@ struct ElasticAnswer {
 };
 
 /// \throws SolverError when the stiffness matrix is not positive definite
-ElasticAnswer solve_elastic(const Model& model, int threads);
+ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options);
 
 /// Force on the body at a loaded or driven place.
 struct PlaceForce {
@@ -52,6 +52,7 @@ struct Equilibria {
   const StepRecord& last;  ///< row of the history
   const PeakWatch& peaks;
   const FactorStatistics& factor;
+  std::string solver;                             ///< what it took
   double initial_stiffness = 0.0;                 ///< [force / length]
   double largest_residual = 0.0;                  ///< over the loads [-]
   Index broken_bonds = 0;                         ///< with the one that separated the body

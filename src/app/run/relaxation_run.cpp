@@ -14,7 +14,7 @@ namespace perilink {
 RelaxationOptions relaxation_options(const CaseFile& input, int threads) {
   RelaxationOptions options;
   options.load_factors = input.analysis.load_factors;
-  options.tolerance = input.analysis.tolerance;
+  options.tolerance = input.analysis.tolerance.value_or(options.tolerance);
   options.most_iterations = input.analysis.iterations;
   options.strain = input.analysis.strain;
   options.threads = threads;

@@ -13,6 +13,9 @@ namespace {
 constexpr double factor_flops_per_second = 15e9;
 constexpr double read_bytes_per_second = 36e9;
 constexpr double search_seconds_per_bond = 1e-9;
+/// Boxes and some 55 iterations (verification/studies/large_bodies).
+constexpr double box_seconds_per_bond = 0.5e-6, box_seconds_per_frame_bond = 3e-6;
+constexpr double box_bytes_per_bond = 125.0;
 /// An event of the smallest body: row, bookkeeping, progress.
 constexpr double seconds_per_row = 35e-6;
 
@@ -87,6 +90,15 @@ ExpectedCost expected_cost(const Network& network, const FactorStatistics& facto
   cost.factorization = factor.flops / factor_flops_per_second;
   cost.broken_bond = passes_per_break(network) * 1.1 * factor.bytes / read_bytes_per_second +
                      search_seconds_per_bond * network.num_elements() + seconds_per_row;
+  return cost;
+}
+
+ExpectedCost expected_cost_of_boxes(const Network& network) {
+  const double bonds = network.num_elements();
+  ExpectedCost cost;
+  cost.memory = std::max(peak_memory_bytes(), box_bytes_per_bond * bonds);
+  cost.factorization =
+      bonds * (network.carries_moments() ? box_seconds_per_frame_bond : box_seconds_per_bond);
   return cost;
 }
 

@@ -29,6 +29,9 @@ struct ExpectedCost {
 };
 ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor);
 
+/// What conjugate gradients cost in place of a factor.
+ExpectedCost expected_cost_of_boxes(const Network& network);
+
 /// Time of a step of an explicit run, from some steps of it that begin at rest [s]. What cracks
 /// cost is a mean, what flow costs is not in it.
 double seconds_per_step(const Model& model, const BondRunCase& built);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "base/files.hpp"
 #include "base/timer.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
@@ -12,6 +13,8 @@ namespace {
 
 /// The time of a step may fall short of the time that is wanted by this part of itself.
 constexpr double round_off = 1e-9;
+
+std::string bars_name(Index step) { return fmt::format("bars_{:06}.csv", step); }
 
 bool is_relaxation(const CaseFile& input) {
   return input.analysis.type == AnalysisType::relaxation;
@@ -47,7 +50,10 @@ void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gau
 void RunFiles::begin_again() {
   history_.reset();
   history_.emplace(directory_.string(), input_);
-  for (const PvdEntry& entry : series_) std::filesystem::remove(directory_ / entry.file);
+  for (const PvdEntry& entry : series_) {
+    std::filesystem::remove(directory_ / entry.file);
+    std::filesystem::remove(directory_ / bars_name(static_cast<Index>(entry.time)));
+  }
   series_.clear();
   std::filesystem::remove(directory_ / "fields.pvd");
   rows_ = 0;
@@ -69,6 +75,10 @@ void RunFiles::write_fields(Index step, double at, const std::function<VtuGrid()
   series_.push_back({at, name});
   write_pvd((directory_ / "fields.pvd").string(), series_);
   seconds_writing_ += timer.seconds();
+}
+
+void RunFiles::write_bars(Index step, const std::string& text) {
+  write_whole_file((directory_ / bars_name(step)).string(), text);
 }
 
 void RunFiles::show_steps(const ExplicitRecord& record, Index steps) {

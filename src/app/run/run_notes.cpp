@@ -37,9 +37,27 @@ std::optional<std::string> note_of_peaks(const PeakWatch& peaks) {
       peaks.highest().displacement);
 }
 
+namespace {
+
+/// Whether some bonds of the solid stay whole and others break, and no bar takes the load.
+bool has_unbreakable_bonds(const Network& network) {
+  if (network.first_tie < network.num_elements()) return false;
+  Index whole = 0;
+  for (Index b = 0; b < network.num_elements(); ++b) whole += network.can_break(b) ? 0 : 1;
+  return whole > 0 && whole < network.num_elements();
+}
+
+}  // namespace
+
 std::optional<std::string> note_of_peaks(const DamageResult& result, const Model& model,
                                          std::span<const Index> broken) {
   std::optional<std::string> note = note_of_peaks(result.peaks);
+  if (!note && result.dip && has_unbreakable_bonds(model.network)) {
+    return fmt::format(
+        "the load fell from {:.6g} to {:.6g} and climbed again, to {:.6g} (peak_load): bonds that "
+        "cannot break may have stopped the crack",
+        result.dip->peak, result.dip->lowest, std::abs(result.peaks.highest().load));
+  }
   const std::size_t before = static_cast<std::size_t>(result.broken_as_gave_way);
   if (!note || broken.size() <= before) return note;
   const std::span<const Index> later = broken.subspan(before);

@@ -93,7 +93,7 @@ std::vector<TomlValue> keys_of(const StudySeries& series, const TomlValue& refin
 }
 
 void analyse_elastic(Repeat& repeat, int threads) {
-  ElasticAnswer answer = solve_elastic(repeat.model, threads);
+  ElasticAnswer answer = solve_elastic(repeat.model, elastic_options(repeat.input, threads));
   tell_equilibria(repeat.found, repeat.input, Equilibria(answer));
   const ElasticSeconds& seconds = answer.solution.seconds;
   repeat.seconds.assembly = seconds.assembly;

@@ -6,11 +6,10 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <numeric>
-#include <span>
 #include <utility>
 
 #include "calibration/least_change/variable_parts.hpp"
+#include "discretization/point_boxes.hpp"
 #include "solver/dense_kernels.hpp"
 #include "solver/factor_routes.hpp"
 
@@ -28,35 +27,6 @@ constexpr Index points_in_plane = 36, points_in_space = 96;
 constexpr double soft = 0.003;
 /// About so many of each box for each equation of a point.
 constexpr int expected_fields = 10;
-
-/// Halves the points along the longest axis until the parts are boxes.
-void bisect(std::span<Index> points, const PointEquations& equations, Index parts,
-            std::vector<std::vector<Index>>& boxes) {
-  if (parts <= 1) {
-    boxes.emplace_back(points.begin(), points.end());
-    std::sort(boxes.back().begin(), boxes.back().end());
-    return;
-  }
-  const int dim = equations.dim;
-  const auto at = [&](Index p, int axis) { return equations.positions[p * dim + axis]; };
-  int longest = 0;
-  double length = -1.0;
-  for (int axis = 0; axis < dim; ++axis) {
-    const auto [low, high] = std::minmax_element(
-        points.begin(), points.end(), [&](Index a, Index b) { return at(a, axis) < at(b, axis); });
-    if (at(*high, axis) - at(*low, axis) <= length) continue;
-    length = at(*high, axis) - at(*low, axis);
-    longest = axis;
-  }
-  const Index left = parts / 2;
-  const std::size_t middle = points.size() * static_cast<std::size_t>(left) / parts;
-  std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(middle),
-                   points.end(), [&](Index a, Index b) {
-                     return std::pair(at(a, longest), a) < std::pair(at(b, longest), b);
-                   });
-  bisect(points.first(middle), equations, left, boxes);
-  bisect(points.subspan(middle), equations, parts - left, boxes);
-}
 
 }  // namespace
 
@@ -102,13 +72,10 @@ BoxSpace::BoxSpace(const PointEquations& equations, const std::vector<double>& a
 }
 
 void BoxSpace::make_boxes(const PointEquations& equations) {
-  const Index count = equations.num_points();
-  std::vector<Index> points(static_cast<std::size_t>(count));
-  std::iota(points.begin(), points.end(), 0);
-  const Index most = equations.dim == 2 ? points_in_plane : points_in_space;
-  bisect(points, equations, (count + most - 1) / most, boxes_);
-  box_of_.resize(points.size());
-  place_.resize(points.size());
+  boxes_ = split_into_boxes(equations.positions, equations.dim,
+                            equations.dim == 2 ? points_in_plane : points_in_space);
+  box_of_.resize(static_cast<std::size_t>(equations.num_points()));
+  place_.resize(box_of_.size());
   for (Index b = 0; b < num_boxes(); ++b) {
     for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
       box_of_[boxes_[b][k]] = b;

@@ -70,7 +70,7 @@ Index remove_bonds_across_gaps(const Particles& particles, Bonds& bonds, std::sp
     keep.push_back(!both_solid ||
                    stays_inside(outline, particles.position(i), particles.position(j), tolerance));
   }
-  return keep_bonds(particles, bonds, keep);
+  return keep_bonds(bonds, keep);
 }
 
 }  // namespace perilink

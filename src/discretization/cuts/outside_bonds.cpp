@@ -186,7 +186,7 @@ Index remove_bonds_outside(const Particles& particles, Bonds& bonds, const Facet
                     point_of(particles.positions, particles.dim, j));
     keep[b] = passage.leaves_body(allowed_excursion * spacing) ? 0 : 1;
   }
-  return keep_bonds(particles, bonds, keep);
+  return keep_bonds(bonds, keep);
 }
 
 }  // namespace perilink

@@ -171,6 +171,8 @@ struct AnalysisSection {
   std::vector<double> load_factors;  ///< for control = steps and type = relaxation
   RigidBodyModes rigid_body_modes = RigidBodyModes::refuse;
   FactorRoute factor = FactorRoute::in_place;
+  LinearSolver solver = LinearSolver::automatic;
+  std::optional<int> coarse_box;    ///< particles along an edge of a box, for type = elastic
   double duration = 0.0;            ///< [time]; from here on: type = explicit
   double ramp_time = 0.0;           ///< until the load factor is one [time]
   std::optional<double> time_step;  ///< [time]
@@ -179,8 +181,9 @@ struct AnalysisSection {
   double damping_rate = 0.0;  ///< for bonds [1/time]
   MassScaling masses = MassScaling::none;  ///< for bonds
   Strain strain = Strain::small;           ///< for bonds that move
-  double tolerance = 1e-6;                 ///< for type = relaxation: relative residual force
-  int iterations = 1000000;                ///< for type = relaxation: limit in a load step
+  /// Relative: residual force for type = relaxation, error of the answer for type = elastic.
+  std::optional<double> tolerance;
+  int iterations = 1000000;  ///< for type = relaxation: limit in a load step
 };
 
 /// [stop]: the run ends at the first rule met (always at collapse).

@@ -148,6 +148,7 @@ Without set_aside(Kinds analyses) { return {{analyses, {}, {}}}; }
 const Without of_events = set_aside(explicit_ | relaxation);
 const Without of_relaxation = set_aside(damage | elastic | explicit_);
 const Without of_time = set_aside(still);
+const Without solvers = {{elements, no_bonds, bonds_instead}, {explicit_ | relaxation, {}, {}}};
 const NotFor no_lattice_key{lattice | explicit_, "is given, but lattice particles do not have it",
                             "delete it; damping of lattices is a matter of [[materials]]"};
 const Without of_bonds_in_time = {{still, {}, {}}, no_lattice_key};
@@ -214,21 +215,24 @@ const std::vector<KeySchema> material_keys = {"name",
                                               {"external_damping", material_damping},
                                               {"fundamental_period", lattice_material}};
 
-const std::vector<KeySchema> analysis_keys = {{"type", types},
-                                              {"control", of_events},
-                                              {"load_factors", set_aside(explicit_)},
-                                              {"rigid_body_modes", {no_lattice_key}},
-                                              {"factor", of_events},
-                                              {"duration", of_time},
-                                              {"ramp_time", of_time},
-                                              {"time_step", of_time},
-                                              {"safety", of_time},
-                                              {"rows", of_time},
-                                              {"damping_rate", of_bonds_in_time},
-                                              {"masses", of_bonds_in_time},
-                                              {"strain", strains},
-                                              {"tolerance", of_relaxation},
-                                              {"iterations", of_relaxation}};
+const std::vector<KeySchema> analysis_keys = {
+    {"type", types},
+    {"control", of_events},
+    {"load_factors", set_aside(explicit_)},
+    {"rigid_body_modes", {no_lattice_key}},
+    {"factor", of_events},
+    {"solver", solvers},
+    {"coarse_box", set_aside(damage | explicit_ | relaxation)},
+    {"duration", of_time},
+    {"ramp_time", of_time},
+    {"time_step", of_time},
+    {"safety", of_time},
+    {"rows", of_time},
+    {"damping_rate", of_bonds_in_time},
+    {"masses", of_bonds_in_time},
+    {"strain", strains},
+    {"tolerance", set_aside(damage | explicit_)},
+    {"iterations", of_relaxation}};
 
 const std::vector<KeySchema> crack_keys = {
     {"points",

@@ -12,6 +12,7 @@
 #include "material/softening.hpp"
 #include "material/strain.hpp"
 #include "solver/factor_route.hpp"
+#include "solver/linear_solver.hpp"
 
 /// \file
 /// The words of case and study files: axes, reserved names, and one table for every enumeration.
@@ -114,6 +115,7 @@ constexpr auto words_of(AnalysisType) {
 constexpr auto words_of(LoadControl) { return words("events", "steps"); }
 constexpr auto words_of(RigidBodyModes) { return words("refuse", "pin"); }
 constexpr auto words_of(FactorRoute) { return words("in_place", "cholmod_updown", "refactorize"); }
+constexpr auto words_of(LinearSolver) { return words("auto", "direct", "iterative"); }
 constexpr auto words_of(MassScaling) { return words("volume", "uniform"); }
 constexpr auto words_of(Strain) { return words("small", "green"); }
 constexpr auto words_of(Refinement) { return words("spacing", "columns", "mesh", "mesh_size"); }

@@ -93,7 +93,7 @@ TEST(Bonds, FollowTheParticlesThatAreKept) {
   EXPECT_EQ(bonds.second, (std::vector<Index>{1, 2}));
   EXPECT_EQ(bonds.other_end(1, 0), 2);
   EXPECT_EQ(bonds.other_end(1, 2), 0);
-  EXPECT_EQ(keep_bonds(particles, bonds, std::vector<std::uint8_t>{0, 1}), 1);
+  EXPECT_EQ(keep_bonds(bonds, std::vector<std::uint8_t>{0, 1}), 1);
   EXPECT_EQ(bonds.second, (std::vector<Index>{2}));
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "material/strength/bond_cell.hpp"
-#include "network/network_builder.hpp"
+#include "network/builder/network_builder.hpp"
 #include "support/clouds.hpp"
 #include "support/micropolar_networks.hpp"
 
@@ -311,6 +311,22 @@ TEST(BrittleBonds, TellTheirStrengthToADraft) {
   EXPECT_NEAR(strength.fracture_energy, 0.02, round_off);
   const double bond = 30.0 * network.critical_stretch[0];
   EXPECT_NEAR(strength.tensile_strength, bond, 0.1 * bond) << "the lattice is not quite isotropic";
+}
+
+/// The infinite body of all lengths and directions stands for a lattice with thousands of
+/// neighbours, as its strength comes closer the more there are.
+TEST(BrittleBonds, OfVeryLongHorizonsAreThoseOfAContinuum) {
+  LatticeInput body_of = body_input({"", Pattern::rectangular, Surface::none}, 4);
+  const auto strength_at = [&](double ratio) {
+    body_of.horizon = ratio * body_of.spacing;
+    NetworkInput input = network_input(body_of);
+    input.draft = true;
+    const Network network = build_network(make_body(body_of), input);
+    return network.strengths.at(0).tensile_strength / network.critical_stretch[0];
+  };
+  const double many = strength_at(16.0), all = strength_at(40.0);
+  EXPECT_NEAR(many, all, 0.01 * all);
+  EXPECT_NEAR(strength_at(300.0), all, 1e-9 * all);
 }
 
 }  // namespace

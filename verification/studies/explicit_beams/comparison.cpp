@@ -14,7 +14,7 @@ Solution solve(const Specimen& specimen) {
   const Timer timer;
   ElasticResult result = model.elements
                              ? run_elastic_analysis(*model.elements, model.unknowns, model.loads, 1)
-                             : run_elastic_analysis(model, 1);
+                             : run_elastic_analysis(model);
   Solution solution;
   solution.seconds = timer.seconds();
   solution.deflection = deflection(specimen, result.displacement);

@@ -146,7 +146,7 @@ double axial_modulus(const Specimen& specimen) {
   }
   const Unknowns unknowns = number_unknowns(3, held, prescribed);
   const Loads none{std::vector<double>(held.size(), 0.0)};
-  const ElasticResult result = run_elastic_analysis({model.network, unknowns, none, {}}, 1);
+  const ElasticResult result = run_elastic_analysis({model.network, unknowns, none, {}});
   const double length = end - 0.5 * specimen.sizes.cell;
   const double area = specimen.sizes.y() * specimen.sizes.z();
   return 2.0 * result.strain_energy / (pull * pull) * length / area;

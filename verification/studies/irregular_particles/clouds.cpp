@@ -113,7 +113,7 @@ Stretching stretch(const Cloud& cloud, const ParticleNetwork& built) {
   const double by = 1e-3 * cloud.length;
   const Unknowns unknowns = pull(cloud, network, by);
   const Loads loads{std::vector<double>(unknowns.number.size(), 0.0)};
-  const ElasticResult result = run_elastic_analysis({network, unknowns, loads, {}}, 1);
+  const ElasticResult result = run_elastic_analysis({network, unknowns, loads, {}});
   Stretching found;
   found.modulus =
       2.0 * result.strain_energy * cloud.length / (youngs_modulus * section(cloud) * by * by);

@@ -83,7 +83,7 @@ double mean_displacement(const Network& network, std::span<const double> motion,
 
 double apparent_modulus(const BarInput& input) {
   const Model model = build_model(parse_case(case_of(input), "bar.toml"));
-  const ElasticResult result = run_elastic_analysis(model, 1);
+  const ElasticResult result = run_elastic_analysis(model);
   const double middle = 0.5 * length_of(input), spacing = model.lattice.spacing;
   const auto at = [&](double x) {
     return mean_displacement(model.network, result.displacement, x, spacing);

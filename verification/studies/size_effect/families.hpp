@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "half_space.hpp"
-#include "network/network_builder.hpp"
+#include "network/builder/network_builder.hpp"
 
 /// \file
 /// What the program's own bonds give to particles near a plane surface. Horizon and Young's modulus

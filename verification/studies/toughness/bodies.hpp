@@ -48,8 +48,9 @@ struct CrackedBody {
 /// Clamped by layers one horizon thick that move apart: growth is steady.
 PathEnergy measure_clamped_strip(const CrackedBody& body);
 
-/// A clamped strip of tetrahedra, spacing and fracture energy 1, two horizons of three spacings deep
-/// between free faces. Its mesh comes from one of gmsh's algorithms in space (1, 10) and a seed.
+/// A clamped strip of tetrahedra, spacing and fracture energy 1, two horizons of three spacings
+/// deep between free faces. Its mesh comes from one of gmsh's algorithms in space (1, 10) and a
+/// seed.
 /// \param geometry  a file to write, which ends with .geo
 PathEnergy measure_strip_of_tetrahedra(const std::string& geometry, int algorithm, int seed,
                                        const std::string& rule);

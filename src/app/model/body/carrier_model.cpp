@@ -15,7 +15,7 @@
 #include "discretization/cuts/cracks.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "discretization/neighbor_search.hpp"
-#include "network/cells/glued_cells.hpp"
+#include "network/builder/glued_cells.hpp"
 
 namespace perilink {
 namespace {

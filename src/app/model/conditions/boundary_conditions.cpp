@@ -11,7 +11,7 @@
 #include "app/model/conditions/supports.hpp"
 #include "base/error.hpp"
 #include "io/case/sections/case_kinds.hpp"
-#include "network/network_builder.hpp"
+#include "network/builder/network_builder.hpp"
 
 namespace perilink {
 namespace {

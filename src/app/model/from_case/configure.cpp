@@ -24,7 +24,7 @@
 #include "io/case/sections/case_softening.hpp"
 #include "io/case/sections/case_unused.hpp"
 #include "network/bond_softening.hpp"
-#include "network/network_builder.hpp"
+#include "network/builder/network_builder.hpp"
 
 namespace perilink {
 namespace {
@@ -363,14 +363,6 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
   return model;
 }
 
-StopRules rules_of(const StopSection& section) {
-  StopRules stop;
-  stop.broken_bonds = section.broken_bonds;
-  stop.load_fraction = section.load_fraction;
-  stop.displacement = section.displacement;
-  return stop;
-}
-
 }  // namespace
 
 Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
@@ -378,22 +370,5 @@ Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
 }
 
 Model draft_model(const CaseFile& input) { return build_model_with(input, {true, {}}); }
-
-DamageOptions damage_options(const CaseFile& input, int threads) {
-  DamageOptions options;
-  options.engine.threads = threads;
-  options.engine.route = input.analysis.factor;
-  const bool steps = input.analysis.control == LoadControl::steps;
-  if (steps) options.load_factors = input.analysis.load_factors;
-  options.stop = rules_of(input.stop);
-  std::vector<std::string> sets;  // in the order of LoadedNetwork::sets
-  for (const StageSection& stage : input.stages) {
-    if (stage.loads == stage.name) sets.push_back(stage.name);
-    const auto set = std::find(sets.begin(), sets.end(), stage.loads);
-    options.stages.push_back({static_cast<std::size_t>(set - sets.begin()), stage.to,
-                              rules_of(stage.stop), stage.to_load});
-  }
-  return options;
-}
 
 }  // namespace perilink

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/quasistatic/damage_analysis.hpp"
+#include "app/model/from_case/analysis_options.hpp"
 #include "app/model/model.hpp"
 #include "calibration/calibration.hpp"
 #include "io/case/case_file.hpp"
@@ -16,8 +16,5 @@ Model build_model(const CaseFile& input, const CalibrationObserver& on_search = 
 /// The same with bonds as they are before calibration, in a small part of its time: sizes, notes,
 /// supports, loads and gauges are those of the model, refusals too.
 Model draft_model(const CaseFile& input);
-
-/// Options of the damage analysis that a case asks for.
-DamageOptions damage_options(const CaseFile& input, int threads);
 
 }  // namespace perilink

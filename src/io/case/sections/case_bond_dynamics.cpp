@@ -48,24 +48,28 @@ void read_strain(const CaseTable& table, AnalysisSection& analysis) {
   assign(analysis.strain, table.choice<Strain>("strain"));
 }
 
+double read_tolerance(const CaseTable& table, double usual) {
+  const double tolerance = table.positive("tolerance").value_or(usual);
+  if (tolerance >= 1.0) {
+    table.refuse("tolerance", fmt::format("is {}, but must be less than 1", tolerance),
+                 fmt::format("{} is the default", usual));
+  }
+  if (tolerance < least_tolerance) {
+    table.refuse("tolerance", fmt::format("is {}, below the round-off of the forces", tolerance),
+                 fmt::format("give at least {}; {} is the default", least_tolerance, usual));
+  }
+  return tolerance;
+}
+
 void read_relaxation(const CaseTable& table, AnalysisSection& analysis) {
-  assign(analysis.tolerance, table.positive("tolerance"));
-  if (analysis.tolerance >= 1.0) {
-    table.refuse("tolerance", fmt::format("is {}, but must be less than 1", analysis.tolerance),
-                 "1e-6 is the default");
-  }
-  if (analysis.tolerance < least_tolerance) {
-    table.refuse("tolerance",
-                 fmt::format("is {}, below the round-off of the forces", analysis.tolerance),
-                 fmt::format("give at least {}; 1e-6 is the default", least_tolerance));
-  }
+  analysis.tolerance = read_tolerance(table, 1e-6);
   assign(analysis.iterations, table.integer("iterations", 1, most_iterations));
 }
 
 void write_relaxation(TomlWriter& out, const CaseFile& input) {
   out.write("load_factors", input.analysis.load_factors);
   out.write("strain", word_of(input.analysis.strain));
-  out.write("tolerance", input.analysis.tolerance);
+  out.write("tolerance", *input.analysis.tolerance);
   out.write("iterations", input.analysis.iterations);
   out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
 }

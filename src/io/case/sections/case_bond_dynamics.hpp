@@ -13,6 +13,9 @@ namespace perilink {
 /// The key `strain` of [analysis].
 void read_strain(const CaseTable& table, AnalysisSection& analysis);
 
+/// The key `tolerance` of [analysis].
+double read_tolerance(const CaseTable& table, double usual);
+
 /// Keys of [analysis] that only type = "relaxation" has.
 void read_relaxation(const CaseTable& table, AnalysisSection& analysis);
 void write_relaxation(TomlWriter& out, const CaseFile& input);

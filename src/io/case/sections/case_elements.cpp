@@ -58,6 +58,15 @@ void check_glued(const CaseFile& input) {
 void check_elements(const CaseFile& input) {
   if (!input.elements) return;
   check_glued(input);
+  const ElementsSection& section = *input.elements;
+  if (input.analysis.solver == LinearSolver::iterative &&
+      (section.spacings || section.size || section.mesh)) {
+    throw InputError(
+        input.where("analysis.solver"),
+        "is \"iterative\", but the elements of [elements] carry particles, which only a "
+        "factor serves",
+        "delete one of the two");
+  }
   if (input.body.surface != Surface::calibrated) {
     throw InputError(
         input.where("body.surface"),

@@ -47,6 +47,12 @@ std::size_t find_held_component(const CaseTable& table, const BodySection& body,
 void read_events(const CaseTable& table, AnalysisSection& analysis) {
   assign(analysis.control, table.choice<LoadControl>("control"));
   assign(analysis.factor, table.choice<FactorRoute>("factor"));
+  assign(analysis.solver, table.choice<LinearSolver>("solver"));
+  analysis.coarse_box = table.integer("coarse_box", 2, 64);
+  if (analysis.solver == LinearSolver::iterative && analysis.type == AnalysisType::damage) {
+    table.refuse("solver", "is \"iterative\", but damage analyses follow every event by a factor",
+                 "delete it, or set type = \"elastic\"");
+  }
 }
 
 }  // namespace
@@ -157,6 +163,7 @@ AnalysisSection read_analysis(const CaseTable& table, AnalysisType type) {
   const bool relaxes = type == AnalysisType::relaxation;
   // Keys of other types are checked, too, and then forgotten.
   AnalysisSection other;
+  if (type == AnalysisType::elastic) analysis.tolerance = read_tolerance(table, 1e-10);
   read_strain(table, is_explicit || relaxes ? analysis : other);
   read_explicit_analysis(table, is_explicit ? analysis : other);
   read_relaxation(table, relaxes ? analysis : other);

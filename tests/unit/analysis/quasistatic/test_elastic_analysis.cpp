@@ -18,7 +18,7 @@ class ElasticBlock : public testing::TestWithParam<BlockCase> {};
 
 TEST_P(ElasticBlock, EqualsADenseSolution) {
   const AnalysisBody body = make_block(GetParam());
-  const ElasticResult result = run_elastic_analysis(body, 1);
+  const ElasticResult result = run_elastic_analysis(body);
   const Eigen::VectorXd expected = dense_displacement(body, intact(body.network));
   EXPECT_LT(difference(result.displacement, expected), tolerance);
   const double energy =
@@ -38,8 +38,8 @@ TEST_P(ElasticBlock, EqualsADenseSolution) {
 
 TEST_P(ElasticBlock, ThreadsDoNotChangeTheResult) {
   const AnalysisBody body = make_block(GetParam());
-  const auto one = run_elastic_analysis(body, 1);
-  const auto two = run_elastic_analysis(body, 2);
+  const auto one = run_elastic_analysis(body);
+  const auto two = run_elastic_analysis(body, {.threads = 2});
   EXPECT_EQ(one.displacement, two.displacement);
   EXPECT_EQ(one.residual, two.residual);
 }
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Elastic, ElasticBlock,
 /// Three bonds of stiffness 5 in series under a force of 1: u = 1/5, 2/5, 3/5 and energy 3/10.
 TEST(ElasticAnalysis, ChainByHand) {
   const AnalysisBody body = make_chains(3, 2, false, 5.0, 1.0);
-  const ElasticResult result = run_elastic_analysis(body, 1);
+  const ElasticResult result = run_elastic_analysis(body);
   for (Index i = 0; i < body.network.particles.size(); ++i) {
     EXPECT_NEAR(result.displacement[slot(body, i, 0)], body.network.particles.position(i)[0] / 5.0,
                 1e-15);
@@ -71,7 +71,7 @@ TEST(ElasticAnalysis, ChainByHand) {
 TEST(ElasticAnalysis, RefusesABodyThatNothingHolds) {
   AnalysisBody body = make_block({rectangular});
   number(body, [](Index, int) { return false; });
-  EXPECT_THROW(run_elastic_analysis(body, 1), SolverError);
+  EXPECT_THROW(run_elastic_analysis(body), SolverError);
 }
 
 }  // namespace

@@ -137,6 +137,28 @@ TEST(Envelope, OfAConstantLoadIsThatLoad) {
   EXPECT_NEAR(smoothed_peak(path).value(), -3.0, 1e-14);
 }
 
+/// Loads of a body that gets ever softer: 100 events at each.
+std::vector<CurvePoint> path_at(const std::vector<double>& loads) {
+  std::vector<CurvePoint> path;
+  double compliance = 1.0;
+  for (const double load : loads) {
+    for (int k = 0; k < 100; ++k) path.push_back({load * (compliance += 0.01), load});
+  }
+  return path;
+}
+
+TEST(Dip, IsALoadThatFellByAFifthAndClimbedBeyondItsPeakByAFifth) {
+  const std::optional<Dip> dip = find_dip(path_at({3.0, 6.0, 4.0, 5.0, 12.0}));
+  ASSERT_TRUE(dip);
+  EXPECT_NEAR(dip->peak, 6.0, 1e-12);
+  EXPECT_NEAR(dip->lowest, 4.0, 1e-12);
+  EXPECT_NEAR(find_dip(path_at({-6.0, -4.0, -12.0})).value().peak, 6.0, 1e-12) << "compression";
+  EXPECT_FALSE(find_dip(path_at({6.0, 4.0, 7.0}))) << "climbed by less";
+  EXPECT_FALSE(find_dip(path_at({6.0, 5.0, 12.0}))) << "fell by less";
+  EXPECT_FALSE(find_dip(path_at({6.0, 4.0, 3.0})));
+  EXPECT_FALSE(find_dip({}));
+}
+
 TEST(Envelope, PassesOverSingleTeeth) {
   std::vector<CurvePoint> path;
   for (int k = 0; k <= 200; ++k) {

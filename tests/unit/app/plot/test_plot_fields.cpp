@@ -31,6 +31,20 @@ TEST(PlotFields, ShowsCracksBarsAndGhosts) {
   }
 }
 
+TEST(PlotFields, BarsAreColouredByTheirStress) {
+  VtuGrid grid = test::make_cracked_field({}, true);
+  std::vector<double> stress(grid.types.size(), 340.0);
+  stress.back() = -12.0;
+  grid.cell_data.push_back({"axial_stress", 1, stress});
+  PlotBody body = read_body(grid, "");
+  EXPECT_EQ(body.bar_stress.size(), body.segments.size());
+  EXPECT_EQ(body.bar_stress.back(), -12.0);
+  const std::string svg = draw_fields(body, {4, 0.4, 12.3}, {"Plate", "kip", "in"}, 0.0).str();
+  EXPECT_NE(svg.find("bar, stress to 340"), std::string::npos);
+  EXPECT_NE(svg.find("bar, stress to -12"), std::string::npos);
+  EXPECT_EQ(svg.find("reinforcing bar"), std::string::npos);
+}
+
 TEST(PlotFields, ElasticBodiesAreColouredByStress) {
   VtuGrid grid = test::make_cracked_field({.nx = 4, .ny = 1}, false);
   std::vector<double> stress(4 * 6, 0.0);

@@ -99,7 +99,7 @@ TEST(Equilibria, AreToldToPeople) {
 
 TEST(Equilibria, OfAnElasticAnswerAreOneRowWithoutBreaks) {
   CaseFile input = test::strip_case();
-  const ElasticAnswer answer = solve_elastic(build_model(input), 1);
+  const ElasticAnswer answer = solve_elastic(build_model(input), {});
   EXPECT_EQ(answer.ending, Ending::completed);
   const Equilibria found(answer);
   EXPECT_EQ(found.last.step, 1);

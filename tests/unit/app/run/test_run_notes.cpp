@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "support/strip_case.hpp"
 
@@ -30,6 +31,20 @@ TEST(PeakNote, IsSilentWhereTheFirstPeakIsTheHighest) {
   EXPECT_FALSE(note_of_peaks(result_of({{0.1, 3320}, {0.2, 900}, {5.0, 3319}}).peaks));
   EXPECT_FALSE(note_of_peaks(result_of({{0.1, 3320}, {0.2, 1700}, {5.0, 11314}}).peaks))
       << "it never fell below half";
+}
+
+/// Where all bonds can break, or bars bear the load, nothing is special about it.
+TEST(PeakNote, TellsALoadThatClimbedAgainWhereSomeBondsCannotBreak) {
+  DamageResult result = result_of({{0.1, 6428}, {0.2, 4390}, {5.0, 12445}});
+  result.dip = Dip{6428.0, 4390.0};
+  Model model = build_model(test::strip_case());
+  EXPECT_FALSE(note_of_peaks(result, model, {}));
+  model.network.critical_stretch[0] = INFINITY;
+  const auto note = note_of_peaks(result, model, {});
+  ASSERT_TRUE(note);
+  EXPECT_THAT(*note, HasSubstr("fell from 6428 to 4390 and climbed again, to 12445 (peak_load)"));
+  model.network.first_tie = model.network.first_segment = model.network.num_elements() - 1;
+  EXPECT_FALSE(note_of_peaks(result, model, {})) << "a bar";
 }
 
 /// The lower end is held, the upper one pulled by a force.

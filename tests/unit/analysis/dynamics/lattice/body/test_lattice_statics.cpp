@@ -66,7 +66,7 @@ TEST_P(LatticeStatics, PassesThePatchTest) {
   const Unknowns unknowns = number_unknowns(network.dim(), held, prescribed);
   ASSERT_GT(unknowns.count, 0);
   const Loads none{std::vector<double>(exact.size(), 0.0)};
-  const ElasticResult result = run_elastic_analysis({network, unknowns, none, {}}, 1);
+  const ElasticResult result = run_elastic_analysis({network, unknowns, none, {}});
   for (std::size_t slot = 0; slot < exact.size(); ++slot) {
     // Condition number times round-off, of displacements of 0.04.
     EXPECT_NEAR(result.displacement[slot], exact[slot], 1e-14);
@@ -83,8 +83,8 @@ TEST_P(LatticeStatics, StoresTheWorkOfItsLoads) {
   }
   const Unknowns unknowns = number_unknowns(network.dim(), held, std::vector<double>(slots, 0.0));
   const Loads first{random_values(slots, 5, -1.0, 1.0)}, second{random_values(slots, 6, -1.0, 1.0)};
-  const ElasticResult a = run_elastic_analysis({network, unknowns, first, {}}, 1);
-  const ElasticResult b = run_elastic_analysis({network, unknowns, second, {}}, 1);
+  const ElasticResult a = run_elastic_analysis({network, unknowns, first, {}});
+  const ElasticResult b = run_elastic_analysis({network, unknowns, second, {}});
   double own = 0.0, across = 0.0, back = 0.0;
   for (std::size_t slot = 0; slot < slots; ++slot) {
     own += first.forces[slot] * a.displacement[slot];

@@ -7,7 +7,7 @@
 #include "discretization/lattices/make_body.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
-#include "network/network_builder.hpp"
+#include "network/builder/network_builder.hpp"
 #include "support/small_networks.hpp"
 
 namespace perilink {

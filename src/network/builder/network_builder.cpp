@@ -1,4 +1,4 @@
-#include "network/network_builder.hpp"
+#include "network/builder/network_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
 #include "network/bond_softening.hpp"
-#include "network/cells/glued_cells.hpp"
+#include "network/builder/glued_cells.hpp"
 #include "network/surface_correction.hpp"
 #include "network/unknowns.hpp"
 
@@ -123,7 +123,7 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
                              body.lattice.cell_volume);
   if (!input.cracks.empty()) {
     const CutBonds cut = find_cut_bonds(particles, mesh.ties, input.cracks, body.lattice.spacing);
-    keep_bonds(particles, mesh.ties, cut.keep);
+    keep_bonds(mesh.ties, cut.keep);
   }
   const auto perfect = perfectly_tied(mesh, input, particles.size());
   const double least_length = shortest_tie * body.lattice.spacing;
@@ -149,8 +149,11 @@ void add_bars(const Body& body, const NetworkInput& input, const PairConstants& 
   for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
     const BarMaterial& bar = input.bar_materials[mesh.bar_of_segment[segment]];
     network.stiffness.push_back(bar.youngs_modulus * bar.area / mesh.segments.lengths[segment]);
+    network.bars.area.push_back(bar.area);
     network.critical_stretch.push_back(bar.yield_strength / bar.youngs_modulus);
   }
+  network.bars.bar = std::move(mesh.bar_of_segment);
+  network.bars.turned = std::move(mesh.turned);
   if (mesh.segments.size() == 0) return;
   network.law_of.resize(static_cast<std::size_t>(network.first_segment), 0);
   network.law_of.resize(network.stiffness.size(), static_cast<Index>(network.laws.size()));

@@ -1,4 +1,4 @@
-#include "network/cells/glued_cells.hpp"
+#include "network/builder/glued_cells.hpp"
 
 #include <algorithm>
 #include <array>

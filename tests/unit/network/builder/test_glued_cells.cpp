@@ -1,4 +1,4 @@
-#include "network/cells/glued_cells.hpp"
+#include "network/builder/glued_cells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
 #include "discretization/meshes/mesh_body.hpp"
-#include "network/network_builder.hpp"
+#include "network/builder/network_builder.hpp"
 #include "support/simplex_meshes.hpp"
 
 namespace perilink {

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "assembly/box_motions.hpp"
+#include "assembly/internal_force.hpp"
+#include "network/loaded_network.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// How far conjugate gradients go, and with which boxes.
+struct BoxSolverOptions {
+  double tolerance = 1e-10;  ///< error over solution, both in the norm of energy
+  Index edge = 0;  ///< particles along an edge of a box; 0: as many as serve the body best
+};
+
+/// Equilibrium without a factor of the stiffness: conjugate gradients on the network itself, with
+/// the blocks of the particles and the rigid motions of boxes of them as preconditioner
+/// (docs/theory/large_bodies.md). The number of iterations hardly grows with the body.
+class BoxSolver {
+ public:
+  /// \param problem  nothing may carry its particles; kept by reference, as the secants
+  /// \throws SolverError where the boxes' stiffness is not positive definite
+  BoxSolver(const LoadedNetwork& problem, Secants secants, const BoxSolverOptions& options);
+
+  /// Both of size n; they may be the same memory. What is solved later may correct what was solved
+  /// before: the error counts by the largest energy so far.
+  /// \throws SolverError where the iterations do not get there
+  void solve(std::span<const double> right, std::span<double> solution);
+
+  int iterations() const { return iterations_; }  ///< in all solves
+  double error() const { return error_; }         ///< the last solve left, as the tolerance counts
+  Index num_boxes() const { return motions_.num_boxes(); }
+  FactorStatistics coarse() const { return factor_->statistics(); }
+
+ private:
+  void precondition(std::span<const double> residual, std::span<double> result);
+  void multiply(std::span<const double> q, std::span<double> result);
+  void invert_blocks();
+
+  const LoadedNetwork& problem_;
+  Secants secants_;
+  BoxSolverOptions options_;
+  BoxMotions motions_;
+  std::vector<double> blocks_;  // inverse, shape (particles, width, width)
+  std::unique_ptr<Factor> factor_;
+  std::vector<double> coarse_;  // residual or motion of the boxes, shape (boxes, motions)
+  std::vector<double> motion_;  // shape (particles, width), zero where it is prescribed
+  InternalForce forces_;
+  double energy_ = 0.0, error_ = 0.0;
+  int iterations_ = 0;
+};
+
+}  // namespace perilink

@@ -1,0 +1,91 @@
+#include "assembly/bar_state.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+
+#include "base/csr.hpp"
+
+namespace perilink {
+namespace {
+
+/// Motion of the solid at the nodes of bars, shape (particles, dim); that of particles elsewhere. It
+/// is the linear field next to the motions of the tied particles, by the stiffness of their ties.
+std::vector<double> motion_of_solid(const Network& network, std::span<const double> motion) {
+  const Eigen::Index dim = network.dim(), width = network.width();
+  const Index count = network.particles.size();
+  std::vector<double> found(static_cast<std::size_t>(count * dim));
+  for (Index i = 0; i < count; ++i) {
+    for (Eigen::Index a = 0; a < dim; ++a) found[i * dim + a] = motion[i * width + a];
+  }
+  const Csr ties = sorted_into_rows(count, [&](auto&& act) {
+    for (Index e = network.first_tie; e < network.first_segment; ++e) {
+      act(network.bonds.second[e], e);
+    }
+  });
+  for (Index node = 0; node < count; ++node) {
+    if (ties.row(node).empty()) continue;
+    Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(dim + 1, dim + 1);
+    Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(dim + 1, dim);
+    for (const Index tie : ties.row(node)) {
+      const Index solid = network.bonds.first[tie];
+      Eigen::VectorXd basis(dim + 1);  // one, and the way from the node
+      basis[0] = 1.0;
+      for (Eigen::Index a = 0; a < dim; ++a) {
+        basis[a + 1] = network.particles.position(solid)[a] - network.particles.position(node)[a];
+      }
+      const double weight = network.stiffness[tie];
+      moments += weight * basis * basis.transpose();
+      for (Eigen::Index a = 0; a < dim; ++a) {
+        moved.col(a) += weight * motion[solid * width + a] * basis;
+      }
+    }
+    const Eigen::MatrixXd field = moments.completeOrthogonalDecomposition().solve(moved);
+    for (Eigen::Index a = 0; a < dim; ++a) found[node * dim + a] = field(0, a);
+  }
+  return found;
+}
+
+}  // namespace
+
+BarState bar_state(const Network& network, Secants secants, std::span<const double> motion) {
+  const auto dim = static_cast<std::size_t>(network.dim());
+  const auto width = static_cast<std::size_t>(network.width());
+  const Bonds& bonds = network.bonds;
+  const Bars& bars = network.bars;
+  const std::vector<double> solid = motion_of_solid(network, motion);
+  BarState state;
+  for (std::size_t s = 0; s < bars.bar.size(); ++s) {
+    const Index e = network.first_segment + static_cast<Index>(s);
+    const std::size_t ends[] = {static_cast<std::size_t>(bonds.first[e]),
+                                static_cast<std::size_t>(bonds.second[e])};
+    double extension = 0.0, slip = 0.0;
+    for (std::size_t a = 0; a < dim; ++a) {
+      const double n = bonds.direction(e)[a];
+      extension += n * (motion[ends[1] * width + a] - motion[ends[0] * width + a]);
+      for (const std::size_t i : ends) {
+        slip += 0.5 * n * (motion[i * width + a] - solid[i * dim + a]);
+      }
+    }
+    const double force = network.stiffness[e] * secants.axial(e) * extension;
+    state.strain.push_back(extension / bonds.lengths[e]);
+    state.force.push_back(force);
+    state.stress.push_back(force / bars.area[s]);
+    state.slip.push_back(bars.turned[s] != 0 ? -slip : slip);
+  }
+  for (std::size_t s = 0; s < bars.bar.size(); ++s) {
+    const std::size_t before = bars.continues(s) ? s - 1 : s;
+    const std::size_t behind = bars.continues(s + 1) ? s + 1 : s;
+    const auto length_of = [&](std::size_t k) {
+      return bonds.lengths[network.first_segment + static_cast<Index>(k)];
+    };
+    double length = 0.0;  // from middle to middle
+    for (std::size_t k = before; k < behind; ++k) length += 0.5 * (length_of(k) + length_of(k + 1));
+    const double perimeter = std::sqrt(4.0 * std::numbers::pi * bars.area[s]);
+    state.bond_stress.push_back(
+        length > 0.0 ? (state.force[behind] - state.force[before]) / (length * perimeter) : 0.0);
+  }
+  return state;
+}
+
+}  // namespace perilink

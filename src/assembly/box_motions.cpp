@@ -1,0 +1,263 @@
+#include "assembly/box_motions.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "assembly/network_blocks.hpp"
+#include "discretization/point_boxes.hpp"
+
+namespace perilink {
+namespace {
+
+/// Parts that are joined step by step; the number of a part is its smallest member.
+class Parts {
+ public:
+  explicit Parts(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  Index find(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(Index a, Index b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+}  // namespace
+
+BoxMotions::BoxMotions(const Network& network, Secants secants, const Unknowns& unknowns,
+                       Index most)
+    : dim_(network.dim()),
+      unknowns_(unknowns),
+      boxes_(split_into_boxes(network.particles.positions, network.dim(), most)),
+      box_of_(static_cast<std::size_t>(network.particles.size())) {
+  split_by_cracks(network, secants);
+  find_centres(network);
+}
+
+/// Parts of a box that no element inside joins become boxes of their own.
+void BoxMotions::split_by_cracks(const Network& network, Secants secants) {
+  const auto number = [&] {
+    for (Index b = 0; b < num_boxes(); ++b) {
+      for (const Index p : boxes_[b]) box_of_[p] = b;
+    }
+  };
+  number();
+  Parts parts(box_of_.size());
+  const auto join = [&](Index i, Index j) {
+    if (box_of_[i] == box_of_[j]) parts.join(i, j);
+  };
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (network.stiffness[e] * secants.axial(e) > 0.0) {
+      join(network.bonds.first[e], network.bonds.second[e]);
+    }
+  }
+  if (network.cells) {
+    for (Index c = 0; c < network.cells->cells.size(); ++c) {
+      const auto cell = network.cells->cells.cell(c);
+      for (const Index p : cell) join(cell[0], p);
+    }
+  }
+  std::vector<std::vector<Index>> whole;
+  whole.swap(boxes_);
+  std::vector<Index> part_box(box_of_.size(), no_index);
+  for (const std::vector<Index>& box : whole) {
+    for (const Index p : box) {
+      Index& at = part_box[parts.find(p)];
+      if (at == no_index) {
+        at = num_boxes();
+        boxes_.emplace_back();
+      }
+      boxes_[at].push_back(p);
+    }
+  }
+  number();
+}
+
+void BoxMotions::find_centres(const Network& network) {
+  const std::size_t dim = static_cast<std::size_t>(dim_);
+  arms_ = network.particles.positions;
+  for (const std::vector<Index>& box : boxes_) {
+    for (std::size_t a = 0; a < dim; ++a) {
+      double centre = 0.0;
+      for (const Index p : box) centre += arms_[p * dim + a];
+      centre /= static_cast<double>(box.size());
+      for (const Index p : box) arms_[p * dim + a] -= centre;
+    }
+    double square = 0.0;
+    for (const Index p : box) {
+      for (std::size_t a = 0; a < dim; ++a) square += arms_[p * dim + a] * arms_[p * dim + a];
+    }
+    // A particle alone turns only where its bonds carry moments: any length does.
+    const double size = square > 0.0 ? std::sqrt(square / static_cast<double>(box.size())) : 1.0;
+    for (const Index p : box) {
+      for (std::size_t a = 0; a < dim; ++a) arms_[p * dim + a] /= size;
+    }
+    size_.push_back(size);
+  }
+}
+
+std::array<double, 6> BoxMotions::row(Index particle, int component) const {
+  std::array<double, 6> row{};
+  if (unknowns_.at(particle, component) < 0) return row;
+  if (component >= dim_) {
+    row[component] = 1.0 / size_[box_of_[particle]];
+    return row;
+  }
+  const double* arm = arms_.data() + static_cast<std::size_t>(particle) * dim_;
+  row[component] = 1.0;
+  if (dim_ == 2) {
+    row[2] = component == 0 ? -arm[1] : arm[0];
+  } else {  // turn x arm
+    const int next = (component + 1) % 3, last = (component + 2) % 3;
+    row[3 + next] = arm[last];
+    row[3 + last] = -arm[next];
+  }
+  return row;
+}
+
+void BoxMotions::restrict(std::span<const double> residual, std::span<double> coarse) const {
+  const int motions = num_motions();
+  std::fill(coarse.begin(), coarse.end(), 0.0);
+  for (Index b = 0; b < num_boxes(); ++b) {
+    double* sums = coarse.data() + static_cast<std::size_t>(b) * motions;
+    for (const Index p : boxes_[b]) {
+      for (int c = 0; c < unknowns_.width; ++c) {
+        const Index unknown = unknowns_.at(p, c);
+        if (unknown < 0) continue;
+        const std::array<double, 6> moves = row(p, c);
+        for (int m = 0; m < motions; ++m) sums[m] += moves[m] * residual[unknown];
+      }
+    }
+  }
+}
+
+void BoxMotions::add(std::span<const double> coarse, std::span<double> result) const {
+  const int motions = num_motions();
+  for (Index b = 0; b < num_boxes(); ++b) {
+    const double* values = coarse.data() + static_cast<std::size_t>(b) * motions;
+    for (const Index p : boxes_[b]) {
+      for (int c = 0; c < unknowns_.width; ++c) {
+        const Index unknown = unknowns_.at(p, c);
+        if (unknown < 0) continue;
+        const std::array<double, 6> moves = row(p, c);
+        double sum = 0.0;
+        for (int m = 0; m < motions; ++m) sum += moves[m] * values[m];
+        result[unknown] += sum;
+      }
+    }
+  }
+}
+
+namespace {
+
+/// What a box and those of lower number around it resist when they move.
+struct BoxRow {
+  std::vector<Index> others;
+  std::vector<Eigen::MatrixXd> blocks;  ///< shape (6, 6), columns those of the other
+};
+
+/// Goes through the particles of a box once.
+template <class Blocks>
+BoxRow assemble_box(const Blocks& blocks, const Unknowns& unknowns, const BoxMotions& motions,
+                    Index box, std::vector<double>& own) {
+  constexpr int width = Blocks::width;
+  constexpr int count = 6;  // in the plane the last three are idle
+  using Field = Eigen::Matrix<double, width, count>;
+  BoxRow row;
+  std::vector<Field> fields;  // K P of one particle, by the other box
+  for (const Index i : motions.particles(box)) {
+    double* block_i = own.data() + static_cast<std::size_t>(i) * width * width;
+    fields.assign(row.others.size(), Field::Zero());
+    std::size_t last = 0;
+    blocks.visit(i, [&](Index j, const auto& block) {
+      if (j == i) {
+        for (int r = 0; r < width; ++r) {
+          for (int c = 0; c < width; ++c) block_i[r * width + c] += block(r, c);
+        }
+      }
+      const Index other = motions.box_of(j);
+      if (other > box) return;
+      if (last >= row.others.size() || row.others[last] != other) {
+        last = static_cast<std::size_t>(std::find(row.others.begin(), row.others.end(), other) -
+                                        row.others.begin());
+        if (last == row.others.size()) {
+          row.others.push_back(other);
+          row.blocks.push_back(Eigen::MatrixXd::Zero(count, count));
+          fields.push_back(Field::Zero());
+        }
+      }
+      for (int r = 0; r < width; ++r) {
+        const std::array<double, 6> moves = motions.row(j, r);
+        const Eigen::Map<const Eigen::Matrix<double, 1, count>> moved(moves.data());
+        for (int c = 0; c < width; ++c) fields[last].row(c) += block(r, c) * moved;
+      }
+    });
+    for (int c = 0; c < width; ++c) {
+      const std::array<double, 6> moves = motions.row(i, c);
+      const Eigen::Map<const Eigen::Matrix<double, 1, count>> moved(moves.data());
+      for (std::size_t k = 0; k < fields.size(); ++k) {
+        row.blocks[k].noalias() += moved.transpose() * fields[k].row(c);
+      }
+      if (unknowns.at(i, c) >= 0) continue;
+      for (int r = 0; r < width; ++r) block_i[r * width + c] = block_i[c * width + r] = 0.0;
+      block_i[c * width + c] = 1.0;
+    }
+  }
+  return row;
+}
+
+/// Lower triangle of the boxes' blocks. What a box of few particles cannot do (a pair does not turn
+/// about its own axis) keeps a small stiffness of its own.
+SparseMatrix coarse_matrix(const std::vector<BoxRow>& rows, int motions) {
+  constexpr double least = 1e-9;
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (std::size_t b = 0; b < rows.size(); ++b) {
+    const Index first = static_cast<Index>(b) * motions;
+    for (std::size_t k = 0; k < rows[b].others.size(); ++k) {
+      const Index other = rows[b].others[k] * motions;
+      for (int r = 0; r < motions; ++r) {
+        for (int c = 0; c < (other == first ? r + 1 : motions); ++c) {
+          double value = rows[b].blocks[k](r, c);
+          if (other + c == first + r) {
+            value += value > 0.0 ? least * rows[b].blocks[k].trace() / motions : 1.0;
+          }
+          entries.emplace_back(first + r, other + c, value);
+        }
+      }
+    }
+  }
+  const Index size = static_cast<Index>(rows.size()) * motions;
+  SparseMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+BoxStiffness assemble_box_stiffness(const Network& network, Secants secants,
+                                    const Unknowns& unknowns, const BoxMotions& motions) {
+  BoxStiffness result;
+  std::vector<BoxRow> rows(static_cast<std::size_t>(motions.num_boxes()));
+  result.blocks.assign(
+      static_cast<std::size_t>(network.particles.size()) * unknowns.width * unknowns.width, 0.0);
+  with_blocks(network, secants, [&](const auto& blocks) {
+#pragma omp parallel for schedule(dynamic)
+    for (Index b = 0; b < motions.num_boxes(); ++b) {
+      rows[b] = assemble_box(blocks, unknowns, motions, b, result.blocks);
+    }
+  });
+  result.coarse = coarse_matrix(rows, motions.num_motions());
+  return result;
+}
+
+}  // namespace perilink

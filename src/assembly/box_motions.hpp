@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "assembly/lower_triangle.hpp"
+#include "network/network.hpp"
+#include "network/secants.hpp"
+#include "network/unknowns.hpp"
+
+namespace perilink {
+
+/// Rigid motions of boxes of neighbouring particles, as fields P of the unknowns: the coarse space
+/// of conjugate gradients for bodies too large for a factor (docs/theory/large_bodies.md). What
+/// cracks have cut apart inside a box moves by itself.
+class BoxMotions {
+ public:
+  /// \param most  particles of a box, at most
+  BoxMotions(const Network& network, Secants secants, const Unknowns& unknowns, Index most);
+
+  Index num_boxes() const { return static_cast<Index>(boxes_.size()); }
+  /// Motions of a box: three in the plane, six in space.
+  int num_motions() const { return dim_ == 2 ? 3 : 6; }
+  std::span<const Index> particles(Index box) const { return boxes_[box]; }
+  Index box_of(Index particle) const { return box_of_[particle]; }
+  /// Row of P of a component of a particle: how it moves with the motions of its box; zero where it
+  /// is held.
+  std::array<double, 6> row(Index particle, int component) const;
+
+  /// coarse = P' residual, shape (boxes, motions)
+  void restrict(std::span<const double> residual, std::span<double> coarse) const;
+  /// result += P coarse
+  void add(std::span<const double> coarse, std::span<double> result) const;
+
+ private:
+  void split_by_cracks(const Network& network, Secants secants);
+  void find_centres(const Network& network);
+
+  int dim_;
+  const Unknowns& unknowns_;
+  std::vector<std::vector<Index>> boxes_;
+  std::vector<Index> box_of_;
+  std::vector<double> arms_;  ///< from the centre of the box over its size, shape (particles, dim)
+  std::vector<double> size_;  ///< by which rotations of each box are scaled [length]
+};
+
+/// The stiffness of boxes that move rigidly, and that of each particle alone.
+struct BoxStiffness {
+  SparseMatrix coarse;         ///< P' K P, lower triangle
+  std::vector<double> blocks;  ///< K of each particle alone, one where a component is held; shape
+                               ///< (particles, width, width)
+};
+BoxStiffness assemble_box_stiffness(const Network& network, Secants secants,
+                                    const Unknowns& unknowns, const BoxMotions& motions);
+
+}  // namespace perilink

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace perilink {
+
+/// Sorts points into boxes of about equally many neighbours: halves them along the longest axis
+/// until no box has more than `most`.
+/// \param positions  shape (points, dim)
+/// \return numbers of the points of each box, ascending
+std::vector<std::vector<Index>> split_into_boxes(std::span<const double> positions, int dim,
+                                                 Index most);
+
+}  // namespace perilink

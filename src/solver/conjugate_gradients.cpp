@@ -1,0 +1,90 @@
+#include "solver/conjugate_gradients.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "solver/not_positive_definite.hpp"
+
+namespace perilink {
+namespace {
+
+/// Steps of a window. The energies that two windows bring fall by a factor, and go on to.
+constexpr int window = 6;
+/// r'z of a correction, near the energy of its error, over the energy that counts as no error.
+constexpr double nothing = 0.01;
+
+/// What the last two windows of steps have brought.
+class Gains {
+ public:
+  void add(double gain) { gains_[static_cast<std::size_t>(count_++) % (2 * window)] = gain; }
+  /// Square root of the energy that was missing before the last window: its own and what a
+  /// geometric series of windows adds behind it. Infinite before there are two.
+  double error() const {
+    if (count_ < 2 * window) return std::numeric_limits<double>::infinity();
+    double before = 0.0, last = 0.0;
+    for (int k = 0; k < 2 * window; ++k) {
+      const double gain = gains_[static_cast<std::size_t>(count_ + k) % (2 * window)];
+      (k < window ? before : last) += gain;
+    }
+    const double ratio = before > 0.0 ? std::min(last / before, slowest) : 0.0;
+    return std::sqrt(last / (1.0 - ratio));
+  }
+
+ private:
+  static constexpr double slowest = 0.999;
+  std::array<double, 2 * window> gains_{};
+  int count_ = 0;
+};
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+}  // namespace
+
+GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
+                                    std::span<const double> right, std::span<double> solution,
+                                    double enough, double scale, int most_iterations) {
+  const std::size_t size = right.size();
+  GradientsReport report;
+  std::vector<double> r(right.begin(), right.end()), z(size), p(size), q(size);
+  Gains gains;
+  const auto is_enough = [&] {
+    return report.error <= enough * std::sqrt(std::max(report.energy, scale));
+  };
+  precondition(r, z);
+  p = z;
+  double rz = dot(r, z);
+  if (rz <= nothing * enough * enough * scale) {
+    report.converged = true;
+    return report;
+  }
+  while (rz > 0.0 && report.iterations < most_iterations) {
+    product(p, q);
+    const double curvature = dot(p, q);
+    if (!(curvature > 0.0)) throw NotPositiveDefinite("the stiffness is not positive definite");
+    const double step = rz / curvature;
+    for (std::size_t k = 0; k < size; ++k) {
+      solution[k] += step * p[k];
+      r[k] -= step * q[k];
+    }
+    gains.add(step * rz);
+    report.energy += step * rz;
+    ++report.iterations;
+    report.error = gains.error();
+    if (is_enough()) break;
+    precondition(r, z);
+    const double next = dot(r, z);
+    for (std::size_t k = 0; k < size; ++k) p[k] = z[k] + next / rz * p[k];
+    rz = next;
+  }
+  report.converged =
+      !(rz > 0.0) || report.error <= enough * std::sqrt(std::max(report.energy, scale));
+  return report;
+}
+
+}  // namespace perilink

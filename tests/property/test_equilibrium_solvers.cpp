@@ -1,0 +1,148 @@
+// Conjugate gradients on boxes give the equilibrium that a factor gives, whatever the bonds are and
+// however the body is held and loaded.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "analysis/quasistatic/elastic_analysis.hpp"
+#include "app/model/from_case/configure.hpp"
+#include "io/case/case_file.hpp"
+#include "support/gmsh_texts.hpp"
+#include "support/lattice_networks.hpp"
+#include "support/simplex_meshes.hpp"
+#include "support/slender_bodies.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+/// The error in the norm of energy is below 1e-12; that of displacements may be larger by the
+/// square root of the condition number, 1e3 for the bodies here.
+constexpr double tolerance = 1e-12, closeness = 1e-9;
+
+void expect_equal_answers(const LoadedNetwork& body) {
+  const ElasticResult direct = run_elastic_analysis(body, {.solver = LinearSolver::direct});
+  const ElasticResult found = run_elastic_analysis(
+      body, {.solver = LinearSolver::iterative, .boxes = {.tolerance = tolerance, .edge = 4}});
+  EXPECT_EQ(direct.boxes, 0);
+  EXPECT_GT(found.boxes, 2);
+  EXPECT_LT(found.error, tolerance);
+  double largest = 0.0, difference = 0.0;
+  for (std::size_t k = 0; k < direct.displacement.size(); ++k) {
+    if (static_cast<int>(k) % body.unknowns.width >= body.network.dim()) continue;
+    largest = std::max(largest, std::abs(direct.displacement[k]));
+    difference = std::max(difference, std::abs(direct.displacement[k] - found.displacement[k]));
+  }
+  EXPECT_LT(difference, closeness * largest);
+  EXPECT_NEAR(found.strain_energy, direct.strain_energy, closeness * direct.strain_energy);
+  EXPECT_LT(found.residual, 1e-7);
+}
+
+struct SolverCase {
+  const char* name;
+  std::string body;  ///< in [body]
+  bool space = false;
+  std::string more = {};      ///< in the case
+  std::string material = {};  ///< in [[materials]]
+};
+
+void PrintTo(const SolverCase& block, std::ostream* out) { *out << block.name; }
+
+class Solvers : public testing::TestWithParam<SolverCase> {};
+
+TEST_P(Solvers, Agree) {
+  const SolverCase& block = GetParam();
+  const TemporaryDirectory directory;
+  std::ofstream(directory / "box.msh")
+      << gmsh_text(box_mesh(block.space ? 3 : 2, 9), {9, 9, 9}, {0, 0, 0});
+  const std::string z = block.space ? "z = [0, 9]\n" : "", zero = block.space ? "z = 0.0\n" : "";
+  std::string text = "[body]\nhorizon_ratio = 2.0\n" + block.body;
+  if (block.space) text += "problem = \"three_dimensional\"\n";
+  text += "[[regions]]\nname = \"block\"\nx = [0, 9]\ny = [0, 9]\n" + z;
+  text += "[[regions]]\nname = \"base\"\nx = [0, 9]\ny = [0, 1.5]\n" + z;
+  text += "[[regions]]\nname = \"cap\"\nx = [0, 9]\ny = [7.5, 9]\n" + z;
+  text += "[[materials]]\nregion = \"block\"\nyoungs_modulus = 3604.0\n";
+  text += "fracture_energy = \"infinite\"\n" + block.material;
+  text += "[[displacements]]\nregion = \"base\"\nx = 0.0\ny = 0.0\n" + zero;
+  text += "[analysis]\ntype = \"elastic\"\n" + block.more;
+  expect_equal_answers(build_model(parse_case(text, (directory / "case.toml").string())));
+}
+
+const std::string pulled = "[[displacements]]\nregion = \"cap\"\ny = 1.0\n";
+const std::string weight =
+    "[[loads]]\nregion = \"block\"\nbody_force = [1, 0.5]\n"
+    "[[springs]]\nregion = \"cap\"\ntotal = [50, 200]\n";
+const std::string in_space =
+    "[[loads]]\nregion = \"cap\"\nforce = [30, 100, 10]\n"
+    "[[cracks]]\ncorners = [[-1, 4.4, -1], [5, 4.4, -1], [5, 4.4, 10], [-1, 4.4, 10]]\n";
+const std::string cracked = "[[cracks]]\npoints = [[-1, 4.4], [5, 4.4]]\n" + pulled;
+const std::string reinforced =
+    "[[rebar]]\nfrom = [1, 1]\nto = [8, 8]\narea = 0.1\nyoungs_modulus = 1e5\n" + weight;
+
+INSTANTIATE_TEST_SUITE_P(
+    Blocks, Solvers,
+    testing::Values(SolverCase{"square_cracked", "spacing = 0.5\n", false, cracked},
+                    SolverCase{"square_of_two", "spacing = 0.5\n", false, weight},
+                    SolverCase{"reinforced", "spacing = 0.5\n", false, reinforced},
+                    SolverCase{"micropolar", "spacing = 0.5\nmodel = \"micropolar\"\n", false,
+                               cracked, "poissons_ratio = 0.2\n"},
+                    SolverCase{"cloud", "mesh = \"box.msh\"\n", false, weight},
+                    SolverCase{"glued", "mesh = \"box.msh\"\n", false,
+                               weight + "[elements]\nglued = [\"cap\"]\n"},
+                    SolverCase{"cubic", "spacing = 1\n", true, in_space},
+                    SolverCase{"tetrahedra", "mesh = \"box.msh\"\n", true, in_space},
+                    SolverCase{"micropolar_cubic", "spacing = 1\nmodel = \"micropolar\"\n", true,
+                               in_space, "poissons_ratio = 0.1\n"}),
+    [](const auto& block) { return std::string(block.param.name); });
+
+TEST(EquilibriumSolvers, AgreeOnASlenderBody) {
+  SlenderCase bar;
+  bar.load = SlenderLoad::force_across;
+  expect_equal_answers(make_slender(bar));
+}
+
+/// The extension of a bond of a state-based lattice pulls at all neighbours of its ends.
+TEST(EquilibriumSolvers, AgreeOnStates) {
+  for (const testing_support::StateLatticeCase& lattice : testing_support::state_lattice_cases()) {
+    AnalysisBody body =
+        free_body(lattice_network(testing_support::state_block(lattice, 6.1)).network);
+    const Particles& particles = body.network.particles;
+    const int last = body.network.dim() - 1;
+    double low = 1e300, high = -1e300;
+    for (Index i = 0; i < particles.size(); ++i) {
+      low = std::min(low, particles.position(i)[last]);
+      high = std::max(high, particles.position(i)[last]);
+    }
+    for (Index i = 0; i < particles.size(); ++i) {
+      if (particles.position(i)[last] > high - 0.1 * (high - low)) {
+        body.loads.forces[slot(body, i, 0)] = body.loads.forces[slot(body, i, 1)] = 1.0;
+      }
+    }
+    number(body,
+           [&](Index i, int) { return particles.position(i)[last] < low + 0.3 * (high - low); });
+    SCOPED_TRACE(testing::PrintToString(lattice));
+    expect_equal_answers(body);
+  }
+}
+
+TEST(EquilibriumSolvers, ChooseByTheSizeOfTheBody) {
+  LoadedNetwork problem;
+  problem.network.particles.dim = problem.network.bonds.dim = 3;
+  problem.unknowns.count = 1000;
+  EXPECT_FALSE(is_for_boxes(problem, LinearSolver::automatic));
+  EXPECT_TRUE(is_for_boxes(problem, LinearSolver::iterative));
+  problem.unknowns.count = 1000000;
+  EXPECT_TRUE(is_for_boxes(problem, LinearSolver::automatic));
+  EXPECT_FALSE(is_for_boxes(problem, LinearSolver::direct));
+  problem.unknowns.number = {0, no_index};
+  const Unknowns::Share half[] = {{0, 0.5}};
+  problem.unknowns.carry(1, half);
+  EXPECT_FALSE(is_for_boxes(problem, LinearSolver::automatic)) << "something carries particles";
+}
+
+}  // namespace
+}  // namespace perilink

@@ -1,0 +1,67 @@
+#include "analysis/quasistatic/box_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "support/analysis_bodies.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
+
+TEST(BoxSolver, CountsIterationsAndTheErrorItLeaves) {
+  const AnalysisBody body = make_block({cubic});
+  const std::vector<double> secants = intact(body.network);
+  BoxSolver solver(body, secants, {.tolerance = 1e-8, .edge = 2});
+  EXPECT_GT(solver.num_boxes(), 8);
+  EXPECT_EQ(solver.coarse().size, 6 * solver.num_boxes());
+  const std::vector<double> load = body.unknowns.restrict(body.loads.forces);
+  std::vector<double> solution = load;
+  solver.solve(solution, solution);  // may be the same memory
+  EXPECT_GT(solver.iterations(), 5);
+  EXPECT_LE(solver.error(), 1e-8);
+  const Eigen::VectorXd expected = dense_displacement(body, secants);
+  EXPECT_LT(difference(body.unknowns.expand(solution), expected), 1e-6);
+}
+
+/// What is left of a solution is small already: the second search ends at once.
+TEST(BoxSolver, ACorrectionCountsByTheSolutionThatItCorrects) {
+  const AnalysisBody body = make_block({cubic});
+  const std::vector<double> secants = intact(body.network);
+  BoxSolver solver(body, secants, {.tolerance = 1e-8, .edge = 2});
+  std::vector<double> load = body.unknowns.restrict(body.loads.forces), solution = load;
+  solver.solve(load, solution);
+  const int first = solver.iterations();
+  for (double& force : load) force *= 1e-9;
+  solver.solve(load, solution);
+  EXPECT_EQ(solver.iterations(), first);
+}
+
+TEST(BoxSolver, RefusesABodyThatNothingHolds) {
+  AnalysisBody body = make_block({cubic});
+  number(body, [](Index, int) { return false; });
+  const std::vector<double> secants = intact(body.network);
+  EXPECT_THROW(
+      {
+        BoxSolver solver(body, secants, {.edge = 2});
+        std::vector<double> solution = body.unknowns.restrict(body.loads.forces);
+        solver.solve(solution, solution);
+      },
+      SolverError);
+}
+
+TEST(BoxSolver, RefusesParticlesThatSomethingCarries) {
+  AnalysisBody body = make_block({cubic});
+  std::size_t held = 0;
+  while (body.unknowns.number[held] != no_index) ++held;
+  const Unknowns::Share half[] = {{0, 0.5}};
+  body.unknowns.carry(held, half);
+  const std::vector<double> secants = intact(body.network);
+  EXPECT_THROW(BoxSolver(body, secants, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace perilink

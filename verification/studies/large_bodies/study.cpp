@@ -1,0 +1,153 @@
+// Elastic equilibria of growing bodies by a factor and by conjugate gradients with boxes: time,
+// memory and iterations.
+//
+//   large_bodies           all bodies, one after the other; writes result.csv
+//   large_bodies quick     those below 300 000 unknowns, prints only
+//
+// Exit status 1 when iterations grow by more than 15 % from the smallest body of a series to the
+// largest. A quarter of an hour, and 12 GB for the largest factor.
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "analysis/quasistatic/elastic_analysis.hpp"
+#include "app/model/from_case/configure.hpp"
+#include "app/run/summary.hpp"
+#include "base/timer.hpp"
+#include "io/case/case_file.hpp"
+#include "problems/program.hpp"
+#include "problems/result.hpp"
+
+namespace perilink::verification {
+namespace {
+
+struct Series {
+  std::string name;
+  bool space;
+  std::string heading;  ///< in [body]
+  double horizon_ratio;
+  std::vector<int> columns;
+  int largest_factor;  ///< columns up to which a factor is made as well
+  std::string material = {};
+};
+
+const std::vector<Series> all_series = {
+    {"cubic", true, "", 2.0, {18, 26, 38, 55, 80}, 26},
+    {"cubic", true, "", 3.0, {18, 25, 36, 54, 78}, 18},
+    {"cubic micropolar",
+     true,
+     "model = \"micropolar\"\n",
+     2.0,
+     {14, 20, 30},
+     14,
+     "poissons_ratio = 0.1\n"},
+    {"square", false, "", 3.0, {100, 200, 400, 740}, 400},
+    {"hexagonal", false, "pattern = \"hexagonal\"\n", 3.0, {100, 200, 400, 740}, 400},
+    {"square micropolar",
+     false,
+     "model = \"micropolar\"\n",
+     3.0,
+     {100, 200, 400},
+     200,
+     "poissons_ratio = 0.2\n"}};
+
+/// Twice as high as wide, held below, its upper end driven along y, with a notch in the middle that
+/// is half as deep as the body is wide.
+std::string case_text(const Series& series, int columns) {
+  const double width = columns, height = 2.0 * columns, deep = columns;
+  const auto region = [&](const char* name, double from, double to) {
+    return fmt::format("[[regions]]\nname = \"{}\"\nx = [0, {}]\ny = [{}, {}]\n{}", name, width,
+                       from, to, series.space ? fmt::format("z = [0, {}]\n", deep) : "");
+  };
+  const double y = 0.5 * height + 0.02, tip = 0.5 * width;
+  return fmt::format("[body]\nspacing = 1\nhorizon_ratio = {}\n{}{}", series.horizon_ratio,
+                     series.space ? "problem = \"three_dimensional\"\n" : "", series.heading) +
+         region("body", 0, height) + region("base", 0, 2) + region("cap", height - 2, height) +
+         "[[materials]]\nregion = \"body\"\nyoungs_modulus = 30000\nfracture_energy = "
+         "\"infinite\"\n" +
+         series.material + "[[supports]]\nregion = \"base\"\nfix = [\"x\", \"y\"" +
+         (series.space ? ", \"z\"" : "") + "]\n[[displacements]]\nregion = \"cap\"\ny = 1\n" +
+         (series.space
+              ? fmt::format(
+                    "[[cracks]]\ncorners = [[-1, {0}, -1], [{1}, {0}, -1], [{1}, {0}, {2}], "
+                    "[-1, {0}, {2}]]\n",
+                    y, tip, deep + 1)
+              : fmt::format("[[cracks]]\npoints = [[-1, {0}], [{1}, {0}]]\n", y, tip)) +
+         "[analysis]\ntype = \"elastic\"\n";
+}
+
+std::string measure(const Series& series, int columns, LinearSolver solver) {
+  const Timer timer;
+  const Model model = build_model(parse_case(case_text(series, columns), "body"));
+  const double set_up = timer.seconds(), calibration = model.network.calibration->seconds;
+  const ElasticResult found = run_elastic_analysis(model, {.threads = 1, .solver = solver});
+  const ElasticSeconds& took = found.seconds;
+  return fmt::format("{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.1e},{:.2f}\n", series.name,
+                     series.horizon_ratio, model.unknowns.count,
+                     solver == LinearSolver::direct ? "factor" : "boxes", found.iterations, set_up,
+                     calibration, took.assembly + took.factorization, took.solve, found.residual,
+                     peak_memory_bytes() / 1e9);
+}
+
+/// In a process of its own, so that its peak of memory is its own.
+std::string measure_apart(const Series& series, int columns, LinearSolver solver) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no process");
+  if (child == 0) {
+    const std::string line = measure(series, columns, solver);
+    const bool written = write(ends[1], line.data(), line.size()) >= 0;
+    _exit(written ? 0 : 1);
+  }
+  close(ends[1]);
+  std::string line(400, '\0');
+  const ssize_t size = read(ends[0], line.data(), line.size());
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (status != 0 || size <= 0) throw std::runtime_error(series.name + " failed");
+  line.resize(static_cast<std::size_t>(size));
+  return line;
+}
+
+}  // namespace
+}  // namespace perilink::verification
+
+bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  const bool quick = !arguments.empty() && arguments[0] == "quick";
+  std::string table =
+      "body,horizon_ratio,unknowns,solver,iterations,set_up,calibration,preparation,solution,"
+      "residual,peak_gigabytes\n";
+  fmt::print("{}", table);
+  const auto add = [&](const Series& series, int columns, LinearSolver solver) {
+    const std::string line = measure_apart(series, columns, solver);
+    fmt::print("{}", line);
+    std::fflush(stdout);
+    table += line;
+    return line;
+  };
+  bool good = true;
+  for (const Series& series : all_series) {
+    std::vector<int> iterations;
+    for (const int columns : series.columns) {
+      if (quick && columns > (series.space ? 38 : 260)) continue;
+      if (columns <= series.largest_factor && !quick) add(series, columns, LinearSolver::direct);
+      const std::string line = add(series, columns, LinearSolver::iterative);
+      std::size_t comma = 0;
+      for (int k = 0; k < 4; ++k) comma = line.find(',', comma) + 1;
+      iterations.push_back(std::stoi(line.substr(comma)));
+    }
+    good = good && iterations.back() <= 1.15 * iterations.front();
+  }
+  if (!quick) write_result(PERILINK_STUDY_DIR, table);
+  return good;
+}
