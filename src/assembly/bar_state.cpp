@@ -9,8 +9,9 @@
 namespace perilink {
 namespace {
 
-/// Motion of the solid at the nodes of bars, shape (particles, dim); that of particles elsewhere. It
-/// is the linear field next to the motions of the tied particles, by the stiffness of their ties.
+/// Motion of the solid at the nodes of bars, shape (particles, dim); that of particles elsewhere.
+/// It is the linear field next to the motions of the tied particles, by the stiffness of their
+/// ties.
 std::vector<double> motion_of_solid(const Network& network, std::span<const double> motion) {
   const Eigen::Index dim = network.dim(), width = network.width();
   const Index count = network.particles.size();

@@ -10,7 +10,7 @@ namespace perilink {
 
 /// How reinforcing bars are strained, and how far they have slipped in the solid around them.
 struct BarState {
-  std::vector<double> strain;  ///< of each segment [-]
+  std::vector<double> strain;  ///< per segment [-]
   std::vector<double> force;   ///< along it, tension positive [force]
   std::vector<double> stress;  ///< force over area [force/length^2]
   /// By which the ends of a segment have moved towards the end of their bar beyond what the ties of
@@ -23,7 +23,7 @@ struct BarState {
   std::vector<double> bond_stress;
 };
 
-/// \param motion  of all particles, shape (particles, width)
+/// \param motion  that of all particles, shape (particles, width)
 BarState bar_state(const Network& network, Secants secants, std::span<const double> motion);
 
 }  // namespace perilink

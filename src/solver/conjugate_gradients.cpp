@@ -1,7 +1,6 @@
 #include "solver/conjugate_gradients.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -12,32 +11,32 @@
 namespace perilink {
 namespace {
 
-/// Steps of a window. The energies that two windows bring fall by a factor, and go on to.
-constexpr int window = 6;
 /// r'z of a correction, near the energy of its error, over the energy that counts as no error.
 constexpr double nothing = 0.01;
 
-/// What the last two windows of steps have brought.
+/// What the steps have brought. Energies of two windows of steps one after the other fall by a
+/// factor, and go on to. The slower the search, the longer the windows have to be.
 class Gains {
  public:
-  void add(double gain) { gains_[static_cast<std::size_t>(count_++) % (2 * window)] = gain; }
+  void add(double gain) { gains_.push_back(gain); }
   /// Square root of the energy that was missing before the last window: its own and what a
   /// geometric series of windows adds behind it. Infinite before there are two.
   double error() const {
-    if (count_ < 2 * window) return std::numeric_limits<double>::infinity();
-    double before = 0.0, last = 0.0;
-    for (int k = 0; k < 2 * window; ++k) {
-      const double gain = gains_[static_cast<std::size_t>(count_ + k) % (2 * window)];
-      (k < window ? before : last) += gain;
-    }
+    const std::size_t window = std::max(shortest, gains_.size() / 8);
+    if (gains_.size() < 2 * window) return std::numeric_limits<double>::infinity();
+    const auto sum_to = [&](std::size_t end) {
+      return std::accumulate(gains_.end() - static_cast<std::ptrdiff_t>(end + window),
+                             gains_.end() - static_cast<std::ptrdiff_t>(end), 0.0);
+    };
+    const double last = sum_to(0), before = sum_to(window);
     const double ratio = before > 0.0 ? std::min(last / before, slowest) : 0.0;
     return std::sqrt(last / (1.0 - ratio));
   }
 
  private:
+  static constexpr std::size_t shortest = 6;
   static constexpr double slowest = 0.999;
-  std::array<double, 2 * window> gains_{};
-  int count_ = 0;
+  std::vector<double> gains_;
 };
 
 double dot(std::span<const double> a, std::span<const double> b) {

@@ -80,17 +80,17 @@ std::optional<double> smoothed_peak(std::span<const CurvePoint> path) {
 }
 
 std::optional<Dip> find_dip(std::span<const CurvePoint> path) {
-  constexpr double much = 0.2;
+  constexpr double fallen = 0.15, climbed = 0.2;
   std::optional<Dip> found;
   Dip now{0.0, 0.0};
   for (const CurvePoint& point : smooth_envelope(path, envelope_window(path.size()))) {
     const double load = std::abs(point.load);
     if (load >= now.peak) {
-      if (!found && now.lowest < (1.0 - much) * now.peak) found = now;
+      if (!found && now.lowest < (1.0 - fallen) * now.peak) found = now;
       now = {load, load};
     }
     now.lowest = std::min(now.lowest, load);
-    if (found && load > (1.0 + much) * found->peak) return found;
+    if (found && load > (1.0 + climbed) * found->peak) return found;
   }
   return std::nullopt;
 }

@@ -44,8 +44,8 @@ struct Dip {
   double lowest;  ///< |load| after it [force]
 };
 
-/// The first peak of the smooth envelope behind which the load fell by a fifth or more and then
-/// climbed beyond it by a fifth or more: what cannot break may have stopped the crack there.
+/// The first peak of the smooth envelope behind which the load fell by 15 % or more and then
+/// climbed beyond it by 20 % or more: what cannot break may have stopped the crack there.
 std::optional<Dip> find_dip(std::span<const CurvePoint> path);
 
 /// Below this part of an earlier peak a body has given way.

@@ -68,8 +68,10 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
   if (breakable == 0) {
     fmt::print("#   breakable bonds    none\n");
   } else {
-    fmt::print("#   breakable bonds    {}, critical stretch {:.5g} to {:.5g}\n", breakable,
-               smallest, largest);
+    const std::string stretches = largest > (1.0 + 1e-9) * smallest
+                                      ? fmt::format("{:.5g} to {:.5g}", smallest, largest)
+                                      : fmt::format("{:.5g}", smallest);
+    fmt::print("#   breakable bonds    {}, critical stretch {}\n", breakable, stretches);
   }
   for (std::size_t m = 0; m < crack_cost.size() && breakable > 0; ++m) {
     if (crack_cost[m] == 1.0) continue;  // bonds that soften have none
@@ -191,7 +193,7 @@ void print_cost(const CaseFile& input, const Network& network,
   fmt::print("#   {:<18} {}\n", factor ? "factorisation" : "solution",
              time_text(cost.factorization));
   if (input.analysis.type != AnalysisType::elastic) {
-    fmt::print("#   {:<18} {:.2g} ms{}; 1000 of them {}\n",
+    fmt::print("#   {:<18} {:.3g} ms{}; 1000 of them {}\n",
                softens(network) ? "each event" : "each broken bond", 1e3 * cost.broken_bond,
                input.elements ? " at first" : "", time_text(1e3 * cost.broken_bond));
   }

@@ -31,7 +31,7 @@ struct PlotBody {
   std::vector<int> kind;       ///< 0 solid, 1 ghost, 2 rebar
   std::vector<Ends> broken_bonds;
   std::vector<Ends> segments;
-  std::vector<double> bar_stress;  ///< of each segment [force/length^2]; empty: not in the file
+  std::vector<double> bar_stress;  ///< per segment [force/length^2]; empty: not in the file
   /// Corners of finite elements that carry particles, one after the other round the element; in the
   /// plane.
   Csr elements;

@@ -198,7 +198,8 @@ std::string bar_width(const Scene& scene) {
   return stroke_width(std::clamp(0.35 * scene.spacing_px(), 2.0, 5.0));
 }
 
-/// Bars by their stress, where the file has it: from grey to red in tension, to blue in compression.
+/// Bars by their stress, where the file has it: from grey to red in tension, to blue in
+/// compression.
 void draw_bars(Svg& svg, const Scene& scene, std::vector<KeyEntry>& key) {
   if (scene.body.segments.empty()) return;
   const std::vector<double>& stress = scene.body.bar_stress;

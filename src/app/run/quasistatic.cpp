@@ -147,7 +147,7 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   summary.line("solver", "{}, largest residual {:.1e}", found.solver, found.largest_residual);
   summary.outcome = fmt::format("{} broken bonds, {}, largest residual {:.2e}", found.broken_bonds,
                                 found.solver, found.largest_residual);
-  summary.rate = fmt::format("{:.3g} ms per row", rows > 1 ? 1e3 * seconds / rows : 0.0);
+  if (rows > 1) summary.rate = fmt::format("{:.3g} ms per row", 1e3 * seconds / rows);
 }
 
 }  // namespace perilink

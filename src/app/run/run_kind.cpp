@@ -41,8 +41,9 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
       {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
   for (const auto& [part, time] : seconds.parts) phases[part] = time;
   summary.add("seconds", phases);
-  summary.line("time", "set-up {:.2f} s, analysis {:.2f} s ({}), output {:.2f} s", seconds.set_up,
-               seconds.analysis, summary.rate, seconds.output);
+  const std::string rate = summary.rate.empty() ? "" : fmt::format(" ({})", summary.rate);
+  summary.line("time", "set-up {:.2f} s, analysis {:.2f} s{}, output {:.2f} s", seconds.set_up,
+               seconds.analysis, rate, seconds.output);
   summary.add("peak_memory_bytes", peak_memory_bytes());
   summary.add("threads", run.threads);
   summary.add("version", program_version());

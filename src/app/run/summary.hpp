@@ -22,7 +22,7 @@ struct Summary {
   std::vector<std::string> notes;   ///< what is worth knowing
   std::vector<std::string> doubts;  ///< what makes the numbers doubtful, a sentence each
   std::string outcome;              ///< steps and cracks, for the log
-  std::string rate;                 ///< how fast the analysis was: "0.2 ms per row"
+  std::string rate;                 ///< how fast the analysis was: "0.2 ms per row"; may be empty
 
   /// A key that is there keeps its place.
   void add(const std::string& key, nlohmann::ordered_json value) { json[key] = std::move(value); }

@@ -43,9 +43,9 @@ bool run_softening(bool large) {
                                    {22, true, false, 3000, 1},
                                    {22, true, true, 3000, 3000}};
   const std::vector<Body> fine = {{columns_50k, false, false, 500, 1},
-                                  {columns_50k, false, true, 500, 100},
+                                  {columns_50k, false, true, 500, 500},
                                   {70, true, false, 500, 1},
-                                  {70, true, true, 500, 100}};
+                                  {70, true, true, 500, 500}};
   std::string table =
       "model,law,columns,unknowns,events,ending,compared,mismatches,load_factor_difference,"
       "energy_error,largest_residual,factorizations,ms_per_event\n";
