@@ -38,7 +38,7 @@ struct Bars {
   std::vector<double> area;  ///< cross-section [length^2], per segment
   std::vector<Index> bar;    ///< number of the bar, per segment
   std::vector<std::uint8_t>
-      turned;  ///< nonzero: its second end is nearer to the bar's beginning
+      turned;  ///< nonzero: its second end comes first along the bar
 
   /// Whether the segment and the one before belong to one bar.
   bool continues(std::size_t segment) const {
