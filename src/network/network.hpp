@@ -32,13 +32,12 @@ struct MaterialStrength {
   Index teeth = 0;                    ///< events until a bond is broken
 };
 
-/// What segments of reinforcing bars are beside elements, in the order of these: bar after bar, from
-/// the beginning of each to its end.
+/// What segments of reinforcing bars are beside elements, in the order of these: bar after bar,
+/// from the beginning of each to its end.
 struct Bars {
-  std::vector<double> area;  ///< cross-section [length^2], per segment
-  std::vector<Index> bar;    ///< number of the bar, per segment
-  std::vector<std::uint8_t>
-      turned;  ///< nonzero: its second end comes first along the bar
+  std::vector<double> area;          ///< cross-section [length^2], per segment
+  std::vector<Index> bar;            ///< number of the bar, per segment
+  std::vector<std::uint8_t> turned;  ///< nonzero: its second end comes first along the bar
 
   /// Whether the segment and the one before belong to one bar.
   bool continues(std::size_t segment) const {
