@@ -72,19 +72,22 @@ BarState bar_state(const Network& network, Secants secants, std::span<const doub
     state.strain.push_back(extension / bonds.lengths[e]);
     state.force.push_back(force);
     state.stress.push_back(force / bars.area[s]);
-    state.slip.push_back(bars.turned[s] != 0 ? -slip : slip);
+    state.slip.push_back(bars.turned[s] != 0 ? 0.0 - slip : slip);
   }
   for (std::size_t s = 0; s < bars.bar.size(); ++s) {
-    const std::size_t before = bars.continues(s) ? s - 1 : s;
-    const std::size_t behind = bars.continues(s + 1) ? s + 1 : s;
+    const double perimeter = std::sqrt(4.0 * std::numbers::pi * bars.area[s]);
+    // At a node the solid takes the difference of the forces of its segments, over half of each; at
+    // an end of the bar all of it.
     const auto length_of = [&](std::size_t k) {
       return bonds.lengths[network.first_segment + static_cast<Index>(k)];
     };
-    double length = 0.0;  // from middle to middle
-    for (std::size_t k = before; k < behind; ++k) length += 0.5 * (length_of(k) + length_of(k + 1));
-    const double perimeter = std::sqrt(4.0 * std::numbers::pi * bars.area[s]);
-    state.bond_stress.push_back(
-        length > 0.0 ? (state.force[behind] - state.force[before]) / (length * perimeter) : 0.0);
+    const double at_begin = bars.continues(s) ? (state.force[s] - state.force[s - 1]) /
+                                                    (0.5 * (length_of(s) + length_of(s - 1)))
+                                              : state.force[s] / (0.5 * length_of(s));
+    const double at_end = bars.continues(s + 1) ? (state.force[s + 1] - state.force[s]) /
+                                                      (0.5 * (length_of(s) + length_of(s + 1)))
+                                                : -state.force[s] / (0.5 * length_of(s));
+    state.bond_stress.push_back(0.5 * (at_begin + at_end) / perimeter);
   }
   return state;
 }

@@ -18,8 +18,9 @@ struct BarState {
   /// field next to the motions of its tied particles, weighted with the intact stiffness of the
   /// ties; a node that is a particle of the solid does not slip.
   std::vector<double> slip;
-  /// What the segment gives to the solid around it: change of the force per length over the
-  /// perimeter of a round bar, from the segments before it and behind it [force/length^2].
+  /// What the segment gives to the solid around it, the mean of its ends: at each the change of the
+  /// force per length over the perimeter of a round bar; beyond an end of the bar there is no force
+  /// [force/length^2].
   std::vector<double> bond_stress;
 };
 

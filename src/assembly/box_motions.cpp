@@ -1,8 +1,9 @@
 #include "assembly/box_motions.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -216,22 +217,48 @@ BoxRow assemble_box(const Blocks& blocks, const Unknowns& unknowns, const BoxMot
   return row;
 }
 
-/// Lower triangle of the boxes' blocks. What a box of few particles cannot do (a pair does not turn
-/// about its own axis) keeps a small stiffness of its own.
-SparseMatrix coarse_matrix(const std::vector<BoxRow>& rows, int motions) {
-  constexpr double least = 1e-9;
+/// What a box of few particles cannot do (a pair does not turn about its own axis, what is held
+/// does not move) gets the mean stiffness of the box, everything else nothing, so that what moves
+/// without resistance stays singular.
+Eigen::MatrixXd stiffness_of_idle(const BoxMotions& motions, Index box, int width,
+                                  const Eigen::MatrixXd& own) {
+  constexpr double idle = 1e-9;
+  const int count = motions.num_motions();
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(count, count);
+  for (const Index p : motions.particles(box)) {
+    for (int c = 0; c < width; ++c) {
+      const std::array<double, 6> moves = motions.row(p, c);
+      const Eigen::Map<const Eigen::VectorXd> moved(moves.data(), count);
+      gram += moved * moved.transpose();
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+  const double size = std::max(own.trace() / count, std::numeric_limits<double>::min());
+  Eigen::MatrixXd added = Eigen::MatrixXd::Zero(count, count);
+  for (int k = 0; k < count; ++k) {
+    if (solver.eigenvalues()[k] > idle * static_cast<double>(motions.particles(box).size())) break;
+    const Eigen::VectorXd vector = solver.eigenvectors().col(k);
+    added += (own.trace() > 0.0 ? size : 1.0) * vector * vector.transpose();
+  }
+  return added;
+}
+
+/// Lower triangle of the boxes' blocks.
+SparseMatrix coarse_matrix(std::vector<BoxRow>& rows, const BoxMotions& boxes, int width) {
+  const int motions = boxes.num_motions();
   std::vector<Eigen::Triplet<double, Index>> entries;
   for (std::size_t b = 0; b < rows.size(); ++b) {
     const Index first = static_cast<Index>(b) * motions;
     for (std::size_t k = 0; k < rows[b].others.size(); ++k) {
       const Index other = rows[b].others[k] * motions;
+      if (other == first) {
+        const Eigen::MatrixXd own = rows[b].blocks[k].topLeftCorner(motions, motions);
+        rows[b].blocks[k].topLeftCorner(motions, motions) +=
+            stiffness_of_idle(boxes, static_cast<Index>(b), width, own);
+      }
       for (int r = 0; r < motions; ++r) {
         for (int c = 0; c < (other == first ? r + 1 : motions); ++c) {
-          double value = rows[b].blocks[k](r, c);
-          if (other + c == first + r) {
-            value += value > 0.0 ? least * rows[b].blocks[k].trace() / motions : 1.0;
-          }
-          entries.emplace_back(first + r, other + c, value);
+          entries.emplace_back(first + r, other + c, rows[b].blocks[k](r, c));
         }
       }
     }
@@ -256,7 +283,7 @@ BoxStiffness assemble_box_stiffness(const Network& network, Secants secants,
       rows[b] = assemble_box(blocks, unknowns, motions, b, result.blocks);
     }
   });
-  result.coarse = coarse_matrix(rows, motions.num_motions());
+  result.coarse = coarse_matrix(rows, motions, unknowns.width);
   return result;
 }
 

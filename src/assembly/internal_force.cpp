@@ -131,19 +131,25 @@ void add_bonds(const Network& network, const Elements& elements, Secants secants
   }
 }
 
+/// Bonds and the finite elements beside them.
+template <class Real, class Elements>
+void add_bonds_and_cells(const Network& network, const Elements& elements, Secants secants,
+                         std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
+  add_bonds(network, elements, secants, displacement, result);
+  if (!network.cells) return;
+  const int width = network.width();
+  network.dim() == 2
+      ? add_cells<2>(*network.cells, displacement, width, result.forces, result.energy)
+      : add_cells<3>(*network.cells, displacement, width, result.forces, result.energy);
+}
+
 template <class Real>
 void add_all(const Network& network, Secants secants, std::span<const Real> displacement,
              ForcesAndEnergy<Real>& result) {
-  add_bonds(network, AllElements{network.num_elements()}, secants, displacement, result);
+  add_bonds_and_cells(network, AllElements{network.num_elements()}, secants, displacement, result);
   if (network.has_states()) {
     network.dim() == 2 ? add_states<2>(network, secants, displacement, result)
                        : add_states<3>(network, secants, displacement, result);
-  }
-  if (network.cells) {
-    const int width = network.width();
-    network.dim() == 2
-        ? add_cells<2>(*network.cells, displacement, width, result.forces, result.energy)
-        : add_cells<3>(*network.cells, displacement, width, result.forces, result.energy);
   }
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
     const Real force = network.support_stiffness[slot] * displacement[slot];
@@ -168,7 +174,7 @@ void internal_force(const Network& network, Secants secants,
 
 void internal_force(const Network& network, Secants secants, std::span<const double> displacement,
                     std::span<const Index> elements, InternalForce& result) {
-  add_bonds(network, elements, secants, displacement, result);
+  add_bonds_and_cells(network, elements, secants, displacement, result);
 }
 
 InternalForce internal_force(const Network& network, Secants secants,

@@ -25,7 +25,8 @@ InternalForce internal_force(const Network& network, Secants secants,
 void internal_force(const Network& network, Secants secants, std::span<const double> displacement,
                     InternalForce& result);
 
-/// The same of some of the elements, without supports and states.
+/// The same of some of the elements and of all finite elements beside bonds, without supports and
+/// states.
 void internal_force(const Network& network, Secants secants, std::span<const double> displacement,
                     std::span<const Index> elements, InternalForce& result);
 

@@ -91,32 +91,37 @@ InternalForce internal_force(const LinearElements& elements, std::span<const dou
 namespace {
 
 template <int Dim>
-double work_in_cells(const LinearElements& elements, int width,
-                     std::span<const double> displacement, std::span<const double> other) {
-  double work = 0.0;
+std::pair<double, double> work_in_cells(const LinearElements& elements, int width,
+                                        std::span<const double> displacement,
+                                        std::span<const double> other) {
+  double work = 0.0, sizes = 0.0;
   for (Index number = 0; number < elements.cells.size(); ++number) {
     const std::span<const Index> cell = elements.cells.cell(number);
     const Gradients<Dim> gradients = gradients_of<Dim>(elements, number);
-    Tensor<Dim> first = Tensor<Dim>::Zero(), second = first;
+    Tensor<Dim> first = Tensor<Dim>::Zero(), second = first, size = first, other_size = first;
     for (int v = 0; v <= Dim; ++v) {
       const std::size_t slot = static_cast<std::size_t>(cell[v]) * width;
       for (int a = 0; a < Dim; ++a) {
         first.row(a) += displacement[slot + a] * gradients.row(v);
         second.row(a) += other[slot + a] * gradients.row(v);
+        size.row(a) += std::abs(displacement[slot + a]) * gradients.row(v).cwiseAbs();
+        other_size.row(a) += std::abs(other[slot + a]) * gradients.row(v).cwiseAbs();
       }
     }
     if (second.isZero(0.0)) continue;
     const Tensor<Dim> strain = 0.5 * (first + first.transpose());
     work += elements.volumes[number] *
             stress_of<Dim>(elements, number, strain).cwiseProduct(second).sum();
+    sizes += elements.volumes[number] * elements.mu[number] * size.cwiseProduct(other_size).sum();
   }
-  return work;
+  return {work, sizes};
 }
 
 }  // namespace
 
-double work_between(const LinearElements& elements, int width, std::span<const double> displacement,
-                    std::span<const double> other) {
+std::pair<double, double> work_between(const LinearElements& elements, int width,
+                                       std::span<const double> displacement,
+                                       std::span<const double> other) {
   return elements.dim() == 2 ? work_in_cells<2>(elements, width, displacement, other)
                              : work_in_cells<3>(elements, width, displacement, other);
 }

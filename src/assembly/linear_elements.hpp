@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCore>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "assembly/internal_force.hpp"
@@ -22,10 +23,11 @@ Eigen::SparseMatrix<double, Eigen::ColMajor, Index> assemble_stiffness(
 InternalForce internal_force(const LinearElements& elements, std::span<const double> displacement);
 
 /// Work of the cells' stresses under one motion on the strains of another, summed over cells at
-/// which the other moves [force length].
+/// which the other moves, and the same sum over the sizes of its terms [force length].
 /// \param width  components of both motions, shape (particles, width)
-double work_between(const LinearElements& elements, int width, std::span<const double> displacement,
-                    std::span<const double> other);
+std::pair<double, double> work_between(const LinearElements& elements, int width,
+                                       std::span<const double> displacement,
+                                       std::span<const double> other);
 
 /// Strain of every cell, shape (cells, dim, dim) [-].
 std::vector<double> cell_strains(const LinearElements& elements,

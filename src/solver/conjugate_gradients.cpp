@@ -58,7 +58,9 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
   precondition(r, z);
   p = z;
   double rz = dot(r, z);
+  const double first = rz;
   if (rz <= nothing * enough * enough * scale) {
+    report.error = std::sqrt(rz);
     report.converged = true;
     return report;
   }
@@ -73,6 +75,7 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
     }
     gains.add(step * rz);
     report.energy += step * rz;
+    report.softest = first / report.energy;
     ++report.iterations;
     report.error = gains.error();
     if (is_enough()) break;

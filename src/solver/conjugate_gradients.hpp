@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 
 namespace perilink {
@@ -13,6 +14,9 @@ struct GradientsReport {
   int iterations = 0;
   double energy = 0.0;  ///< x' A x of what was added to the solution
   double error = 0.0;   ///< square root of the energy that is missing, estimated from above
+  /// r'z of the right side over the energy of its solution: no less than the smallest eigenvalue of
+  /// the preconditioned A.
+  double softest = std::numeric_limits<double>::infinity();
   bool converged = false;
 };
 

@@ -184,5 +184,34 @@ INSTANTIATE_TEST_SUITE_P(
                     MeshPatch{"beside_carriers", "", 2, "", "size = 1.2\norder = 1\n"}),
     [](const auto& patch) { return std::string(patch.param.name); });
 
+/// Grips on glued vertices take the forces of the finite elements too, also those of an earlier
+/// stage.
+TEST(GluedStages, WorkOfGripsBalances) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory / "box.msh")
+      << test::gmsh_text(test::box_mesh(2, 12), {6, 6, 6}, {-3, -3, -3});
+  const auto run = [&](const char* glued) {
+    const std::string text =
+        std::string("[body]\nmesh = \"box.msh\"\nhorizon_ratio = 3\n") +
+        "[[regions]]\nname = \"all\"\nx = [-9, 9]\ny = [-9, 9]\n"
+        "[[regions]]\nname = \"half\"\nx = [0, 9]\ny = [-9, 9]\n"
+        "[[regions]]\nname = \"left\"\nx = [-3, -3]\ny = [-9, 9]\n"
+        "[[regions]]\nname = \"right\"\nx = [3, 3]\ny = [-9, 9]\n"
+        "[[materials]]\nregion = \"all\"\nyoungs_modulus = 100\nfracture_energy = 1000\n"
+        "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\"]\n"
+        "[[loads]]\nregion = \"all\"\nbody_force = [0.1, -0.2]\nstage = \"weight\"\n"
+        "[[displacements]]\nregion = \"right\"\ny = 0.1\nstage = \"drive\"\n"
+        "[[stages]]\nname = \"weight\"\nto = 1\n[[stages]]\nname = \"drive\"\nto = 1\n" +
+        glued;
+    const CaseFile input = parse_case(text, (directory / "stages.toml").string());
+    DamageObserver silent;
+    return run_damage_analysis(build_model(input), damage_options(input, 1), silent);
+  };
+  const DamageResult glued = run("[elements]\nglued = [\"half\"]\n"), bonds = run("");
+  EXPECT_LT(glued.energy_error, 1e-11);
+  EXPECT_NEAR(glued.last.load, bonds.last.load, 0.01 * std::abs(bonds.last.load))
+      << "elements are a little stiffer";
+}
+
 }  // namespace
 }  // namespace perilink

@@ -8,6 +8,7 @@
 
 #include "analysis/quasistatic/elastic_analysis.hpp"
 #include "app/model/from_case/configure.hpp"
+#include "base/error.hpp"
 #include "io/case/case_file.hpp"
 #include "support/gmsh_texts.hpp"
 #include "support/lattice_networks.hpp"
@@ -126,6 +127,30 @@ TEST(EquilibriumSolvers, AgreeOnStates) {
            [&](Index i, int) { return particles.position(i)[last] < low + 0.3 * (high - low); });
     SCOPED_TRACE(testing::PrintToString(lattice));
     expect_equal_answers(body);
+  }
+}
+
+/// Two halves that one particle joins turn about it, also where the load does not stir them. A factor
+/// finds a pivot of zero.
+TEST(EquilibriumSolvers, RefuseMechanismsThatNoLoadMoves) {
+  SlenderCase bar;
+  bar.columns = 80;
+  bar.rows = 41;
+  bar.load = SlenderLoad::force_along;
+  AnalysisBody body = make_slender(bar);
+  const Particles& particles = body.network.particles;
+  std::vector<std::uint8_t> keep;
+  for (Index e = 0; e < body.network.num_elements(); ++e) {
+    const auto a = particles.position(body.network.bonds.first[e]);
+    const auto b = particles.position(body.network.bonds.second[e]);
+    const auto at_hinge = [](std::span<const double> x) { return x[0] == 40.0 && x[1] == 20.0; };
+    const bool apart = (a[0] < 40.0) != (b[0] < 40.0) && !at_hinge(a) && !at_hinge(b);
+    const bool beside = (a[0] == 40.0) != (b[0] == 40.0) && !at_hinge(a) && !at_hinge(b);
+    keep.push_back(!apart && !beside);
+  }
+  keep_elements(body.network, keep);
+  for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::iterative}) {
+    EXPECT_THROW(run_elastic_analysis(body, {.solver = solver}), SolverError);
   }
 }
 

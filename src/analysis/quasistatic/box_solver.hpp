@@ -7,6 +7,7 @@
 #include "assembly/box_motions.hpp"
 #include "assembly/internal_force.hpp"
 #include "network/loaded_network.hpp"
+#include "solver/conjugate_gradients.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -23,7 +24,7 @@ struct BoxSolverOptions {
 class BoxSolver {
  public:
   /// \param problem  nothing may carry its particles; kept by reference, as the secants
-  /// \throws SolverError where the boxes' stiffness is not positive definite
+  /// \throws NotPositiveDefinite where a part of the body can move without resistance
   BoxSolver(const LoadedNetwork& problem, Secants secants, const BoxSolverOptions& options);
 
   /// Both of size n; they may be the same memory. What is solved later may correct what was solved
@@ -39,7 +40,10 @@ class BoxSolver {
  private:
   void precondition(std::span<const double> residual, std::span<double> result);
   void multiply(std::span<const double> q, std::span<double> result);
+  GradientsReport search(std::span<const double> right, std::span<double> solution, double enough,
+                         double scale, int most_steps);
   void invert_blocks();
+  void require_resistance();
 
   const LoadedNetwork& problem_;
   Secants secants_;

@@ -64,6 +64,7 @@ Equilibria::Equilibria(const DamageResult& result)
 namespace {
 
 std::string solver_text(const ElasticResult& solution) {
+  if (solution.displacement.empty()) return "no equilibrium found";
   if (solution.boxes == 0) return "1 factorisation";
   return fmt::format("{} iterations of conjugate gradients with {} boxes, error {:.1e}",
                      solution.iterations, solution.boxes, solution.error);
@@ -76,6 +77,7 @@ Equilibria::Equilibria(const ElasticAnswer& answer)
       peaks(answer.peaks),
       factor(answer.solution.factor),
       solver(solver_text(answer.solution)),
+      by_iterations(answer.solution.boxes > 0),
       initial_stiffness(last.displacement != 0.0 ? last.load / last.displacement : 0.0),
       largest_residual(answer.solution.residual) {}
 
@@ -130,7 +132,8 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
                       const Equilibria& found, double seconds) {
   const Index rows = found.last.step;
   tell_equilibria(summary, input, found);
-  summary.doubts = doubts_of_balance(found.energy_error, found.largest_residual);
+  summary.doubts =
+      doubts_of_balance(found.energy_error, found.largest_residual, found.by_iterations);
   summary.doubts.insert(summary.doubts.end(), found.doubts.begin(), found.doubts.end());
   summary.add("doubts", summary.doubts);
   tell_body(summary, model, fmt::format(", {} unknowns", model.unknowns.count));

@@ -53,6 +53,7 @@ struct Equilibria {
   const PeakWatch& peaks;
   const FactorStatistics& factor;
   std::string solver;                             ///< what it took
+  bool by_iterations = false;                     ///< and not by a factor
   double initial_stiffness = 0.0;                 ///< [force / length]
   double largest_residual = 0.0;                  ///< over the loads [-]
   Index broken_bonds = 0;                         ///< with the one that separated the body

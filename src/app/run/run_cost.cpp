@@ -15,7 +15,7 @@ constexpr double read_bytes_per_second = 36e9;
 constexpr double search_seconds_per_bond = 1e-9;
 /// Boxes and some 55 iterations (verification/studies/large_bodies).
 constexpr double box_seconds_per_bond = 0.5e-6, box_seconds_per_frame_bond = 3e-6;
-constexpr double box_bytes_per_bond = 125.0;
+constexpr double box_bytes_per_bond = 145.0, box_bytes_per_frame_bond = 580.0, box_bytes = 50e6;
 /// An event of the smallest body: row, bookkeeping, progress.
 constexpr double seconds_per_row = 35e-6;
 
@@ -96,9 +96,9 @@ ExpectedCost expected_cost(const Network& network, const FactorStatistics& facto
 ExpectedCost expected_cost_of_boxes(const Network& network) {
   const double bonds = network.num_elements();
   ExpectedCost cost;
-  cost.memory = std::max(peak_memory_bytes(), box_bytes_per_bond * bonds);
-  cost.factorization =
-      bonds * (network.carries_moments() ? box_seconds_per_frame_bond : box_seconds_per_bond);
+  const bool frames = network.carries_moments();
+  cost.memory = box_bytes + bonds * (frames ? box_bytes_per_frame_bond : box_bytes_per_bond);
+  cost.factorization = bonds * (frames ? box_seconds_per_frame_bond : box_seconds_per_bond);
   return cost;
 }
 

@@ -81,7 +81,8 @@ std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFac
   return doubts;
 }
 
-std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual) {
+std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,
+                                           bool by_iterations) {
   // Results are printed with six digits; equilibria are exact but for round-off, which leaves ten.
   constexpr double most_imbalance = 1e-6;
   std::vector<std::string> doubts;
@@ -92,7 +93,12 @@ std::vector<std::string> doubts_of_balance(double energy_error, double largest_r
                     "so compliant that round-off has reached its results",
                     energy_error));
   }
-  if (!(largest_residual <= most_imbalance)) {
+  if (!(largest_residual <= most_imbalance) && by_iterations) {
+    doubts.push_back(
+        fmt::format("up to {:.2g} of the load is out of balance: a smaller `tolerance` in "
+                    "[analysis], or solver = \"direct\", brings displacements nearer",
+                    largest_residual));
+  } else if (!(largest_residual <= most_imbalance)) {
     doubts.push_back(
         fmt::format("up to {:.2g} of the load is out of balance: the stiffness matrix is so close "
                     "to singular that displacements are not solved for to six digits",

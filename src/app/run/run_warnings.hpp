@@ -46,6 +46,7 @@ std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFac
 /// The same of a quasistatic run: energies that balance, or forces, to no more than six digits.
 /// \param energy_error      largest of all rows, over the work [-]
 /// \param largest_residual  forces out of balance, over the loads [-]
-std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual);
+std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,
+                                           bool by_iterations = false);
 
 }  // namespace perilink

@@ -31,6 +31,12 @@ std::vector<double> linear_motion(const Network& network) {
   return motion;
 }
 
+const double perimeter = std::sqrt(4.0 * std::numbers::pi * 0.005);
+
+double length_of(const Network& network, std::size_t segment) {
+  return network.bonds.lengths[network.first_segment + static_cast<Index>(segment)];
+}
+
 TEST(BarState, InAUniformStrainBarsBearItAndDoNotSlip) {
   for (const bool space : {false, true}) {
     for (const bool micropolar : {false, true}) {
@@ -44,7 +50,10 @@ TEST(BarState, InAUniformStrainBarsBearItAndDoNotSlip) {
         EXPECT_NEAR(state.stress[s], 200.0 * 0.002, 1e-11);
         EXPECT_NEAR(state.force[s], 200.0 * 0.005 * 0.002, 1e-13);
         EXPECT_NEAR(state.slip[s], 0.0, 1e-13);
-        EXPECT_NEAR(state.bond_stress[s], 0.0, 1e-11);
+        // An end gives its force over half a segment; a segment has the mean of its ends.
+        const double end = state.force[s] / length_of(network, s) / perimeter;
+        const bool first = s == 0, last = s + 1 == state.force.size();
+        EXPECT_NEAR(state.bond_stress[s], (first ? end : 0.0) - (last ? end : 0.0), 1e-11);
       }
     }
   }
@@ -64,15 +73,35 @@ TEST(BarState, ABarThatIsPulledThroughTheSolidSlipsAndGivesItsForceToIt) {
     }
   }
   const BarState state = bar_state(network, intact(network), motion);
-  const double perimeter = std::sqrt(4.0 * std::numbers::pi * 0.005);
   for (std::size_t s = 0; s < state.force.size(); ++s) {
     const Index e = network.first_segment + static_cast<Index>(s);
     const double a = network.particles.position(network.bonds.first[e])[0];
     const double b = network.particles.position(network.bonds.second[e])[0];
     EXPECT_NEAR(state.strain[s], 0.5 * grown * (a + b), 1e-13);
     EXPECT_NEAR(state.slip[s], 0.01 + 0.25 * grown * (a * a + b * b), 1e-13);
+    if (s == 0 || s + 1 == state.force.size()) continue;
     EXPECT_NEAR(state.bond_stress[s], 200.0 * 0.005 * grown / perimeter, 1e-11);
   }
+}
+
+/// All that the bar gives to the solid adds up to nothing.
+TEST(BarState, BondStressesAddUpToNothing) {
+  const AnalysisBody body = block(false);
+  const Network& network = body.network;
+  std::vector<double> motion(network.particles.positions.size(), 0.0);
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    const double x = network.particles.position(i)[0];
+    if (network.particles.kind[i] == ParticleKind::rebar)
+      motion[slot(body, i, 0)] = x * x * (1 - x);
+  }
+  const BarState state = bar_state(network, intact(network), motion);
+  double given = 0.0, size = 0.0;
+  for (std::size_t s = 0; s < state.force.size(); ++s) {
+    given += state.bond_stress[s] * perimeter * length_of(network, s);
+    size = std::max(size, std::abs(state.force[s]));
+  }
+  ASSERT_GT(size, 0.01);
+  EXPECT_NEAR(given, 0.0, 1e-12);
 }
 
 /// Numbers of nodes may fall along a bar; what it bears is the same.

@@ -254,10 +254,10 @@ LoadWork Equilibrium::sum_work() {
     sizes += size;
   }
   if (network_.cells) {
-    const double share =
+    const auto [share, size] =
         work_between(*network_.cells, network_.width(), displacement_, unknowns_->prescribed);
     work.supports += share;
-    sizes += std::abs(share);
+    sizes += size;
   }
   return work.forces + work.supports > cancelled_work * sizes ? work : work_by_energy();
 }

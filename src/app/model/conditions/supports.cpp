@@ -54,6 +54,17 @@ void prescribe(const CaseFile& input, const Model& model, Prescription& prescrip
   }
 }
 
+/// A rotation that is driven must turn something.
+void refuse_idle_rotation(const CaseFile& input, const Model& model,
+                          std::span<const Index> particles, const std::string& key, int component) {
+  if (component < model.network.dim()) return;
+  const std::vector<std::uint8_t> rotating = rotating_particles(model.network);
+  const auto turns = [&](Index i) { return !rotating.empty() && rotating[i] != 0; };
+  if (particles.empty() || std::any_of(particles.begin(), particles.end(), turns)) return;
+  throw InputError(input.where(key), "drives the rotation of particles whose bonds resist none",
+                   "drive their displacements by formulas that turn the region");
+}
+
 void grip(const Network& network, Prescription& prescription, std::span<const Index> particles,
           int component) {
   if (component >= network.dim()) return;  // a rotation
@@ -141,6 +152,9 @@ void drive(const CaseFile& input, const Model& model, Prescription& prescription
       const std::string name = motion_name(model.network.dim(), entry);
       const PositionField values(input, item_key(table, k, name), {&*value, 1});
       const int component = component_of(model.network, entry);
+      if (!value->is_zero()) {
+        refuse_idle_rotation(input, model, particles, item_key(table, k, name), component);
+      }
       prescribe(input, model, prescription, particles, item_key(table, k), component, values,
                 rests ? 0.0 : factor);
       if (rests) {
