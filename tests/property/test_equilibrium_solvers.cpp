@@ -130,8 +130,8 @@ TEST(EquilibriumSolvers, AgreeOnStates) {
   }
 }
 
-/// Two halves that one particle joins turn about it, also where the load does not stir them. A factor
-/// finds a pivot of zero.
+/// Two halves that one particle joins turn about it, also where the load does not stir them. A
+/// factor finds a pivot of zero.
 TEST(EquilibriumSolvers, RefuseMechanismsThatNoLoadMoves) {
   SlenderCase bar;
   bar.columns = 80;

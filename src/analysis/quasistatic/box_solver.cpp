@@ -48,9 +48,9 @@ BoxSolver::BoxSolver(const LoadedNetwork& problem, Secants secants, const BoxSol
   require_resistance();
 }
 
-/// What moves without resistance shows under forces of any kind; the loads may not stir it. With the
-/// boxes as preconditioner the smallest eigenvalue of whole bodies is 0.1 to 1, of a body held by
-/// the last of its bonds 1e-3, of a mechanism below 1e-16.
+/// What moves without resistance shows under forces of any kind; the loads may not stir it. With
+/// the boxes as preconditioner the smallest eigenvalue of whole bodies is 0.1 to 1, of a body held
+/// by the last of its bonds 1e-3, of a mechanism below 1e-16.
 void BoxSolver::require_resistance() {
   constexpr double none = 1e-8, enough = 1e-4;
   constexpr int most_steps = 2000;
