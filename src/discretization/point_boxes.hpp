@@ -14,4 +14,8 @@ namespace perilink {
 std::vector<std::vector<Index>> split_into_boxes(std::span<const double> positions, int dim,
                                                  Index most);
 
+/// The same in a given number of boxes.
+std::vector<std::vector<Index>> split_into_parts(std::span<const double> positions, int dim,
+                                                 Index parts);
+
 }  // namespace perilink

@@ -3,11 +3,19 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace perilink {
 
 /// result = A x, both of size n.
 using LinearMap = std::function<void(std::span<const double> vector, std::span<double> result)>;
+
+/// a'b of two vectors.
+using ScalarProduct =
+    std::function<double(std::span<const double> first, std::span<const double> second)>;
+
+/// Sum over the numbers in one order.
+double scalar_product(std::span<const double> first, std::span<const double> second);
 
 /// How a search by conjugate gradients went.
 struct GradientsReport {
@@ -20,6 +28,24 @@ struct GradientsReport {
   bool converged = false;
 };
 
+/// What the steps of a search have brought. Energies of two windows of steps one after the other
+/// fall by a factor, and go on to. The slower the search, the longer the windows have to be.
+class StepGains {
+ public:
+  void add(double gain) { gains_.push_back(gain); }
+  bool empty() const { return gains_.empty(); }
+  /// Square root of the energy that was missing before the last window: its own and what a
+  /// geometric series of windows adds behind it. Infinite before there are two.
+  double error() const;
+
+ private:
+  std::vector<double> gains_;
+};
+
+/// A correction whose r'z, near the energy of its error, is no more than this part of the energy
+/// that counts as no error, is not looked for.
+inline constexpr double negligible_correction = 0.01;
+
 /// Adds to `solution` the x of A x = right by preconditioned conjugate gradients, A symmetric and
 /// positive definite. Each step adds alpha r'z to the energy of x, so that what the last steps have
 /// added tells what is missing (Hestenes & Stiefel 1952; Strakos & Tichy 2002).
@@ -27,9 +53,11 @@ struct GradientsReport {
 /// \param enough        stops where the error is no larger than this part of the square root of the
 ///                      energy, or of `scale`
 /// \param scale         energy of a solution that this one corrects; 0: none
+/// \param dot           that of whole vectors, where those here are parts of them
 /// \throws NotPositiveDefinite where A is not
 GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
                                     std::span<const double> right, std::span<double> solution,
-                                    double enough, double scale, int most_iterations);
+                                    double enough, double scale, int most_iterations,
+                                    const ScalarProduct& dot = scalar_product);
 
 }  // namespace perilink

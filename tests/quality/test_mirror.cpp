@@ -17,9 +17,13 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/commands/compare_command.cpp", "a command: tests/cli runs the program"},
       {"app/commands/converge_command.cpp", "a command: tests/cli runs the program"},
       {"app/commands/run_command.cpp", "a command: tests/cli runs the program"},
-      {"app/main.cpp", "only calls the commands; tests/cli runs the program"},
+      {"analysis/quasistatic/ranks/part_solver.cpp", "a part of a team: test_team.cpp"},
+      {"app/main.cpp", "only starts the program; tests/cli runs it"},
       {"app/memory_at_start.cpp", "runs before main: tests/cli/test_memory.cpp"},
+      {"app/process/ranks.cpp", "what mpiexec starts: tests/cli/test_ranks.cpp"},
       {"app/process/threads.cpp", "limits on a process: tests/cli/test_memory.cpp"},
+      {"app/program.cpp", "only calls the commands; tests/cli runs the program"},
+      {"app/rank_main.cpp", "only starts ranks: tests/cli/test_ranks.cpp"},
       {"discretization/lattices/lattice_conforming.cpp", "a part of make_body: test_make_body.cpp"},
       {"discretization/lattices/lattice_facets.cpp", "a part of make_body: test_facets.cpp"},
       {"discretization/lattices/lattice_fit.cpp", "a part of make_body: test_make_body.cpp"},
@@ -32,6 +36,8 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"solver/cholmod_support.cpp", "what the routes share: test_factor_routes.cpp runs them"},
       {"solver/cholmod_updown_factor.cpp", "a route: test_factor_routes.cpp runs every route"},
       {"solver/factor.cpp", "what routes share: test_factor_routes.cpp runs every route"},
+      {"solver/ranks/petsc_gradients.cpp", "needs mpiexec: tests/cli/test_ranks.cpp"},
+      {"solver/ranks/petsc_ranks.cpp", "needs mpiexec: tests/cli/test_ranks.cpp"},
       {"solver/refactorizing_factor.cpp", "a route: test_factor_routes.cpp runs every route"},
   };
   return table;

@@ -45,6 +45,11 @@ BoxSolver::BoxSolver(const LoadedNetwork& problem, Secants secants, const BoxSol
   std::vector<Index> groups;
   for (Index b = 0; b < num_boxes(); ++b) groups.insert(groups.end(), motions, b);
   factor_->factorize(stiffness.coarse, groups);
+  if (options.ranks && can_be_shared(problem.network, problem.unknowns)) {
+    stiffness.blocks = blocks_;
+    team_ = std::make_unique<Team>(*options.ranks, problem.network, problem.unknowns, secants,
+                                   motions_, stiffness);
+  }
   require_resistance();
 }
 
@@ -67,6 +72,7 @@ void BoxSolver::require_resistance() {
 
 GradientsReport BoxSolver::search(std::span<const double> right, std::span<double> solution,
                                   double enough, double scale, int most_steps) {
+  if (team_) return team_->search(right, solution, enough, scale, most_steps);
   return conjugate_gradients(
       [&](std::span<const double> q, std::span<double> result) { multiply(q, result); },
       [&](std::span<const double> r, std::span<double> z) { precondition(r, z); }, right, solution,

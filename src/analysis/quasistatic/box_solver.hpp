@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/quasistatic/ranks/team.hpp"
 #include "assembly/box_motions.hpp"
 #include "assembly/internal_force.hpp"
 #include "network/loaded_network.hpp"
@@ -15,7 +16,8 @@ namespace perilink {
 /// How far conjugate gradients go, and with which boxes.
 struct BoxSolverOptions {
   double tolerance = 1e-10;  ///< error over solution, both in the norm of energy
-  Index edge = 0;  ///< particles along an edge of a box; 0: as many as serve the body best
+  Index edge = 0;          ///< particles along an edge of a box; 0: as many as serve the body best
+  Ranks* ranks = nullptr;  ///< that share the work, where there are several
 };
 
 /// Equilibrium without a factor of the stiffness: conjugate gradients on the network itself, with
@@ -35,6 +37,7 @@ class BoxSolver {
   int iterations() const { return iterations_; }  ///< in all solves
   double error() const { return error_; }         ///< the last solve left, as the tolerance counts
   Index num_boxes() const { return motions_.num_boxes(); }
+  int num_ranks() const { return team_ ? options_.ranks->count() : 1; }
   FactorStatistics coarse() const { return factor_->statistics(); }
 
  private:
@@ -51,6 +54,7 @@ class BoxSolver {
   BoxMotions motions_;
   std::vector<double> blocks_;  // inverse, shape (particles, width, width)
   std::unique_ptr<Factor> factor_;
+  std::unique_ptr<Team> team_;  ///< null: this process works alone
   std::vector<double> coarse_;  // residual or motion of the boxes, shape (boxes, motions)
   std::vector<double> motion_;  // shape (particles, width), zero where it is prescribed
   InternalForce forces_;

@@ -72,6 +72,7 @@ auto by_boxes(const LoadedNetwork& problem, Secants secants, const BoxSolverOpti
     result.factor = solver->coarse();
     result.factor.factorizations = 0;  // none of the stiffness
     result.boxes = solver->num_boxes();
+    result.ranks = solver->num_ranks();
     return [solver, &result](std::span<const double> right, std::span<double> solution) {
       solver->solve(right, solution);
       result.iterations = solver->iterations();
@@ -82,8 +83,9 @@ auto by_boxes(const LoadedNetwork& problem, Secants secants, const BoxSolverOpti
 
 }  // namespace
 
-bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver) {
+bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks) {
   if (solver != LinearSolver::automatic) return solver == LinearSolver::iterative;
+  if (has_ranks && can_be_shared(problem.network, problem.unknowns)) return true;
   return !problem.unknowns.carries() &&
          problem.unknowns.count > (problem.network.dim() == 2 ? 20000 : 3000);
 }
@@ -95,7 +97,7 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
   const auto internal_of = [&](std::span<const double> u) {
     return internal_force(network, secants, u);
   };
-  if (is_for_boxes(problem, options.solver)) {
+  if (is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)) {
     return solve_elastic(unknowns, problem.loads, by_boxes(problem, secants, options.boxes),
                          internal_of);
   }

@@ -19,7 +19,8 @@ struct ElasticOptions {
 
 /// Whether conjugate gradients solve a problem: where they are chosen, or take less time than a
 /// factor of the stiffness and nothing carries particles (docs/theory/large_bodies.md).
-bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver);
+/// Ranks share the work of conjugate gradients alone, and take them wherever they can.
+bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks = false);
 
 /// Wall seconds of the phases of an elastic analysis.
 struct ElasticSeconds {
@@ -36,6 +37,7 @@ struct ElasticResult {
   FactorStatistics factor;           ///< the stiffness has, or that of boxes
   Index boxes = 0;                   ///< that conjugate gradients have taken; 0: a factor
   int iterations = 0;                ///< conjugate gradients
+  int ranks = 1;                     ///< that shared the work
   double error = 0.0;                ///< they leave, over the solution, in the norm of energy
   ElasticSeconds seconds;
 };

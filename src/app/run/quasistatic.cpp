@@ -66,8 +66,10 @@ namespace {
 std::string solver_text(const ElasticResult& solution) {
   if (solution.displacement.empty()) return "no equilibrium found";
   if (solution.boxes == 0) return "1 factorisation";
-  return fmt::format("{} iterations of conjugate gradients with {} boxes, error {:.1e}",
-                     solution.iterations, solution.boxes, solution.error);
+  return fmt::format("{} iterations of conjugate gradients with {} boxes{}, error {:.1e}",
+                     solution.iterations, solution.boxes,
+                     solution.ranks > 1 ? fmt::format(" by {} ranks", solution.ranks) : "",
+                     solution.error);
 }
 
 }  // namespace

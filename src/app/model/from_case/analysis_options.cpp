@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "app/process/ranks.hpp"
+
 namespace perilink {
 namespace {
 
@@ -39,6 +41,7 @@ ElasticOptions elastic_options(const CaseFile& input, int threads) {
   options.threads = threads;
   options.solver = input.analysis.solver;
   options.boxes.edge = input.analysis.coarse_box.value_or(0);
+  options.boxes.ranks = ranks();
   options.boxes.tolerance = input.analysis.tolerance.value_or(options.boxes.tolerance);
   return options;
 }

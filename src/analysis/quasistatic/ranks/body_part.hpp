@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "assembly/box_motions.hpp"
+#include "base/parcel.hpp"
+#include "network/network.hpp"
+#include "network/unknowns.hpp"
+#include "solver/ranks.hpp"
+
+namespace perilink {
+
+/// What a rank knows of a body: the particles that it owns, then those of other ranks that its
+/// elements reach, and these elements. Numbers are the part's own.
+struct BodyPart {
+  /// Positions are left out: the products need directions and lengths alone.
+  Network network;
+  std::vector<double> axial, other;  ///< secants of the elements
+  Unknowns unknowns;                 ///< of owned particles; ghosts have none
+  Ghosts ghosts;
+
+  /// Inverse stiffness of each owned particle alone, shape (owned, width, width).
+  std::vector<double> blocks;
+  SparseMatrix coarse;                      ///< P'K P of the whole body, lower triangle
+  std::vector<Index> boxes;                 ///< per owned particle
+  std::vector<std::array<double, 6>> rows;  ///< of P, shape (owned, width)
+  int motions = 3;                          ///< of a box
+
+  Index owned() const { return static_cast<Index>(boxes.size()); }
+  Secants secants() const { return {other, axial}; }
+
+  Parcel pack() const;
+  static BodyPart unpack(Parcel parcel);
+};
+
+/// Which rank owns each particle, and where its unknowns are in its part.
+struct Partition {
+  std::vector<std::vector<Index>> particles;  ///< per rank, ascending
+  std::vector<std::vector<Index>> unknowns;   ///< per rank: numbers in the whole body
+};
+Partition share_out(const Network& network, const Unknowns& unknowns, int ranks);
+
+/// \param stiffness  of the boxes and particles of the whole body, its blocks inverted
+BodyPart cut_part(const Network& network, Secants secants, const Unknowns& unknowns,
+                  const BoxMotions& motions, const BoxStiffness& stiffness,
+                  const Partition& partition, int rank);
+
+}  // namespace perilink

@@ -1,0 +1,47 @@
+#include "app/process/ranks.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "app/commands/commands.hpp"
+#include "app/process/console.hpp"
+
+namespace perilink {
+namespace {
+
+Ranks* shared = nullptr;
+
+/// The first of the variables that is set, as a number; -1: none.
+int first_of(std::initializer_list<const char*> variables) {
+  for (const char* name : variables) {
+    if (const char* text = std::getenv(name)) return std::atoi(text);
+  }
+  return -1;
+}
+
+}  // namespace
+
+// Open MPI; MPICH and those that follow it
+bool is_one_of_many() { return first_of({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) > 1; }
+
+int become_rank(char** words) {
+  std::error_code fault;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", fault);
+  const std::string program = (self.parent_path() / "perilink-mpi").string();
+  if (!fault) execv(program.c_str(), words);
+  if (first_of({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}) <= 0) {
+    complain(
+        "several processes were started, and this build knows no MPI: all would do the same\n"
+        "  start one process without mpiexec, or build with PETSc (docs/mpi.md)");
+  }
+  return exit_bad_input;
+}
+
+Ranks* ranks() { return shared; }
+void set_ranks(Ranks* ranks) { shared = ranks; }
+
+}  // namespace perilink

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "solver/ranks.hpp"
+
+namespace perilink {
+
+/// Whether mpiexec has started this process as one of several.
+bool is_one_of_many();
+
+/// Goes on as perilink-mpi, which lies beside the program where it was built with MPI.
+/// \return the exit status, where there is none: the first process says so
+int become_rank(char** words);
+
+/// The processes that share the work of this one, null where it is alone.
+Ranks* ranks();
+void set_ranks(Ranks* ranks);
+
+}  // namespace perilink

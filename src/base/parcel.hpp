@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace perilink {
+
+/// Plain values and lists of them in one run of bytes, for another process of the same program:
+/// what is put in comes out in the same order.
+class Parcel {
+ public:
+  Parcel() = default;
+  explicit Parcel(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put_bytes(&value, sizeof(T));
+  }
+  template <class T>
+  void put(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put(values.size());
+    put_bytes(values.data(), values.size() * sizeof(T));
+  }
+
+  template <class T>
+  T get() {
+    T value;
+    get_bytes(&value, sizeof(T));
+    return value;
+  }
+  template <class T>
+  void get(T& value) {
+    value = get<T>();
+  }
+  template <class T>
+  void get(std::vector<T>& values) {
+    values.resize(get<std::size_t>());
+    get_bytes(values.data(), values.size() * sizeof(T));
+  }
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  void put_bytes(const void* from, std::size_t count) {
+    if (count == 0) return;
+    const std::size_t end = bytes_.size();
+    bytes_.resize(end + count);
+    std::memcpy(bytes_.data() + end, from, count);
+  }
+  void get_bytes(void* to, std::size_t count) {
+    if (count == 0) return;
+    std::memcpy(to, bytes_.data() + next_, count);
+    next_ += count;
+  }
+
+  std::vector<std::byte> bytes_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace perilink

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+#include "solver/conjugate_gradients.hpp"
+
+namespace perilink {
+
+/// Particles that other ranks own and this one needs to know the motion of.
+struct Ghosts {
+  std::vector<int> owners;     ///< rank that owns each
+  std::vector<Index> numbers;  ///< its number among the particles that this rank owns
+};
+
+/// Brings the motion of ghosts up to date.
+class GhostLayer {
+ public:
+  virtual ~GhostLayer() = default;
+  /// Collective. \param motion  shape (owned particles + ghosts, width): ghosts are overwritten
+  virtual void update(std::span<double> motion) = 0;
+};
+
+/// Processes that work on one body, each on its part of the particles. The first leads: it knows
+/// the whole body, sends the others their parts and takes back what they find.
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+  virtual int count() const = 0;
+  virtual int own() const = 0;  ///< number of this process, 0 to count() - 1
+  bool leads() const { return own() == 0; }
+
+  /// Collective: each value becomes its sum over the ranks.
+  virtual void sum(std::span<double> values) = 0;
+
+  virtual void send(int to, std::span<const std::byte> message) = 0;
+  virtual std::vector<std::byte> receive(int from) = 0;
+
+  /// Collective. \param width  components of the motion of a particle
+  virtual std::unique_ptr<GhostLayer> make_ghost_layer(Index owned, const Ghosts& ghosts,
+                                                       int width) = 0;
+
+  /// Collective: perilink::conjugate_gradients() of a system whose unknowns the ranks share out;
+  /// vectors are the own parts, and so are those that both maps are given.
+  virtual GradientsReport conjugate_gradients(const LinearMap& product,
+                                              const LinearMap& precondition,
+                                              std::span<const double> right,
+                                              std::span<double> solution, double enough,
+                                              double scale, int most_iterations) = 0;
+
+  /// Ends all ranks at once: others may be waiting for this one.
+  [[noreturn]] virtual void abandon(const std::string& reason) = 0;
+};
+
+}  // namespace perilink

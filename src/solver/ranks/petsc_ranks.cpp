@@ -1,0 +1,145 @@
+#include "solver/ranks/petsc_ranks.hpp"
+
+#include <petscksp.h>
+#include <petscsf.h>
+
+#include <algorithm>
+#include <chrono>
+#include <climits>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include "base/error.hpp"
+#include "solver/ranks/petsc_gradients.hpp"
+
+namespace perilink {
+namespace {
+
+/// MPI counts in int.
+constexpr std::size_t largest_message = 1 << 30;
+
+class PetscGhostLayer final : public GhostLayer {
+ public:
+  PetscGhostLayer(Index owned, const Ghosts& ghosts, int width) : owned_(owned), width_(width) {
+    const PetscInt count = static_cast<PetscInt>(ghosts.owners.size());
+    std::vector<PetscSFNode> owners(ghosts.owners.size());
+    for (std::size_t g = 0; g < owners.size(); ++g) {
+      owners[g] = {ghosts.owners[g], ghosts.numbers[g]};
+    }
+    PetscCallAbort(PETSC_COMM_WORLD, PetscSFCreate(PETSC_COMM_WORLD, &forest_));
+    PetscCallAbort(PETSC_COMM_WORLD,
+                   PetscSFSetGraph(forest_, owned, count, nullptr, PETSC_COPY_VALUES, owners.data(),
+                                   PETSC_COPY_VALUES));
+    PetscCallAbort(PETSC_COMM_WORLD, PetscSFSetUp(forest_));
+    MPI_Type_contiguous(width, MPI_DOUBLE, &particle_);
+    MPI_Type_commit(&particle_);
+  }
+  ~PetscGhostLayer() override {
+    MPI_Type_free(&particle_);
+    PetscSFDestroy(&forest_);
+  }
+  PetscGhostLayer(const PetscGhostLayer&) = delete;
+  PetscGhostLayer& operator=(const PetscGhostLayer&) = delete;
+
+  void update(std::span<double> motion) override {
+    double* const ghosts = motion.data() + static_cast<std::size_t>(owned_) * width_;
+    PetscCallAbort(PETSC_COMM_WORLD,
+                   PetscSFBcastBegin(forest_, particle_, motion.data(), ghosts, MPI_REPLACE));
+    PetscCallAbort(PETSC_COMM_WORLD,
+                   PetscSFBcastEnd(forest_, particle_, motion.data(), ghosts, MPI_REPLACE));
+  }
+
+ private:
+  Index owned_;
+  int width_;
+  PetscSF forest_ = nullptr;
+  MPI_Datatype particle_ = MPI_DATATYPE_NULL;
+};
+
+class PetscRanks final : public Ranks {
+ public:
+  PetscRanks() {
+    if (PetscInitializeNoArguments() != 0) throw SolverError("MPI or PETSc does not start");
+    PetscCallAbort(PETSC_COMM_WORLD, PetscPopSignalHandler());  // the program has its own
+    MPI_Comm_size(PETSC_COMM_WORLD, &count_);
+    MPI_Comm_rank(PETSC_COMM_WORLD, &own_);
+  }
+  ~PetscRanks() override { PetscFinalize(); }
+  PetscRanks(const PetscRanks&) = delete;
+  PetscRanks& operator=(const PetscRanks&) = delete;
+
+  int count() const override { return count_; }
+  int own() const override { return own_; }
+
+  void sum(std::span<double> values) override {
+    for (std::size_t first = 0; first < values.size(); first += INT_MAX) {
+      const int part = static_cast<int>(std::min<std::size_t>(values.size() - first, INT_MAX));
+      MPI_Allreduce(MPI_IN_PLACE, values.data() + first, part, MPI_DOUBLE, MPI_SUM,
+                    PETSC_COMM_WORLD);
+    }
+  }
+
+  void send(int to, std::span<const std::byte> message) override {
+    const std::size_t size = message.size();
+    MPI_Send(&size, sizeof(size), MPI_BYTE, to, 0, PETSC_COMM_WORLD);
+    for (std::size_t first = 0; first < size; first += largest_message) {
+      const int part = static_cast<int>(std::min(size - first, largest_message));
+      MPI_Send(message.data() + first, part, MPI_BYTE, to, 0, PETSC_COMM_WORLD);
+    }
+  }
+
+  std::vector<std::byte> receive(int from) override {
+    std::size_t size = 0;
+    wait_for(from);
+    MPI_Recv(&size, sizeof(size), MPI_BYTE, from, 0, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
+    std::vector<std::byte> message(size);
+    for (std::size_t first = 0; first < size; first += largest_message) {
+      const int part = static_cast<int>(std::min(size - first, largest_message));
+      MPI_Recv(message.data() + first, part, MPI_BYTE, from, 0, PETSC_COMM_WORLD,
+               MPI_STATUS_IGNORE);
+    }
+    return message;
+  }
+
+  std::unique_ptr<GhostLayer> make_ghost_layer(Index owned, const Ghosts& ghosts,
+                                               int width) override {
+    return std::make_unique<PetscGhostLayer>(owned, ghosts, width);
+  }
+
+  GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
+                                      std::span<const double> right, std::span<double> solution,
+                                      double enough, double scale, int most_iterations) override {
+    return petsc_gradients(*this, product, precondition, right, solution, enough, scale,
+                           most_iterations);
+  }
+
+  [[noreturn]] void abandon(const std::string& reason) override {
+    std::fprintf(stderr, "perilink: rank %d of %d: %s\n", own_, count_, reason.c_str());
+    std::fflush(stderr);
+    MPI_Abort(PETSC_COMM_WORLD, 3);
+    std::abort();
+  }
+
+ private:
+  /// MPI itself waits at full speed, while the first rank sets up for minutes.
+  void wait_for(int from) const {
+    using namespace std::chrono_literals;
+    constexpr auto longest_nap = 2000us;
+    auto nap = 0us;
+    for (int has_come = 0;;) {
+      MPI_Iprobe(from, 0, PETSC_COMM_WORLD, &has_come, MPI_STATUS_IGNORE);
+      if (has_come) return;
+      std::this_thread::sleep_for(nap);
+      nap = std::min(nap + 10us, longest_nap);
+    }
+  }
+
+  int count_ = 1, own_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Ranks> start_petsc_ranks() { return std::make_unique<PetscRanks>(); }
+
+}  // namespace perilink

@@ -1,0 +1,183 @@
+// The program under mpiexec: the same answers by any number of processes. Where the build has no MPI
+// only the message that says so is tested.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "support/process.hpp"
+#include "support/program_cases.hpp"
+
+namespace perilink::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+fs::path mpi_program() { return fs::path(PERILINK_PROGRAM).parent_path() / "perilink-mpi"; }
+
+/// A bar of 20 by 5 (by 5) under tension and shear at its end, held at the other.
+std::string bar_case(bool in_space, const std::string& body) {
+  const std::string depth = in_space ? "z = [0, 5]\n" : "";
+  return fmt::format(R"([body]
+problem = "{}"
+spacing = 1
+horizon_ratio = 3
+{}
+[[regions]]
+name = "bar"
+x = [0, 20]
+y = [0, 5]
+{}
+[[regions]]
+name = "left"
+x = [0, 0]
+y = [0, 5]
+{}
+[[regions]]
+name = "right"
+x = [20, 20]
+y = [0, 5]
+{}
+[[materials]]
+region = "bar"
+youngs_modulus = 30e3
+poissons_ratio = {}
+fracture_energy = "infinite"
+
+[[supports]]
+region = "left"
+fix = [{}]
+
+[[tractions]]
+region = "right"
+traction = [{}]
+
+[analysis]
+type = "elastic"
+solver = "iterative"
+)",
+                     in_space ? "three_dimensional" : "plane_stress", body, depth, depth, depth,
+                     !body.empty() ? "0.1"
+                     : in_space    ? "0.25"
+                                   : "0.3333333333333333",
+                     in_space ? R"("x", "y", "z")" : R"("x", "y")", in_space ? "3, 1, 0" : "3, 1");
+}
+
+struct RankCase {
+  std::string name, text;
+};
+
+class RankFolder : public testing::Test {
+ protected:
+  RankFolder() { fs::create_directories(work()); }
+  fs::path work() const { return temporary_ / "work"; }
+  /// mpiexec gives the shell's status. Root may start it in containers, where tests run.
+  ProcessEnd run_ranks(int count, const std::string& words) const {
+    const std::string command =
+        "exec env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "OMPI_MCA_rmaps_base_oversubscribe=1 mpiexec -n " +
+        std::to_string(count) + " '" + PERILINK_PROGRAM + "' " + words;
+    const fs::path out = work().string() + ".out", err = work().string() + ".err";
+    const int status = std::system(("cd '" + work().string() + "' && " + command + " >'" +
+                                    out.string() + "' 2>'" + err.string() + "'")
+                                       .c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0, read_text(out), read_text(err)};
+  }
+  std::string history(const std::string& directory) const {
+    return read_text(work() / directory / "history.csv");
+  }
+  nlohmann::json summary(const std::string& directory) const {
+    return nlohmann::json::parse(read_text(work() / directory / "summary.json"));
+  }
+
+  TemporaryDirectory temporary_;
+};
+
+class RankRuns : public RankFolder, public testing::WithParamInterface<RankCase> {};
+
+/// Numbers of the only row.
+std::vector<double> row_of(const std::string& history) {
+  std::istringstream line(history.substr(history.find('\n') + 1));
+  std::vector<double> values;
+  std::string value;
+  while (std::getline(line, value, ',')) values.push_back(std::atof(value.c_str()));
+  return values;
+}
+
+TEST_P(RankRuns, FindTheSameAnswer) {
+  if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
+  write_text(work() / "c.toml", GetParam().text);
+  const ProcessEnd alone = run_program(work(), {"run", "c.toml", "--out", "r1"});
+  ASSERT_EQ(alone.exit_status, 0) << alone.err;
+  const std::vector<double> expected = row_of(history("r1"));
+  ASSERT_GT(expected.size(), 5u);
+  for (const int count : {2, 4}) {
+    const std::string directory = "r" + std::to_string(count);
+    const ProcessEnd end = run_ranks(count, "run c.toml --out " + directory);
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+    EXPECT_THAT(end.out, HasSubstr("by " + std::to_string(count) + " ranks"));
+    EXPECT_EQ(summary(directory).at("ranks"), count);
+    const std::vector<double> found = row_of(history(directory));
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (std::abs(expected[k]) < 1e-8) continue;  // residuals
+      EXPECT_NEAR(found[k], expected[k], 1e-9 * std::abs(expected[k])) << "column " << k;
+    }
+  }
+}
+
+TEST_F(RankFolder, SayWhatIsWrongOnce) {
+  if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
+  const ProcessEnd end = run_ranks(3, "run missing.toml");
+  EXPECT_EQ(end.exit_status, 2);
+  const std::size_t first = end.err.find("missing.toml");
+  EXPECT_NE(first, std::string::npos) << end.err;
+  EXPECT_EQ(end.err.find("perilink: ", end.err.find("perilink: ") + 1), std::string::npos)
+      << end.err;
+}
+
+TEST_F(RankFolder, EndTogetherWhereOneIsKilled) {
+  if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
+  std::string text = bar_case(true, "");
+  text.replace(text.find("spacing = 1"), 11, "spacing = 0.3");  // some seconds of work
+  write_text(work() / "c.toml", text);
+  const std::string words = "run c.toml --out killed_" + std::to_string(getpid());
+  // mpiexec has these words, too; the newest process is a rank.
+  std::thread killer([&] {
+    const std::string command = "for k in $(seq 600); do [ $(pgrep -fc '" + words +
+                                "$') -ge 3 ] && break; sleep 0.05; done; pkill -9 -n -f '" + words +
+                                "$'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << "no process was killed";
+  });
+  const ProcessEnd end = run_ranks(2, words);
+  killer.join();
+  EXPECT_NE(end.exit_status, 0);
+  EXPECT_THAT(end.err, HasSubstr("signal 9"));
+}
+
+TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
+  // A copy, beside which there is no perilink-mpi.
+  fs::copy_file(PERILINK_PROGRAM, work() / "perilink");
+  const std::string command = "cd '" + work().string() + "' && OMPI_COMM_WORLD_SIZE=2 " +
+                              "OMPI_COMM_WORLD_RANK=0 ./perilink --version 2>err >out";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_THAT(read_text(work() / "err"), HasSubstr("this build knows no MPI"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, RankRuns,
+    testing::Values(RankCase{"Plane", bar_case(false, "")}, RankCase{"Space", bar_case(true, "")},
+                    RankCase{"MicropolarPlane", bar_case(false, "model = \"micropolar\"\n")},
+                    RankCase{"MicropolarSpace", bar_case(true, "model = \"micropolar\"\n")}),
+    [](const auto& instance) { return instance.param.name; });
+
+}  // namespace
+}  // namespace perilink::test

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <barrier>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "solver/ranks.hpp"
+
+namespace perilink::test {
+
+/// Ranks that are threads of this process: what they do together needs no MPI.
+class ThreadRanks final : public Ranks {
+ public:
+  /// What they share.
+  class World {
+   public:
+    explicit World(int size) : count(size), meeting(size), motions(size), values(size) {}
+    const int count;
+    std::barrier<> meeting;
+    std::vector<std::span<double>> motions;   // of each rank, while ghosts are updated
+    std::vector<std::vector<double>> values;  // of each rank, while sums are taken
+    std::mutex mutex;
+    std::condition_variable arrived;
+    std::map<std::pair<int, int>, std::deque<std::vector<std::byte>>> mail;  // by from, to
+  };
+
+  ThreadRanks(World& world, int own) : world_(world), own_(own) {}
+  int count() const override { return world_.count; }
+  int own() const override { return own_; }
+
+  void sum(std::span<double> values) override {
+    world_.values[own_].assign(values.begin(), values.end());
+    world_.meeting.arrive_and_wait();
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      values[k] = 0.0;
+      for (const std::vector<double>& part : world_.values) values[k] += part[k];
+    }
+    world_.meeting.arrive_and_wait();
+  }
+
+  void send(int to, std::span<const std::byte> message) override {
+    const std::lock_guard lock(world_.mutex);
+    world_.mail[{own_, to}].emplace_back(message.begin(), message.end());
+    world_.arrived.notify_all();
+  }
+
+  std::vector<std::byte> receive(int from) override {
+    std::unique_lock lock(world_.mutex);
+    auto& box = world_.mail[{from, own_}];
+    world_.arrived.wait(lock, [&] { return !box.empty(); });
+    std::vector<std::byte> message = std::move(box.front());
+    box.pop_front();
+    return message;
+  }
+
+  std::unique_ptr<GhostLayer> make_ghost_layer(Index owned, const Ghosts& ghosts,
+                                               int width) override {
+    return std::make_unique<Layer>(*this, owned, ghosts, width);
+  }
+
+  GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
+                                      std::span<const double> right, std::span<double> solution,
+                                      double enough, double scale, int most_iterations) override {
+    const auto dot = [this](std::span<const double> a, std::span<const double> b) {
+      double value = scalar_product(a, b);
+      sum({&value, 1});
+      return value;
+    };
+    return perilink::conjugate_gradients(product, precondition, right, solution, enough, scale,
+                                         most_iterations, dot);
+  }
+
+  [[noreturn]] void abandon(const std::string& reason) override {
+    throw std::runtime_error(reason);
+  }
+
+ private:
+  class Layer final : public GhostLayer {
+   public:
+    Layer(ThreadRanks& ranks, Index owned, Ghosts ghosts, int width)
+        : ranks_(ranks), owned_(owned), ghosts_(std::move(ghosts)), width_(width) {}
+    void update(std::span<double> motion) override {
+      World& world = ranks_.world_;
+      world.motions[ranks_.own_] = motion;
+      world.meeting.arrive_and_wait();
+      for (std::size_t g = 0; g < ghosts_.owners.size(); ++g) {
+        const double* from = world.motions[ghosts_.owners[g]].data() +
+                             static_cast<std::size_t>(ghosts_.numbers[g]) * width_;
+        std::copy_n(from, width_, motion.data() + (owned_ + g) * width_);
+      }
+      world.meeting.arrive_and_wait();
+    }
+
+   private:
+    ThreadRanks& ranks_;
+    Index owned_;
+    Ghosts ghosts_;
+    int width_;
+  };
+
+  World& world_;
+  int own_;
+};
+
+/// Calls lead(ranks) in this thread and serve(ranks) in those of the other ranks.
+inline void with_thread_ranks(int count, const std::function<void(Ranks&)>& lead,
+                              const std::function<void(Ranks&)>& serve) {
+  ThreadRanks::World world(count);
+  std::vector<std::jthread> others;
+  for (int rank = 1; rank < count; ++rank) {
+    others.emplace_back([&world, &serve, rank] {
+      ThreadRanks ranks(world, rank);
+      serve(ranks);
+    });
+  }
+  ThreadRanks first(world, 0);
+  lead(first);
+}
+
+}  // namespace perilink::test

@@ -1,0 +1,94 @@
+#include "analysis/quasistatic/ranks/body_part.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "support/analysis_bodies.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+class BodyPartTest : public testing::Test {
+ protected:
+  BodyPartTest()
+      : body_(make_block({{"square", Pattern::rectangular, Surface::none}})),
+        secants_(intact(body_.network)),
+        motions_(body_.network, secants_, body_.unknowns, 9),
+        stiffness_(assemble_box_stiffness(body_.network, secants_, body_.unknowns, motions_)),
+        partition_(share_out(body_.network, body_.unknowns, 3)) {}
+  BodyPart part(int rank) const {
+    return cut_part(body_.network, secants_, body_.unknowns, motions_, stiffness_, partition_,
+                    rank);
+  }
+
+  AnalysisBody body_;
+  std::vector<double> secants_;
+  BoxMotions motions_;
+  BoxStiffness stiffness_;
+  Partition partition_;
+};
+
+TEST_F(BodyPartTest, EveryParticleAndUnknownHasOneOwner) {
+  std::vector<Index> particles, unknowns;
+  for (int rank = 0; rank < 3; ++rank) {
+    particles.insert(particles.end(), partition_.particles[rank].begin(),
+                     partition_.particles[rank].end());
+    unknowns.insert(unknowns.end(), partition_.unknowns[rank].begin(),
+                    partition_.unknowns[rank].end());
+    EXPECT_EQ(part(rank).owned(), static_cast<Index>(partition_.particles[rank].size()));
+    EXPECT_EQ(part(rank).unknowns.count, static_cast<Index>(partition_.unknowns[rank].size()));
+  }
+  std::sort(particles.begin(), particles.end());
+  std::sort(unknowns.begin(), unknowns.end());
+  for (std::size_t k = 0; k < particles.size(); ++k) EXPECT_EQ(particles[k], k);
+  EXPECT_EQ(particles.size(), static_cast<std::size_t>(body_.network.particles.size()));
+  for (std::size_t k = 0; k < unknowns.size(); ++k) EXPECT_EQ(unknowns[k], k);
+  EXPECT_EQ(unknowns.size(), static_cast<std::size_t>(body_.unknowns.count));
+}
+
+TEST_F(BodyPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
+  const BodyPart own = part(1);
+  std::vector<Index> numbers = partition_.particles[1];  // in the whole body, ghosts behind
+  for (std::size_t g = 0; g < own.ghosts.owners.size(); ++g) {
+    EXPECT_NE(own.ghosts.owners[g], 1);
+    numbers.push_back(partition_.particles[own.ghosts.owners[g]][own.ghosts.numbers[g]]);
+  }
+  std::vector<std::pair<Index, Index>> ends, expected;
+  const Bonds& bonds = own.network.bonds;
+  for (Index e = 0; e < bonds.size(); ++e) {
+    ends.emplace_back(numbers[bonds.first[e]], numbers[bonds.second[e]]);
+  }
+  const auto is_own = [&](Index p) {
+    return std::binary_search(partition_.particles[1].begin(), partition_.particles[1].end(), p);
+  };
+  const Bonds& all = body_.network.bonds;
+  for (Index e = 0; e < all.size(); ++e) {
+    if (is_own(all.first[e]) || is_own(all.second[e])) {
+      expected.emplace_back(all.first[e], all.second[e]);
+    }
+  }
+  EXPECT_EQ(ends, expected);
+}
+
+TEST_F(BodyPartTest, ArrivesAsItWasSent) {
+  const BodyPart sent = part(2);
+  const Parcel parcel = sent.pack();
+  const BodyPart come = BodyPart::unpack(Parcel({parcel.bytes().begin(), parcel.bytes().end()}));
+  EXPECT_EQ(come.network.bonds.first, sent.network.bonds.first);
+  EXPECT_EQ(come.network.bonds.directions, sent.network.bonds.directions);
+  EXPECT_EQ(come.network.stiffness, sent.network.stiffness);
+  EXPECT_EQ(come.unknowns.number, sent.unknowns.number);
+  EXPECT_EQ(come.unknowns.count, sent.unknowns.count);
+  EXPECT_EQ(come.ghosts.numbers, sent.ghosts.numbers);
+  EXPECT_EQ(come.blocks, sent.blocks);
+  EXPECT_EQ(come.rows, sent.rows);
+  EXPECT_EQ(come.owned(), sent.owned());
+  EXPECT_TRUE(come.coarse.isApprox(sent.coarse, 0.0));
+}
+
+}  // namespace
+}  // namespace perilink
