@@ -1,15 +1,32 @@
 #include "analysis/quasistatic/elastic_analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
+#include "base/error.hpp"
 #include "base/timer.hpp"
 #include "solver/factor_routes.hpp"
 
 namespace perilink {
 namespace {
+
+/// Further from balance than this, over the work, an answer is none: so much of it is round-off.
+constexpr double lost_balance = 1e-2;
+
+void refuse_lost_balance(const ElasticResult& result) {
+  const double error = std::abs(result.work - result.strain_energy);
+  if (error <= lost_balance * std::abs(result.work)) return;
+  throw SolverError(fmt::format(
+      "work and energy are out of balance by {:.2g} of the work: the body, or what holds it, is so "
+      "compliant that the equilibrium is lost in round-off{}",
+      error / std::abs(result.work),
+      result.boxes > 0 ? "" : "; conjugate gradients (solver = \"iterative\") lose less"));
+}
 
 /// \param prepare  makes what solves K x = f: solve(f, x), where both may be the same memory
 template <class Prepare>
@@ -38,11 +55,17 @@ ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, Prepar
     for (const double value : residual) square += value * value;
     result.strain_energy = internal.energy;
     result.residual = load_norm > 0.0 ? std::sqrt(square / load_norm) : std::sqrt(square);
-    if (pass == 1) break;
+    if (pass == 1) {
+      const double missed =
+          std::inner_product(solution.begin(), solution.end(), residual.begin(), 0.0);
+      result.work = internal.energy + 0.5 * missed;
+      break;
+    }
     solve(residual, residual);
     for (std::size_t k = 0; k < solution.size(); ++k) solution[k] += residual[k];
   }
   result.seconds.solve = timer.seconds();
+  refuse_lost_balance(result);
   return result;
 }
 

@@ -32,7 +32,8 @@ struct ElasticSeconds {
 /// Static equilibrium at load factor 1.
 struct ElasticResult {
   std::vector<double> displacement;  ///< shape (particles, width) [length], rotations [-]
-  double strain_energy = 0.0;        ///< [force length]
+  double strain_energy = 0.0;        ///< summed over the elements [force length]
+  double work = 0.0;                 ///< of loads and reactions [force length]
   double residual = 0.0;             ///< |f - K u| / |f| after one step of refinement
   FactorStatistics factor;           ///< the stiffness has, or that of boxes
   Index boxes = 0;                   ///< that conjugate gradients have taken; 0: a factor
@@ -43,8 +44,8 @@ struct ElasticResult {
 };
 
 /// One assembly, one factorisation, one solve; or conjugate gradients.
-/// \throws SolverError when the stiffness matrix is not positive definite, or the iterations end
-///         before the tolerance
+/// \throws SolverError when the stiffness matrix is not positive definite, the iterations end
+///         before the tolerance, or work and energy are out of balance by a hundredth
 ElasticResult run_elastic_analysis(const LoadedNetwork& problem,
                                    const ElasticOptions& options = {});
 

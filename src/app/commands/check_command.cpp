@@ -37,7 +37,7 @@ bool softens(const Network& network) {
 /// The whole run as far as the case tells its length.
 std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& cost,
                      bool softening) {
-  const double begin = set_up + cost.factorization;
+  const double begin = set_up + cost.factorization + cost.field_file;  // of the first row
   if (input.analysis.type == AnalysisType::elastic) return "about " + time_text(begin);
   if (softening) {
     return fmt::format(
@@ -50,8 +50,9 @@ std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& c
                        time_text(begin));
   }
   const int count = *input.stop.broken_bonds;
-  return fmt::format("about {} to {} broken bonds", time_text(begin + count * cost.broken_bond),
-                     count);
+  const double later = (field_files(input.output, count) - 1) * cost.field_file;
+  return fmt::format("about {} to {} broken bonds",
+                     time_text(begin + count * cost.broken_bond + later), count);
 }
 
 void print_breakable(const Network& network, const std::vector<double>& crack_cost) {

@@ -5,10 +5,12 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -30,6 +32,13 @@ bool is_result_file(const std::string& name) {
   if (name.starts_with("bars_")) return name.ends_with(".csv");
   if (!name.starts_with("fields_")) return false;
   return name.ends_with(".vtu") || name.ends_with(".svg");
+}
+
+/// Where a file stands in the order of removal: first what speaks of others, lest a removal that is
+/// cut short leaves a summary or a list of files that are gone.
+int rank_of_removal(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name == "summary.json" ? 0 : name == "fields.pvd" ? 1 : 2;
 }
 
 /// What a run that was killed left half written.
@@ -73,6 +82,9 @@ std::vector<fs::path> refuse_old_results(const fs::path& directory, bool force) 
       if (is_result_file(name) || is_left_over(name)) old.push_back(entry.path());
     }
   }
+  std::sort(old.begin(), old.end(), [](const fs::path& a, const fs::path& b) {
+    return std::pair(rank_of_removal(a), a) < std::pair(rank_of_removal(b), b);
+  });
   if (!old.empty() && !force) {
     throw FileError(
         fmt::format("{}: holds the results of an earlier run (found {})\n"

@@ -11,7 +11,7 @@ std::filesystem::path default_result_directory(const std::string& case_path);
 
 /// Refuses a directory that holds results of an earlier run, unless `force` is set; changes
 /// nothing.
-/// \return the files of that run
+/// \return the files of that run, in the order in which they go
 /// \throws FileError
 std::vector<std::filesystem::path> refuse_old_results(const std::filesystem::path& directory,
                                                       bool force);

@@ -139,10 +139,7 @@ class BondRun final : public MovingBondsRun {
     tell_motion(summary, input, files(), result_, extras);
     tell_body(summary, model_);
     summary.rate = bond_rate(result_.steps);
-    const Particles& particles = model_.network.particles;
-    const double length = longest_side(particles.dim, particles.size(), [&](Index i, int axis) {
-      return particles.position(i)[axis];
-    });
+    const double length = longest_side(model_.network.particles);
     RunFacts facts = run_facts(input, length, files().peaks().highest().load);
     facts.loose_pieces = loose_pieces_;
     summary.doubts = doubts_about(result_, facts);

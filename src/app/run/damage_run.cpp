@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
 #include "app/results/bar_file.hpp"
 #include "app/run/run_notes.hpp"
+#include "app/run/run_warnings.hpp"
 #include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
 
@@ -55,6 +57,10 @@ void DamageRun::begin_again(const LateConversion& late) {
 void DamageRun::tell(Summary& summary) const {
   Equilibria found(result_);
   found.places = places_;
+  const double length = longest_side(model_.network.particles);
+  if (auto doubt = doubt_about_size(result_.peaks.highest(), length)) {
+    found.doubts.push_back(std::move(*doubt));
+  }
   if (late_conversions_ > 0) {
     summary.add_note(fmt::format(
         "{} conversions of elements came late: a bond was past its limit before its element let go "

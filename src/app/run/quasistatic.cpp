@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/run/run_warnings.hpp"
 #include "assembly/internal_force.hpp"
@@ -19,7 +20,8 @@ ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options) {
   StepRecord& row = answer.row;
   row.step = 1;
   row.load_factor = 1.0;
-  row.strain_energy = row.external_work = energy;
+  row.strain_energy = energy;
+  row.external_work = answer.solution.work;
   row.load = model.reference.driven ? 2.0 * energy / model.reference.value : model.reference.value;
   row.displacement = row.load != 0.0 ? 2.0 * energy / row.load : 0.0;
   row.residual = answer.solution.residual;
@@ -79,9 +81,12 @@ Equilibria::Equilibria(const ElasticAnswer& answer)
       peaks(answer.peaks),
       factor(answer.solution.factor),
       solver(solver_text(answer.solution)),
-      by_iterations(answer.solution.boxes > 0),
+      unsolved(answer.solution.error),
       initial_stiffness(last.displacement != 0.0 ? last.load / last.displacement : 0.0),
-      largest_residual(answer.solution.residual) {}
+      largest_residual(answer.solution.residual),
+      energy_error(last.external_work != 0.0 ? std::abs(last.external_work - last.strain_energy) /
+                                                   std::abs(last.external_work)
+                                             : 0.0) {}
 
 void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& found) {
   const StepRecord& last = found.last;
@@ -134,8 +139,7 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
                       const Equilibria& found, double seconds) {
   const Index rows = found.last.step;
   tell_equilibria(summary, input, found);
-  summary.doubts =
-      doubts_of_balance(found.energy_error, found.largest_residual, found.by_iterations);
+  summary.doubts = doubts_of_balance(found.energy_error, found.largest_residual, found.unsolved);
   summary.doubts.insert(summary.doubts.end(), found.doubts.begin(), found.doubts.end());
   summary.add("doubts", summary.doubts);
   tell_body(summary, model, fmt::format(", {} unknowns", model.unknowns.count));

@@ -53,7 +53,7 @@ struct Equilibria {
   const PeakWatch& peaks;
   const FactorStatistics& factor;
   std::string solver;                             ///< what it took
-  bool by_iterations = false;                     ///< and not by a factor
+  double unsolved = 0.0;                          ///< left by iterations, norm of energy [-]
   double initial_stiffness = 0.0;                 ///< [force / length]
   double largest_residual = 0.0;                  ///< over the loads [-]
   Index broken_bonds = 0;                         ///< with the one that separated the body

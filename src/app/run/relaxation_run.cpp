@@ -8,6 +8,7 @@
 #include "analysis/dynamics/fundamental_period.hpp"
 #include "app/run/bond_run.hpp"
 #include "app/run/run_notes.hpp"
+#include "app/run/run_warnings.hpp"
 
 namespace perilink {
 
@@ -61,6 +62,7 @@ class RelaxationRun final : public MovingBondsRun {
     summary.line("energy", "{:.6g} work, {:.6g} dissipated by {} broken bonds, {:.6g} damped",
                  energy.external_work, energy.fractured, broken, energy.external_damping);
     tell_body(summary, model_);
+    summary.doubts = doubts_at_rest(energy);
     summary.rate = bond_rate(result_.iterations);
     summary.outcome = fmt::format("{} iterations, {} broken bonds, residual {:.2e}",
                                   result_.iterations, broken, result_.residual);

@@ -19,6 +19,9 @@ constexpr double box_bytes_per_bond = 145.0, box_bytes_per_frame_bond = 580.0, b
 /// An event of the smallest body: row, bookkeeping, progress.
 constexpr double seconds_per_row = 35e-6;
 
+/// A field file: compressed, brought to the disk (meshes/block_tension.toml, notched_beam.toml).
+constexpr double seconds_per_file = 2e-3, seconds_per_particle_of_file = 1e-6;
+
 /// Passes through the factor per break. A micropolar bond leaves with three modes in the plane and
 /// six in space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240
 /// unknowns) and 3.5 times (7 938 unknowns) the time of a truss per byte of the factor were
@@ -90,7 +93,16 @@ ExpectedCost expected_cost(const Network& network, const FactorStatistics& facto
   cost.factorization = factor.flops / factor_flops_per_second;
   cost.broken_bond = passes_per_break(network) * 1.1 * factor.bytes / read_bytes_per_second +
                      search_seconds_per_bond * network.num_elements() + seconds_per_row;
+  cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   return cost;
+}
+
+Index field_files(const OutputSection& output, Index broken_bonds) {
+  Index files = 2;  // first and last row
+  for (const int at : output.fields_at) files += at < broken_bonds ? 1 : 0;
+  if (output.fields_every) files += broken_bonds / *output.fields_every;
+  if (output.fields_every_rows) files += broken_bonds / *output.fields_every_rows;
+  return files;
 }
 
 ExpectedCost expected_cost_of_boxes(const Network& network) {
@@ -99,6 +111,7 @@ ExpectedCost expected_cost_of_boxes(const Network& network) {
   const bool frames = network.carries_moments();
   cost.memory = box_bytes + bonds * (frames ? box_bytes_per_frame_bond : box_bytes_per_bond);
   cost.factorization = bonds * (frames ? box_seconds_per_frame_bond : box_seconds_per_bond);
+  cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   return cost;
 }
 

@@ -26,7 +26,12 @@ struct ExpectedCost {
   double memory = 0.0;         ///< [bytes]
   double factorization = 0.0;  ///< [s]
   double broken_bond = 0.0;    ///< with its row of the history [s]
+  double field_file = 0.0;     ///< [s]
 };
+
+/// Field files of a run until so many bonds are broken.
+Index field_files(const OutputSection& output, Index broken_bonds);
+
 ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor);
 
 /// What conjugate gradients cost in place of a factor.

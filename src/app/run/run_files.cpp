@@ -50,12 +50,12 @@ void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gau
 void RunFiles::begin_again() {
   history_.reset();
   history_.emplace(directory_.string(), input_);
+  std::filesystem::remove(directory_ / "fields.pvd");  // before the files that it names
   for (const PvdEntry& entry : series_) {
     std::filesystem::remove(directory_ / entry.file);
     std::filesystem::remove(directory_ / bars_name(static_cast<Index>(entry.time)));
   }
   series_.clear();
-  std::filesystem::remove(directory_ / "fields.pvd");
   rows_ = 0;
 }
 

@@ -81,8 +81,30 @@ std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFac
   return doubts;
 }
 
+std::vector<std::string> doubts_at_rest(const EnergyBalance& energy) {
+  constexpr double most_surplus = 0.01;
+  const double kept = energy.stored + energy.fractured;
+  if (kept <= (1.0 + most_surplus) * energy.external_work) return {};
+  return {fmt::format(
+      "{:.6g} is stored and dissipated, but the load steps saw a work of {:.6g} only: bonds broke "
+      "at "
+      "a larger load than at the ends of their step; take smaller steps of load_factors",
+      kept, energy.external_work)};
+}
+
+std::optional<std::string> doubt_about_size(const CurvePoint& peak, double length) {
+  constexpr double small = 0.1;
+  const double part = std::abs(peak.displacement) / length;
+  if (part <= small) return std::nullopt;
+  return fmt::format(
+      "the peak, {:.6g} at displacement {:.6g}, lies where the body has moved by {:.2g} of its "
+      "longest side: bonds are made for small displacements, so that no body bears this load; look "
+      "at the curve before, and end the run there by [stop]",
+      peak.load, peak.displacement, part);
+}
+
 std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,
-                                           bool by_iterations) {
+                                           double unsolved) {
   // Results are printed with six digits; equilibria are exact but for round-off, which leaves ten.
   constexpr double most_imbalance = 1e-6;
   std::vector<std::string> doubts;
@@ -93,11 +115,12 @@ std::vector<std::string> doubts_of_balance(double energy_error, double largest_r
                     "so compliant that round-off has reached its results",
                     energy_error));
   }
-  if (!(largest_residual <= most_imbalance) && by_iterations) {
+  if (!(unsolved <= most_imbalance)) {
     doubts.push_back(
-        fmt::format("up to {:.2g} of the load is out of balance: a smaller `tolerance` in "
-                    "[analysis], or solver = \"direct\", brings displacements nearer",
-                    largest_residual));
+        fmt::format("up to {:.2g} of the load is out of balance, since the iterations ended at an "
+                    "error of {:.1g}: a smaller `tolerance` in [analysis], or solver = "
+                    "\"direct\", brings displacements nearer",
+                    largest_residual, unsolved));
   } else if (!(largest_residual <= most_imbalance)) {
     doubts.push_back(
         fmt::format("up to {:.2g} of the load is out of balance: the stiffness matrix is so close "

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/dynamics/explicit_run.hpp"
+#include "analysis/quasistatic/load_curve.hpp"
+#include "discretization/particles.hpp"
 #include "io/case/case_file.hpp"
 
 namespace perilink {
@@ -34,6 +37,11 @@ double longest_side(int dim, Index particles, Position position) {
   return longest;
 }
 
+inline double longest_side(const Particles& particles) {
+  return longest_side(particles.dim, particles.size(),
+                      [&](Index i, int axis) { return particles.position(i)[axis]; });
+}
+
 /// \param length  longest side of the body [length]
 RunFacts run_facts(const CaseFile& input, double length, double peak_load);
 
@@ -43,10 +51,20 @@ RunFacts run_facts(const CaseFile& input, double length, double peak_load);
 /// the run is an impact.
 std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFacts& facts);
 
+/// The same of a dynamic relaxation: more energy stored and dissipated than its load steps saw as
+/// work.
+std::vector<std::string> doubts_at_rest(const EnergyBalance& energy);
+
+/// A peak at displacements for which bonds of small displacements are not made.
+/// \param length  longest side of the body [length]
+std::optional<std::string> doubt_about_size(const CurvePoint& peak, double length);
+
 /// The same of a quasistatic run: energies that balance, or forces, to no more than six digits.
 /// \param energy_error      largest of all rows, over the work [-]
 /// \param largest_residual  forces out of balance, over the loads [-]
+/// \param unsolved          what conjugate gradients have left of the answer, in the norm of energy
+///                          [-]; 0 by a factor
 std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,
-                                           bool by_iterations = false);
+                                           double unsolved = 0.0);
 
 }  // namespace perilink

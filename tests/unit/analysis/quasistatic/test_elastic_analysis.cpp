@@ -31,6 +31,7 @@ TEST_P(ElasticBlock, EqualsADenseSolution) {
     }
     EXPECT_NEAR(result.strain_energy, work, tolerance * work);
   }
+  EXPECT_NEAR(result.work, energy, tolerance * energy);
   EXPECT_LT(result.residual, 1e-13);
   EXPECT_EQ(result.factor.factorizations, 1);
   EXPECT_EQ(result.factor.size, body.unknowns.count);

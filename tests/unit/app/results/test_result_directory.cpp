@@ -77,6 +77,19 @@ TEST(ResultDirectory, ForceRemovesWhatAKilledRunLeftHalfWritten) {
   EXPECT_EQ(names_in(work.path()), own);
 }
 
+/// A run that is killed while it removes them leaves no list of files that are gone.
+TEST(ResultDirectory, WhatSpeaksOfOtherFilesGoesFirst) {
+  const test::TemporaryDirectory work;
+  for (const char* name : {"case.toml", "fields.pvd", "fields_000010.vtu", "history.csv", "log.txt",
+                           "summary.json", "bars_000010.csv"}) {
+    test::write_text(work / name, "old");
+  }
+  const std::vector<fs::path> order = refuse_old_results(work.path(), true);
+  ASSERT_EQ(order.size(), 7u);
+  EXPECT_EQ(order[0].filename(), "summary.json");
+  EXPECT_EQ(order[1].filename(), "fields.pvd");
+}
+
 TEST(ResultDirectory, IsOneRunsAtATime) {
   const test::TemporaryDirectory work;
   fs::create_directory_symlink("a", work / "link");

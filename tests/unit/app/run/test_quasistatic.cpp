@@ -109,6 +109,14 @@ TEST(Equilibria, OfAnElasticAnswerAreOneRowWithoutBreaks) {
   EXPECT_EQ(found.initial_stiffness, 12.0 / answer.row.displacement);
 }
 
+/// The work is that of the loads, not the energy under another name.
+TEST(Equilibria, OfAnElasticAnswerTellWhatIsMissing) {
+  ElasticAnswer answer;
+  answer.row.external_work = 2.0;
+  answer.row.strain_energy = 1.5;
+  EXPECT_EQ(Equilibria(answer).energy_error, 0.25);
+}
+
 TEST(PlaceForces, OfLoadsAreTheirForcesAtTheLoadFactor) {
   const Model model = build_model(test::free_strip_case());
   EXPECT_TRUE(has_several_places(model));

@@ -21,6 +21,15 @@ TEST(RunCost, GrowsWithTheFactorAndTheMomentsOfBonds) {
 }
 
 /// Long calibrations are told as expected, short ones are tried.
+TEST(RunCost, CountsTheFieldFilesOfARun) {
+  OutputSection output;
+  EXPECT_EQ(field_files(output, 150), 2);
+  output.fields_at = {10, 50, 150, 400};
+  EXPECT_EQ(field_files(output, 150), 4) << "the last row has the one at 150";
+  output.fields_every = 40;
+  EXPECT_EQ(field_files(output, 150), 7);
+}
+
 TEST(RunCost, ShortCalibrationsAreTried) {
   Model draft = draft_model(test::strip_case());
   ASSERT_TRUE(draft.network.calibration.has_value());

@@ -8,6 +8,7 @@
 namespace perilink {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -99,6 +100,36 @@ TEST(RunDoubts, NameEnergiesAndForcesOutOfBalance) {
   EXPECT_THAT(doubts_of_balance(0.99, 0.0), ElementsAre(HasSubstr("up to 0.99 of the work")));
   EXPECT_THAT(doubts_of_balance(0.99, 3e-6),
               ElementsAre(HasSubstr("of the work"), HasSubstr("up to 3e-06 of the load")));
+}
+
+/// A smaller tolerance helps only where the tolerance ended the iterations.
+TEST(RunDoubts, TellRoundOffFromIterationsThatEndedEarly) {
+  EXPECT_THAT(
+      doubts_of_balance(0.0, 1e-3, 1e-4),
+      ElementsAre(AllOf(HasSubstr("up to 0.001 of the load"), HasSubstr("an error of 0.0001"),
+                        HasSubstr("a smaller `tolerance`"))));
+  EXPECT_THAT(doubts_of_balance(0.0, 1e-3, 1e-10), ElementsAre(HasSubstr("close to singular")));
+  EXPECT_THAT(doubts_of_balance(0.0, 1e-8, 1e-10), IsEmpty());
+}
+
+/// Work is summed over load steps; what breaks between them may take more.
+TEST(RunDoubts, SeeEnergyThatNoLoadStepBroughtIn) {
+  EnergyBalance energy;
+  energy.external_work = 2.8;
+  energy.stored = 2.8;
+  EXPECT_THAT(doubts_at_rest(energy), IsEmpty());
+  energy.fractured = 9.2;
+  EXPECT_THAT(doubts_at_rest(energy),
+              ElementsAre(AllOf(HasSubstr("12 is stored and dissipated"), HasSubstr("2.8 only"))));
+}
+
+TEST(RunDoubts, SeePeaksThatLieBeyondSmallDisplacements) {
+  EXPECT_EQ(doubt_about_size({9.0, 500.0}, 100.0), std::nullopt);
+  EXPECT_EQ(doubt_about_size({-10.0, 500.0}, 100.0), std::nullopt);
+  const auto doubt = doubt_about_size({-198.0, 5e6}, 100.0);
+  ASSERT_TRUE(doubt);
+  EXPECT_THAT(*doubt, AllOf(HasSubstr("5e+06 at displacement -198"),
+                            HasSubstr("by 2 of its longest side")));
 }
 
 TEST(RunDoubts, NameWhatIsNotANumber) {
