@@ -25,6 +25,7 @@ void StagedEngine::grip(std::size_t set, const Unknowns& held) {
     const bool is_new = held.number[slot] == no_index && unknowns_->number[slot] != no_index;
     if (is_new) gripped_at_[slot] = motion[slot];
   }
+  follow_particles(problem_.network, gripped_at_);
   *unknowns_ = held;
   newest_ = set;
 }
