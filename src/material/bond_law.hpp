@@ -42,7 +42,8 @@ class BondLaw {
   /// dissipates exactly the energy of the plateau that it stands for. Yields alike in tension and
   /// compression; unloads along the secant. Ripple of about (r - 1) / 2 either side.
   /// \throws std::invalid_argument unless ratio > 1
-  static BondLaw plateau(double ratio = 1.05);
+  static constexpr double usual_ratio = 1.05;
+  static BondLaw plateau(double ratio = usual_ratio);
 
   /// Given teeth, in tension; a bond that has passed the last one is broken.
   /// \param teeth  the first secant is 1; secants fall and limits rise

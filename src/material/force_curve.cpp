@@ -65,6 +65,24 @@ double ForceCurve::area(double deformation) const {
   return area;
 }
 
+ForceCurve curve_behind(const ForceCurve& curve, double flow) {
+  ForceCurve rest;
+  rest.endless = curve.endless;
+  for (std::size_t k = 0; k < curve.points.size(); ++k) {
+    const auto& [x, f] = curve.points[k];
+    if (!(x - flow > f)) continue;  // what lies before is behind the elastic line
+    if (rest.points.empty()) {
+      const auto& [before, force] = curve.points[std::max<std::size_t>(k, 1) - 1];
+      const double slope = (f - force) / (x - before);
+      const double yield = (force + slope * (flow - before)) / (1.0 - slope);
+      rest.points.push_back({yield, yield});
+    }
+    if (x - flow > rest.points.back()[0]) rest.points.push_back({x - flow, f});
+  }
+  if (rest.points.empty()) rest.points.push_back({curve.points.back()[1], curve.points.back()[1]});
+  return rest;
+}
+
 void check_curve(const ForceCurve& curve) {
   std::array<double, 2> last = {0.0, 0.0};
   for (const auto& point : curve.points) {

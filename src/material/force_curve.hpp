@@ -20,6 +20,12 @@ struct ForceCurve {
   double area(double deformation) const;
 };
 
+/// The curve of an element that has flowed, from the place to which it then unloads: elastic up to
+/// the point where the flow came from, with the rest of the curve behind.
+/// \param curve  over the deformation and force of its first point
+/// \param flow   sum of the sizes of plastic deformations, of the same unit
+ForceCurve curve_behind(const ForceCurve& curve, double flow);
+
 /// \throws std::invalid_argument for a curve without points, deformations that do not rise from
 ///         above zero, negative forces, a first force of zero, or secants that rise
 void check_curve(const ForceCurve& curve);

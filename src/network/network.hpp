@@ -14,6 +14,7 @@
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 #include "material/bond_law.hpp"
+#include "material/force_curve.hpp"
 #include "network/cells/linear_elements.hpp"
 #include "network/secants.hpp"
 
@@ -41,6 +42,8 @@ struct Bars {
   std::vector<std::uint8_t> turned;  ///< nonzero: its second end comes first along the bar
   /// Of the surface that touches the solid [length], per segment; empty: that of round bars.
   std::vector<double> perimeter = {};
+  /// Stress over strain, over those of yielding, per bar; without points: a plateau. Empty: all are.
+  std::vector<ForceCurve> curves = {};
   /// Whether the segment and the one before belong to one bar.
   bool continues(std::size_t segment) const {
     return segment > 0 && segment < bar.size() && bar[segment] == bar[segment - 1];

@@ -54,9 +54,11 @@ struct BarMaterial {
                            ///< anchored
   /// Stress over strain from the yield strength on, in place of a plateau.
   std::optional<ForceCurve> curve = {};
-  BarBond bond = {};       ///< of anchored bars
-  bool bends = false;      ///< it resists bending too, as round bars do, if it is anchored
-  double prestrain = 0.0;  ///< of anchored bars, at load factor 1 [-]
+  BarBond bond = {};   ///< of anchored bars
+  bool bends = false;  ///< it resists bending too, as round bars do, if it is anchored
+  /// Its segments end at anchors of their own that a prestrain or flow moves away from their nodes;
+  /// of anchored bars.
+  bool shifts = false;
 };
 
 /// What makes a network out of the particles of a body.

@@ -23,9 +23,6 @@ constexpr double shortest_tie = 0.1;
 /// from the bar to the solid within a third of a segment.
 constexpr double rigid = 10.0;
 
-/// Ratio of neighbouring secants of bars and of their bond.
-constexpr double tooth_ratio = 1.05;
-
 /// Nodes of bars whose ties do not break.
 std::vector<std::uint8_t> perfectly_tied(const RebarMesh& mesh, const NetworkInput& input,
                                          Index num_particles) {
@@ -211,7 +208,7 @@ class AnchoredTies {
       const bool limited = slips && !bond.elastic;
       const double stretch = limited ? bond.curve->points.front()[0] / spacing_ : infinity;
       append_element(network_, node.particle, anchor, spacing_, against, stiffness, stretch);
-      if (limited) laws_.give(node.bar, [&] { return law_of(*bond.curve, tooth_ratio); });
+      if (limited) laws_.give(node.bar, [&] { return law_of(*bond.curve, BondLaw::usual_ratio); });
     }
   }
 
@@ -231,8 +228,8 @@ void add_segments(const NetworkInput& input, const RebarMesh& mesh, Network& net
         bar.curve ? bar.curve->points.front()[0] : bar.yield_strength / bar.youngs_modulus;
     const Index first = mesh.segments.first[segment];
     Index second = mesh.segments.second[segment];
-    if (bar.prestrain != 0.0) {
-      // It ends at a point that goes with the node but for what the bar is stretched by.
+    if (bar.shifts) {
+      // It ends at a point that goes with the node but for what the bar is longer or shorter by.
       const double one = 1.0;
       second = add_anchor(network, second, {&second, 1}, {&one, 1});
     }
@@ -243,9 +240,9 @@ void add_segments(const NetworkInput& input, const RebarMesh& mesh, Network& net
     append_element(network, first, second, length, direction,
                    bar.youngs_modulus * bar.area / length, yield);
     if (bar.curve) {
-      laws.give(number, [&] { return law_of(*bar.curve, tooth_ratio); });
+      laws.give(number, [&] { return law_of(*bar.curve, BondLaw::usual_ratio); });
     } else {
-      plateau.give(0, [] { return BondLaw::plateau(tooth_ratio); });
+      plateau.give(0, [] { return BondLaw::plateau(); });
     }
     network.bars.area.push_back(bar.area);
     network.bars.perimeter.push_back(bar.bond.perimeter > 0.0
@@ -272,6 +269,14 @@ void add_bars(const Body& body, const NetworkInput& input,
   network.first_segment = network.bonds.size();
   if (mesh.segments.size() == 0) return;
   add_segments(input, mesh, network);
+  for (const BarMaterial& bar : input.bar_materials) {
+    ForceCurve curve = bar.curve.value_or(ForceCurve{});
+    for (auto& [strain, stress] : curve.points) {
+      strain *= bar.youngs_modulus / bar.curve->points.front()[1];
+      stress /= bar.curve->points.front()[1];
+    }
+    network.bars.curves.push_back(std::move(curve));
+  }
   network.bars.bar = std::move(mesh.bar_of_segment);
   network.bars.turned = std::move(mesh.turned);
 }

@@ -140,14 +140,16 @@ BarBond bond_of(const RebarSection& section) {
   return bond;
 }
 
-BarMaterial material_of(const RebarSection& section, bool damage) {
+/// \param damage  something may yield or slip
+/// \param staged  loads may fall
+BarMaterial material_of(const RebarSection& section, bool damage, bool staged) {
   BarMaterial material{section.youngs_modulus, section.area};
   material.ties_break = section.ties_break;
   material.bond = bond_of(section);
   if (!damage) material.bond.elastic = true;
   material.bends = section.bends;
-  material.prestrain = section.prestrain;
-  if (!section.yields) return material;
+  material.shifts = section.prestrain != 0.0;
+  if (!section.yields || !damage) return material;
   if (section.yield_strength) material.yield_strength = *section.yield_strength;
   ForceCurve curve{section.curve};
   if (section.yield_strength && (section.hardening_modulus > 0.0 || section.rupture_strain)) {
@@ -157,6 +159,8 @@ BarMaterial material_of(const RebarSection& section, bool damage) {
     curve.points = {{yield, *section.yield_strength},
                     {end, *section.yield_strength + section.hardening_modulus * (end - yield)}};
   }
+  const bool yields = section.yield_strength || !curve.points.empty();
+  if (yields && staged) material.shifts = true;  // flow is left behind between stages
   if (curve.points.empty()) return material;
   if (section.rupture_strain) {
     const double end = *section.rupture_strain;
@@ -222,7 +226,8 @@ LaidBars lay_bars(const CaseFile& input, int dim) {
     const RebarSection& section = input.rebar[k];
     std::vector<Points> bars = first_bars(input, k, dim);
     copy_bars(section, bars);
-    const BarMaterial material = material_of(section, input.analysis.type != AnalysisType::elastic);
+    const BarMaterial material =
+        material_of(section, input.analysis.type != AnalysisType::elastic, !input.stages.empty());
     for (const Points& points : bars) {
       RebarLine line{points.front(), points.back(), {points.begin() + 1, points.end() - 1}};
       line.anchored = section.bond != RebarBond::concrete;

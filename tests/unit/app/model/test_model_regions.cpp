@@ -43,6 +43,7 @@ TEST(ModelRegions, HoldBarNodesToo) {
   CaseFile input = strip_case();
   RebarSection bar;
   bar.points = {{15.0, 5.0, 0.0}, {15.0, 75.0, 0.0}};
+  bar.bond = RebarBond::concrete;
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;
   input.rebar.push_back(bar);
