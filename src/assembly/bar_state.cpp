@@ -9,9 +9,15 @@
 namespace perilink {
 namespace {
 
+/// The node of a bar that an end of a segment is, or moves with but for a prestrain.
+Index node_of(const Network& network, Index end) {
+  if (!network.is_anchor(end)) return end;
+  return network.anchors.particles.row(end - network.first_anchor())[0];
+}
+
 /// Motion of the solid at the nodes of bars, shape (particles, dim); that of particles elsewhere.
-/// It is the linear field next to the motions of the tied particles, by the stiffness of their
-/// ties.
+/// It is that of the node's anchor, or the linear field next to the motions of the tied particles,
+/// by the stiffness of their ties.
 std::vector<double> motion_of_solid(const Network& network, std::span<const double> motion) {
   const Eigen::Index dim = network.dim(), width = network.width();
   const Index count = network.particles.size();
@@ -19,11 +25,23 @@ std::vector<double> motion_of_solid(const Network& network, std::span<const doub
   for (Index i = 0; i < count; ++i) {
     for (Eigen::Index a = 0; a < dim; ++a) found[i * dim + a] = motion[i * width + a];
   }
+  const bool anchored = network.anchors.size() > 0;
+  const Index end = anchored ? network.first_anchored_tie : network.first_segment;
   const Csr ties = sorted_into_rows(count, [&](auto&& act) {
-    for (Index e = network.first_tie; e < network.first_segment; ++e) {
-      act(network.bonds.second[e], e);
-    }
+    for (Index e = network.first_tie; e < end; ++e) act(network.bonds.second[e], e);
   });
+  for (Index e = end; e < network.first_segment; e += static_cast<Index>(dim)) {
+    const Index node = network.bonds.first[e];
+    const Index anchor = network.bonds.second[e] - network.first_anchor();
+    const auto particles = network.anchors.particles.row(anchor);
+    const auto weights = network.anchors.weights_of(anchor);
+    for (Eigen::Index a = 0; a < dim; ++a) {
+      double& moved = found[node * dim + a] = 0.0;
+      for (std::size_t k = 0; k < particles.size(); ++k) {
+        moved += weights[k] * motion[particles[k] * width + a];
+      }
+    }
+  }
   for (Index node = 0; node < count; ++node) {
     if (ties.row(node).empty()) continue;
     Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(dim + 1, dim + 1);
@@ -60,11 +78,13 @@ BarState bar_state(const Network& network, Secants secants, std::span<const doub
     const Index e = network.first_segment + static_cast<Index>(s);
     const std::size_t ends[] = {static_cast<std::size_t>(bonds.first[e]),
                                 static_cast<std::size_t>(bonds.second[e])};
+    const std::size_t nodes[] = {static_cast<std::size_t>(node_of(network, bonds.first[e])),
+                                 static_cast<std::size_t>(node_of(network, bonds.second[e]))};
     double extension = 0.0, slip = 0.0;
     for (std::size_t a = 0; a < dim; ++a) {
       const double n = bonds.direction(e)[a];
       extension += n * (motion[ends[1] * width + a] - motion[ends[0] * width + a]);
-      for (const std::size_t i : ends) {
+      for (const std::size_t i : nodes) {
         slip += 0.5 * n * (motion[i * width + a] - solid[i * dim + a]);
       }
     }
@@ -75,7 +95,9 @@ BarState bar_state(const Network& network, Secants secants, std::span<const doub
     state.slip.push_back(bars.turned[s] != 0 ? 0.0 - slip : slip);
   }
   for (std::size_t s = 0; s < bars.bar.size(); ++s) {
-    const double perimeter = std::sqrt(4.0 * std::numbers::pi * bars.area[s]);
+    const double perimeter = bars.perimeter.empty()
+                                 ? std::sqrt(4.0 * std::numbers::pi * bars.area[s])
+                                 : bars.perimeter[s];
     // At a node the solid takes the difference of the forces of its segments, over half of each; at
     // an end of the bar all of it.
     const auto length_of = [&](std::size_t k) {

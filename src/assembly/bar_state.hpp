@@ -13,10 +13,10 @@ struct BarState {
   std::vector<double> strain;  ///< per segment [-]
   std::vector<double> force;   ///< along it, tension positive [force]
   std::vector<double> stress;  ///< force over area [force/length^2]
-  /// By which the ends of a segment have moved towards the end of their bar beyond what the ties of
-  /// each say the solid does there, their mean [length]. The solid at a node moves by the linear
-  /// field next to the motions of its tied particles, weighted with the intact stiffness of the
-  /// ties; a node that is a particle of the solid does not slip.
+  /// By which the ends of a segment have moved towards the end of their bar beyond what the solid
+  /// does there, their mean [length]. The solid at a node moves as the node's anchor, or by the
+  /// linear field next to the motions of its tied particles, weighted with the intact stiffness of
+  /// the ties; a node that is a particle of the solid does not slip.
   std::vector<double> slip;
   /// What the segment gives to the solid around it, the mean of its ends: at each the change of the
   /// force per length over the perimeter of a round bar; beyond an end of the bar there is no force

@@ -10,14 +10,20 @@ namespace perilink {
 
 /// What a particle stands for.
 enum class ParticleKind : std::uint8_t {
-  solid,  ///< material of the body
-  ghost,  ///< Peri2D's ghost layer: no modulus of its own, bonds to solid particles at half
-          ///< stiffness
-  rebar,  ///< node of a reinforcing bar
+  solid,   ///< material of the body
+  ghost,   ///< Peri2D's ghost layer: no modulus of its own, bonds to solid particles at half
+           ///< stiffness
+  rebar,   ///< node of a reinforcing bar
+  anchor,  ///< point that moves with particles around it (Anchors)
 };
 
+/// Whether it is held and driven by itself: a solid particle or a node of a bar.
+inline bool is_material(ParticleKind kind) {
+  return kind == ParticleKind::solid || kind == ParticleKind::rebar;
+}
+
 /// The particles of a body, structure of arrays. Solid particles come first, then ghosts, then the
-/// nodes of reinforcing bars.
+/// nodes of reinforcing bars, then anchors.
 struct Particles {
   int dim = 2;
   std::vector<double> positions;  ///< [length], shape (size, dim), row after row

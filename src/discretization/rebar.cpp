@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "discretization/facet_geometry.hpp"
 #include "discretization/neighbor_search.hpp"
 
 namespace perilink {
@@ -13,25 +14,44 @@ namespace {
 /// Nodes closer than this are one, in spacings.
 constexpr double merge_tolerance = 1e-6;
 
-Vector3 along(const RebarLine& bar, double fraction, int dim) {
-  Vector3 point{};
-  for (int axis = 0; axis < dim; ++axis) {
-    point[axis] = bar.from[axis] + fraction * (bar.to[axis] - bar.from[axis]);
+/// Where the nodes of a bar are.
+std::vector<Vector3> nodes_of(const RebarLine& bar, int dim, double spacing, std::size_t number) {
+  std::vector<Vector3> corners = {bar.from};
+  corners.insert(corners.end(), bar.bends.begin(), bar.bends.end());
+  corners.push_back(bar.to);
+  std::vector<Vector3> nodes;
+  for (std::size_t piece = 0; piece + 1 < corners.size(); ++piece) {
+    Vector3 way{};
+    for (int axis = 0; axis < dim; ++axis) {
+      way[axis] = corners[piece + 1][axis] - corners[piece][axis];
+    }
+    const double length = norm(way);
+    if (!(length > merge_tolerance * spacing)) {
+      throw std::invalid_argument("bar " + std::to_string(number + 1) + " has no length");
+    }
+    const auto count = std::max(Index{1}, static_cast<Index>(std::lround(length / spacing)));
+    for (Index node = piece == 0 ? 0 : 1; node <= count; ++node) {
+      Vector3 point{};
+      for (int axis = 0; axis < dim; ++axis) {
+        point[axis] = corners[piece][axis] + static_cast<double>(node) / count * way[axis];
+      }
+      nodes.push_back(point);
+    }
   }
-  return point;
+  return nodes;
 }
 
-Index count_segments(const RebarLine& bar, int dim, double spacing, std::size_t number) {
-  Vector3 vector{};
-  for (int axis = 0; axis < dim; ++axis) vector[axis] = bar.to[axis] - bar.from[axis];
-  const double length = std::hypot(vector[0], vector[1], vector[2]);
-  if (!(length > merge_tolerance * spacing)) {
-    throw std::invalid_argument("bar " + std::to_string(number + 1) + " has no length");
-  }
-  return std::max(Index{1}, static_cast<Index>(std::lround(length / spacing)));
+Index add_node(Particles& particles, const Vector3& point, double volume) {
+  particles.positions.insert(particles.positions.end(), point.begin(),
+                             point.begin() + particles.dim);
+  particles.volumes.push_back(volume);
+  particles.material.push_back(no_index);
+  particles.kind.push_back(ParticleKind::rebar);
+  return particles.size() - 1;
 }
 
-/// Number of the particle at each wanted node: a solid particle, an earlier node, or a new one.
+/// Number of the particle at each wanted node of bars that are not anchored: a solid particle, an
+/// earlier node, or a new one.
 std::vector<Index> place_nodes(Particles& particles, std::span<const double> wanted, double spacing,
                                double cell_volume) {
   const int dim = particles.dim;
@@ -47,18 +67,56 @@ std::vector<Index> place_nodes(Particles& particles, std::span<const double> wan
       }
     }
     if (placed[node] == no_index) {
-      placed[node] = particles.size();
-      const auto begin = wanted.begin() + static_cast<std::ptrdiff_t>(node) * dim;
-      particles.positions.insert(particles.positions.end(), begin, begin + dim);
-      particles.volumes.push_back(cell_volume);
-      particles.material.push_back(no_index);
-      particles.kind.push_back(ParticleKind::rebar);
+      Vector3 point{};
+      std::copy_n(wanted.begin() + static_cast<std::ptrdiff_t>(node) * dim, dim, point.begin());
+      placed[node] = add_node(particles, point, cell_volume);
     }
     for (const Index later : later_nodes.row(node)) {
       if (placed[later] == no_index) placed[later] = placed[node];
     }
   }
   return placed;
+}
+
+std::vector<Index> place_anchored(Particles& particles, const std::vector<Vector3>& nodes,
+                                  double spacing, double cell_volume) {
+  std::vector<Index> placed;
+  const bool closed = norm(minus(nodes.back(), nodes.front())) <= merge_tolerance * spacing;
+  for (const Vector3& point : nodes) {
+    const bool last = placed.size() + 1 == nodes.size();
+    placed.push_back(closed && last ? placed.front() : add_node(particles, point, cell_volume));
+  }
+  return placed;
+}
+
+/// Adds what anchors need to know of the nodes of a bar.
+void note_anchored(const std::vector<Vector3>& nodes, const std::vector<Index>& placed, Index bar,
+                   RebarMesh& mesh) {
+  const std::size_t count = nodes.size(), own = mesh.anchored.size();
+  const bool closed = placed.back() == placed.front();
+  for (std::size_t k = 0; k < (closed ? count - 1 : count); ++k) {
+    mesh.anchored.push_back(
+        {placed[k], bar, {}, 0.0, !closed && k == 0, !closed && k + 1 == count});
+  }
+  for (std::size_t k = 0; k + 1 < count; ++k) {
+    const Vector3 way = minus(nodes[k + 1], nodes[k]);
+    const double length = norm(way);
+    for (BarNode* node :
+         {&mesh.anchored[own + k], &mesh.anchored[own + (closed && k + 2 == count ? 0 : k + 1)]}) {
+      node->length += 0.5 * length;
+      for (int a = 0; a < 3; ++a) node->along[a] += way[a] / length;
+    }
+  }
+  for (std::size_t k = own; k < mesh.anchored.size(); ++k) {
+    BarNode& node = mesh.anchored[k];
+    double length = norm(node.along);
+    if (length < 1e-6) {  // the bar turns back
+      const std::size_t from = std::max<std::size_t>(k - own, 1) - 1;
+      node.along = minus(nodes[from + 1], nodes[from]);
+      length = norm(node.along);
+    }
+    for (double& component : node.along) component /= length;
+  }
 }
 
 /// Bonds between the solid particles and the new nodes, in the order of Bonds.
@@ -87,31 +145,39 @@ Bonds tie_nodes(const Particles& particles, Index first_node, double horizon) {
 RebarMesh add_rebar(Particles& particles, const std::vector<RebarLine>& bars, double spacing,
                     double horizon, double cell_volume) {
   const int dim = particles.dim;
+  std::vector<std::vector<Vector3>> nodes;
   std::vector<double> wanted;
-  std::vector<Index> segments_of_bar;
   for (std::size_t bar = 0; bar < bars.size(); ++bar) {
-    const Index count = count_segments(bars[bar], dim, spacing, bar);
-    segments_of_bar.push_back(count);
-    for (Index node = 0; node <= count; ++node) {
-      const Vector3 point = along(bars[bar], static_cast<double>(node) / count, dim);
+    nodes.push_back(nodes_of(bars[bar], dim, spacing, bar));
+    if (bars[bar].anchored) continue;
+    for (const Vector3& point : nodes.back()) {
       wanted.insert(wanted.end(), point.begin(), point.begin() + dim);
     }
   }
-  const Index first_node = particles.size();
-  const std::vector<Index> placed = place_nodes(particles, wanted, spacing, cell_volume);
-
   RebarMesh mesh;
   mesh.segments.dim = dim;
-  std::size_t node = 0;
-  for (std::size_t bar = 0; bar < bars.size(); ++bar, ++node) {
-    for (Index segment = 0; segment < segments_of_bar[bar]; ++segment, ++node) {
-      const auto [low, high] = std::minmax(placed[node], placed[node + 1]);
+  const Index first_node = particles.size();
+  const std::vector<Index> bonded = place_nodes(particles, wanted, spacing, cell_volume);
+  mesh.ties = tie_nodes(particles, first_node, horizon);
+  std::size_t next = 0;
+  for (std::size_t bar = 0; bar < bars.size(); ++bar) {
+    const std::size_t count = nodes[bar].size();
+    std::vector<Index> placed;
+    if (bars[bar].anchored) {
+      placed = place_anchored(particles, nodes[bar], spacing, cell_volume);
+      note_anchored(nodes[bar], placed, static_cast<Index>(bar), mesh);
+    } else {
+      const auto first = bonded.begin() + static_cast<std::ptrdiff_t>(next);
+      placed.assign(first, first + static_cast<std::ptrdiff_t>(count));
+      next += count;
+    }
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+      const auto [low, high] = std::minmax(placed[k], placed[k + 1]);
       mesh.segments.append(particles, low, high);
       mesh.bar_of_segment.push_back(static_cast<Index>(bar));
-      mesh.turned.push_back(placed[node] > placed[node + 1]);
+      mesh.turned.push_back(placed[k] > placed[k + 1]);
     }
   }
-  mesh.ties = tie_nodes(particles, first_node, horizon);
   return mesh;
 }
 

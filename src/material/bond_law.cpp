@@ -28,7 +28,15 @@ BondLaw BondLaw::brittle() { return {Sense::tension, {{1.0, 1.0}}, 0.0}; }
 
 BondLaw BondLaw::plateau(double ratio) {
   if (!(ratio > 1.0)) throw std::invalid_argument("teeth of a plateau have a ratio above one");
-  return {Sense::both, {}, ratio};
+  return {Sense::both, {{1.0, std::sqrt(ratio)}}, ratio};
+}
+
+BondLaw BondLaw::both_ways(std::vector<Tooth> teeth, double ratio) {
+  check_teeth(teeth);
+  if (ratio != 0.0 && !(ratio > 1.0)) {
+    throw std::invalid_argument("teeth of a plateau have a ratio above one");
+  }
+  return {Sense::both, std::move(teeth), ratio};
 }
 
 BondLaw BondLaw::saw_tooth(std::vector<Tooth> teeth) {
@@ -58,13 +66,13 @@ BondLaw BondLaw::crushing(std::vector<Tooth> teeth, double scale, bool keeps_she
 Tooth BondLaw::first_in_compression() const { return crushing_.front(); }
 
 Tooth BondLaw::tooth(int k) const {
-  if (endless()) {
-    const double growth = std::pow(ratio_, k);
-    return {1.0 / growth, std::sqrt(ratio_) * growth};
-  }
   const std::vector<Tooth>& branch = k < 0 ? crushing_ : teeth_;
   const auto place = static_cast<std::size_t>(std::abs(k));
   if (place < branch.size()) return branch[place];
+  if (endless() && k > 0) {
+    const double growth = std::pow(ratio_, k + 1 - static_cast<int>(teeth_.size()));
+    return {teeth_.back().secant / growth, teeth_.back().limit * growth};
+  }
   return {0.0, std::numeric_limits<double>::infinity()};
 }
 

@@ -42,12 +42,20 @@ class BondLaw {
   /// dissipates exactly the energy of the plateau that it stands for. Yields alike in tension and
   /// compression; unloads along the secant. Ripple of about (r - 1) / 2 either side.
   /// \throws std::invalid_argument unless ratio > 1
-  static BondLaw plateau(double ratio = 1.05);
+  static constexpr double usual_ratio = 1.05;
+  static BondLaw plateau(double ratio = usual_ratio);
 
   /// Given teeth, in tension; a bond that has passed the last one is broken.
   /// \param teeth  the first secant is 1; secants fall and limits rise
   /// \throws std::invalid_argument where they do not
   static BondLaw saw_tooth(std::vector<Tooth> teeth);
+
+  /// Given teeth in tension and compression alike.
+  /// \param teeth  as those of saw_tooth()
+  /// \param ratio  above one: behind the last tooth the force stays, by ever more teeth of this
+  ///               ratio, as that of a plateau does; zero: the element breaks
+  /// \throws std::invalid_argument as saw_tooth() and plateau()
+  static BondLaw both_ways(std::vector<Tooth> teeth, double ratio);
 
   /// The same law of bonds that close: once damaged they resist compression like intact ones. Shear
   /// and bending stay as they are, or the energy would jump.
@@ -74,8 +82,15 @@ class BondLaw {
   Sense sense() const { return sense_; }
   /// Whether there is always another tooth: the bond never breaks.
   bool endless() const { return ratio_ > 0.0; }
-  /// Whether the first event breaks the bond for good.
-  bool is_brittle() const { return !endless() && teeth_.size() == 1 && !closes_ && !crushes(); }
+  /// An endless law that has stretched its last force so many times is a mechanism.
+  static constexpr double most_stretched = 100.0;
+  bool is_exhausted(double secant) const {
+    return endless() && secant < teeth_.back().secant / most_stretched;
+  }
+  /// Whether the first event, in tension, breaks the bond for good.
+  bool is_brittle() const {
+    return !endless() && teeth_.size() == 1 && !closes_ && sense_ == Sense::tension;
+  }
   bool closes() const { return closes_; }
   /// Whether it has teeth in compression of its own.
   bool crushes() const { return sense_ == Sense::each; }
@@ -88,7 +103,7 @@ class BondLaw {
 
   Sense sense_;
   std::vector<Tooth> teeth_;  ///< before the bond breaks
-  double ratio_;              ///< ratio of neighbouring teeth of a plateau; 0: another law
+  double ratio_;  ///< of neighbouring teeth behind the last one; 0: the bond breaks there
   bool closes_ = false;
   std::vector<Tooth> crushing_;  ///< in compression, before the bond breaks
   bool keeps_shear_ = false;

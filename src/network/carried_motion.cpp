@@ -161,6 +161,22 @@ bool shares_any(const Carriers& carriers, const Unknowns& free, Index element,
   return false;
 }
 
+/// What is a combination of particles that something now carries is one of what carries them.
+void carry_followers(const Unknowns& free, Unknowns& unknowns) {
+  if (!free.carries()) return;
+  const std::vector<std::size_t> slots = free.slots();
+  for (std::size_t slot = 0; slot < free.number.size(); ++slot) {
+    if (!free.is_carried(slot)) continue;
+    std::map<Index, double> sums;
+    free.for_each(slot, [&](Index own, double weight) {
+      unknowns.for_each(slots[own], [&](Index k, double share) { sums[k] += weight * share; });
+    });
+    std::vector<Unknowns::Share> shares;
+    for (const auto& [unknown, weight] : sums) shares.push_back({unknown, weight});
+    if (!shares.empty()) unknowns.carry(slot, shares);
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> fit_supports(const Carriers& carriers, const Unknowns& free) {
@@ -203,7 +219,7 @@ Unknowns carried_motion(const Carriers& carriers, const Unknowns& free,
   const std::vector<Index> carrier = carrier_of_particles(carriers, whole, num_particles);
   std::vector<std::uint8_t> held(free.number.size());
   for (std::size_t slot = 0; slot < held.size(); ++slot) {
-    held[slot] = free.number[slot] == no_index || carrier[slot / free.width] != no_index ? 1 : 0;
+    held[slot] = free.number[slot] < 0 || carrier[slot / free.width] != no_index ? 1 : 0;
   }
   Unknowns unknowns = number_unknowns(free.width, held, free.prescribed);
   HeldNodes node_held = none_held(carriers, free);
@@ -237,6 +253,7 @@ Unknowns carried_motion(const Carriers& carriers, const Unknowns& free,
       }
     }
   }
+  carry_followers(free, unknowns);
   return unknowns;
 }
 

@@ -9,10 +9,12 @@
 
 #include "base/types.hpp"
 #include "calibration/calibration_input.hpp"
+#include "discretization/anchors.hpp"
 #include "discretization/bonds.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 #include "material/bond_law.hpp"
+#include "material/force_curve.hpp"
 #include "network/cells/linear_elements.hpp"
 #include "network/secants.hpp"
 
@@ -38,7 +40,10 @@ struct Bars {
   std::vector<double> area;          ///< cross-section [length^2], per segment
   std::vector<Index> bar;            ///< number of the bar, per segment
   std::vector<std::uint8_t> turned;  ///< nonzero: its second end comes first along the bar
-
+  /// Of the surface that touches the solid [length], per segment; empty: that of round bars.
+  std::vector<double> perimeter = {};
+  /// Stress over strain, over those of yielding, per bar; without points: a plateau. Empty: all are.
+  std::vector<ForceCurve> curves = {};
   /// Whether the segment and the one before belong to one bar.
   bool continues(std::size_t segment) const {
     return segment > 0 && segment < bar.size() && bar[segment] == bar[segment - 1];
@@ -80,10 +85,14 @@ struct Network {
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: none.
   std::vector<double> support_stiffness;
-  Index first_tie = 0;      ///< number of the first tie
+  Index first_tie = 0;  ///< number of the first tie
+  /// Number of the first tie between a node of a bar and its anchor. At each node there is one along
+  /// the bar, then those across it.
+  Index first_anchored_tie = 0;
   Index first_segment = 0;  ///< number of the first bar segment
   Bars bars;
-  Facets facets;  ///< surface and interfaces, with the shares that the bonds balance
+  Anchors anchors;  ///< the last particles
+  Facets facets;    ///< surface and interfaces, with the shares that the bonds balance
   std::optional<CalibrationReport> calibration;  ///< where bonds were calibrated
 
   /// Bonds that pre-cracks have broken and that close where they are compressed, ascending; others
@@ -134,6 +143,12 @@ struct Network {
   bool has_limit(Index element) const { return !std::isinf(critical_stretch[element]); }
   bool can_break(Index element) const { return has_limit(element) && !law(element).endless(); }
   bool is_segment(Index element) const { return element >= first_segment; }
+  Index first_anchor() const { return particles.size() - anchors.size(); }
+  bool is_anchor(Index particle) const { return particle >= first_anchor(); }
+  /// Whether the motion of an end is that of particles around it.
+  bool is_anchored(Index element) const {
+    return is_anchor(bonds.second[element]) || is_anchor(bonds.first[element]);
+  }
 };
 
 /// Takes out the elements that are not marked. Only before bars are added.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/types.hpp"
@@ -11,6 +12,7 @@
 #include "discretization/rebar.hpp"
 #include "discretization/region.hpp"
 #include "material/elasticity.hpp"
+#include "material/force_curve.hpp"
 #include "material/micromodulus.hpp"
 #include "material/micropolar.hpp"
 #include "material/softening.hpp"
@@ -32,13 +34,31 @@ struct SolidMaterial {
   SofteningMaterial softening = {};
 };
 
+/// How the nodes of an anchored bar are held by the solid around them.
+struct BarBond {
+  /// Bond stress over slip [force/length^2, length]; empty: perfect, the bar does not slip.
+  std::optional<ForceCurve> curve = {};
+  bool elastic = false;    ///< its first line goes on for ever
+  double perimeter = 0.0;  ///< of the bar [length]
+  bool hook_from = false;  ///< the end where the bar begins does not slip
+  bool hook_to = false;    ///< nor does the other
+};
+
 /// A reinforcing bar.
 struct BarMaterial {
   double youngs_modulus = 0.0;                                      ///< E [force/length^2]
   double area = 0.0;                                                ///< A [length^2]
   double yield_strength = std::numeric_limits<double>::infinity();  ///< f_y [force/length^2];
                                                                     ///< infinity: stays elastic
-  bool ties_break = true;  ///< false: nothing breaks between the bar and the solid
+  bool ties_break = true;  ///< false: nothing breaks between the bar and the solid, if it is not
+                           ///< anchored
+  /// Stress over strain from the yield strength on, in place of a plateau.
+  std::optional<ForceCurve> curve = {};
+  BarBond bond = {};   ///< of anchored bars
+  bool bends = false;  ///< it resists bending too, as round bars do, if it is anchored
+  /// Its segments end at anchors of their own that a prestrain or flow moves away from their nodes;
+  /// of anchored bars.
+  bool shifts = false;
 };
 
 /// What makes a network out of the particles of a body.

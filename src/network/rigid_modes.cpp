@@ -170,6 +170,11 @@ std::vector<Fragment> find_fragments(const Network& network,
     const auto cell = network.cells->cells.cell(k);
     for (const Index vertex : cell) parts.join(cell.front(), vertex);
   }
+  for (Index k = 0; k < network.anchors.size(); ++k) {
+    for (const Index i : network.anchors.particles.row(k)) {
+      parts.join(network.first_anchor() + k, i);
+    }
+  }
   std::vector<Fragment> fragments;
   std::vector<Index> fragment_of_root(static_cast<std::size_t>(num_particles), no_index);
   for (Index i = 0; i < num_particles; ++i) {
@@ -283,7 +288,7 @@ void pin_rigid_modes(const Network& network, const Fragment& fragment,
     Best any;
     Best rotation;  // taken where no displacement is left, as along a line of particles
     for (const Index i : fragment.particles) {
-      for (int a = 0; a < modes.components(i); ++a) {
+      for (int a = 0; a < modes.components(i) && !network.is_anchor(i); ++a) {
         if (held[modes.slot(i, a)]) continue;
         const double residual = span.residual(modes.row(i, a)).norm();
         Best& best = a < modes.dim() ? any : rotation;

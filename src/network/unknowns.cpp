@@ -67,6 +67,68 @@ Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
   return unknowns;
 }
 
+namespace {
+
+/// Components of an anchor that follow its particles: rotations only those of one particle.
+int following(const Network& network, Index anchor) {
+  return network.anchors.particles.row(anchor).size() == 1 ? network.width() : network.dim();
+}
+
+template <class Visit>
+void for_each_anchored_slot(const Network& network, Visit visit) {
+  const auto width = static_cast<std::size_t>(network.width());
+  for (Index k = 0; k < network.anchors.size(); ++k) {
+    const std::size_t slot = static_cast<std::size_t>(network.first_anchor() + k) * width;
+    for (int a = 0; a < following(network, k); ++a) visit(k, slot + a, a);
+  }
+}
+
+}  // namespace
+
+void hold_anchors(const Network& network, std::vector<std::uint8_t>& held) {
+  const std::size_t first = static_cast<std::size_t>(network.first_anchor()) * network.width();
+  std::fill(held.begin() + static_cast<std::ptrdiff_t>(first), held.end(), 1);
+}
+
+void carry_anchors(const Network& network, Unknowns& unknowns) {
+  std::vector<Unknowns::Share> shares;
+  for_each_anchored_slot(network, [&](Index k, std::size_t slot, int component) {
+    shares.clear();
+    const auto particles = network.anchors.particles.row(k);
+    const auto weights = network.anchors.weights_of(k);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const std::size_t own = static_cast<std::size_t>(particles[p]) * unknowns.width + component;
+      if (unknowns.number[own] >= 0) shares.push_back({unknowns.number[own], weights[p]});
+      unknowns.prescribed[slot] += weights[p] * unknowns.prescribed[own];
+    }
+    if (!shares.empty()) unknowns.carry(slot, shares);
+  });
+}
+
+void follow_particles(const Network& network, std::span<double> motion) {
+  const auto width = static_cast<std::size_t>(network.width());
+  for_each_anchored_slot(network, [&](Index k, std::size_t slot, int component) {
+    const auto particles = network.anchors.particles.row(k);
+    const auto weights = network.anchors.weights_of(k);
+    motion[slot] = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      motion[slot] += weights[p] * motion[particles[p] * width + component];
+    }
+  });
+}
+
+void load_particles(const Network& network, std::span<double> forces) {
+  const auto width = static_cast<std::size_t>(network.width());
+  for_each_anchored_slot(network, [&](Index k, std::size_t slot, int component) {
+    const auto particles = network.anchors.particles.row(k);
+    const auto weights = network.anchors.weights_of(k);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      forces[particles[p] * width + component] += weights[p] * forces[slot];
+    }
+    forces[slot] = 0.0;
+  });
+}
+
 std::vector<std::uint8_t> rotating_particles(const Network& network) {
   if (!network.carries_moments()) return {};
   std::vector<std::uint8_t> rotating(static_cast<std::size_t>(network.particles.size()), 0);

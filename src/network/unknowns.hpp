@@ -89,6 +89,20 @@ void expect_nothing_carried(const Unknowns& unknowns);
 Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
                          std::vector<double> prescribed);
 
+/// Marks the anchors as held, shape (particles, width): they have no unknowns of their own.
+void hold_anchors(const Network& network, std::vector<std::uint8_t>& held);
+
+/// Lets anchors move with their particles, beside what is prescribed for them.
+void carry_anchors(const Network& network, Unknowns& unknowns);
+
+/// Sums over the particles of anchors with their weights, in place of the motions of anchors, shape
+/// (particles, width).
+void follow_particles(const Network& network, std::span<double> motion);
+
+/// The other way round: adds the forces of anchors to those of their particles, and takes them from
+/// the anchors.
+void load_particles(const Network& network, std::span<double> forces);
+
 /// Particles that a bond with bending stiffness ends at; the rotations of the others mean nothing
 /// and must not be unknown. Empty where no bond carries a moment.
 std::vector<std::uint8_t> rotating_particles(const Network& network);

@@ -82,7 +82,9 @@ const std::string in_space =
     "[[cracks]]\ncorners = [[-1, 4.4, -1], [5, 4.4, -1], [5, 4.4, 10], [-1, 4.4, 10]]\n";
 const std::string cracked = "[[cracks]]\npoints = [[-1, 4.4], [5, 4.4]]\n" + pulled;
 const std::string reinforced =
-    "[[rebar]]\nfrom = [1, 1]\nto = [8, 8]\narea = 0.1\nyoungs_modulus = 1e5\n" + weight;
+    "[[rebar]]\nfrom = [1, 1]\nto = [8, 8]\narea = 0.1\nyoungs_modulus = 1e5\n"
+    "bond = \"concrete\"\n" +
+    weight;
 
 INSTANTIATE_TEST_SUITE_P(
     Blocks, Solvers,

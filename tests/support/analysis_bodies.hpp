@@ -47,7 +47,9 @@ inline void number(AnalysisBody& body, const IsHeld& is_held) {
     for (int a = 0; a < body.network.width(); ++a) held.push_back(is_held(i, a));
   }
   hold_idle_rotations(body.network, held);
+  hold_anchors(body.network, held);
   body.unknowns = number_unknowns(body.network.width(), held, body.unknowns.prescribed);
+  carry_anchors(body.network, body.unknowns);
 }
 
 inline std::size_t slot(const AnalysisBody& body, Index particle, int axis) {

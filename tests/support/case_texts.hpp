@@ -94,6 +94,7 @@ youngs_modulus = 2e8
 area = 1e-4
 yield_strength = 500e3
 yields = false
+bond = "concrete"
 ties_break = false
 
 [[rebar]]

@@ -67,7 +67,10 @@ class Vibration {
     for (const VectorXd& other : others) u -= product(other, u) * other;
   }
   VectorXd force_of(const VectorXd& u) {
-    internal_force(network_, secants_, {u.data(), static_cast<std::size_t>(u.size())}, inner_);
+    VectorXd all = u;
+    follow_particles(network_, {all.data(), static_cast<std::size_t>(all.size())});
+    internal_force(network_, secants_, {all.data(), static_cast<std::size_t>(all.size())}, inner_);
+    load_particles(network_, inner_.forces);
     return masked(Eigen::Map<const VectorXd>(inner_.forces.data(), u.size()));
   }
   VectorXd random_start() const;

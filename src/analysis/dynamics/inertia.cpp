@@ -33,6 +33,23 @@ std::vector<double> bounding_stiffness(const Network& network) {
   return stiffness;
 }
 
+/// Calls visit(particle, whether at the second end, weight) for what moves the ends of an element:
+/// particles, and those around an anchor.
+template <class Visit>
+void for_each_end(const Network& network, Index element, Visit visit) {
+  for (const bool second : {false, true}) {
+    const Index end = second ? network.bonds.second[element] : network.bonds.first[element];
+    if (!network.is_anchor(end)) {
+      visit(end, second, 1.0);
+      continue;
+    }
+    const Index anchor = end - network.first_anchor();
+    const auto particles = network.anchors.particles.row(anchor);
+    const auto weights = network.anchors.weights_of(anchor);
+    for (std::size_t k = 0; k < particles.size(); ++k) visit(particles[k], second, weights[k]);
+  }
+}
+
 /// Sum of k b b' of all modes that end at each particle; with Green strains of what the tangents
 /// k ((1 + 2 g) n n' + g I) of bonds become before they break.
 template <int Dim>
@@ -54,8 +71,8 @@ Blocks<Dim> own_trusses(const Network& network, Strain strain) {
       part *= along;
       part.diagonal().array() += across * network.stiffness[e];
     }
-    blocks[network.bonds.first[e]] += part;
-    blocks[network.bonds.second[e]] += part;
+    for_each_end(network, e,
+                 [&](Index i, bool, double weight) { blocks[i] += weight * weight * part; });
   }
   return blocks;
 }
@@ -70,8 +87,10 @@ Blocks<FrameModes<Dim>::width> own_frames(const Network& network) {
     const FrameModes<Dim> modes = frame_modes<Dim>(network, e);
     for (int m = 0; m < FrameModes<Dim>::count; ++m) {
       const Vector first(modes.first[m].data()), second(modes.second[m].data());
-      blocks[network.bonds.first[e]] += modes.stiffness[m] * first * first.transpose();
-      blocks[network.bonds.second[e]] += modes.stiffness[m] * second * second.transpose();
+      for_each_end(network, e, [&](Index i, bool at_second, double weight) {
+        const Vector& b = at_second ? second : first;
+        blocks[i] += weight * weight * modes.stiffness[m] * b * b.transpose();
+      });
     }
   }
   return blocks;
@@ -127,7 +146,9 @@ void complete_masses(const std::vector<double>& stiffness, std::vector<double>& 
 double largest_pair(const Network& network, const std::vector<double>& p) {
   double largest = 0.0;
   for (Index e = 0; e < network.num_elements(); ++e) {
-    largest = std::max(largest, p[network.bonds.first[e]] + p[network.bonds.second[e]]);
+    double sum = 0.0;
+    for_each_end(network, e, [&](Index i, bool, double) { sum += p[i]; });
+    largest = std::max(largest, sum);
   }
   return largest;
 }

@@ -13,10 +13,6 @@
 namespace perilink {
 namespace {
 
-/// A bar whose secant fell below this has stretched to a hundred times its yield strain: it no
-/// longer limits anything, the bars and the body form a plastic mechanism.
-constexpr double exhausted_secant = 1e-2;
-
 /// A row whose energies are this far from balance, over the work, is none: the solver has lost the
 /// body, and what it would write were noise.
 constexpr double lost_balance = 1e-2;
@@ -214,10 +210,13 @@ bool EventRun::pass(const Event& event) {
   compliance_ += outcome.compliance_growth;
   ++events_;
   look_after(outcome);
-  if (network_.law(event.element).endless() && outcome.secant < exhausted_secant) {
+  if (network_.law(event.element).is_exhausted(outcome.secant)) {
+    // It no longer limits anything: the bars and the body form a mechanism.
     end(Ending::collapsed,
-        fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
-                    1.0 / exhausted_secant));
+        network_.is_segment(event.element)
+            ? fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
+                          BondLaw::most_stretched)
+            : "a bar slips through the body: a mechanism");
     return false;
   }
   return true;

@@ -29,9 +29,12 @@ class PathEnergy {
   }
 
   /// Other loads grow from here on, from a load factor of their own. The equilibrium stays.
-  void begin_stage(double load_factor, const LoadWork& work) {
+  /// \param flowed  what flow left behind is no longer stored, but dissipated
+  void begin_stage(double load_factor, const LoadWork& work, bool flowed = false) {
+    const double before = stored();
     load_factor_ = load_factor;
     work_ = work;
+    if (flowed) dissipated_ += before - stored();
   }
 
   /// An event at the present row.

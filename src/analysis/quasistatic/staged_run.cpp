@@ -28,15 +28,16 @@ void EventRun::begin_stage(std::size_t number) {
   row_.stage = static_cast<Index>(number + 1);
   stop_ = &stage.stop;
   rows_below_ = 0;
-  if (!others) return;
-  result_.peaks = {};
+  const bool flowed = number > 0 && staged_->leave_flow();
+  if (!others && !flowed) return;
+  if (others) result_.peaks = {};
   reference_ = &problem_.sets[stage.set].reference;
   const Unknowns& held = problem_.sets[stage.set].unknowns;
   const bool is_carried = conversion_ && staged_->is_new(stage.set);
   staged_->begin_stage(stage.set, is_carried ? conversion_->hold(held) : held);
   begin_work();
   check();
-  energy_.begin_stage(staged_->load_factor(), engine_->load_work());
+  energy_.begin_stage(staged_->load_factor(), engine_->load_work(), flowed);
 }
 
 void EventRun::end_stage() {

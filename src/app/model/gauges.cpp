@@ -49,15 +49,18 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
                const GaugeSection& section, Gauge& gauge) {
   const Particles& particles = model.network.particles;
   double whole = 0.0;
-  for (const Index i : particles_of_region(input, model, section.region, key)) {
-    if (particles.kind[i] != ParticleKind::solid) continue;
-    gauge.terms.push_back({i, particles.volumes[i]});
-    whole += particles.volumes[i];
-  }
-  if (gauge.terms.empty()) {
+  const std::vector<Index> members = particles_of_region(input, model, section.region, key);
+  const auto is_bar = [&](Index i) { return particles.kind[i] != ParticleKind::solid; };
+  const bool bars_alone = std::all_of(members.begin(), members.end(), is_bar);
+  if (bars_alone && section.stress) {
     throw InputError(input.where(key),
                      fmt::format("is \"{}\", which holds only bars", section.region),
                      "name a region with particles of the solid");
+  }
+  for (const Index i : members) {
+    if (is_bar(i) && !bars_alone) continue;
+    gauge.terms.push_back({i, particles.volumes[i]});
+    whole += particles.volumes[i];
   }
   for (Gauge::Term& term : gauge.terms) term.weight /= whole;
 }

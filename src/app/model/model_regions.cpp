@@ -43,7 +43,7 @@ std::vector<Index> particles_inside(const Model& model, const Region* region,
   const double tolerance = region_tolerance * model.lattice.spacing;
   std::vector<Index> inside;
   for (Index i = 0; i < particles.size(); ++i) {
-    if (particles.kind[i] == ParticleKind::ghost) continue;
+    if (!is_material(particles.kind[i])) continue;
     if (region == nullptr || region->contains(particles.position(i), tolerance)) {
       inside.push_back(i);
     }
@@ -121,10 +121,9 @@ std::vector<Index> particles_of_region(const CaseFile& input, const Model& model
                                        const std::string& region, const std::string& key) {
   const Particles& particles = model.network.particles;
   std::vector<Index> inside = particles_inside(model, find_region(input, region), region);
-  const bool any_solid = std::any_of(inside.begin(), inside.end(), [&](Index i) {
-    return particles.kind[i] == ParticleKind::solid;
-  });
-  if (!any_solid) {
+  const bool any = std::any_of(inside.begin(), inside.end(),
+                               [&](Index i) { return is_material(particles.kind[i]); });
+  if (!any) {
     throw InputError(
         input.where(key), fmt::format("no particle lies in the region \"{}\"", region),
         fmt::format("{}particles are {:.6g} apart; make the region larger or move it onto the body",

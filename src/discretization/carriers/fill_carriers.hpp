@@ -78,7 +78,7 @@ Carriers fill_carriers(const Particles& particles, std::span<const double> faces
       add_elements(cells, usable_cells(cells, particles, faces), carriers);
   carriers.inside = sorted_into_rows(carriers.size(), [&](const auto& add) {
     for (Index i = 0; i < particles.size(); ++i) {
-      if (particles.kind[i] == ParticleKind::ghost) continue;
+      if (particles.kind[i] != ParticleKind::solid) continue;
       cells.for_each_around(particles.position(i), [&](Index cell) {
         if (element_of[cell] != no_index) add(element_of[cell], i);
       });

@@ -12,6 +12,7 @@
 #include "discretization/region.hpp"
 #include "io/case/case_words.hpp"
 #include "io/text/formula.hpp"
+#include "material/model_code_bond.hpp"
 
 /// \file
 /// The case file as it stands in the TOML text: every value that can be wrong by itself has been
@@ -141,15 +142,42 @@ struct CrackSection {
   std::vector<Vector3> points;
 };
 
-/// [[rebar]]
+/// How bars are laid into a box: along an axis, `cover` from its faces; beside one face, or as
+/// stirrups around the axis.
+struct BarLayout {
+  std::string region;
+  int along = 0;  ///< axis
+  double cover = 0.0;
+  std::optional<int> face;        ///< axis of the normal: 0 to 2 the lower face, 3 to 5 the upper
+  int number = 1;                 ///< bars beside the face
+  std::optional<double> spacing;  ///< of stirrups, about [length]
+};
+
+/// [[rebar]]: exactly one of points, layout and curve.
 struct RebarSection {
-  Vector3 from{};
-  Vector3 to{};
+  std::vector<Vector3> points;  ///< ends and bends
+  std::optional<BarLayout> layout = {};
+  std::vector<int> copies = {};     ///< along each of the steps
+  std::vector<Vector3> steps = {};  ///< from copy to copy [length]
+  bool across_gaps = false;         ///< it may leave the body on its way
   double youngs_modulus = 0.0;
   double area = 0.0;
-  std::optional<double> yield_strength;  ///< absent: elastic
-  bool yields = true;                    ///< false: stays elastic whatever its yield strength
-  bool ties_break = true;                ///< false: the bond to the concrete is perfect
+  std::optional<double> yield_strength = {};  ///< absent: elastic
+  bool yields = true;                         ///< false: stays elastic whatever its yield strength
+  double hardening_modulus = 0.0;  ///< slope of the stress over strain behind the yield strength
+  std::optional<double> rupture_strain = {};
+  std::vector<std::array<double, 2>> curve = {};  ///< strain and stress from the end of elasticity
+  RebarBond bond = RebarBond::perfect;
+  bool ties_break = true;  ///< bond = concrete; false: they hold whatever happens
+  std::optional<double> bond_stiffness = {};           ///< linear [force/length^3]
+  std::optional<double> bond_strength = {};            ///< linear [force/length^2]
+  std::vector<std::array<double, 2>> bond_curve = {};  ///< slip and bond stress
+  ModelCodeBond model_code = {};
+  std::optional<double> perimeter = {};  ///< absent: that of a round bar
+  Hooks hooks = Hooks::none;
+  bool bends = false;      ///< resists bending
+  double prestrain = 0.0;  ///< at load factor 1
+  std::string stage = {};  ///< in which the prestrain grows
 };
 
 /// [[gauges]]: a displacement or stress that is written as a column of the history. Exactly one of

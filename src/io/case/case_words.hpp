@@ -9,6 +9,7 @@
 #include "material/lattice_rules.hpp"
 #include "material/mass_scaling.hpp"
 #include "material/micromodulus.hpp"
+#include "material/model_code_bond.hpp"
 #include "material/softening.hpp"
 #include "material/strain.hpp"
 #include "solver/factor_route.hpp"
@@ -56,6 +57,18 @@ enum class AnalysisType { damage, elastic, explicit_, relaxation };
 
 /// What a quasistatic analysis steps by.
 enum class LoadControl { events, steps };
+
+/// What holds the nodes of a bar in the solid.
+enum class RebarBond {
+  perfect,     ///< it does not slip
+  linear,      ///< a stiffness, and a strength from which on it stays
+  model_code,  ///< ModelCodeBond
+  curve,       ///< given points
+  concrete,    ///< bonds like those between particles of the solid
+};
+
+/// Ends of a bar that do not slip.
+enum class Hooks { none, from, to, both };
 
 /// What becomes of a body that is not held.
 enum class RigidBodyModes { refuse, pin };
@@ -113,6 +126,14 @@ constexpr auto words_of(AnalysisType) {
   return words("damage", "elastic", "explicit", "relaxation");
 }
 constexpr auto words_of(LoadControl) { return words("events", "steps"); }
+constexpr auto words_of(RebarBond) {
+  return words("perfect", "linear", "model_code", "curve", "concrete");
+}
+constexpr auto words_of(Hooks) { return words("none", "from", "to", "both"); }
+constexpr auto words_of(BondFailure) {
+  return words("pull_out", "splitting", "splitting_stirrups");
+}
+constexpr auto words_of(BondConditions) { return words("good", "other"); }
 constexpr auto words_of(RigidBodyModes) { return words("refuse", "pin"); }
 constexpr auto words_of(FactorRoute) { return words("in_place", "cholmod_updown", "refactorize"); }
 constexpr auto words_of(LinearSolver) { return words("auto", "direct", "iterative"); }

@@ -12,6 +12,7 @@
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
 #include "network/bond_softening.hpp"
+#include "network/builder/bar_elements.hpp"
 #include "network/builder/glued_cells.hpp"
 #include "network/surface_correction.hpp"
 #include "network/unknowns.hpp"
@@ -20,9 +21,6 @@ namespace perilink {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Ties are not stiffer than those of this length, in spacings.
-constexpr double shortest_tie = 0.1;
 
 void check_input(const Body& body, const NetworkInput& input) {
   if (body.particles.dim != dimension_of(input.problem)) {
@@ -75,6 +73,10 @@ class PairConstants {
   }
 
   const BondConstants& of(Index a, Index b) const { return pairs_[a * count_ + b]; }
+  TieConstants tie(Index material) const {
+    const auto& [moduli, stretch] = of(material, material);
+    return {moduli.micromodulus, stretch};
+  }
 
  private:
   std::size_t count_;
@@ -102,62 +104,6 @@ void add_bonds(const PairConstants& constants, BondModel model, Network& network
     network.bending.push_back(12.0 * (moduli.bending_modulus * part) * particles.volumes[i] *
                               particles.volumes[j] / (length * length * length));
   }
-}
-
-/// Nodes of bars whose ties do not break.
-std::vector<std::uint8_t> perfectly_tied(const RebarMesh& mesh, const NetworkInput& input,
-                                         Index num_particles) {
-  std::vector<std::uint8_t> perfect(static_cast<std::size_t>(num_particles), 0);
-  for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
-    if (input.bar_materials[mesh.bar_of_segment[segment]].ties_break) continue;
-    perfect[mesh.segments.first[segment]] = 1;
-    perfect[mesh.segments.second[segment]] = 1;
-  }
-  return perfect;
-}
-
-void add_bars(const Body& body, const NetworkInput& input, const PairConstants& constants,
-              Network& network) {
-  Particles& particles = network.particles;
-  RebarMesh mesh = add_rebar(particles, input.bars, body.lattice.spacing, input.horizon,
-                             body.lattice.cell_volume);
-  if (!input.cracks.empty()) {
-    const CutBonds cut = find_cut_bonds(particles, mesh.ties, input.cracks, body.lattice.spacing);
-    keep_bonds(mesh.ties, cut.keep);
-  }
-  const auto perfect = perfectly_tied(mesh, input, particles.size());
-  const double least_length = shortest_tie * body.lattice.spacing;
-  const auto append = [&](const Bonds& elements) {
-    for (Index e = 0; e < elements.size(); ++e) {
-      network.bonds.append(particles, elements.first[e], elements.second[e]);
-    }
-  };
-  network.first_tie = network.bonds.size();
-  append(mesh.ties);
-  for (Index tie = 0; tie < mesh.ties.size(); ++tie) {
-    const Index solid = mesh.ties.first[tie];
-    const Index node = mesh.ties.second[tie];
-    const auto& [moduli, stretch] =
-        constants.of(particles.material[solid], particles.material[solid]);
-    network.stiffness.push_back(moduli.micromodulus * particles.volumes[solid] *
-                                particles.volumes[node] /
-                                std::max(mesh.ties.lengths[tie], least_length));
-    network.critical_stretch.push_back(perfect[node] ? infinity : stretch);
-  }
-  network.first_segment = network.bonds.size();
-  append(mesh.segments);
-  for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
-    const BarMaterial& bar = input.bar_materials[mesh.bar_of_segment[segment]];
-    network.stiffness.push_back(bar.youngs_modulus * bar.area / mesh.segments.lengths[segment]);
-    network.bars.area.push_back(bar.area);
-    network.critical_stretch.push_back(bar.yield_strength / bar.youngs_modulus);
-  }
-  network.bars.bar = std::move(mesh.bar_of_segment);
-  network.bars.turned = std::move(mesh.turned);
-  if (mesh.segments.size() == 0) return;
-  network.law_of.resize(static_cast<std::size_t>(network.first_segment), 0);
-  network.law_of.resize(network.stiffness.size(), static_cast<Index>(network.laws.size()));
-  network.laws.push_back(BondLaw::plateau());
 }
 
 /// Takes out the bonds that cross a pre-crack, but for those that close.
@@ -222,7 +168,8 @@ Network build_network(const Body& body, const NetworkInput& input) {
   const PairConstants constants(body, input);
   Network network = body.glued.empty() ? build_bonds(body, input, constants)
                                        : build_bonds_and_cells(body, input, constants);
-  add_bars(body, input, constants, network);
+  add_bars(
+      body, input, [&](Index material) { return constants.tie(material); }, network);
   soften_bonds(body, input, network);
   for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {

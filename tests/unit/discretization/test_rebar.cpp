@@ -78,6 +78,46 @@ TEST(Rebar, IsNotTiedToGhosts) {
   }
 }
 
+TEST(Rebar, AnchoredBarsHaveNodesOfTheirOwn) {
+  Particles particles = square();
+  const Index before = particles.size();
+  RebarLine bar{{0.0, 0.5, 0.0}, {0.5, 0.0, 0.0}, {{0.5, 0.5, 0.0}}};
+  bar.anchored = true;
+  const RebarMesh mesh = add_rebar(particles, {bar, bar}, 0.1, 0.2, 0.01);
+  EXPECT_EQ(particles.size(), before + 22) << "not even bars in one place share nodes";
+  EXPECT_EQ(mesh.ties.size(), 0);
+  ASSERT_EQ(mesh.anchored.size(), 22u);
+  double length = 0.0;
+  for (std::size_t k = 0; k < 11; ++k) length += mesh.anchored[k].length;
+  EXPECT_NEAR(length, 1.0, 1e-14);
+  EXPECT_TRUE(mesh.anchored[0].begins);
+  EXPECT_TRUE(mesh.anchored[10].ends);
+  EXPECT_EQ(mesh.anchored[11].bar, 1);
+  EXPECT_NEAR(mesh.anchored[2].along[0], 1.0, 1e-14);
+  EXPECT_NEAR(mesh.anchored[5].along[0], std::sqrt(0.5), 1e-14);  // at the bend
+  EXPECT_NEAR(mesh.anchored[5].along[1], -std::sqrt(0.5), 1e-14);
+  EXPECT_NEAR(mesh.anchored[5].length, 0.1, 1e-14);
+  EXPECT_NEAR(mesh.anchored[10].along[1], -1.0, 1e-14);
+}
+
+TEST(Rebar, AStirrupEndsAtItsFirstNode) {
+  Particles particles = square();
+  const Index before = particles.size();
+  RebarLine bar{
+      {0.2, 0.2, 0.0}, {0.2, 0.2, 0.0}, {{0.8, 0.2, 0.0}, {0.8, 0.8, 0.0}, {0.2, 0.8, 0.0}}};
+  bar.anchored = true;
+  const RebarMesh mesh = add_rebar(particles, {bar}, 0.1, 0.2, 0.01);
+  EXPECT_EQ(particles.size(), before + 24);
+  EXPECT_EQ(mesh.segments.size(), 24);
+  EXPECT_EQ(mesh.turned.back(), 1);
+  for (const BarNode& node : mesh.anchored) {
+    EXPECT_NEAR(node.length, 0.1, 1e-14);
+    EXPECT_FALSE(node.begins || node.ends);
+  }
+  EXPECT_NEAR(mesh.anchored[0].along[0], std::sqrt(0.5), 1e-14);
+  EXPECT_NEAR(mesh.anchored[0].along[1], -std::sqrt(0.5), 1e-14);
+}
+
 TEST(Rebar, RefusesABarWithoutLength) {
   Particles particles = square();
   EXPECT_THROW(add_rebar(particles, {{{0.5, 0.5, 0.0}, {0.5, 0.5, 0.0}}}, 0.1, 0.2, 0.01),

@@ -21,7 +21,9 @@ std::vector<LawCase> laws() {
           {"three teeth", BondLaw::saw_tooth({{1.0, 1.0}, {0.6, 1.4}, {0.2, 3.0}}), 4},
           {"plateau, fine", BondLaw::plateau(1.01), 40},
           {"plateau", BondLaw::plateau(), 40},
-          {"plateau, coarse", BondLaw::plateau(1.5), 40}};
+          {"plateau, coarse", BondLaw::plateau(1.5), 40},
+          {"both ways", BondLaw::both_ways({{1.0, 1.0}, {0.6, 1.4}, {0.2, 3.0}}, 0.0), 4},
+          {"both ways, then a plateau", BondLaw::both_ways({{1.0, 1.0}, {0.6, 1.4}}, 1.1), 40}};
 }
 
 TEST(BondLaws, SecantsFallAndLimitsRise) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analysis/dynamics/bonds/anchored_ties.hpp"
 #include "analysis/dynamics/bonds/element_halves.hpp"
 #include "analysis/dynamics/bonds/stencil_bonds.hpp"
 
@@ -230,14 +231,18 @@ std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network, Stra
   }
   std::vector<Index> all(static_cast<std::size_t>(network.num_elements()));
   std::iota(all.begin(), all.end(), 0);
+  std::erase_if(all, [&](Index e) { return network.is_anchored(e); });
+  const auto complete = [&](std::unique_ptr<ExplicitBonds> halves) {
+    return with_anchored_ties(network, std::move(halves));
+  };
   if (network.carries_moments()) {
     if (strain == Strain::green) {
       throw std::invalid_argument("bonds that carry moments know small strains only");
     }
-    return make_halves<FrameHalf>(network, all);
+    return complete(make_halves<FrameHalf>(network, all));
   }
-  if (strain == Strain::green) return make_halves<GreenHalf>(network, all);
-  return make_halves<TrussHalf>(network, all);
+  if (strain == Strain::green) return complete(make_halves<GreenHalf>(network, all));
+  return complete(make_halves<TrussHalf>(network, all));
 }
 
 std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain) {
@@ -247,8 +252,10 @@ std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strai
   BondStencil stencil = find_stencil(network);
   std::unique_ptr<ExplicitBonds> rest;
   if (!stencil.rest.empty()) rest = make_halves<TrussHalf>(network, stencil.rest);
-  if (stencil.kinds.empty()) return rest;
-  return make_stencil_bonds(network, std::move(stencil), std::move(rest));
+  if (!stencil.kinds.empty()) {
+    rest = make_stencil_bonds(network, std::move(stencil), std::move(rest));
+  }
+  return with_anchored_ties(network, std::move(rest));
 }
 
 }  // namespace perilink

@@ -131,10 +131,20 @@ void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
   find_driven_slots();
   displacement_ = unknowns.prescribed;
   loaded_slots_ = loaded_slots(unknowns, loads);
-  if (fewer_move) factorize_anew();
+  if (fewer_move) {
+    factorize_anew();
+  } else if (restored_) {
+    factorize();
+  }
+  restored_ = false;
   events_to_follow_ = 0;
   last_work_ = 0.0;
   adopt_load();
+}
+
+void Equilibrium::restore(std::span<const Index> elements) {
+  for (const Index element : elements) set_secant(element, 1.0);
+  restored_ = restored_ || !elements.empty();
 }
 
 Freedom Equilibrium::change_motion(const Unknowns& unknowns) {

@@ -146,6 +146,9 @@ class Equilibrium {
   ///                  outlive this, as the loads must.
   void begin_stage(const Unknowns& unknowns, const Loads& loads, ConstantField constant);
 
+  /// Elements take back their intact stiffness as the next stage begins.
+  void restore(std::span<const Index> elements);
+
   /// The load factor of the loads that grow, which tells what an element carries.
   void move_to(double load_factor) { constant_->load_factor = load_factor; }
 
@@ -279,6 +282,7 @@ class Equilibrium {
     secants_[element] = secant > 0.0 && keeps_shear(element) ? 1.0 : secant;
     if (!axial_.empty()) axial_[element] = secant;
   }
+  bool restored_ = false;  ///< since the last factorisation
   std::vector<double> secants_;
   std::vector<double> axial_;  ///< the same against a change of length; empty where none differs
   bool has_kept_;              ///< Network::has_kept_shear()

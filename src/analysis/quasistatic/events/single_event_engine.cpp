@@ -40,7 +40,7 @@ bool SingleEventEngine::is_noise(Index element) const {
 }
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
-  const BondLaw& law = network_.law(event.element);
+  const BondLaw& law = law_of(event.element);
   const bool compressed =
       law.crushes() && is_shorter(network_, event.element, equilibrium_.where_elements_fail());
   const int next = BondLaw::after(teeth_[event.element], compressed);
@@ -69,9 +69,19 @@ void SingleEventEngine::set_limits(Index element) {
 }
 
 double SingleEventEngine::limit_of(Index element) const {
-  const Tooth tooth = network_.law(element).tooth(teeth_[element]);
+  const Tooth tooth = law_of(element).tooth(teeth_[element]);
   if (tooth.secant == 0.0) return std::numeric_limits<double>::infinity();
-  return alert_of(element) * network_.critical_stretch[element] * tooth.limit;
+  return alert_of(element) * stretch_of(element) * tooth.limit;
+}
+
+const BondLaw& SingleEventEngine::law_of(Index element) const {
+  const auto own = own_laws_.find(element);
+  return own == own_laws_.end() ? network_.law(element) : own->second.law;
+}
+
+double SingleEventEngine::stretch_of(Index element) const {
+  const auto own = own_laws_.find(element);
+  return own == own_laws_.end() ? network_.critical_stretch[element] : own->second.stretch;
 }
 
 void SingleEventEngine::set_alert(std::span<const Index> elements, double fraction) {

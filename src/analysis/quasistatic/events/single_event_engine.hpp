@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -40,6 +41,10 @@ class SingleEventEngine : public EventEngine {
   /// The stretch at which the element has its next event; infinity: it is broken.
   double limit_of(Index element) const;
 
+  /// The law of the element, and the stretch in which its limits are counted.
+  const BondLaw& law_of(Index element) const;
+  double stretch_of(Index element) const;
+
   double alert_of(Index element) const { return alert_.empty() ? 1.0 : alert_[element]; }
 
   /// Tells the search the next limits of an element after its event.
@@ -55,6 +60,12 @@ class SingleEventEngine : public EventEngine {
   bool closes_;                            ///< Network::has_closing()
   std::optional<CrushingBonds> crushing_;  ///< where there are some
   std::vector<int> teeth_;                 ///< present tooth of each element
+  /// Of bars that have flowed.
+  struct OwnLaw {
+    BondLaw law;
+    double stretch;
+  };
+  std::map<Index, OwnLaw> own_laws_;
   std::vector<double> alert_;  ///< per element: fraction of its limit that counts; empty: all of it
 };
 

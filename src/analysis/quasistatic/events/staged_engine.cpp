@@ -25,8 +25,49 @@ void StagedEngine::grip(std::size_t set, const Unknowns& held) {
     const bool is_new = held.number[slot] == no_index && unknowns_->number[slot] != no_index;
     if (is_new) gripped_at_[slot] = motion[slot];
   }
+  follow_particles(problem_.network, gripped_at_);
   *unknowns_ = held;
   newest_ = set;
+}
+
+bool StagedEngine::leave_flow() {
+  const Network& network = problem_.network;
+  const std::span<const double> motion = displacement();
+  std::vector<Index> flown;
+  for (Index e = network.first_segment; e < network.num_elements(); ++e) {
+    const double secant = secants()[e];
+    if (!network.is_anchored(e) || teeth_[e] == 0 || secant == 0.0) continue;
+    const auto n = network.bonds.direction(e);
+    const auto width = static_cast<std::size_t>(network.width());
+    const std::size_t i = network.bonds.first[e] * width, j = network.bonds.second[e] * width;
+    double extension = 0.0;
+    for (std::size_t a = 0; a < n.size(); ++a) extension += n[a] * (motion[j + a] - motion[i + a]);
+    const double plastic = (1.0 - secant) * extension;
+    flowed_.resize(motion.size(), 0.0);
+    for (std::size_t a = 0; a < n.size(); ++a) flowed_[j + a] -= plastic * n[a];
+    flow_[e] += std::abs(plastic) / network.bonds.lengths[e];
+    teeth_[e] = 0;
+    harden(e);
+    flown.push_back(e);
+  }
+  equilibrium_.restore(flown);
+  for (const Index e : flown) {
+    set_limits(e);
+    crossings_.set_limit(e, limit_of(e));
+  }
+  return !flown.empty();
+}
+
+/// What is left of the curve of a bar that has flowed.
+void StagedEngine::harden(Index segment) {
+  const Network& network = problem_.network;
+  const Index bar = network.bars.bar[segment - network.first_segment];
+  const ForceCurve& curve = network.bars.curves[bar];
+  if (curve.points.empty()) return;  // a plateau
+  const double yield = network.critical_stretch[segment];
+  const ForceCurve rest = curve_behind(curve, flow_[segment] / yield);
+  own_laws_.insert_or_assign(
+      segment, OwnLaw{perilink::law_of(rest, BondLaw::usual_ratio), yield * rest.points[0][0]});
 }
 
 void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
@@ -37,6 +78,9 @@ void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
   ConstantField constant;
   constant.unknowns = *unknowns_;
   constant.unknowns.prescribed = gripped_at_;
+  for (std::size_t slot = 0; slot < flowed_.size(); ++slot) {
+    constant.unknowns.prescribed[slot] += flowed_[slot];
+  }
   constant.loads.forces.assign(problem_.loads.forces.size(), 0.0);
   constant.load_factor = load_factor_;
   for (std::size_t other = 0; other < problem_.sets.size(); ++other) {

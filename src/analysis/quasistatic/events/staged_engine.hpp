@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "analysis/quasistatic/events/crossing_search.hpp"
@@ -19,6 +20,11 @@ class StagedEngine final : public SingleEventEngine {
   /// What the set drives is gripped where it is.
   /// \param held  how particles move from the first stage of the set on, used if it is_new()
   void begin_stage(std::size_t set, const Unknowns& held);
+
+  /// Before begin_stage(): bars that have flowed unload elastically from now on, from where they are.
+  /// The equilibrium stays.
+  /// \return whether some have
+  bool leave_flow();
 
   /// Whether a set has not grown yet, and neither has any after it.
   bool is_new(std::size_t set) const { return set > newest_; }
@@ -56,9 +62,12 @@ class StagedEngine final : public SingleEventEngine {
   const LoadedNetwork& problem_;
   CrossingSearch crossings_;
   void grip(std::size_t set, const Unknowns& held);
+  void harden(Index segment);
 
   std::unique_ptr<Unknowns> unknowns_;  ///< with the motions of the set that grows
-  std::vector<double> gripped_at_;    ///< displacements at which slots were gripped, shape of these
+  std::vector<double> gripped_at_;  ///< displacements at which slots were gripped, shape of these
+  std::vector<double> flowed_;      ///< by which flow has moved slots, shape of these; empty: none
+  std::map<Index, double> flow_;    ///< per segment: sum of the sizes of its plastic strains [-]
   std::vector<double> load_factors_;  ///< per set, where it does not grow
   std::size_t set_ = 0;
   std::size_t newest_ = 0;  ///< last one of the sets that have grown

@@ -144,6 +144,7 @@ std::string key_of_loads(const CaseFile& input, const std::string& stage) {
   look("loads", input.loads);
   look("tractions", input.tractions);
   look("point_loads", input.point_loads);
+  look("rebar", input.rebar);
   return key;
 }
 
@@ -155,7 +156,8 @@ void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
   for (std::size_t slot = 0; slot < springs.size(); ++slot) {
     if (springs[slot] > 0.0) held[slot % model.network.width()] = true;
   }
-  const double driven = relative_motion(prescription.driven, held, model.network.dim());
+  double driven = relative_motion(prescription.driven, held, model.network.dim());
+  if (!(driven > 0.0) && applied.places.empty()) driven = prescription.stretched;
   model.reference.driven = driven > 0.0;
   model.reference.value = model.reference.driven ? driven : total_load(applied.places);
   if (!(model.reference.value >= smallest_load)) {
@@ -217,6 +219,15 @@ void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescrip
                    "hold another part of the body along the axis that is driven");
 }
 
+/// Explicit runs carry nothing: they find the forces of anchors by themselves.
+Unknowns unknowns_of(const CaseFile& input, const Network& network, Prescription& prescription) {
+  hold_idle_rotations(network, prescription.held);
+  hold_anchors(network, prescription.held);
+  Unknowns unknowns = number_unknowns(network.width(), prescription.held, prescription.value);
+  if (is_quasistatic(input.analysis.type)) carry_anchors(network, unknowns);
+  return unknowns;
+}
+
 /// The loads of all stages that have their own, in their order.
 void collect_sets(const CaseFile& input, Model& model) {
   model.sets = {{model.loads, model.unknowns, model.reference}};
@@ -229,9 +240,7 @@ void collect_sets(const CaseFile& input, Model& model) {
     of_stage.network.particles.dim = model.network.dim();
     of_stage.network.bending = model.network.bending;
     of_stage.network.support_stiffness = model.network.support_stiffness;
-    hold_idle_rotations(model.network, prescription.held);
-    of_stage.unknowns =
-        number_unknowns(model.network.width(), prescription.held, prescription.value);
+    of_stage.unknowns = unknowns_of(input, model.network, prescription);
     refuse_nothing_to_solve(input, of_stage);
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
@@ -258,10 +267,8 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.resultant = load_resultant(model.network, model.loads);
   refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);
-  hold_idle_rotations(model.network, prescription.held);
+  model.unknowns = unknowns_of(input, model.network, prescription);
   model.gripped = std::move(prescription.gripped);
-  model.unknowns =
-      number_unknowns(model.network.width(), prescription.held, std::move(prescription.value));
   refuse_nothing_to_solve(input, model);
   refuse_idle_loads(input, model, first);
   if (!input.stages.empty()) collect_sets(input, model);

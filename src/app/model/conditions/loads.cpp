@@ -21,11 +21,14 @@ std::span<const Expression> components_of(const ExpressionVector& vector, int di
   return {vector.data(), static_cast<std::size_t>(dim)};
 }
 
+/// Solid particles of a region; where it holds bars alone, their nodes.
 std::vector<Index> solid_particles_of(const CaseFile& input, const Model& model,
                                       const std::string& region, const std::string& key) {
   std::vector<Index> members = particles_of_region(input, model, region, key);
-  std::erase_if(members,
-                [&](Index i) { return model.network.particles.kind[i] != ParticleKind::solid; });
+  const auto is_bar = [&](Index i) {
+    return model.network.particles.kind[i] != ParticleKind::solid;
+  };
+  if (!std::all_of(members.begin(), members.end(), is_bar)) std::erase_if(members, is_bar);
   return members;
 }
 

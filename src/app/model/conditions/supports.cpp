@@ -81,7 +81,7 @@ std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model,
   std::vector<Index> inside;
   double nearest = INFINITY;
   for (Index i = 0; i < particles.size(); ++i) {
-    if (particles.kind[i] == ParticleKind::ghost) continue;
+    if (!is_material(particles.kind[i])) continue;
     const double coordinate = particles.position(i)[section.axis];
     if (std::abs(coordinate - *section.at) < std::abs(nearest - *section.at)) nearest = coordinate;
     if (std::abs(coordinate - *section.at) <= in_plane * model.lattice.spacing) inside.push_back(i);
@@ -167,6 +167,25 @@ void drive(const CaseFile& input, const Model& model, Prescription& prescription
   }
 }
 
+/// Moves the anchors at the ends of the segments of bars with a prestrain.
+void stretch_bars(const CaseFile& input, const Model& model, const std::string& stage,
+                  Prescription& prescription) {
+  const Network& network = model.network;
+  double stretched = 0.0;
+  for (std::size_t s = 0; s < network.bars.bar.size(); ++s) {
+    const RebarSection& bar = input.rebar[model.entry_of_bar[network.bars.bar[s]]];
+    if (bar.prestrain == 0.0 || (!stage.empty() && bar.stage != stage)) continue;
+    const Index e = network.first_segment + static_cast<Index>(s);
+    const double extension = bar.prestrain * network.bonds.lengths[e];
+    const std::size_t slot = static_cast<std::size_t>(network.bonds.second[e]) * network.width();
+    for (int a = 0; a < network.dim(); ++a) {
+      prescription.value[slot + a] = extension * network.bonds.direction(e)[a];
+    }
+    stretched = (network.bars.continues(s) ? stretched : 0.0) + std::abs(extension);
+    prescription.stretched = std::max(prescription.stretched, stretched);
+  }
+}
+
 }  // namespace
 
 Prescription collect_prescriptions(const CaseFile& input, const Model& model,
@@ -193,6 +212,7 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model,
     hold_in_plane(input, model, k, prescription);
   }
   drive(input, model, prescription, "displacements", input.displacements, 1.0, stage);
+  stretch_bars(input, model, stage, prescription);
   drive(input, model, prescription, "velocities", input.velocities, input.analysis.duration);
   return prescription;
 }

@@ -14,6 +14,7 @@ struct Prescription {
                                       ///< of velocities at the end of the duration
   std::vector<std::uint8_t> gripped;  ///< see Model::gripped
   std::vector<DrivenPlace> driven;
+  double stretched = 0.0;      ///< by which the bar stretches most that gets a prestrain [length]
   std::array<bool, 6> kept{};  ///< components that supports or planes of symmetry hold at zero
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/body/bar_layout.hpp"
 #include "app/model/body/carrier_model.hpp"
 #include "app/model/body/element_model.hpp"
 #include "app/model/body/fracture_rule.hpp"
@@ -138,29 +139,6 @@ void refuse_materials_without_particles(const CaseFile& input, const Body& body)
   }
 }
 
-void refuse_bars_outside(const CaseFile& input, const Body& body) {
-  for (std::size_t k = 0; k < input.rebar.size(); ++k) {
-    for (const char* end : {"from", "to"}) {
-      const Vector3& point = end[0] == 'f' ? input.rebar[k].from : input.rebar[k].to;
-      double nearest = INFINITY;
-      for (Index i = 0; i < body.particles.size(); ++i) {
-        if (body.particles.kind[i] != ParticleKind::solid) continue;
-        double square = 0.0;
-        for (int a = 0; a < body.particles.dim; ++a) {
-          square += std::pow(body.particles.position(i)[a] - point[a], 2);
-        }
-        nearest = std::min(nearest, square);
-      }
-      if (std::sqrt(nearest) <= body.lattice.spacing) continue;
-      throw InputError(
-          input.where(item_key("rebar", k, end)),
-          fmt::format("the end ({}) of the bar lies outside the body",
-                      fmt::join(point.begin(), point.begin() + body.particles.dim, ", ")),
-          "move it to within one spacing of a particle");
-    }
-  }
-}
-
 /// A lattice of few neighbours reaches smaller Poisson's ratios than the infinite body.
 void refuse_poissons_ratios(const CaseFile& input, const Body& body, const NetworkInput& network) {
   if (network.model != BondModel::micropolar) return;
@@ -198,7 +176,8 @@ void refuse_cracks_without_bonds(const CaseFile& input, const Network& network) 
   }
 }
 
-NetworkInput network_input(const CaseFile& input, Problem problem, double horizon) {
+NetworkInput network_input(const CaseFile& input, Problem problem, double horizon,
+                           const LaidBars& bars) {
   NetworkInput network;
   network.problem = problem;
   if (input.body.model == BodyModel::micropolar) network.model = BondModel::micropolar;
@@ -223,13 +202,8 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
                                  elastic ? SofteningMaterial{} : material.softening});
   }
   for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
-  for (const RebarSection& bar : input.rebar) {
-    network.bars.push_back({bar.from, bar.to});
-    BarMaterial material{bar.youngs_modulus, bar.area};
-    if (bar.yields && bar.yield_strength) material.yield_strength = *bar.yield_strength;
-    material.ties_break = bar.ties_break;
-    network.bar_materials.push_back(material);
-  }
+  network.bars = bars.lines;
+  network.bar_materials = bars.materials;
   return network;
 }
 
@@ -307,8 +281,10 @@ struct BondOptions {
 };
 
 void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {
-  refuse_bars_outside(input, body);
-  NetworkInput network = network_input(input, model.problem, model.horizon);
+  const LaidBars bars = lay_bars(input, body.particles.dim);
+  refuse_bars_outside(input, body, bars);
+  model.entry_of_bar = bars.sections;
+  NetworkInput network = network_input(input, model.problem, model.horizon, bars);
   network.on_search = options.on_search;
   network.draft = options.draft;
   refuse_poissons_ratios(input, body, network);

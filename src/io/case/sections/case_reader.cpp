@@ -9,6 +9,7 @@
 #include "io/case/case_table.hpp"
 #include "io/case/sections/case_elements.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/case_rules.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/case/sections/case_stages.hpp"

@@ -18,6 +18,7 @@
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
+#include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/case/sections/case_softening.hpp"
 #include "io/text/toml_tree.hpp"
@@ -271,6 +272,7 @@ void check_driven(const CaseFile& input) {
       for (const auto& value : section.value) driven = driven || (value && !value->is_zero());
     }
   }
+  for (const RebarSection& bar : input.rebar) driven = driven || bar.prestrain != 0.0;
   if (driven) return;
   throw InputError(
       input.where("loads"), "nothing loads the body",
@@ -318,6 +320,14 @@ void check_rules(const CaseFile& input) {
                     Reserved::allowed);
   }
   check_gauges(input);
+  for (std::size_t k = 0; k < input.rebar.size(); ++k) {
+    const auto& layout = input.rebar[k].layout;
+    if (layout) {
+      check_reference(input, names, item_key("rebar", k, "inside"), layout->region,
+                      Reserved::refused);
+    }
+  }
+  check_rebar(input);
   if (input.elements) {
     for (const std::string& region : input.elements->regions) {
       check_reference(input, names, "elements.regions", region, Reserved::allowed);

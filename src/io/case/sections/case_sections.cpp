@@ -113,27 +113,6 @@ CrackSection read_crack(const CaseTable& table, int dim) {
   return crack;
 }
 
-RebarSection read_rebar(const CaseTable& table, int dim) {
-  RebarSection bar;
-  bar.from = table.need("from", table.vector("from", dim), "the point where the bar begins");
-  bar.to = table.need("to", table.vector("to", dim), "the point where the bar ends");
-  if (bar.from == bar.to) {
-    table.refuse("to", "is the same point as `from`, so the bar has no length",
-                 "give the two ends of the bar");
-  }
-  bar.youngs_modulus =
-      table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus of the bar");
-  bar.area = table.need("area", table.positive("area"), "the area of the bar's cross-section");
-  bar.yield_strength = table.positive("yield_strength");
-  assign(bar.yields, table.boolean("yields"));
-  assign(bar.ties_break, table.boolean("ties_break"));
-  if (table.has("yields") && bar.yields && !bar.yield_strength) {
-    table.refuse("yields", "is true, but the bar has no yield strength",
-                 "give `yield_strength`, or leave `yields` out for an elastic bar");
-  }
-  return bar;
-}
-
 std::vector<double> read_load_factors(const CaseTable& table) {
   const std::vector<double> factors = table.need("load_factors", table.numbers("load_factors"),
                                                  "the load factors of the steps: [0.1, 0.2, 0.3]");

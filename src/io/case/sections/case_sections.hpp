@@ -28,7 +28,6 @@ PointLoadSection read_point_load(const CaseTable& table, const BodySection& body
 SymmetrySection read_symmetry(const CaseTable& table, int dim);
 SpringSection read_springs(const CaseTable& table, int dim);
 CrackSection read_crack(const CaseTable& table, int dim);
-RebarSection read_rebar(const CaseTable& table, int dim);
 GaugeSection read_gauge(const CaseTable& table, int dim);
 /// The load factors that an analysis must have.
 std::vector<double> read_load_factors(const CaseTable& table);

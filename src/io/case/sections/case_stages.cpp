@@ -44,6 +44,9 @@ void for_each_load(Input& input, Visit visit) {
   all("tractions", input.tractions);
   all("point_loads", input.point_loads);
   all("displacements", input.displacements);
+  for (std::size_t i = 0; i < input.rebar.size(); ++i) {
+    if (input.rebar[i].prestrain != 0.0) visit("rebar", i, input.rebar[i].stage);
+  }
 }
 
 void refuse_stages_of_loads(CaseFile& input) {

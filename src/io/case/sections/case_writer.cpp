@@ -11,6 +11,7 @@
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
+#include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/case/sections/case_softening.hpp"
 #include "io/case/sections/case_stages.hpp"
@@ -138,18 +139,6 @@ void write_crack(TomlWriter& out, const CrackSection& crack, int dim) {
   std::vector<std::vector<double>> points;
   for (const Vector3& point : crack.points) points.emplace_back(point.begin(), point.begin() + dim);
   out.write(dim == 2 ? "points" : "corners", points);
-}
-
-void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
-  out.header("[[rebar]]");
-  out.write("from", bar.from, dim);
-  out.write("to", bar.to, dim);
-  out.write("youngs_modulus", bar.youngs_modulus);
-  out.write("area", bar.area);
-  out.write("yield_strength", bar.yield_strength);
-  // `yields = true` without a yield strength is refused when it is written out.
-  if (bar.yield_strength || !bar.yields) out.write("yields", bar.yields);
-  out.write("ties_break", bar.ties_break);
 }
 
 void write_run(TomlWriter& out, const CaseFile& input) {

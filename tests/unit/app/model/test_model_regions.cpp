@@ -39,11 +39,11 @@ TEST(ModelRegions, LeaveGhostsOut) {
   EXPECT_EQ(all.size(), 4u * 9u);  // cell-centred across, from the lowest row upwards
 }
 
-TEST(ModelRegions, HoldBarNodesOnlyAmongSolidParticles) {
+TEST(ModelRegions, HoldBarNodesToo) {
   CaseFile input = strip_case();
   RebarSection bar;
-  bar.from = {15.0, 5.0, 0.0};
-  bar.to = {15.0, 75.0, 0.0};
+  bar.points = {{15.0, 5.0, 0.0}, {15.0, 75.0, 0.0}};
+  bar.bond = RebarBond::concrete;
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;
   input.rebar.push_back(bar);
@@ -51,8 +51,9 @@ TEST(ModelRegions, HoldBarNodesOnlyAmongSolidParticles) {
   const std::vector<Index> upper = particles_of_region(input, model, "upper end", "supports[1]");
   EXPECT_EQ(upper.size(), 15u + 2u);  // nodes at y = 65 and 75
   input.regions[3].box = {{14.0, 33.0, 0.0}, {16.0, 37.0, 0.0}};
-  EXPECT_THROW(particles_of_region(input, model, "middle", "supports[1]"), InputError)
-      << "a bar node alone is no solid";
+  const std::vector<Index> one = particles_of_region(input, model, "middle", "supports[1]");
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(model.network.particles.kind[one[0]], ParticleKind::rebar);
 }
 
 TEST(ModelRegions, EmptyOnesAreRefusedAtTheKeyThatAsks) {

@@ -72,8 +72,8 @@ TEST(BoundaryConditions, LoadsOnTheSameParticlesAdd) {
 TEST(BoundaryConditions, LoadsGoToTheSolidAndSupportsToBarsToo) {
   CaseFile input = strip_case();
   RebarSection bar;
-  bar.from = {15.0, 5.0, 0.0};
-  bar.to = {15.0, 75.0, 0.0};
+  bar.points = {{15.0, 5.0, 0.0}, {15.0, 75.0, 0.0}};
+  bar.bond = RebarBond::concrete;
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;
   input.rebar.push_back(bar);
@@ -228,8 +228,8 @@ TEST(BoundaryConditions, LooseParticlesAreRefused) {
   input.body.surface = Surface::none;
   input.body.horizon = 14.2;
   RebarSection bar;  // its outer node, off the corner of the body, hangs on one line
-  bar.from = {40.0, 80.0, 0.0};
-  bar.to = {47.0, 87.0, 0.0};
+  bar.points = {{40.0, 80.0, 0.0}, {47.0, 87.0, 0.0}};
+  bar.bond = RebarBond::concrete;
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;
   input.rebar.push_back(bar);

@@ -175,8 +175,8 @@ TEST(Configure, TheLaterMaterialCountsWhereRegionsOverlap) {
 CaseFile barred_case() {
   CaseFile input = strip_case();
   RebarSection bar;
-  bar.from = {22.0, 5.0, 0.0};
-  bar.to = {22.0, 75.0, 0.0};
+  bar.points = {{22.0, 5.0, 0.0}, {22.0, 75.0, 0.0}};
+  bar.bond = RebarBond::concrete;
   bar.youngs_modulus = 29000.0;
   bar.area = 3.0;
   bar.yield_strength = 58.0;
@@ -202,22 +202,14 @@ TEST(Configure, BarsYieldAndTiesBreakUnlessTheCaseSaysOtherwise) {
   }
 }
 
-TEST(Configure, BarsEndWithinOneSpacingOfTheBody) {
+TEST(Configure, BarsStayInTheBodyUnlessTheyAreWantedAcrossGaps) {
   CaseFile input = barred_case();
-  input.rebar[0].from[1] = -9.0;
+  input.rebar[0].bond = RebarBond::perfect;
   EXPECT_NO_THROW(build_model(input));
-  input.rebar[0].from[1] = -11.0;
-  expect_refused(input, "rebar[1].from", "outside the body");
-  input.rebar[0].from[1] = 5.0;
-  input.rebar[0].to = {51.0, 40.0, 0.0};
-  expect_refused(input, "rebar[1].to", "(51, 40)");
-}
-
-TEST(Configure, BarsEndWithinOneSpacingAlsoOfTheSmallestHorizon) {
-  CaseFile input = barred_case();
-  input.body.horizon = 14.2;
-  input.rebar[0].to = {22.0, 500.0, 0.0};
-  expect_refused(input, "rebar[1].to", "(22, 500)");
+  input.rebar[0].points[0][1] = -9.0;
+  expect_refused(input, "rebar[1]", "leaves the body at (22, -9)");
+  input.rebar[0].across_gaps = true;
+  EXPECT_NO_THROW(build_model(input));
 }
 
 TEST(Configure, TooManyParticlesAreRefusedBeforeAnyIsMade) {

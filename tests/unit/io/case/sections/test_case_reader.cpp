@@ -69,7 +69,7 @@ TEST(CaseFile, ReadsEveryKey) {
   EXPECT_EQ(input.loads.at(0).force, std::nullopt);
   EXPECT_EQ(input.loads.at(1).force, (Vector3{1.0, 2.0, 3.0}));
   ASSERT_EQ(input.rebar.size(), 2u);
-  EXPECT_EQ(input.rebar[0].to, (Vector3{0.5, 3.0, 0.05}));
+  EXPECT_EQ(input.rebar[0].points.at(1), (Vector3{0.5, 3.0, 0.05}));
   EXPECT_EQ(input.rebar[0].yield_strength, 500e3);
   EXPECT_FALSE(input.rebar[0].yields);
   EXPECT_FALSE(input.rebar[0].ties_break);

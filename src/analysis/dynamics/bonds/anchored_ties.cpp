@@ -1,0 +1,160 @@
+#include "analysis/dynamics/bonds/anchored_ties.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/csr.hpp"
+
+namespace perilink {
+namespace {
+
+class AnchoredTies final : public ExplicitBonds {
+ public:
+  AnchoredTies(const Network& network, std::unique_ptr<ExplicitBonds> others)
+      : network_(network),
+        others_(std::move(others)),
+        dim_(static_cast<std::size_t>(network.dim())),
+        width_(static_cast<std::size_t>(network.width())) {
+    const Index count = network.particles.size();
+    for (Index e = network.first_anchored_tie; e < network.first_segment; ++e) {
+      const Index anchor = network.bonds.second[e] - network.first_anchor();
+      ends_.append(std::vector<Index>{network.bonds.first[e]}, std::vector<double>{-1.0});
+      const auto particles = network.anchors.particles.row(anchor);
+      const auto weights = network.anchors.weights_of(anchor);
+      ends_.particles.values.insert(ends_.particles.values.end(), particles.begin(),
+                                    particles.end());
+      ends_.weights.insert(ends_.weights.end(), weights.begin(), weights.end());
+      ends_.particles.offsets.back() = static_cast<Index>(ends_.weights.size());
+    }
+    std::vector<Index> tie_of(ends_.weights.size());
+    for (Index tie = 0; tie < ends_.size(); ++tie) {
+      for (Index k = ends_.particles.offsets[tie]; k < ends_.particles.offsets[tie + 1]; ++k) {
+        tie_of[k] = tie;
+      }
+    }
+    const Csr shares = sorted_into_rows(count, [&](const auto& add) {
+      for (std::size_t k = 0; k < tie_of.size(); ++k) {
+        add(ends_.particles.values[k], static_cast<Index>(k));
+      }
+    });
+    offsets_ = shares.offsets;
+    for (const Index k : shares.values) {
+      const Index tie = tie_of[k], element = network.first_anchored_tie + tie;
+      shares_.push_back(
+          {tie, ends_.weights[k], k == ends_.particles.offsets[tie], 0, 1.0, limit_of(element, 0)});
+    }
+  }
+
+  BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
+                    std::span<double> force) override {
+    BondLosses losses;
+    if (others_) {
+      losses = others_->forces(begin, end, time_step, motion, force);
+    } else {
+      std::fill(force.begin() + begin * static_cast<std::ptrdiff_t>(width_),
+                force.begin() + end * static_cast<std::ptrdiff_t>(width_), 0.0);
+    }
+    for (Index i = begin; i < end; ++i) {
+      for (Index k = offsets_[i]; k < offsets_[i + 1]; ++k) {
+        Share& share = shares_[k];
+        const double now = extension(share.tie, motion.displacement);
+        if (std::abs(now) > share.limit) give_way(share, now, time_step, motion, losses);
+        const Index element = network_.first_anchored_tie + share.tie;
+        const double pull = share.weight * network_.stiffness[element] * share.secant * now;
+        for (std::size_t a = 0; a < dim_; ++a) {
+          force[static_cast<std::size_t>(i) * width_ + a] +=
+              pull * network_.bonds.direction(element)[a];
+        }
+      }
+    }
+    return losses;
+  }
+
+  double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override {
+    double energy = others_ ? others_->stored(begin, end, time_step, motion) : 0.0;
+    for (Index k = offsets_[begin]; k < offsets_[end]; ++k) {
+      const Share& share = shares_[k];
+      if (share.at_node) energy += share.secant * whole_energy(share.tie, time_step, motion);
+    }
+    return energy;
+  }
+
+  std::vector<double> secants() const override {
+    std::vector<double> secants =
+        others_ ? others_->secants()
+                : std::vector<double>(static_cast<std::size_t>(network_.num_elements()));
+    for (const Share& share : shares_) {
+      secants[network_.first_anchored_tie + share.tie] = share.secant;
+    }
+    return secants;
+  }
+
+ private:
+  /// A tie as one of the particles at its ends sees it; all see the same.
+  struct Share {
+    Index tie;
+    double weight;  ///< of the particle in the extension
+    bool at_node;   ///< the particle is the node, which counts the energy
+    int tooth;
+    double secant;  ///< present, over the intact stiffness
+    double limit;   ///< extension of the next event [length]
+  };
+
+  double limit_of(Index element, int tooth) const {
+    return network_.critical_stretch[element] * network_.law(element).tooth(tooth).limit *
+           network_.bonds.lengths[element];
+  }
+
+  double extension(Index tie, std::span<const double> motion) const {
+    const auto n = network_.bonds.direction(network_.first_anchored_tie + tie);
+    double sum = 0.0;
+    for (Index k = ends_.particles.offsets[tie]; k < ends_.particles.offsets[tie + 1]; ++k) {
+      const std::size_t slot = static_cast<std::size_t>(ends_.particles.values[k]) * width_;
+      double along = 0.0;
+      for (std::size_t a = 0; a < dim_; ++a) along += n[a] * motion[slot + a];
+      sum += ends_.weights[k] * along;
+    }
+    return sum;
+  }
+
+  /// Half of the product of the forces of the intact tie and extensions of two steps.
+  double whole_energy(Index tie, double time_step, const BondMotion& motion) const {
+    const double now = extension(tie, motion.displacement);
+    const double before = now - time_step * extension(tie, motion.velocity);
+    return 0.5 * network_.stiffness[network_.first_anchored_tie + tie] * before * now;
+  }
+
+  void give_way(Share& share, double now, double time_step, const BondMotion& motion,
+                BondLosses& losses) {
+    const Index element = network_.first_anchored_tie + share.tie;
+    do {
+      share.limit = limit_of(element, ++share.tooth);
+    } while (std::abs(now) > share.limit);
+    const double next = network_.law(element).tooth(share.tooth).secant;
+    if (share.at_node) {
+      if (next == 0.0) losses.broken.push_back(element);
+      losses.fractured += (share.secant - next) * whole_energy(share.tie, time_step, motion);
+    }
+    share.secant = next;
+  }
+
+  const Network& network_;
+  std::unique_ptr<ExplicitBonds> others_;
+  std::size_t dim_, width_;
+  Anchors ends_;  ///< per tie: its node, then the particles of its anchor
+  std::vector<Index> offsets_;
+  std::vector<Share> shares_;  ///< particle after particle
+};
+
+}  // namespace
+
+std::unique_ptr<ExplicitBonds> with_anchored_ties(const Network& network,
+                                                  std::unique_ptr<ExplicitBonds> others) {
+  if (network.anchors.size() == 0) return others;
+  return std::make_unique<AnchoredTies>(network, std::move(others));
+}
+
+}  // namespace perilink

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "discretization/lattices/lattice.hpp"
+#include "io/case/case_file.hpp"
+#include "network/network_input.hpp"
+
+namespace perilink {
+
+/// Bars that the entries of [[rebar]] lay, in their order.
+struct LaidBars {
+  std::vector<RebarLine> lines;
+  std::vector<BarMaterial> materials;  ///< per bar
+  std::vector<std::size_t> sections;   ///< number of the entry, per bar
+};
+
+/// \throws InputError  where the cover leaves no room
+LaidBars lay_bars(const CaseFile& input, int dim);
+
+/// Refuses bars that leave the body, through air as well, unless their entry wants them to.
+void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars& bars);
+
+}  // namespace perilink

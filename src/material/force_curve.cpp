@@ -1,0 +1,136 @@
+#include "material/force_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace perilink {
+namespace {
+
+/// A curve that falls to zero ends where its force has fallen to this part of its largest one; what
+/// is left of its area goes with the last tooth.
+constexpr double negligible_force = 0.02;
+
+/// Rise of secants that is round-off.
+constexpr double round_off = 1e-12;
+
+double secant_of(const std::array<double, 2>& point) { return point[1] / point[0]; }
+
+/// The largest deformation at which the secant is at least this.
+double leaves_at(const ForceCurve& curve, double secant) {
+  for (std::size_t k = 1; k < curve.points.size(); ++k) {
+    const auto& [x, f] = curve.points[k];
+    if (f / x >= secant) continue;
+    const auto& [before, force] = curve.points[k - 1];
+    const double slope = (f - force) / (x - before);
+    return (force - slope * before) / (secant - slope);
+  }
+  return curve.points.back()[0];
+}
+
+/// The last deformation that has a tooth of its own.
+double end_of(const ForceCurve& curve) {
+  double largest = 0.0;
+  for (const auto& point : curve.points) largest = std::max(largest, point[1]);
+  const auto& last = curve.points.back();
+  if (curve.endless || last[1] >= negligible_force * largest) return last[0];
+  const auto& before = curve.points[curve.points.size() - 2];
+  const double fall = std::max(before[1] - negligible_force * largest, 0.0);
+  return before[0] + (last[0] - before[0]) * fall / (before[1] - last[1]);
+}
+
+}  // namespace
+
+double ForceCurve::force(double deformation) const {
+  if (deformation <= points.front()[0]) return initial_stiffness() * deformation;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (deformation > points[k][0]) continue;
+    const double part = (deformation - points[k - 1][0]) / (points[k][0] - points[k - 1][0]);
+    return points[k - 1][1] + part * (points[k][1] - points[k - 1][1]);
+  }
+  return endless ? points.back()[1] : 0.0;
+}
+
+double ForceCurve::area(double deformation) const {
+  double area = 0.0, from = 0.0, lower = 0.0;
+  for (const auto& point : points) {
+    const double to = std::min(deformation, point[0]);
+    if (to <= from) break;
+    const double upper = to < point[0] ? force(to) : point[1];
+    area += 0.5 * (lower + upper) * (to - from);
+    from = to;
+    lower = upper;
+  }
+  if (endless && deformation > from) area += lower * (deformation - from);
+  return area;
+}
+
+ForceCurve curve_behind(const ForceCurve& curve, double flow) {
+  ForceCurve rest;
+  rest.endless = curve.endless;
+  for (std::size_t k = 0; k < curve.points.size(); ++k) {
+    const auto& [x, f] = curve.points[k];
+    if (!(x - flow > f)) continue;  // what lies before is behind the elastic line
+    if (rest.points.empty()) {
+      const auto& [before, force] = curve.points[std::max<std::size_t>(k, 1) - 1];
+      const double slope = (f - force) / (x - before);
+      const double yield = (force + slope * (flow - before)) / (1.0 - slope);
+      rest.points.push_back({yield, yield});
+    }
+    if (x - flow > rest.points.back()[0]) rest.points.push_back({x - flow, f});
+  }
+  if (rest.points.empty()) rest.points.push_back({curve.points.back()[1], curve.points.back()[1]});
+  return rest;
+}
+
+void check_curve(const ForceCurve& curve) {
+  std::array<double, 2> last = {0.0, 0.0};
+  for (const auto& point : curve.points) {
+    const bool first = last[0] == 0.0;
+    if (!(point[0] > last[0])) throw std::invalid_argument("deformations must rise from zero");
+    if (first ? !(point[1] > 0.0) : !(point[1] >= 0.0)) {
+      throw std::invalid_argument("forces must be positive, but the last one may be zero");
+    }
+    if (!first && secant_of(point) > secant_of(last) * (1.0 + round_off)) {
+      throw std::invalid_argument("force over deformation must not rise from point to point");
+    }
+    if (last[0] > 0.0 && last[1] == 0.0) {
+      throw std::invalid_argument("nothing comes behind a force of zero");
+    }
+    last = point;
+  }
+  if (curve.points.empty()) throw std::invalid_argument("there are no points");
+}
+
+BondLaw law_of(const ForceCurve& curve, double ratio) {
+  check_curve(curve);
+  if (!(ratio > 1.0)) throw std::invalid_argument("secants fall by a ratio above one");
+  const bool stays = curve.endless && curve.points.back()[1] > 0.0;
+  const double stiffness = curve.initial_stiffness(), first = curve.points.front()[0];
+  const double end = end_of(curve), last = curve.force(end) / end;
+  const double fall = std::log(stiffness / last) / std::log(ratio);
+  const int count = static_cast<int>(std::ceil(fall - round_off));
+  std::vector<Tooth> teeth;
+  double secant = stiffness, begin = first;
+  const auto add = [&](double next_secant, double next, double taken) {
+    const double energy = taken + 0.5 * (secant * begin * begin - next_secant * next * next);
+    teeth.push_back({secant / stiffness, std::sqrt(2.0 * energy / (secant - next_secant)) / first});
+    secant = next_secant;
+    begin = next;
+  };
+  for (int k = 1; k <= count; ++k) {
+    const double next =
+        k == count ? last : stiffness * std::pow(last / stiffness, double(k) / count);
+    const double at = k == count ? end : leaves_at(curve, next);
+    add(next, at, curve.area(at) - curve.area(begin));
+  }
+  if (stays) {
+    const double next = begin * ratio;
+    add(secant / ratio, next, curve.points.back()[1] * (next - begin));
+    return BondLaw::both_ways(std::move(teeth), ratio);
+  }
+  add(0.0, begin, curve.area(curve.points.back()[0]) - curve.area(begin));
+  return BondLaw::both_ways(std::move(teeth), 0.0);
+}
+
+}  // namespace perilink

@@ -1,0 +1,119 @@
+#include "material/force_curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace perilink {
+namespace {
+
+/// What an element of unit stiffness has dissipated when it has passed its first `count` events.
+double dissipated(const BondLaw& law, int count) {
+  double sum = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const double fall = law.tooth(k).secant - law.tooth(k + 1).secant;
+    sum += 0.5 * fall * std::pow(law.tooth(k).limit, 2);
+  }
+  return sum;
+}
+
+int count_teeth(const BondLaw& law) {
+  int count = 0;
+  while (law.tooth(count).secant > 0.0) ++count;
+  return count;
+}
+
+const ForceCurve hardens{{{1.0, 1.0}, {11.0, 2.0}}, false};
+const ForceCurve softens{{{0.5, 2.0}, {2.0, 4.0}, {3.0, 4.0}, {8.0, 0.0}}, false};
+const ForceCurve stays{{{0.1, 1.0}, {1.0, 3.0}, {4.0, 1.5}}, true};
+
+TEST(ForceCurve, TeethOfOneThatEndsDissipateItsArea) {
+  for (const ForceCurve& curve : {hardens, softens}) {
+    for (const double ratio : {1.02, 1.1, 1.5}) {
+      const BondLaw law = law_of(curve, ratio);
+      const double unit = curve.points[0][0] * curve.points[0][1];
+      const double end = curve.points.back()[0];
+      EXPECT_NEAR(dissipated(law, count_teeth(law)) * unit, curve.area(end),
+                  1e-12 * curve.area(end));
+      EXPECT_FALSE(law.endless());
+      EXPECT_EQ(law.sense(), Sense::both);
+    }
+  }
+}
+
+/// Where a secant leaves the curve an element has dissipated the area less what it stores.
+TEST(ForceCurve, TeethFollowItWithTheirRipple) {
+  for (const ForceCurve& curve : {hardens, softens, stays}) {
+    const double ratio = 1.05;
+    const BondLaw law = law_of(curve, ratio);
+    const double x0 = curve.points[0][0], f0 = curve.points[0][1];
+    const double most = curve.endless ? 8.0 : 0.8 * curve.points.back()[0];
+    for (int k = 0; law.tooth(k).secant > 0.0 && law.tooth(k).limit * x0 < most; ++k) {
+      const double x = law.tooth(k).limit * x0;
+      const double top = law.tooth(k).secant * law.tooth(k).limit * f0;
+      const double bottom = law.tooth(k + 1).secant * law.tooth(k).limit * f0;
+      EXPECT_LE(curve.force(x), top * 1.0001);
+      EXPECT_GE(curve.force(x), bottom * 0.9999);
+      EXPECT_LE(top / bottom, ratio * 1.0001);
+    }
+  }
+}
+
+TEST(ForceCurve, OneThatStaysGoesOnAsAPlateau) {
+  const double ratio = 1.1;
+  const BondLaw law = law_of(stays, ratio);
+  ASSERT_TRUE(law.endless());
+  for (int k = 80; k < 90; ++k) {
+    const Tooth now = law.tooth(k), next = law.tooth(k + 1);
+    EXPECT_NEAR(now.secant / next.secant, ratio, 1e-12);
+    // The geometric mean of the force above and below is that of the plateau.
+    EXPECT_NEAR(now.limit * std::sqrt(now.secant * next.secant), 1.5, 1e-12);
+  }
+  EXPECT_FALSE(law.is_exhausted(law.tooth(40).secant));
+  EXPECT_TRUE(law.is_exhausted(law.tooth(200).secant));
+}
+
+TEST(ForceCurve, APlateauIsThatOfBars) {
+  const BondLaw law = law_of({{{2.0, 5.0}}, true}, 1.05);
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_NEAR(law.tooth(k).secant, BondLaw::plateau(1.05).tooth(k).secant, 1e-14);
+    EXPECT_NEAR(law.tooth(k).limit, BondLaw::plateau(1.05).tooth(k).limit, 1e-12);
+  }
+}
+
+TEST(ForceCurve, BreaksAtOnceWhereItEndsWithItsFirstLine) {
+  const BondLaw law = law_of({{{2.0, 5.0}}, false}, 1.05);
+  EXPECT_EQ(law.tooth(0).limit, 1.0);
+  EXPECT_EQ(law.tooth(1).secant, 0.0);
+  EXPECT_FALSE(law.is_brittle()) << "it breaks in compression too";
+}
+
+/// Slope 0.1 behind the first point (1, 1): force 1 + 0.1 (x - 1). Flow 1.8 comes from x = 3,
+/// f = 1.2; the rest begins there.
+TEST(ForceCurve, BehindFlowTheRestIsLeft) {
+  const ForceCurve rest = curve_behind(hardens, 1.8);
+  ASSERT_EQ(rest.points.size(), 2u);
+  EXPECT_NEAR(rest.points[0][0], 1.2, 1e-14);
+  EXPECT_NEAR(rest.points[0][1], 1.2, 1e-14);
+  EXPECT_NEAR(rest.points[1][0], 11.0 - 1.8, 1e-14);
+  EXPECT_EQ(rest.points[1][1], 2.0);
+  EXPECT_FALSE(rest.endless);
+  const ForceCurve flat = curve_behind({{{1.0, 1.0}}, true}, 5.0);
+  EXPECT_EQ(flat.points[0][0], 1.0);
+  EXPECT_TRUE(flat.endless);
+}
+
+TEST(ForceCurve, RefusesWhatIsNone) {
+  EXPECT_THROW(check_curve({{}, true}), std::invalid_argument);
+  EXPECT_THROW(check_curve({{{1.0, 0.0}}, true}), std::invalid_argument);
+  EXPECT_THROW(check_curve({{{1.0, 1.0}, {1.0, 2.0}}, true}), std::invalid_argument);
+  EXPECT_THROW(check_curve({{{1.0, 1.0}, {2.0, 3.0}}, true}), std::invalid_argument);
+  EXPECT_THROW(check_curve({{{1.0, 1.0}, {2.0, -1.0}}, true}), std::invalid_argument);
+  EXPECT_THROW(check_curve({{{1.0, 1.0}, {2.0, 0.0}, {3.0, 0.0}}, true}), std::invalid_argument);
+  EXPECT_THROW(law_of(hardens, 1.0), std::invalid_argument);
+  EXPECT_NO_THROW(check_curve(softens));
+}
+
+}  // namespace
+}  // namespace perilink
