@@ -13,6 +13,7 @@
 #include "material/micromodulus.hpp"
 #include "network/bond_softening.hpp"
 #include "network/builder/glued_cells.hpp"
+#include "network/builder/shell_bonds.hpp"
 #include "network/surface_correction.hpp"
 #include "network/unknowns.hpp"
 
@@ -229,6 +230,7 @@ Network build_network(const Body& body, const NetworkInput& input) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
   }
   if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
+  if (input.shell) make_shell(input, network);
   return network;
 }
 
