@@ -41,6 +41,18 @@ void refuse_overlapping_sheet(const CaseFile& input, const Body& body) {
                    "enlarge the radius or shorten the sheet");
 }
 
+/// Off its top the axis x is not along the sheet of a cylinder.
+void refuse_slanting_symmetry(const CaseFile& input) {
+  if (!input.body.radius) return;
+  for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
+    const SymmetrySection& section = input.symmetry[k];
+    if (section.axis != 0 || (section.at && *section.at == 0.0)) continue;
+    throw InputError(input.where(item_key("symmetry", k)),
+                     "is a plane across the sheet of a cylinder elsewhere than at its top, x = 0",
+                     "let the sheet begin at x = 0, or give [[supports]]");
+  }
+}
+
 }  // namespace
 
 void refuse_impossible_shell(const CaseFile& input, const Body& body, const NetworkInput& network) {
@@ -48,6 +60,7 @@ void refuse_impossible_shell(const CaseFile& input, const Body& body, const Netw
     refuse_turning_particles(input, body, network, m);
   }
   refuse_overlapping_sheet(input, body);
+  refuse_slanting_symmetry(input);
 }
 
 }  // namespace perilink

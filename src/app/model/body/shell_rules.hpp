@@ -6,7 +6,7 @@
 namespace perilink {
 
 /// Refuses shells whose particles would turn freely within the sheet, and sheets that are longer
-/// than their cylinder is around.
+/// than their cylinder is around, planes of symmetry that are none.
 /// \throws InputError
 void refuse_impossible_shell(const CaseFile& input, const Body& body, const NetworkInput& network);
 

@@ -77,8 +77,8 @@ TEST_P(Sheets, BendAsThePlateDoes) {
     for (Index i = 0; i < network.particles.size(); ++i) {
       for (int k = 0; k < 6; ++k) {
         const double force = std::abs(result.forces[6 * i + k]);
-        (is_inside(network, i) ? largest : scale) = std::max(
-            is_inside(network, i) ? largest : scale, force);
+        (is_inside(network, i) ? largest : scale) =
+            std::max(is_inside(network, i) ? largest : scale, force);
       }
     }
     EXPECT_LT(largest, 1e-10 * scale);
@@ -94,9 +94,8 @@ TEST_P(Sheets, StretchAsThePlaneBodyDoes) {
     const double x = network.particles.position(i)[0], y = network.particles.position(i)[1];
     motion.insert(motion.end(), {exx * x + exy * y, exy * x + eyy * y, 0.0, 0.0, 0.0, 0.0});
   }
-  const double density =
-      0.5 * E / (1 - nu * nu) * (exx * exx + eyy * eyy + 2 * nu * exx * eyy +
-                                 2 * (1 - nu) * exy * exy);
+  const double density = 0.5 * E / (1 - nu * nu) *
+                         (exx * exx + eyy * eyy + 2 * nu * exx * eyy + 2 * (1 - nu) * exy * exy);
   const double energy = forces_of(network, motion).energy;
   EXPECT_NEAR(energy, density * thickness * area_of(network), 1e-10 * energy);
 }
@@ -127,7 +126,8 @@ TEST_P(Sheets, OfCylindersBendWithoutStretching) {
     const double s = network.places().position(i)[0], angle = s / radius;
     // Positions are the integrals of (cos psi, -sin psi); their change with the curvature.
     const double along = -(std::sin(angle) - angle * std::cos(angle)) * radius * radius * kappa;
-    const double down = -(std::cos(angle) + angle * std::sin(angle) - 1.0) * radius * radius * kappa;
+    const double down =
+        -(std::cos(angle) + angle * std::sin(angle) - 1.0) * radius * radius * kappa;
     motion.insert(motion.end(), {along, 0.0, down, 0.0, kappa * s, 0.0});
   }
   const double D = E * std::pow(thickness, 3) / (12.0 * (1.0 - nu * nu));
