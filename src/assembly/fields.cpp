@@ -1,6 +1,7 @@
 #include "assembly/fields.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <array>
 
 #include "assembly/internal_force.hpp"
 #include "network/frame.hpp"
@@ -140,6 +141,50 @@ std::vector<double> strain_energy_density(const Network& network, const Csr& fam
     density[i] = 0.5 * sum / network.particles.volumes[i];
   }
   return density;
+}
+
+std::vector<double> face_strains(const Network& network, const Csr& families, Secants secants,
+                                 std::span<const double> motion) {
+  using Matrix = Eigen::Matrix2d;
+  const Shell& shell = *network.shell;
+  std::vector<double> strains(static_cast<std::size_t>(families.rows()) * 3, 0.0);
+  for (Index i = 0; i < families.rows(); ++i) {
+    // Least squares of G xi = (e + z e') n + (g - z g') t of every bond, z = t/2 and -t/2.
+    Matrix shape = Matrix::Zero(), faces[2] = {Matrix::Zero(), Matrix::Zero()};
+    for (const Index e : families.row(i)) {
+      if (!(secants[e] > 0.0)) continue;
+      const Index ends[2] = {network.bonds.first[e], network.bonds.second[e]};
+      const auto from = shell.sheet.position(ends[0]), to = shell.sheet.position(ends[1]);
+      const Eigen::Vector2d xi(to[0] - from[0], to[1] - from[1]);
+      const Eigen::Vector2d n = xi.normalized(), t(-n[1], n[0]);
+      const FrameModes<3> modes = frame_modes<3>(network, e);
+      std::array<double, 6> deformation;
+      for (int m = 0; m < 6; ++m) {
+        deformation[m] = modes.deformation(m, motion.data() + std::size_t{6} * ends[0],
+                                           motion.data() + std::size_t{6} * ends[1]);
+      }
+      shape += xi * xi.transpose();
+      for (int face = 0; face < 2; ++face) {
+        const double z = (face == 0 ? 0.5 : -0.5) * shell.thickness;
+        faces[face] += ((deformation[0] + z * deformation[3]) * n +
+                        (deformation[1] - z * deformation[5]) * t) *
+                       xi.transpose();
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix> axes(shape);
+    if (!(axes.eigenvalues()[0] > 1e-10 * axes.eigenvalues()[1])) continue;
+    Eigen::Vector2d largest(0.0, 0.0);
+    for (const Matrix& moments : faces) {
+      const Matrix gradient = moments * shape.inverse();
+      const Matrix strain = 0.5 * (gradient + gradient.transpose());
+      const Eigen::Vector2d found =
+          Eigen::SelfAdjointEigenSolver<Matrix>(strain, Eigen::EigenvaluesOnly).eigenvalues();
+      if (&moments == faces || found[1] > largest[1]) largest = found;
+    }
+    strains[std::size_t{3} * i] = largest[1];
+    strains[std::size_t{3} * i + 1] = largest[0];
+  }
+  return strains;
 }
 
 std::vector<double> principal_strains(const Network& network, const Csr& families, Secants secants,

@@ -35,4 +35,9 @@ std::vector<double> strain_energy_density(const Network& network, const Csr& fam
 std::vector<double> principal_strains(const Network& network, const Csr& families, Secants secants,
                                       std::span<const double> displacement);
 
+/// Principal strains of a shell within its faces, largest first, of that face where the largest is
+/// larger, by the same rule; the third is zero. Shape (particles, 3).
+std::vector<double> face_strains(const Network& network, const Csr& families, Secants secants,
+                                 std::span<const double> motion);
+
 }  // namespace perilink

@@ -3,13 +3,19 @@
 namespace perilink {
 
 /// Kinematics of the body.
-enum class Problem { plane_stress, plane_strain, three_dimensional };
+enum class Problem {
+  plane_stress,
+  plane_strain,
+  three_dimensional,
+  shell,  ///< a sheet in space: plane stress in it, and bending
+};
 
-/// 2 or 3.
+/// 2 or 3, 2 of the sheet of a shell.
 int dimension_of(Problem problem);
 
-/// The only Poisson's ratio that a bond-based isotropic solid can have: 1/3 in plane stress, 1/4 in
-/// plane strain and in three dimensions (Gerstle, Sau & Silling 2005, section 2).
+/// The only Poisson's ratio that a bond-based isotropic solid can have: 1/3 in plane stress
+/// and in shells, 1/4 in plane strain and in three dimensions (Gerstle, Sau & Silling 2005,
+/// section 2).
 double bond_poissons_ratio(Problem problem);
 
 /// An isotropic elastic solid, any Poisson's ratio between -1 and 1/2.

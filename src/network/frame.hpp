@@ -21,6 +21,10 @@
 /// a is one half in the paper; calibrated bonds have their inflection elsewhere
 /// (Network::inflection). In three dimensions shear and bending come twice, for the two directions
 /// across the bond. A rigid motion, rotations included, costs nothing.
+///
+/// Bonds of shells are ribbons of the height t: against bending and torsion out of the sheet they
+/// have the stiffnesses t^2/12 times k and kb, against shear across it Shell::shear_ratio times k
+/// (docs/theory/shells.md).
 
 namespace perilink {
 
@@ -142,6 +146,42 @@ inline FrameModes<3> space_modes(const double* direction, double xi, double k, d
 
 }  // namespace detail
 
+namespace detail {
+
+/// Bonds of a shell: ribbons as thick as it is. t1 lies in the sheet, t2 = m is its normal. Axial
+/// force and shear in the sheet act at its middle surface, `rise` above the bond.
+inline FrameModes<3> ribbon_modes(const Network& network, Index element, double xi, double k,
+                                  double kb, double inflection) {
+  const Shell& shell = *network.shell;
+  const double* n = network.bonds.directions.data() + static_cast<std::size_t>(element) * 3;
+  const double* m = shell.normals.data() + static_cast<std::size_t>(element) * 3;
+  const double square = shell.thickness * shell.thickness / 12.0;
+  const double rise = shell.rise[element];
+  FrameModes<3> modes;
+  modes.stiffness = {
+      k, kb, k * shell.shear_ratio[element], k * square, kb * xi * xi / 12.0, kb * square};
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    const double t1 = m[b] * n[c] - m[c] * n[b];
+    const std::array<double, 3> translation{n[a], t1, m[a]};
+    const std::array<double, 3> rotation{t1, m[a], n[a]};
+    for (int mode = 0; mode < 3; ++mode) {
+      modes.first[mode][a] = -translation[mode];
+      modes.second[mode][a] = translation[mode];
+      modes.first[3 + mode][3 + a] = -rotation[mode];
+      modes.second[3 + mode][3 + a] = rotation[mode];
+    }
+    modes.first[0][3 + a] = -rise * t1;
+    modes.second[0][3 + a] = rise * t1;
+    modes.first[1][3 + a] = rise * n[a] - inflection * xi * m[a];
+    modes.second[1][3 + a] = -rise * n[a] - (1.0 - inflection) * xi * m[a];
+    modes.first[2][3 + a] = modes.second[2][3 + a] = 0.5 * xi * t1;
+  }
+  return modes;
+}
+
+}  // namespace detail
+
 /// Modes of an element of a network that carries moments; elements without bending stiffness are
 /// trusses, whose other modes have no stiffness.
 template <int Dim>
@@ -154,6 +194,7 @@ FrameModes<Dim> frame_modes(const Network& network, Index element) {
   if constexpr (Dim == 2) {
     return detail::plane_modes(n, xi, k, kb, inflection);
   } else {
+    if (network.shell) return detail::ribbon_modes(network, element, xi, k, kb, inflection);
     return detail::space_modes(n, xi, k, kb, network.torsion, inflection);
   }
 }

@@ -50,6 +50,16 @@ struct Bars {
   }
 };
 
+/// What the bonds of plates and shells have beside those of a sheet in the plane: they are as thick
+/// as it is, and lie in space (docs/theory/shells.md).
+struct Shell {
+  Particles sheet;              ///< the particles before the sheet was laid on its surface, z = 0
+  double thickness = 0.0;       ///< t [length]
+  std::vector<double> normals;  ///< across each bond, of the middle surface; shape (elements, 3)
+  std::vector<double> rise;     ///< mean height of that surface over each bond [length]
+  std::vector<double> shear_ratio;  ///< stiffness against shear across the sheet over k [-]
+};
+
 /// A body as mechanics sees it: particles and truss or frame elements. Elements are numbered: bonds
 /// of the solid first, then ties between bars and solid, then the segments of the bars.
 struct Network {
@@ -104,7 +114,11 @@ struct Network {
   /// edges are the last bonds of the solid, without stiffness: they connect, and carry nothing.
   std::optional<LinearElements> cells;
 
+  std::optional<Shell> shell;  ///< where the body is a plate or a shell
+
   int dim() const { return particles.dim; }
+  /// The particles where a case means them: those of a shell on its flat sheet.
+  const Particles& places() const { return shell ? shell->sheet : particles; }
   /// Components of the motion of a particle: displacements along the axes and, where bonds carry
   /// moments, rotations: (u, v) or (u, v, theta) in two dimensions, (u, v, w) or
   /// (u, v, w, theta_x, theta_y, theta_z) in three.

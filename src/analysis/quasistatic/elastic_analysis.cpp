@@ -109,8 +109,8 @@ auto by_boxes(const LoadedNetwork& problem, Secants secants, const BoxSolverOpti
 bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks) {
   if (solver != LinearSolver::automatic) return solver == LinearSolver::iterative;
   if (has_ranks && can_be_shared(problem.network, problem.unknowns)) return true;
-  return !problem.unknowns.carries() &&
-         problem.unknowns.count > (problem.network.dim() == 2 ? 20000 : 3000);
+  const bool is_sheet = problem.network.dim() == 2 || problem.network.shell;
+  return !problem.unknowns.carries() && problem.unknowns.count > (is_sheet ? 20000 : 3000);
 }
 
 ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOptions& options) {

@@ -16,7 +16,7 @@ namespace {
 
 Index particle_at(const CaseFile& input, const Model& model, const std::string& key,
                   const Vector3& point) {
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   const std::span<const double> at(point.data(), static_cast<std::size_t>(particles.dim));
   const NearestParticle nearest = nearest_particle(particles, at);
   if (nearest.distance <= model.lattice.spacing) return nearest.particle;
@@ -47,7 +47,7 @@ void fill_difference(const CaseFile& input, const Model& model, const std::strin
 
 void fill_mean(const CaseFile& input, const Model& model, const std::string& key,
                const GaugeSection& section, Gauge& gauge) {
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   double whole = 0.0;
   const std::vector<Index> members = particles_of_region(input, model, section.region, key);
   const auto is_bar = [&](Index i) { return particles.kind[i] != ParticleKind::solid; };
@@ -117,7 +117,7 @@ std::vector<double> gauge_values(const Model& model, std::span<const double> mot
       continue;
     }
     if (families.rows() == 0) {
-      families = bonds_of_particles(model.network.bonds, model.network.particles.size());
+      families = bonds_of_particles(model.network.bonds, model.network.places().size());
       displacement = translations(model.network, motion);
     }
     double value = 0.0;

@@ -39,7 +39,7 @@ std::vector<Index> particles_inside(const Model& model, const Region* region,
   if (region != nullptr && !region->group.empty()) {
     return group_named(model, region->group).particles;
   }
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   const double tolerance = region_tolerance * model.lattice.spacing;
   std::vector<Index> inside;
   for (Index i = 0; i < particles.size(); ++i) {
@@ -93,9 +93,9 @@ std::string nearest_text(const Particles& particles, const Region* region) {
   double least = INFINITY;
   for (Index facet = 0; facet < model.facets.size(); ++facet) {
     if (!model.facets.on_surface(facet)) continue;
-    const Vector3 centre = model.facets.centre(facet, model.network.particles.positions);
+    const Vector3 centre = model.facets.centre(facet, model.network.places().positions);
     const double away =
-        distance(region, {centre.data(), static_cast<std::size_t>(model.network.dim())});
+        distance(region, {centre.data(), static_cast<std::size_t>(model.facets.dim)});
     if (away < least) {
       least = away;
       nearest = centre;
@@ -107,7 +107,7 @@ std::string nearest_text(const Particles& particles, const Region* region) {
                   "in that region",
                   region.name),
       fmt::format("the nearest facet has its centre at ({})",
-                  fmt::join(nearest.begin(), nearest.begin() + model.network.dim(), ", ")));
+                  fmt::join(nearest.begin(), nearest.begin() + model.facets.dim, ", ")));
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ const Group& group_named(const Model& model, const std::string& name) {
 
 std::vector<Index> particles_of_region(const CaseFile& input, const Model& model,
                                        const std::string& region, const std::string& key) {
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   std::vector<Index> inside = particles_inside(model, find_region(input, region), region);
   const bool any = std::any_of(inside.begin(), inside.end(),
                                [&](Index i) { return is_material(particles.kind[i]); });
@@ -143,7 +143,7 @@ std::vector<Index> facets_of_region(const CaseFile& input, const Model& model,
   } else {
     for (Index facet = 0; facet < facets.size(); ++facet) {
       if (!facets.on_surface(facet)) continue;
-      const Vector3 centre = facets.centre(facet, model.network.particles.positions);
+      const Vector3 centre = facets.centre(facet, model.network.places().positions);
       const std::span<const double> point(centre.data(), static_cast<std::size_t>(facets.dim));
       if (own == nullptr || own->contains(point, tolerance)) inside.push_back(facet);
     }

@@ -66,8 +66,8 @@ std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const double volume = volumes->values[i];
     if (!(volume > 0.0)) continue;
-    sizes[i] = body.dim == 2 ? std::sqrt(volume / thickness * 2.0 / std::numbers::sqrt3)
-                             : std::cbrt(volume);
+    const bool flat = body.dim == 2 || body.is_sheet;
+    sizes[i] = flat ? std::sqrt(volume / thickness * 2.0 / std::numbers::sqrt3) : std::cbrt(volume);
   }
   return sizes;
 }
@@ -99,11 +99,16 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
     body.kind.push_back(static_cast<int>(kind));
   }
   read_lines(grid, values_of(grid.find_cell_data("element"), "element", 1, path), body);
+  body.is_sheet = body.dim == 3 && grid.field("thickness", 0.0) > 0.0;
   body.sizes = particle_sizes(grid, body);
   if (const VtuArray* stress = grid.find_point_data("stress"); stress && stress->components == 6) {
     for (std::size_t i = 0; i < body.positions.size(); ++i) {
       body.stress.push_back(von_mises(stress->values.data() + 6 * i));
     }
+  }
+  const auto is_damaged = [](double damage) { return damage > 0.0; };
+  if (body.is_sheet && std::none_of(body.damage.begin(), body.damage.end(), is_damaged)) {
+    for (const Vector3& u : body.displacements) body.stress.push_back(length(u));
   }
   return body;
 }

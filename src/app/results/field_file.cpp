@@ -108,7 +108,9 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
       {"volume", 1, network.particles.volumes},
       {"strain_energy_density", 1, strain_energy_density(network, families, secants, motion)},
       {"principal_strain", 3,
-       padded_to_three(principal_strains(network, families, secants, displacement), dim)},
+       network.shell
+           ? face_strains(network, families, secants, motion)
+           : padded_to_three(principal_strains(network, families, secants, displacement), dim)},
   };
   if (network.carries_moments()) {
     grid.point_data.push_back({"rotation", dim == 2 ? 1 : 3, rotations(network, motion)});

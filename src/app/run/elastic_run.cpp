@@ -22,6 +22,7 @@ VtuGrid make_grid(const Model& model, std::span<const double> displacement,
   if (model.carried) {
     add_carriers(grid, network.particles, model.carried->carriers, model.carried->whole);
   }
+  if (network.shell) return grid;  // faces have stresses of their own
   grid.point_data.push_back(
       {"stress", 6,
        particle_stresses(stress_input(model, families), translations(network, displacement))});

@@ -70,7 +70,7 @@ template <class Record>
 FieldMoment moment_of(const Record& record, const CaseFile& input, const Model& model) {
   FieldMoment moment{record.step, record.broken_bonds, record.load_factor, record.load,
                      model.lattice.spacing};
-  if (model.network.dim() == 2) moment.thickness = input.body.thickness;
+  if (model.network.dim() == 2 || model.network.shell) moment.thickness = input.body.thickness;
   return moment;
 }
 

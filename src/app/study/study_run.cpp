@@ -258,7 +258,7 @@ void check_study(const StudyFile& study, const CaseFile& input) {
                      "name a case with analysis.type = \"elastic\" or \"damage\"");
   }
   check_refinement(study.vary, input.body);
-  const int dim = dimension_of(input.body);
+  const int dim = axes_of(input.body);
   for (const ErrorSection& error : study.errors) {
     if (!error.gauge.empty() && gauge_number(input, error.gauge) == input.gauges.size()) {
       throw InputError({error.where.file, error.where.line, error.where.key + ".gauge"},

@@ -19,6 +19,8 @@ constexpr std::string_view no_particle_table =
 constexpr std::string_view only_lattices =
     "is given, but only bodies with model = \"lattice\" have it";
 
+constexpr std::string_view flat_instead = "delete it, or take another problem in [body]";
+
 constexpr std::string_view damage_instead = "delete it, or set type = \"damage\" in [analysis]";
 
 constexpr Kinds bonds = bond_based | micropolar;
@@ -42,6 +44,7 @@ const Without horizons = {
 constexpr std::string_view no_torsion =
     "delete it; three-dimensional bodies with model = \"micropolar\" have it";
 const Without torsion = {
+    {shell, "is given, but how bonds of a shell twist follows from its Poisson's ratio", delete_it},
     {elements, no_bonds, bonds_instead},
     on_lattice,
     {micropolar | plane, "is given, but bonds of a two-dimensional body do not twist", no_torsion},
@@ -51,18 +54,27 @@ const Without lattices = {{bonds | particles | elements, "is given, but model is
                            "delete it, or set model = \"lattice\""}};
 
 /// What a kind of body cannot be analysed by.
-const Without methods = {{elements | damage | relaxation,
-                          "is \"linear_elements\", which cannot break",
-                          "set analysis.type = \"elastic\", or delete the line"}};
+const Without methods = {
+    {elements | shell, "is \"linear_elements\", but problem is \"shell\", which bonds make",
+     "delete the line, or take another problem"},
+    {elements | damage | relaxation, "is \"linear_elements\", which cannot break",
+     "set analysis.type = \"elastic\", or delete the line"}};
 constexpr std::string_view other_type =
     "set type = \"explicit\" or \"elastic\" in [analysis], or take another model";
 const Without models = {
     {elements, no_bonds, bonds_instead},
+    {bond_based | lattice | particles | shell,
+     "is \"{model}\", but the bonds of a shell bend: model = \"micropolar\"",
+     "delete the line, or take another problem"},
     {lattice | particles | damage | relaxation, "is \"{model}\", but analysis.type is \"{type}\"",
      other_type},
 };
 const Without types = {{elements | explicit_, "is \"explicit\", but linear elements have no masses",
-                        "set method = \"bonds\" in [body], or type = \"elastic\""}};
+                        "set method = \"bonds\" in [body], or type = \"elastic\""},
+                       {shell | explicit_ | relaxation,
+                        "is \"{type}\", but shells are at rest: nobody has given them masses and "
+                        "damped steps",
+                        "set type = \"elastic\" or \"damage\""}};
 
 const Without softening = {{elements, no_bonds, bonds_instead}};
 const Without bond_softening = {
@@ -85,7 +97,8 @@ const Without third_axis = {{plane, "is an axis that a two-dimensional body does
 constexpr Kinds unturned = bond_based | lattice | particles | elements;
 const NotFor resting{unturned, "is given, but {resting}", "delete it, or {turning}"};
 const Without turn_in_plane = {
-    resting, {space, "is no rotation of a body in three dimensions", "Allowed: rx, ry, rz"}};
+    resting,
+    {space | shell, "is no rotation of a body in three dimensions", "Allowed: rx, ry, rz"}};
 const Without turn_in_space = {
     resting, {plane, "is no rotation of a body in two dimensions", "Allowed: rotation"}};
 const Without moments = {
@@ -124,18 +137,24 @@ const Without springs = {
     {lattice, no_lattice_table, another_model},
     {elements, "is \"linear_elements\", but the case has [[springs]], which only bonds know",
      "delete one of the two", "body.method"}};
+const Without outside_of_sheets = {
+    {plane, "is an axis that a two-dimensional body does not have",
+     "delete it, or set problem = \"three_dimensional\" in [body]"},
+    {shell, "is given, but places of a shell are those of its flat sheet, x and y", delete_it}};
 const Without cracks = {
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
     {elements, "is \"linear_elements\", but the case has [[cracks]], which cut bonds",
      "delete one of the two, or leave the crack out of the mesh", "body.method"}};
 const Without rebar = {
+    {shell, "is given, but bars are not tied to shells", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
     {elements, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
      "delete one of the two", "body.method"}};
 
 const Without carriers = {
+    {shell, "is given, but elements do not carry particles of shells", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
     {elements, "is \"linear_elements\", but the case has [elements], which carry particles",
@@ -156,9 +175,10 @@ const Without strains = {
     {damage | elastic, {}, {}},
     {lattice, "is given, but lattice particles stretch by their true lengths", delete_it}};
 
-const Without stages = {{elastic | explicit_ | relaxation,
-                         "is given, but type = \"{type}\" lets all loads grow together",
-                         damage_instead}};
+const Without stages = {
+    {shell, "is given, but all loads of a shell grow together", delete_it},
+    {elastic | explicit_ | relaxation,
+     "is given, but type = \"{type}\" lets all loads grow together", damage_instead}};
 
 const std::vector<KeySchema> body_keys = {
     "problem",
@@ -168,6 +188,9 @@ const std::vector<KeySchema> body_keys = {
     {"thickness",
      {{space, "is given, but a three-dimensional body has none",
        "delete it; the regions' z intervals say how thick the body is"}}},
+    {"radius",
+     {{plane | space, "is given, but only shells lie on cylinders",
+       "delete it, or set problem = \"shell\""}}},
     "mesh",
     "mesh_size",
     "pattern",
@@ -275,6 +298,8 @@ const std::vector<KeySchema> crack_keys = {
      {{space, "is given, but the body has 3 dimensions", "give the `corners` of a plane polygon"}}},
     {"corners",
      {{plane, "is given, but the body has 2 dimensions",
+       "give the `points` of a line: [[0, 1], [2, 1]]"},
+      {shell, "is given, but cracks of a shell are lines on its sheet",
        "give the `points` of a line: [[0, 1], [2, 1]]"}}}};
 
 }  // namespace
@@ -283,7 +308,7 @@ const std::vector<TableSchema>& case_schema() {
   static const std::vector<TableSchema> schema = {
       {"", false, {"title", "units"}},
       {"body", false, body_keys},
-      {"regions", true, {"name", "group", "x", "y", {"z", third_axis}, "center", "radius"}},
+      {"regions", true, {"name", "group", "x", "y", {"z", outside_of_sheets}, "center", "radius"}},
       {"materials", true, material_keys},
       {"supports", true, {"region", "fix"}},
       {"displacements", true, motions(true)},
@@ -309,7 +334,14 @@ const std::vector<TableSchema>& case_schema() {
         {"alert_strain", set_aside(elastic)},
         {"halo", set_aside(elastic)}},
        carriers},
-      {"gauges", true, {"name", "between", "at", "region", "axis", "stress"}},
+      {"gauges",
+       true,
+       {"name",
+        "between",
+        "at",
+        "region",
+        "axis",
+        {"stress", {{shell, "is given, but stresses of shells are not read", "give `axis`"}}}}},
       {"analysis", false, analysis_keys},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_events},
       {"stages",

@@ -100,8 +100,8 @@ void check_table(const Document& document, const TableSchema& schema, const Toml
 
 bool NotFor::holds(Kinds kind) const {
   using namespace kinds;
-  for (const Kinds group : {bond_based | micropolar | lattice | particles | elements, plane | space,
-                            damage | elastic | explicit_ | relaxation}) {
+  for (const Kinds group : {bond_based | micropolar | lattice | particles | elements,
+                            plane | space | shell, damage | elastic | explicit_ | relaxation}) {
     if ((kinds & group) != 0 && (kinds & group & kind) == 0) return false;
   }
   return true;

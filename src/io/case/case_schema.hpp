@@ -16,8 +16,8 @@ using Kinds = unsigned;
 namespace kinds {
 
 inline constexpr Kinds bond_based = 1, micropolar = 2, lattice = 4, particles = 8, elements = 16;
-inline constexpr Kinds plane = 32, space = 64;
-inline constexpr Kinds damage = 128, elastic = 256, explicit_ = 512, relaxation = 1024;
+inline constexpr Kinds plane = 32, space = 64, shell = 128;
+inline constexpr Kinds damage = 256, elastic = 512, explicit_ = 1024, relaxation = 2048;
 
 }  // namespace kinds
 

@@ -243,14 +243,15 @@ std::optional<Expression> CaseTable::expression(const std::string& key, int dim)
   return checked_expression(key, *value, dim);
 }
 
-std::optional<ExpressionVector> CaseTable::expressions(const std::string& key, int dim) const {
+std::optional<ExpressionVector> CaseTable::expressions(const std::string& key, int axes,
+                                                       int dim) const {
   const TomlValue* list = array(key, "numbers or formulas");
   if (list == nullptr) return std::nullopt;
-  if (list->items.size() != static_cast<std::size_t>(dim)) {
+  if (list->items.size() != static_cast<std::size_t>(axes)) {
     refuse(
         key,
-        fmt::format("has {} components, but the body has {} dimensions", list->items.size(), dim),
-        dim == 2 ? "write [x, y]" : "write [x, y, z]");
+        fmt::format("has {} components, but the body has {} dimensions", list->items.size(), axes),
+        axes == 2 ? "write [x, y]" : "write [x, y, z]");
   }
   ExpressionVector result;
   for (std::size_t k = 0; k < list->items.size(); ++k) {

@@ -55,8 +55,8 @@ class CaseTable {
   std::optional<Vector3> vector(const std::string& key, int dim) const;
   /// A number, or text that is a formula of the position.
   std::optional<Expression> expression(const std::string& key, int dim) const;
-  /// As many of them as the body has dimensions.
-  std::optional<ExpressionVector> expressions(const std::string& key, int dim) const;
+  /// As many of them as the body moves along axes, of a position in `dim` dimensions.
+  std::optional<ExpressionVector> expressions(const std::string& key, int axes, int dim) const;
   /// A list of them.
   std::optional<std::vector<Vector3>> vectors(const std::string& key, int dim) const;
   std::optional<std::vector<int>> integers(const std::string& key, int lowest, int highest) const;

@@ -162,7 +162,7 @@ std::vector<Expression> read_field(const CaseTable& table) {
                  "give one for each axis: [\"formula x\", \"formula y\"]");
   }
   const int dim = static_cast<int>(count);
-  const ExpressionVector formulas = *table.expressions("displacement", dim);
+  const ExpressionVector formulas = *table.expressions("displacement", dim, dim);
   return {formulas.begin(), formulas.begin() + dim};
 }
 

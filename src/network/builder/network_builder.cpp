@@ -14,6 +14,7 @@
 #include "network/bond_softening.hpp"
 #include "network/builder/bar_elements.hpp"
 #include "network/builder/glued_cells.hpp"
+#include "network/builder/shell_bonds.hpp"
 #include "network/surface_correction.hpp"
 #include "network/unknowns.hpp"
 
@@ -176,6 +177,7 @@ Network build_network(const Body& body, const NetworkInput& input) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
   }
   if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
+  if (input.shell) make_shell(input, network);
   return network;
 }
 

@@ -76,9 +76,32 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const 
   return square * (stretched ? bond.inverse : bond.compressed);
 }
 
+/// The same of a bond of a shell.
+double FrameLimitSearch::ribbon_ratio(Index element, const Bond& bond, const double* u) const {
+  const FrameModes<3> modes = frame_modes<3>(network_, element);
+  const double ratio = network_.ratio_of_bending(element) * network_.stiffness[element];
+  const double calibrated = network_.bending[element];
+  double square = 0.0, stretch = 0.0;
+  for (int m = 0; m < FrameModes<3>::count; ++m) {
+    const double deformation = modes.deformation(m, u + bond.first, u + bond.second);
+    const bool of_shear = m == 1 || m > 3;  // stiffnesses that grow with kb
+    const double share = !of_shear        ? modes.stiffness[m]
+                         : calibrated > 0 ? modes.stiffness[m] * ratio / calibrated
+                                          : 0.0;
+    square += share / network_.stiffness[element] * deformation * deformation;
+    if (m == 0) stretch += deformation;
+    if (m == 3) stretch += 0.5 * network_.shell->thickness * std::abs(deformation);
+  }
+  const bool stretched = stretch > 0.0 && stretch * stretch > least_tension * square;
+  return square * (stretched ? bond.inverse : bond.compressed);
+}
+
 template <int Dim>
 FrameLimitSearch::Hit FrameLimitSearch::find_in(const double* u, double tolerance, int threads) {
-  const auto value_at = [&](Index k) { return squared_ratio<Dim>(bonds_[k], u); };
+  const auto value_at = [&](Index k) {
+    if (Dim == 3 && network_.shell) return ribbon_ratio(elements_[k], bonds_[k], u);
+    return squared_ratio<Dim>(bonds_[k], u);
+  };
   const auto largest_in = [&](Index begin, Index end) {
     double largest = 0.0, zero_times_all = 0.0;
     for (Index k = begin; k < end; ++k) {
@@ -104,8 +127,10 @@ std::vector<FrameLimitSearch::Hit> FrameLimitSearch::list(std::span<const double
                                                           double least) const {
   std::vector<Hit> hits;
   for (std::size_t k = 0; k < bonds_.size(); ++k) {
-    const double square = dim_ == 3 ? squared_ratio<3>(bonds_[k], displacement.data())
-                                    : squared_ratio<2>(bonds_[k], displacement.data());
+    const double* u = displacement.data();
+    const double square = network_.shell ? ribbon_ratio(elements_[k], bonds_[k], u)
+                          : dim_ == 3    ? squared_ratio<3>(bonds_[k], u)
+                                         : squared_ratio<2>(bonds_[k], u);
     const double ratio = finite_ratio(elements_[k], std::sqrt(square));
     if (ratio >= least) hits.push_back({elements_[k], ratio});
   }

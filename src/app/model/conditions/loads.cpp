@@ -26,7 +26,7 @@ std::vector<Index> solid_particles_of(const CaseFile& input, const Model& model,
                                       const std::string& region, const std::string& key) {
   std::vector<Index> members = particles_of_region(input, model, region, key);
   const auto is_bar = [&](Index i) {
-    return model.network.particles.kind[i] != ParticleKind::solid;
+    return model.network.places().kind[i] != ParticleKind::solid;
   };
   if (!std::all_of(members.begin(), members.end(), is_bar)) std::erase_if(members, is_bar);
   return members;
@@ -68,11 +68,11 @@ double add_entry(const Particles& particles, const Loads& entry, Loads& loads, L
 
 void add_body_force(const CaseFile& input, const Model& model, std::size_t k,
                     std::span<const Index> region, Loads& loads) {
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   const PositionField field(input, item_key("loads", k, "body_force"),
                             components_of(*input.loads[k].body_force, particles.dim));
   const auto load = [&](std::span<const double> x) { return field.at(x); };
-  if (model.cells.size() == 0) {
+  if (model.cells.size() == 0 || model.network.shell) {
     add_lumped_body_load(particles, region, load, loads);
     return;
   }
@@ -86,7 +86,7 @@ void add_body_force(const CaseFile& input, const Model& model, std::size_t k,
 /// bears those of two faces
 double add_traction(const CaseFile& input, const Model& model, std::size_t k, Loads& loads) {
   const TractionSection& section = input.tractions[k];
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   const std::vector<Index> facets =
       facets_of_region(input, model, section.region, item_key("tractions", k, "region"));
   if (section.traction) {
@@ -114,7 +114,7 @@ bool resists_rotation(const Network& network, Index particle) {
 /// Force and moment of a point load.
 void add_point_load(const CaseFile& input, const Model& model, std::size_t k, AppliedLoads& all) {
   const PointLoadSection& section = input.point_loads[k];
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   const int dim = particles.dim;
   const std::size_t width = all.loads.forces.size() / static_cast<std::size_t>(particles.size());
   const std::span<const double> at(section.at.data(), static_cast<std::size_t>(dim));
@@ -156,7 +156,7 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
 AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width,
                            const std::string& stage) {
   const auto belongs = [&](const auto& section) { return stage.empty() || section.stage == stage; };
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   AppliedLoads all;
   all.loads.forces.assign(static_cast<std::size_t>(particles.size()) * width, 0.0);
   for (std::size_t k = 0; k < input.loads.size(); ++k) {

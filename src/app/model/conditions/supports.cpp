@@ -35,7 +35,7 @@ void prescribe(const CaseFile& input, const Model& model, Prescription& prescrip
                const PositionField& values, double factor = 1.0) {
   for (const Index i : particles) {
     const std::size_t slot = static_cast<std::size_t>(i) * model.network.width() + component;
-    const std::span<const double> x = model.network.particles.position(i);
+    const std::span<const double> x = model.network.places().position(i);
     const double value = factor * values.at(x)[0];
     const double before = prescription.value[slot];
     if (prescription.held[slot]) {
@@ -77,7 +77,7 @@ std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model,
   if (!section.at) {
     return particles_of_region(input, model, section.region, item_key("symmetry", k, "region"));
   }
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   std::vector<Index> inside;
   double nearest = INFINITY;
   for (Index i = 0; i < particles.size(); ++i) {
@@ -192,9 +192,9 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model,
                                    const std::string& stage) {
   const std::size_t width = model.network.width();
   Prescription prescription;
-  prescription.held.assign(width * model.network.particles.size(), 0);
+  prescription.held.assign(width * model.network.places().size(), 0);
   prescription.value.assign(prescription.held.size(), 0.0);
-  prescription.gripped.assign(static_cast<std::size_t>(model.network.particles.size()), 0);
+  prescription.gripped.assign(static_cast<std::size_t>(model.network.places().size()), 0);
   for (std::size_t k = 0; k < input.supports.size(); ++k) {
     const Expression zero;
     const PositionField values(input, item_key("supports", k), {&zero, 1});
@@ -219,7 +219,7 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model,
 
 std::vector<double> collect_springs(const CaseFile& input, const Model& model) {
   if (input.springs.empty()) return {};
-  const Particles& particles = model.network.particles;
+  const Particles& particles = model.network.places();
   const std::size_t width = model.network.width();
   std::vector<double> stiffness(width * particles.size(), 0.0);
   for (std::size_t k = 0; k < input.springs.size(); ++k) {

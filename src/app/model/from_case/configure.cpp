@@ -13,6 +13,7 @@
 #include "app/model/body/lattice_model.hpp"
 #include "app/model/body/mesh_input.hpp"
 #include "app/model/body/particle_model.hpp"
+#include "app/model/body/shell_rules.hpp"
 #include "app/model/body/solid_boxes.hpp"
 #include "app/model/body/strength_notes.hpp"
 #include "app/model/conditions/boundary_conditions.hpp"
@@ -171,8 +172,8 @@ void refuse_impossible_cracks(const CaseFile& input, int dim) {
 void refuse_cracks_without_bonds(const CaseFile& input, const Network& network) {
   for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
     if (network.cut_by_crack[k] > 0) continue;
-    throw InputError(input.where(crack_key(k, network.dim())), "crosses no bond of the body",
-                     "move the crack into the body, or delete it");
+    throw InputError(input.where(crack_key(k, dimension_of(input.body))),
+                     "crosses no bond of the body", "move the crack into the body, or delete it");
   }
 }
 
@@ -184,6 +185,8 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
   network.torsion = input.body.torsion;
   network.horizon = horizon;
   network.thickness = input.body.thickness;
+  network.shell = is_shell(input.body);
+  network.radius = input.body.radius.value_or(0.0);
   network.micromodulus = input.body.micromodulus;
   const CriticalStretch rule = input.body.critical_stretch;
   const bool on_lattice =
@@ -265,7 +268,7 @@ void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkI
   network.draft = true;
   Model draft = model;
   draft.network = build_case_network(input, body, network);
-  draft.facets = body.facets;
+  draft.facets = draft.network.shell ? draft.network.facets : body.facets;
   draft.cells = body.cells;
   draft.groups = body.groups;
   refuse_cracks_without_bonds(input, draft.network);
@@ -288,6 +291,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   network.on_search = options.on_search;
   network.draft = options.draft;
   refuse_poissons_ratios(input, body, network);
+  if (network.shell) refuse_impossible_shell(input, body, network);
   refuse_impossible_cracks(input, body.particles.dim);
   model.crack_cost = count_on_the_path(input, body, network);
   if (!options.draft) refuse_before_calibration(input, body, network, model);
@@ -306,7 +310,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
 /// Particles, and bonds or elements, of every body but lattices of state-based particles.
 Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
   Model model;
-  model.problem = input.body.problem;
+  model.problem = is_shell(input.body) ? Problem::plane_stress : input.body.problem;
   const int dim = dimension_of(model.problem);
   Body body = build_body(input, dim, model.horizon, model.notes);
   model.lattice = body.lattice;

@@ -122,7 +122,9 @@ std::string other_model(double given) {
 }
 
 /// How messages write bond_poissons_ratio().
-const char* ratio_word(Problem problem) { return problem == Problem::plane_stress ? "1/3" : "1/4"; }
+const char* ratio_word(Problem problem) {
+  return bond_poissons_ratio(problem) > 0.3 ? "1/3" : "1/4";
+}
 
 void check_bond_based_ratio(const CaseTable& table, const BodySection& body, double given) {
   constexpr double tolerance = 1e-3;  // users write 0.333
@@ -162,6 +164,19 @@ std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySect
   return given;
 }
 
+/// Bonds of a shell are as thick as it is: where one face of a crack is pressed, the other gapes.
+void settle_shell_softening(const CaseTable& table, SofteningMaterial& softening) {
+  if (softening.shape.kind == Softening::concrete) {
+    table.refuse("softening", "is \"concrete\", a law that bonds of shells do not have",
+                 "Allowed here: brittle, linear, bilinear, exponential");
+  }
+  if (table.has("closing") && softening.closes) {
+    table.refuse("closing", "is true, but bonds of shells break through the thickness",
+                 "delete it");
+  }
+  softening.closes = false;
+}
+
 std::vector<std::string> read_material_regions(const CaseTable& table) {
   table.need_one_of({"region", "regions"});
   if (const auto single = table.text("region")) return {*single};
@@ -195,6 +210,10 @@ std::vector<std::string> read_holes(const CaseTable& table, const BodySection& b
 BodySection read_body(const CaseTable& table, const BodySection& kind) {
   BodySection body = kind;
   assign(body.thickness, table.positive("thickness"));
+  if (is_shell(body)) {
+    if (!table.has("thickness")) table.refuse_missing("thickness", "the thickness of the shell");
+    body.radius = table.positive("radius");
+  }
   if (is_lattice(body)) {
     read_lattice_body(table, body);
     return body;
@@ -214,6 +233,10 @@ BodySection read_body(const CaseTable& table, const BodySection& kind) {
   if (body.method == BodyMethod::bonds) read_horizon(table, body);
   read_constants(table, body);
   refuse_unused_micromodulus(table, body);
+  if (is_shell(body) && body.surface == Surface::ghost) {
+    table.refuse("surface", "is \"ghost\", but the ghost layer is for bodies in a plane",
+                 "Allowed here: calibrated, energy, none");
+  }
   return body;
 }
 
@@ -233,6 +256,7 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
   }
   material.poissons_ratio = read_poissons_ratio(table, body);
   material.softening = read_softening(table);
+  if (is_shell(body)) settle_shell_softening(table, material.softening);
   material.fracture_energy = has_stretches(material.softening) ? 0.0 : read_fracture_energy(table);
   if (std::isinf(material.fracture_energy)) refuse_softening(table);
   material.density = table.positive("density");

@@ -34,7 +34,8 @@ std::string stress_name(const std::array<int, 2>& axes) {
   return std::string(axis_names[axes[0]]) + axis_names[axes[1]];
 }
 
-GaugeSection read_gauge(const CaseTable& table, int dim) {
+GaugeSection read_gauge(const CaseTable& table, const BodySection& body) {
+  const int dim = dimension_of(body);
   GaugeSection gauge;
   gauge.name = table.need("name", table.text("name"), "the heading of its column");
   if (!is_plain(gauge.name)) {
@@ -57,7 +58,7 @@ GaugeSection read_gauge(const CaseTable& table, int dim) {
   } else {
     table.need_one_of({"axis", "stress"});
   }
-  std::vector<std::string_view> axes(axis_names.begin(), axis_names.begin() + dim);
+  std::vector<std::string_view> axes(axis_names.begin(), axis_names.begin() + axes_of(body));
   if (const auto axis = table.choice("axis", axes)) gauge.axis = (*axis)[0] - 'x';
   if (const auto stress = table.choice("stress", stress_names(dim))) {
     gauge.stress = {(*stress)[0] - 'x', (*stress)[1] - 'x'};

@@ -25,11 +25,17 @@ Kinds kinds_of(const CaseFile& input) {
   const auto bit = [](Kinds first, auto value) { return first << static_cast<Kinds>(value); };
   const BodySection& body = input.body;
   return (body.method == BodyMethod::bonds ? bit(kinds::bond_based, body.model) : kinds::elements) |
-         (dimension_of(body) == 2 ? kinds::plane : kinds::space) |
+         (is_shell(body)            ? kinds::shell
+          : dimension_of(body) == 2 ? kinds::plane
+                                    : kinds::space) |
          bit(kinds::damage, input.analysis.type);
 }
 
 int dimension_of(const BodySection& body) { return dimension_of(body.problem); }
+
+int axes_of(const BodySection& body) { return is_shell(body) ? 3 : dimension_of(body); }
+
+bool is_shell(const BodySection& body) { return body.problem == Problem::shell; }
 
 bool is_lattice(const BodySection& body) { return body.model == BodyModel::lattice; }
 

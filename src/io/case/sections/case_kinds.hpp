@@ -14,8 +14,13 @@ namespace perilink {
 /// The kind of a case, for the columns of case_schema(): its body, dimensions and analysis.
 Kinds kinds_of(const CaseFile& input);
 
-/// 2 or 3.
+/// Coordinates of a place in the body: 2 or 3; 2 in shells, whose places are those of the sheet.
 int dimension_of(const BodySection& body);
+
+/// Axes along which the body moves and is loaded: as many, but 3 in shells.
+int axes_of(const BodySection& body);
+
+bool is_shell(const BodySection& body);
 
 /// Whether an analysis of the type finds equilibria one after the other, without motion.
 inline bool is_quasistatic(AnalysisType type) {

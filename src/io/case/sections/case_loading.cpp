@@ -16,7 +16,7 @@ namespace {
 /// Moments turn about z in two dimensions: a number; about each axis in three.
 Vector3 read_moment(const CaseTable& table, const BodySection& body) {
   if (!table.has("moment")) return {};
-  if (dimension_of(body) == 2) return {0.0, 0.0, *table.number("moment")};
+  if (axes_of(body) == 2) return {0.0, 0.0, *table.number("moment")};
   return *table.vector("moment", 3);
 }
 
@@ -35,11 +35,12 @@ std::optional<Vector3> read_stiffness(const CaseTable& table, const std::string&
 
 }  // namespace
 
-TractionSection read_traction(const CaseTable& table, int dim) {
+TractionSection read_traction(const CaseTable& table, const BodySection& body) {
+  const int dim = dimension_of(body);
   TractionSection section;
   section.region = table.need_region("whose surface is loaded");
   table.need_one_of({"traction", "pressure"});
-  section.traction = table.expressions("traction", dim);
+  section.traction = table.expressions("traction", axes_of(body), dim);
   section.pressure = table.expression("pressure", dim);
   assign(section.stage, table.text("stage"));
   if (section.traction ? section.traction->is_zero() : section.pressure->is_zero()) {
@@ -55,9 +56,10 @@ PointLoadSection read_point_load(const CaseTable& table, const BodySection& body
   PointLoadSection section;
   section.at = table.need("at", table.vector("at", dim), "the point that is loaded");
   if (!table.has("moment")) {
-    section.force = table.need("force", table.vector("force", dim), "the force at load factor 1");
+    section.force =
+        table.need("force", table.vector("force", axes_of(body)), "the force at load factor 1");
   }
-  assign(section.force, table.vector("force", dim));
+  assign(section.force, table.vector("force", axes_of(body)));
   assign(section.stage, table.text("stage"));
   section.moment = read_moment(table, body);
   if (section.force == Vector3{} && section.moment == Vector3{}) {

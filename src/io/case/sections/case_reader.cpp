@@ -88,6 +88,7 @@ void read_kind(const Document& document, CaseFile& input) {
   assign(input.body.problem, body.choice<Problem>("problem"));
   assign(input.body.method, body.choice<BodyMethod>("method"));
   if (input.body.method == BodyMethod::bonds) {
+    if (is_shell(input.body)) input.body.model = BodyModel::micropolar;
     assign(input.body.model, body.choice<BodyModel>("model"));
   }
   assign(input.analysis.type, document.table("analysis").choice<AnalysisType>("type"));
@@ -151,14 +152,15 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.supports = document.list("supports", about(read_support, input.body));
   input.displacements = document.list("displacements", about(read_displacement, input.body));
   input.velocities = document.list("velocities", about(read_displacement, input.body));
-  input.loads = document.list("loads", about(read_load, dim));
-  input.tractions = document.list("tractions", about(read_traction, dim));
+  input.loads = document.list("loads", about(read_load, input.body));
+  input.tractions = document.list("tractions", about(read_traction, input.body));
   input.point_loads = document.list("point_loads", about(read_point_load, input.body));
   input.symmetry = document.list("symmetry", about(read_symmetry, dim));
-  input.springs = document.list("springs", about(read_springs, dim));
+  const int axes = axes_of(input.body);
+  input.springs = document.list("springs", about(read_springs, axes));
   input.cracks = document.list("cracks", about(read_crack, dim));
   input.rebar = document.list("rebar", about(read_rebar, dim));
-  input.gauges = document.list("gauges", about(read_gauge, dim));
+  input.gauges = document.list("gauges", about(read_gauge, input.body));
   input.elements = read_elements(document.table("elements"));
   input.analysis = read_analysis(document.table("analysis"), input.analysis.type);
   const StopSection stop = read_stop(document.table("stop"));

@@ -234,7 +234,7 @@ void check_driven_once(const CaseFile& input, const Held& held, const std::strin
     for (int axis = 0; axis < 6; ++axis) {
       if (!section.value[axis]) continue;
       const Expression& value = *section.value[axis];
-      const std::string name = motion_name(dimension_of(input.body), axis);
+      const std::string name = motion_name(axes_of(input.body), axis);
       const SourceLocation where = input.where(item_key(table, i, name));
       if (!value.is_zero() && held.count({section.region, axis}) > 0) {
         throw InputError(where,

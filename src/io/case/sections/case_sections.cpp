@@ -20,7 +20,7 @@ constexpr int largest_count = std::numeric_limits<int>::max();
 /// Index in SupportSection::fix of what a support names.
 std::size_t find_held_component(const CaseTable& table, const BodySection& body,
                                 const std::string& name) {
-  const int dim = dimension_of(body);
+  const int dim = axes_of(body);
   const bool rotates = body.model == BodyModel::micropolar;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (name == axis_names[axis]) {
@@ -68,14 +68,14 @@ SupportSection read_support(const CaseTable& table, const BodySection& body) {
 }
 
 DisplacementSection read_displacement(const CaseTable& table, const BodySection& body) {
-  const int dim = dimension_of(body);
+  const int dim = axes_of(body);
   DisplacementSection driven;
   driven.region = table.need_region("that is driven");
   assign(driven.stage, table.text("stage"));
   bool any = false;
   for (std::size_t component = 0; component < 6; ++component) {
     if (dim == 2 && component >= 2 && component != 5) continue;
-    driven.value[component] = table.expression(motion_name(dim, component), dim);
+    driven.value[component] = table.expression(motion_name(dim, component), dimension_of(body));
     any = any || driven.value[component].has_value();
   }
   if (!any) {
@@ -85,12 +85,12 @@ DisplacementSection read_displacement(const CaseTable& table, const BodySection&
   return driven;
 }
 
-LoadSection read_load(const CaseTable& table, int dim) {
+LoadSection read_load(const CaseTable& table, const BodySection& body) {
   LoadSection load;
   load.region = table.need_region("that is loaded");
   table.need_one_of({"force", "body_force"});
-  load.force = table.vector("force", dim);
-  load.body_force = table.expressions("body_force", dim);
+  load.force = table.vector("force", axes_of(body));
+  load.body_force = table.expressions("body_force", axes_of(body), dimension_of(body));
   assign(load.stage, table.text("stage"));
   if (load.force ? *load.force == Vector3{} : load.body_force->is_zero()) {
     table.refuse(load.force ? "force" : "body_force", "is zero in every direction",

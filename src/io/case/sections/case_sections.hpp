@@ -22,13 +22,13 @@ void write_region(TomlWriter& out, const Region& region, int dim);
 MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index);
 SupportSection read_support(const CaseTable& table, const BodySection& body);
 DisplacementSection read_displacement(const CaseTable& table, const BodySection& body);
-LoadSection read_load(const CaseTable& table, int dim);
-TractionSection read_traction(const CaseTable& table, int dim);
+LoadSection read_load(const CaseTable& table, const BodySection& body);
+TractionSection read_traction(const CaseTable& table, const BodySection& body);
 PointLoadSection read_point_load(const CaseTable& table, const BodySection& body);
 SymmetrySection read_symmetry(const CaseTable& table, int dim);
 SpringSection read_springs(const CaseTable& table, int dim);
 CrackSection read_crack(const CaseTable& table, int dim);
-GaugeSection read_gauge(const CaseTable& table, int dim);
+GaugeSection read_gauge(const CaseTable& table, const BodySection& body);
 /// The load factors that an analysis must have.
 std::vector<double> read_load_factors(const CaseTable& table);
 AnalysisSection read_analysis(const CaseTable& table, AnalysisType type);

@@ -30,6 +30,7 @@ void write_body(TomlWriter& out, const BodySection& body) {
     out.write("torsion", body.torsion);
   }
   if (dimension_of(body) == 2) out.write("thickness", body.thickness);
+  out.write("radius", body.radius);
   if (is_lattice(body)) return write_lattice_body(out, body);
   out.write("mesh", body.mesh);
   out.write("mesh_size", body.mesh_size);
@@ -103,7 +104,8 @@ void write_loading(TomlWriter& out, const CaseFile& input, int dim) {
   }
 }
 
-void write_more_loading(TomlWriter& out, const CaseFile& input, int dim) {
+void write_more_loading(TomlWriter& out, const CaseFile& input) {
+  const int dim = axes_of(input.body);
   for (const TractionSection& section : input.tractions) {
     out.header("[[tractions]]");
     out.write("region", section.region);
@@ -113,7 +115,7 @@ void write_more_loading(TomlWriter& out, const CaseFile& input, int dim) {
   }
   for (const PointLoadSection& section : input.point_loads) {
     out.header("[[point_loads]]");
-    out.write("at", section.at, dim);
+    out.write("at", section.at, dimension_of(input.body));
     out.write("force", section.force, dim);
     write_stage_of(out, section.stage);
     if (section.moment == Vector3{}) continue;
@@ -183,8 +185,8 @@ std::string write_case(const CaseFile& input) {
   out.write("units", input.units);
   write_body(out, input.body);
   write_solid(out, input, dim);
-  write_loading(out, input, dim);
-  write_more_loading(out, input, dim);
+  write_loading(out, input, axes_of(input.body));
+  write_more_loading(out, input);
   for (const CrackSection& crack : input.cracks) write_crack(out, crack, dim);
   for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);
   write_gauges(out, input);

@@ -1,0 +1,111 @@
+#include "network/builder/shell_bonds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace perilink {
+namespace {
+
+/// The surface: a plane, or a cylinder about a line along y that touches it at x = 0 from below.
+struct MiddleSurface {
+  double radius;  ///< 0: flat
+
+  Vector3 at(double x, double y) const {
+    if (radius == 0.0) return {x, y, 0.0};
+    const double half = std::sin(0.5 * x / radius);
+    return {radius * std::sin(x / radius), y, -2.0 * radius * half * half};
+  }
+  Vector3 normal(double x) const {
+    if (radius == 0.0) return {0.0, 0.0, 1.0};
+    return {std::sin(x / radius), 0.0, std::cos(x / radius)};
+  }
+  /// Mean height over the chord between two points `around` apart along x.
+  double rise(double around) const {
+    if (radius == 0.0) return 0.0;
+    const double half = 0.5 * std::abs(around) / radius;
+    if (half < 1e-3) return radius * half * half / 3.0;
+    return radius * (std::sin(half) / half - std::cos(half));
+  }
+};
+
+void refuse_overlap(const Particles& sheet, double radius) {
+  if (radius == 0.0) return;
+  double lower = sheet.positions[0], upper = lower;
+  for (Index i = 0; i < sheet.size(); ++i) {
+    lower = std::min(lower, sheet.position(i)[0]);
+    upper = std::max(upper, sheet.position(i)[0]);
+  }
+  if (upper - lower < 2.0 * std::numbers::pi * radius) return;
+  throw std::invalid_argument("the sheet is longer than its cylinder is around");
+}
+
+/// The same particles with a third coordinate, zero.
+Particles in_space(const Particles& plane) {
+  Particles sheet = plane;
+  sheet.dim = 3;
+  sheet.positions.clear();
+  for (Index i = 0; i < plane.size(); ++i) {
+    const auto x = plane.position(i);
+    sheet.positions.insert(sheet.positions.end(), {x[0], x[1], 0.0});
+  }
+  return sheet;
+}
+
+/// Stiffness of a ribbon against shear across the sheet over k: that of a beam that bends, and that
+/// of the material, one after the other.
+double shear_ratio(double poissons_ratio, double length, double thickness) {
+  const double of_material = 5.0 * (1.0 - poissons_ratio) / (12.0 * (1.0 + poissons_ratio));
+  return 1.0 / (1.0 / of_material + length * length / (thickness * thickness));
+}
+
+void turn_facets(const MiddleSurface& surface, const Particles& sheet, Facets& facets) {
+  std::vector<double> turned;
+  for (Index f = 0; f < facets.size(); ++f) {
+    double x = 0.0;
+    const auto corners = facets.corners.row(f);
+    for (const Index i : corners) x += sheet.position(i)[0] / static_cast<double>(corners.size());
+    const auto area = facets.area_vector(f);
+    const Vector3 m = surface.normal(x);
+    turned.insert(turned.end(), {area[0] * m[2], area[1], -area[0] * m[0]});
+  }
+  facets.dim = 3;
+  facets.area_vectors = std::move(turned);
+}
+
+}  // namespace
+
+void make_shell(const NetworkInput& input, Network& network) {
+  refuse_overlap(network.particles, input.radius);
+  const MiddleSurface surface{input.radius};
+  Shell shell{in_space(network.particles), input.thickness, {}, {}, {}};
+  const Particles& sheet = shell.sheet;
+  network.particles = sheet;
+  for (Index i = 0; i < sheet.size(); ++i) {
+    const Vector3 point = surface.at(sheet.position(i)[0], sheet.position(i)[1]);
+    std::copy(point.begin(), point.end(), network.particles.positions.begin() + 3L * i);
+  }
+  Bonds bonds;
+  bonds.dim = 3;
+  for (Index e = 0; e < network.bonds.size(); ++e) {
+    const Index i = network.bonds.first[e], j = network.bonds.second[e];
+    const auto ratio = [&](Index particle) {
+      const Index material = sheet.material[particle];
+      return input.materials[material].poissons_ratio;
+    };
+    bonds.append(network.particles, i, j);
+    const double from = sheet.position(i)[0], to = sheet.position(j)[0];
+    const Vector3 normal = surface.normal(0.5 * (from + to));
+    shell.normals.insert(shell.normals.end(), normal.begin(), normal.end());
+    shell.rise.push_back(surface.rise(to - from));
+    shell.shear_ratio.push_back(
+        shear_ratio(0.5 * (ratio(i) + ratio(j)), bonds.lengths[e], input.thickness));
+  }
+  network.bonds = std::move(bonds);
+  turn_facets(surface, sheet, network.facets);
+  network.shell = std::move(shell);
+}
+
+}  // namespace perilink
