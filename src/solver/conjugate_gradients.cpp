@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
+#include "solver/energy_gains.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
@@ -13,31 +13,6 @@ namespace {
 
 /// r'z of a correction, near the energy of its error, over the energy that counts as no error.
 constexpr double nothing = 0.01;
-
-/// What the steps have brought. Energies of two windows of steps one after the other fall by a
-/// factor, and go on to. The slower the search, the longer the windows have to be.
-class Gains {
- public:
-  void add(double gain) { gains_.push_back(gain); }
-  /// Square root of the energy that was missing before the last window: its own and what a
-  /// geometric series of windows adds behind it. Infinite before there are two.
-  double error() const {
-    const std::size_t window = std::max(shortest, gains_.size() / 8);
-    if (gains_.size() < 2 * window) return std::numeric_limits<double>::infinity();
-    const auto sum_to = [&](std::size_t end) {
-      return std::accumulate(gains_.end() - static_cast<std::ptrdiff_t>(end + window),
-                             gains_.end() - static_cast<std::ptrdiff_t>(end), 0.0);
-    };
-    const double last = sum_to(0), before = sum_to(window);
-    const double ratio = before > 0.0 ? std::min(last / before, slowest) : 0.0;
-    return std::sqrt(last / (1.0 - ratio));
-  }
-
- private:
-  static constexpr std::size_t shortest = 6;
-  static constexpr double slowest = 0.999;
-  std::vector<double> gains_;
-};
 
 double dot(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -51,7 +26,7 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
   const std::size_t size = right.size();
   GradientsReport report;
   std::vector<double> r(right.begin(), right.end()), z(size), p(size), q(size);
-  Gains gains;
+  EnergyGains gains;
   const auto is_enough = [&] {
     return report.error <= enough * std::sqrt(std::max(report.energy, scale));
   };

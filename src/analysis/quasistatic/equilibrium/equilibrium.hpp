@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/quasistatic/equilibrium/box_factor.hpp"
 #include "analysis/quasistatic/equilibrium/constant_field.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
 #include "assembly/internal_force.hpp"
@@ -68,6 +69,8 @@ struct EquilibriumOptions {
   FactorRoute route = FactorRoute::in_place;
   double residual_tolerance = 1e-10;
   int threads = 1;
+  /// Conjugate gradients in place of a factor.
+  std::optional<BoxSolverOptions> boxes = {};
 };
 
 /// Pivots below this are computed again from energies: a body that is slender or about to separate
@@ -137,6 +140,12 @@ class Equilibrium {
   Freedom change_motion(const Unknowns& unknowns);
 
   const Factor& factor() const { return *factor_; }
+  const BoxFactor* boxes() const { return boxes_; }  ///< null where there is a factor
+
+  /// Whether an event of the element costs no solution by conjugate gradients.
+  bool is_prepared(Index element) const;
+  /// Elements that are likely to have events next, the likeliest first.
+  void expect(std::span<const Index> elements);
 
   // Constant loads beside those that grow: constant_loads.cpp.
 
@@ -175,6 +184,7 @@ class Equilibrium {
   void adopt_motion();
   void adopt_load();
   void factorize_anew();
+  std::vector<Index> unknowns_of(Index element) const;
   void find_driven_elements();
   void choose_current_unknowns();
   void choose_glanced(const std::vector<std::uint8_t>& current);
@@ -269,6 +279,7 @@ class Equilibrium {
   const Loads* loads_;
   EquilibriumOptions options_;
   std::unique_ptr<Factor> factor_;
+  BoxFactor* boxes_ = nullptr;  // the factor, where it is one
 
   /// Whether its shear and bending stay as they are until it breaks.
   bool keeps_shear(Index element) const { return has_kept_ && network_.law(element).keeps_shear(); }

@@ -1,0 +1,208 @@
+#include "analysis/quasistatic/equilibrium/box_factor.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "solver/block_gradients.hpp"
+
+namespace perilink {
+namespace {
+
+/// Columns of the window, at most: more cost more at every event than solving for them again.
+constexpr std::size_t most_blocks = 8, fewest_blocks = 2;
+
+/// Memory that the window may take where that leaves the fewest blocks.
+constexpr double most_bytes = 2e9;
+
+}  // namespace
+
+BoxFactor::BoxFactor(const Network& network, const BoxSolverOptions& options)
+    : network_(network), options_(options) {
+  options_.blocks = true;
+}
+
+void BoxFactor::begin(const Unknowns& unknowns, Secants secants,
+                      const std::vector<double>& ground) {
+  unknowns_ = &unknowns;
+  slot_of_ = unknowns.slots();
+  if (solver_) iterations_ += solver_->iterations();
+  solver_.reset();  // before there are two
+  ++begun_;
+  place_of_.assign(static_cast<std::size_t>(unknowns.count), no_index);
+  window_.clear();
+  forget();
+  solver_ = std::make_unique<BoxSolver>(network_, unknowns, secants, options_, &ground);
+}
+
+void BoxFactor::factorize(const SparseMatrix& /*matrix*/, std::span<const Index> /*groups*/) {
+  throw std::logic_error("there is no matrix to factorise, see begin()");
+}
+
+void BoxFactor::refactorize(const SparseMatrix& /*matrix*/) {
+  throw std::logic_error("there is no matrix to factorise, see begin()");
+}
+
+void BoxFactor::solve(std::span<const double> rhs, std::span<double> solution) {
+  solver_->solve(rhs, solution);
+}
+
+bool BoxFactor::holds(std::span<const Index> unknowns) const {
+  return std::all_of(unknowns.begin(), unknowns.end(),
+                     [&](Index unknown) { return place_of_[unknown] != no_index; });
+}
+
+void BoxFactor::forget() {
+  for (const Index unknown : window_) place_of_[unknown] = no_index;
+  window_.clear();
+  blocks_.clear();
+  shares_.resize(0, 0);
+  compliance_.resize(0, 0);
+}
+
+std::size_t BoxFactor::most_columns() const {
+  const double bytes = 8.0 * static_cast<double>(unknowns_->number.size()) * block_width;
+  const auto blocks = static_cast<std::size_t>(most_bytes / bytes);
+  return block_width * std::clamp(blocks, fewest_blocks, most_blocks);
+}
+
+/// Takes the unknowns of these vectors into the window, and with them those that are expected.
+void BoxFactor::need(std::span<const SparseVector> x) {
+  std::vector<Index> missing;
+  std::vector<std::uint8_t> listed(place_of_.size(), 0);
+  const auto list = [&](Index unknown) {
+    if (place_of_[unknown] != no_index || listed[unknown] != 0) return;
+    listed[unknown] = 1;
+    missing.push_back(unknown);
+  };
+  for (const SparseVector& column : x) std::ranges::for_each(column.rows, list);
+  if (missing.empty()) return;
+  if (window_.size() + block_width > most_columns()) {
+    forget();
+    missing.clear();
+    std::ranges::fill(listed, 0);
+    for (const SparseVector& column : x) std::ranges::for_each(column.rows, list);
+  }
+  for (const Index unknown : expected_) {
+    if (missing.size() < block_width) list(unknown);
+  }
+  expected_.clear();
+  take_in(missing);
+}
+
+/// Solves for columns and puts them at the end of the window.
+void BoxFactor::take_in(const std::vector<Index>& unknowns) {
+  const auto before = static_cast<Eigen::Index>(window_.size());
+  const auto size = before + static_cast<Eigen::Index>(unknowns.size());
+  std::vector<double> right(unknowns_->number.size() * block_width, 0.0);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    right[slot_of_[unknowns[k]] * block_width + k] = 1.0;
+    place_of_[unknowns[k]] = static_cast<Index>(window_.size());
+    window_.push_back(unknowns[k]);
+  }
+  blocks_.emplace_back(right.size());
+  solver_->solve_block(right, blocks_.back());
+  columns_solved_ += static_cast<Index>(unknowns.size());
+
+  // Places in the window go on behind those of full blocks alone: unused columns stay zero.
+  compliance_.conservativeResize(size, size);
+  Eigen::MatrixXd shares =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(blocks_.size() * block_width), size);
+  shares.topLeftCorner(shares_.rows(), before) = shares_;
+  shares_ = std::move(shares);
+  const double* columns = blocks_.back().data();
+  for (Eigen::Index k = before; k < size; ++k) {
+    const Eigen::Index c = k - before;
+    shares_(static_cast<Eigen::Index>((blocks_.size() - 1) * block_width) + c, k) = 1.0;
+    for (Eigen::Index w = 0; w < size; ++w) {
+      compliance_(w, k) = columns[slot_of_[window_[w]] * block_width + c];
+    }
+  }
+  compliance_.bottomLeftCorner(size - before, before) =
+      compliance_.topRightCorner(before, size - before).transpose();
+  const Eigen::MatrixXd own = compliance_.bottomRightCorner(size - before, size - before);
+  compliance_.bottomRightCorner(size - before, size - before) = 0.5 * (own + own.transpose());
+}
+
+/// The vector by places of the window.
+Eigen::VectorXd BoxFactor::in_window(const SparseVector& x) const {
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
+  for (int k = 0; k < x.size(); ++k) d[place_of_[x.rows[k]]] += x.values[k];
+  return d;
+}
+
+/// Blocks times weights, per unknown.
+std::vector<double> BoxFactor::motion_of(const Eigen::VectorXd& weights) const {
+  std::vector<double> motion(unknowns_->number.size(), 0.0);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::span<const double> own(weights.data() + b * block_width, block_width);
+    if (std::ranges::all_of(own, [](double weight) { return weight == 0.0; })) continue;
+    add_combination(blocks_[b], own, motion);
+  }
+  std::vector<double> result(slot_of_.size());
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = motion[slot_of_[k]];
+  return result;
+}
+
+std::vector<double> BoxFactor::columns(std::span<const SparseVector> x) {
+  need(x);
+  std::vector<double> result;
+  for (const SparseVector& column : x) {
+    const std::vector<double> motion = motion_of(shares_ * in_window(column));
+    result.insert(result.end(), motion.begin(), motion.end());
+  }
+  return result;
+}
+
+void BoxFactor::compliance(std::span<const SparseVector> x, std::span<double> result) {
+  need(x);
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      double sum = 0.0;
+      for (int k = 0; k < x[a].size(); ++k) {
+        for (int l = 0; l < x[b].size(); ++l) {
+          sum += x[a].values[k] * x[b].values[l] *
+                 compliance_(place_of_[x[a].rows[k]], place_of_[x[b].rows[l]]);
+        }
+      }
+      result[a * x.size() + b] = result[b * x.size() + a] = sum;
+    }
+  }
+}
+
+/// K^-1 goes to K^-1 + sign (K^-1 x) (K^-1 x)' / pivot.
+void BoxFactor::change(const Eigen::VectorXd& d, double pivot, double sign) {
+  const Eigen::VectorXd h = compliance_ * d, f = shares_ * d;
+  compliance_.noalias() += (sign / pivot) * h * h.transpose();
+  shares_.noalias() += (sign / pivot) * f * h.transpose();
+}
+
+void BoxFactor::downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
+                         std::span<const double> pivots, std::span<double> solution) {
+  need(x);
+  if (!solution.empty()) {
+    const std::vector<double> shares = extensions(x, load_changes, solution);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
+    for (std::size_t a = 0; a < x.size(); ++a) sum += shares[a] / pivots[a] * in_window(x[a]);
+    const std::vector<double> motion = motion_of(shares_ * sum);
+    for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
+  }
+  for (std::size_t a = 0; a < x.size(); ++a) change(in_window(x[a]), pivots[a], 1.0);
+}
+
+void BoxFactor::update(const SparseVector& x) {
+  double removed = 0.0;
+  compliance({&x, 1}, {&removed, 1});
+  change(in_window(x), 1.0 + removed, -1.0);
+}
+
+FactorStatistics BoxFactor::statistics() const {
+  FactorStatistics result;
+  result.size = static_cast<Index>(slot_of_.size());
+  result.entries = static_cast<double>(slot_of_.size()) * static_cast<double>(window_.size());
+  result.bytes = 8.0 * result.entries;
+  result.event_bytes = result.bytes;
+  result.factorizations = begun_;
+  return result;
+}
+
+}  // namespace perilink
