@@ -22,7 +22,8 @@ struct Outcome {
 
 Outcome outcome_of(const AnalysisBody& body, bool boxes, std::vector<double> load_factors) {
   DamageOptions options;
-  if (boxes) options.engine.boxes = {.edge = 3};
+  options.engine.solver = boxes ? LinearSolver::iterative : LinearSolver::direct;
+  options.engine.boxes.edge = 3;
   options.load_factors = std::move(load_factors);
   Recorder recorder;
   Outcome outcome;

@@ -19,7 +19,8 @@ namespace {
 
 constexpr int most_iterations = 20000;
 
-/// Particles of a box. Where the body is large, larger ones keep the coarse factor small.
+/// Particles of a box. Where the body is large, larger ones keep the coarse factor small, whose part
+/// is less beside the product of a block.
 Index particles_of_box(const Network& network, const BoxSolverOptions& options) {
   const bool plane = network.dim() == 2;
   const double edge = options.edge > 0                       ? options.edge

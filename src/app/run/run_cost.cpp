@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/run/summary.hpp"
+#include "base/block.hpp"
 #include "base/timer.hpp"
 
 namespace perilink {
@@ -18,6 +19,10 @@ constexpr double box_seconds_per_bond = 0.5e-6, box_seconds_per_frame_bond = 3e-
 constexpr double box_bytes_per_bond = 145.0, box_bytes_per_frame_bond = 580.0, box_bytes = 50e6;
 /// An event of the smallest body: row, bookkeeping, progress.
 constexpr double seconds_per_row = 35e-6;
+
+/// Columns that a window and its search for more hold, in blocks, and how much of a solution an
+/// event costs: a column more, solved for along with others.
+constexpr double blocks_of_a_window = 12.0, solutions_per_event = 0.3;
 
 /// Passes through the factor per break. A micropolar bond leaves with three modes in the plane and
 /// six in space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240
@@ -93,12 +98,16 @@ ExpectedCost expected_cost(const Network& network, const FactorStatistics& facto
   return cost;
 }
 
-ExpectedCost expected_cost_of_boxes(const Network& network) {
+ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
   const double bonds = network.num_elements();
   ExpectedCost cost;
   const bool frames = network.carries_moments();
   cost.memory = box_bytes + bonds * (frames ? box_bytes_per_frame_bond : box_bytes_per_bond);
   cost.factorization = bonds * (frames ? box_seconds_per_frame_bond : box_seconds_per_bond);
+  if (!events) return cost;
+  const double unknowns = static_cast<double>(network.particles.size()) * network.width();
+  cost.memory += blocks_of_a_window * block_width * 8.0 * unknowns;
+  cost.broken_bond = solutions_per_event * cost.factorization + seconds_per_row;
   return cost;
 }
 

@@ -1,6 +1,7 @@
 #include "analysis/quasistatic/equilibrium/box_factor.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "solver/block_gradients.hpp"
@@ -10,6 +11,9 @@ namespace {
 
 /// Columns of the window, at most: more cost more at every event than solving for them again.
 constexpr std::size_t most_blocks = 8, fewest_blocks = 2;
+
+/// Iterations of a block, over those of the first, from which on the boxes are made anew.
+constexpr double slower = 1.3;
 
 /// Memory that the window may take where that leaves the fewest blocks.
 constexpr double most_bytes = 2e9;
@@ -24,14 +28,21 @@ BoxFactor::BoxFactor(const Network& network, const BoxSolverOptions& options)
 void BoxFactor::begin(const Unknowns& unknowns, Secants secants,
                       const std::vector<double>& ground) {
   unknowns_ = &unknowns;
+  secants_ = secants;
+  ground_ = &ground;
   slot_of_ = unknowns.slots();
-  if (solver_) iterations_ += solver_->iterations();
-  solver_.reset();  // before there are two
   ++begun_;
   place_of_.assign(static_cast<std::size_t>(unknowns.count), no_index);
   window_.clear();
   forget();
-  solver_ = std::make_unique<BoxSolver>(network_, unknowns, secants, options_, &ground);
+  make_solver();
+}
+
+/// Boxes of the body as it is now, split along its cracks.
+void BoxFactor::make_solver() {
+  solver_.reset();  // before there are two
+  solver_ = std::make_unique<BoxSolver>(network_, *unknowns_, secants_, options_, ground_);
+  first_iterations_ = 0;
 }
 
 void BoxFactor::factorize(const SparseMatrix& /*matrix*/, std::span<const Index> /*groups*/) {
@@ -54,9 +65,38 @@ bool BoxFactor::holds(std::span<const Index> unknowns) const {
 void BoxFactor::forget() {
   for (const Index unknown : window_) place_of_[unknown] = no_index;
   window_.clear();
+  used_.clear();
   blocks_.clear();
   shares_.resize(0, 0);
   compliance_.resize(0, 0);
+}
+
+/// Half of the blocks are made free: the columns that were used last go over to what they are now.
+void BoxFactor::keep_latest() {
+  const std::size_t kept = std::min(blocks_.size() / 2 * block_width, window_.size());
+  std::vector<Eigen::Index> places(window_.size());
+  std::iota(places.begin(), places.end(), 0);
+  std::stable_sort(places.begin(), places.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return used_[a] > used_[b]; });
+  places.resize(kept);
+  const std::size_t columns = (kept + block_width - 1) / block_width * block_width;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> shares =
+      Eigen::MatrixXd::Zero(shares_.rows(), static_cast<Eigen::Index>(columns));
+  shares.leftCols(static_cast<Eigen::Index>(kept)) = shares_(Eigen::all, places);
+  recombine(blocks_, {shares.data(), static_cast<std::size_t>(shares.size())});
+  compliance_ = Eigen::MatrixXd(compliance_(places, places));
+  shares_ = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(columns),
+                                      static_cast<Eigen::Index>(kept));
+  std::vector<Index> window;
+  std::vector<int> used;
+  for (const Index unknown : window_) place_of_[unknown] = no_index;
+  for (const Eigen::Index place : places) {
+    place_of_[window_[place]] = static_cast<Index>(window.size());
+    window.push_back(window_[place]);
+    used.push_back(used_[place]);
+  }
+  window_ = std::move(window);
+  used_ = std::move(used);
 }
 
 std::size_t BoxFactor::most_columns() const {
@@ -76,12 +116,13 @@ void BoxFactor::need(std::span<const SparseVector> x) {
   };
   for (const SparseVector& column : x) std::ranges::for_each(column.rows, list);
   if (missing.empty()) return;
-  if (window_.size() + block_width > most_columns()) {
-    forget();
-    missing.clear();
-    std::ranges::fill(listed, 0);
-    for (const SparseVector& column : x) std::ranges::for_each(column.rows, list);
+  ++now_;
+  for (const SparseVector& column : x) {
+    for (const Index unknown : column.rows) {
+      if (place_of_[unknown] != no_index) used_[place_of_[unknown]] = now_;
+    }
   }
+  if ((blocks_.size() + 1) * block_width > most_columns()) keep_latest();
   for (const Index unknown : expected_) {
     if (missing.size() < block_width) list(unknown);
   }
@@ -98,9 +139,12 @@ void BoxFactor::take_in(const std::vector<Index>& unknowns) {
     right[slot_of_[unknowns[k]] * block_width + k] = 1.0;
     place_of_[unknowns[k]] = static_cast<Index>(window_.size());
     window_.push_back(unknowns[k]);
+    used_.push_back(now_);
   }
   blocks_.emplace_back(right.size());
-  solver_->solve_block(right, blocks_.back());
+  const int iterations = solver_->solve_block(right, blocks_.back()).iterations;
+  if (first_iterations_ == 0) first_iterations_ = iterations;
+  if (iterations > slower * first_iterations_) make_solver();
   columns_solved_ += static_cast<Index>(unknowns.size());
 
   // Places in the window go on behind those of full blocks alone: unused columns stay zero.
@@ -124,9 +168,13 @@ void BoxFactor::take_in(const std::vector<Index>& unknowns) {
 }
 
 /// The vector by places of the window.
-Eigen::VectorXd BoxFactor::in_window(const SparseVector& x) const {
+Eigen::VectorXd BoxFactor::in_window(const SparseVector& x) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
-  for (int k = 0; k < x.size(); ++k) d[place_of_[x.rows[k]]] += x.values[k];
+  ++now_;
+  for (int k = 0; k < x.size(); ++k) {
+    d[place_of_[x.rows[k]]] += x.values[k];
+    used_[place_of_[x.rows[k]]] = now_;
+  }
   return d;
 }
 
@@ -201,6 +249,8 @@ FactorStatistics BoxFactor::statistics() const {
   result.entries = static_cast<double>(slot_of_.size()) * static_cast<double>(window_.size());
   result.bytes = 8.0 * result.entries;
   result.event_bytes = result.bytes;
+  // To begin anew costs two solutions: some hundred products of ten operations for each bond.
+  result.flops = 1000.0 * static_cast<double>(network_.num_elements());
   result.factorizations = begun_;
   return result;
 }

@@ -40,14 +40,15 @@ class BoxFactor final : public Factor {
   int factorizations() const override { return begun_; }
   FactorStatistics statistics() const override;
 
-  int iterations() const { return iterations_ + (solver_ ? solver_->iterations() : 0); }
   Index columns_solved() const { return columns_solved_; }
 
  private:
   void need(std::span<const SparseVector> x);
   void forget();
+  void keep_latest();
+  void make_solver();
   void take_in(const std::vector<Index>& unknowns);
-  Eigen::VectorXd in_window(const SparseVector& x) const;
+  Eigen::VectorXd in_window(const SparseVector& x);
   std::vector<double> motion_of(const Eigen::VectorXd& weights) const;
   void change(const Eigen::VectorXd& d, double pivot, double sign);
   std::size_t most_columns() const;
@@ -55,17 +56,22 @@ class BoxFactor final : public Factor {
   const Network& network_;
   BoxSolverOptions options_;
   const Unknowns* unknowns_ = nullptr;
+  Secants secants_;
+  const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<BoxSolver> solver_;
+  int first_iterations_ = 0;          ///< of the first block with these boxes
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
   std::vector<Index> expected_;
   std::vector<Index> window_;    ///< unknowns whose columns are at hand
   std::vector<Index> place_of_;  ///< per unknown: its place in the window, or no_index
+  std::vector<int> used_;        ///< per place: when an event used it last
+  int now_ = 0;                  ///< events and calls so far
   /// Columns of K^-1 as it was when they were solved for, block after block, each of shape
   /// (particles, width, block_width).
   std::vector<std::vector<double>> blocks_;
   Eigen::MatrixXd shares_;      ///< F: the present columns are those of the blocks times F
   Eigen::MatrixXd compliance_;  ///< H: rows of the window of the present columns
-  int begun_ = 0, iterations_ = 0;
+  int begun_ = 0;
   Index columns_solved_ = 0;
 };
 

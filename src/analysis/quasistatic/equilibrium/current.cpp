@@ -90,6 +90,13 @@ void Equilibrium::keep_all_current() {
   partial_ = false;
 }
 
+bool is_followed_by_boxes(const LoadedNetwork& problem, LinearSolver solver) {
+  constexpr Index most_for_a_factor = 60000;
+  if (solver != LinearSolver::automatic) return solver == LinearSolver::iterative;
+  return problem.network.dim() == 3 && problem.unknowns.count > most_for_a_factor &&
+         problem.sets.empty() && !problem.carried && !problem.network.has_closing();
+}
+
 std::vector<Index> Equilibrium::unknowns_of(Index element) const {
   std::vector<Index> unknowns;
   const int width = network_.width();

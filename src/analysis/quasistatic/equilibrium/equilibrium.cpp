@@ -49,8 +49,8 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
       options_(options),
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
       has_kept_(network_.has_kept_shear()) {
-  if (options.boxes) {
-    auto boxes = std::make_unique<BoxFactor>(network_, *options.boxes);
+  if (is_followed_by_boxes(problem, options.solver)) {
+    auto boxes = std::make_unique<BoxFactor>(network_, options.boxes);
     boxes_ = boxes.get();
     factor_ = std::move(boxes);
   } else {

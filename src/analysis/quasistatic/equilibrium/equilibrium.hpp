@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "network/loaded_network.hpp"
 #include "solver/factor_routes.hpp"
+#include "solver/linear_solver.hpp"
 
 namespace perilink {
 
@@ -69,9 +70,14 @@ struct EquilibriumOptions {
   FactorRoute route = FactorRoute::in_place;
   double residual_tolerance = 1e-10;
   int threads = 1;
-  /// Conjugate gradients in place of a factor.
-  std::optional<BoxSolverOptions> boxes = {};
+  LinearSolver solver = LinearSolver::automatic;
+  BoxSolverOptions boxes = {};  ///< where conjugate gradients take the factor's place
 };
+
+/// Whether conjugate gradients take the place of a factor that follows every event: where they are
+/// chosen, or a factor would take more memory than most machines have (docs/theory/large_bodies.md,
+/// section 5).
+bool is_followed_by_boxes(const LoadedNetwork& problem, LinearSolver solver);
 
 /// Pivots below this are computed again from energies: a body that is slender or about to separate
 /// has a condition number that takes most digits of what the factor says.
@@ -140,7 +146,6 @@ class Equilibrium {
   Freedom change_motion(const Unknowns& unknowns);
 
   const Factor& factor() const { return *factor_; }
-  const BoxFactor* boxes() const { return boxes_; }  ///< null where there is a factor
 
   /// Whether an event of the element costs no solution by conjugate gradients.
   bool is_prepared(Index element) const;
