@@ -9,7 +9,7 @@ namespace perilink {
 
 /// Whether ranks can share the work on a network: their parts have bonds and springs, no more.
 inline bool can_be_shared(const Network& network, const Unknowns& unknowns) {
-  return !network.has_states() && !network.cells && !unknowns.carries();
+  return !network.has_states() && !network.cells && !network.shell && !unknowns.carries();
 }
 
 /// All ranks at work on one body, seen from the one that leads. The others are in serve().
