@@ -27,8 +27,9 @@ struct PlotBody {
   /// About the distance to the nearest particles [length]; less at surfaces, where particles have
   /// half a cell or less.
   std::vector<double> sizes;
-  std::vector<double> stress;  ///< von Mises [force/length^2]; of elastic analyses, else empty
-  std::vector<int> kind;       ///< 0 solid, 1 ghost, 2 rebar
+  std::vector<double> openings;  ///< per broken bond [length]; empty: not in the file
+  std::vector<double> stress;    ///< von Mises [force/length^2]; of elastic analyses, else empty
+  std::vector<int> kind;         ///< 0 solid, 1 ghost, 2 rebar
   std::vector<Ends> broken_bonds;
   std::vector<Ends> segments;
   std::vector<double> bar_stress;  ///< per segment [force/length^2]; empty: not in the file
