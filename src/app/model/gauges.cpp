@@ -7,7 +7,6 @@
 
 #include "app/model/model_regions.hpp"
 #include "app/results/history_file.hpp"
-#include "assembly/fields.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
 
@@ -99,33 +98,30 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
   return gauges;
 }
 
-StressInput stress_input(const Model& model, const Csr& families) {
-  return {model.network, families, model.problem, model.hooke, model.elements.has_value()};
+StressInput stress_input(const Model& model, const Csr& families, Secants secants) {
+  return {model.network, families, model.problem, model.hooke, model.elements.has_value(), secants};
 }
 
-std::vector<double> gauge_values(const Model& model, std::span<const double> motion,
-                                 double load_factor) {
+std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& families) {
   const std::size_t width = model.network.width();
-  Csr families;
-  std::vector<double> displacement;  // where a stress is measured
   std::vector<double> values;
   for (const Gauge& gauge : model.gauges) {
     if (!gauge.stress) {
-      values.push_back(load_factor * gauge_value(gauge, model.network.dim(), [&](Index i, int a) {
-                         return motion[i * width + a];
+      values.push_back(state.scale * gauge_value(gauge, model.network.dim(), [&](Index i, int a) {
+                         return state.motion[i * width + a];
                        }));
       continue;
     }
     if (families.rows() == 0) {
-      families = bonds_of_particles(model.network.bonds, model.network.places().size());
-      displacement = translations(model.network, motion);
+      families = bonds_of_particles(model.network.bonds, model.network.particles.size());
     }
+    const StressInput input = stress_input(model, families, state.secants);
     double value = 0.0;
     for (const Gauge::Term& term : gauge.terms) {
-      const Stress stress = stress_at(stress_input(model, families), displacement, term.particle);
-      value += term.weight * stress[number_of(*gauge.stress)];
+      value +=
+          term.weight * stress_at(input, state.motion, term.particle)[number_of(*gauge.stress)];
     }
-    values.push_back(load_factor * value);
+    values.push_back(state.scale * value);
   }
   return values;
 }

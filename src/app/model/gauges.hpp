@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "app/model/model.hpp"
-#include "assembly/stress.hpp"
+#include "app/model/model_state.hpp"
+#include "assembly/results/stress.hpp"
 #include "base/csr.hpp"
 
 namespace perilink {
@@ -29,13 +30,12 @@ double gauge_value(const Gauge& gauge, int dim, Displacement displacement) {
   return value;
 }
 
-/// Values of all gauges at a load factor.
-/// \param motion  at load factor 1, shape (particles, width) [length]
-std::vector<double> gauge_values(const Model& model, std::span<const double> motion,
-                                 double load_factor);
+/// Values of all gauges.
+/// \param families  bonds of each particle; filled when a gauge needs them, for the next call
+std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& families);
 
-/// What stresses at the particles of an elastic model are found from.
+/// What stresses at the particles of a model are found from.
 /// \param families  bonds of each particle; must outlive the result
-StressInput stress_input(const Model& model, const Csr& families);
+StressInput stress_input(const Model& model, const Csr& families, Secants secants = {});
 
 }  // namespace perilink

@@ -34,6 +34,7 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
   const bool has_particles =
       !element.empty() && element.front() == static_cast<double>(FieldElement::particle);
   const VtuArray* stress = grid.find_cell_data("axial_stress");
+  const VtuArray* opening = grid.find_cell_data("crack_opening");
   for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
     const std::size_t end = static_cast<std::size_t>(grid.offsets[cell]);
     const bool outlined = element[cell] == static_cast<double>(FieldElement::carrier) ||
@@ -50,6 +51,7 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
     const Ends ends{grid.connectivity[end - 2], grid.connectivity[end - 1]};
     const bool bar = element[cell] == static_cast<double>(FieldElement::rebar_segment);
     (bar ? body.segments : body.broken_bonds).push_back(ends);
+    if (!bar && opening != nullptr) body.openings.push_back(opening->values[cell]);
     if (bar && stress != nullptr) body.bar_stress.push_back(stress->values[cell]);
   }
 }
@@ -101,7 +103,10 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
   read_lines(grid, values_of(grid.find_cell_data("element"), "element", 1, path), body);
   body.is_sheet = body.dim == 3 && grid.field("thickness", 0.0) > 0.0;
   body.sizes = particle_sizes(grid, body);
-  if (const VtuArray* stress = grid.find_point_data("stress"); stress && stress->components == 6) {
+  // What can break is coloured by its damage.
+  const VtuArray* stress = grid.find_point_data("stress");
+  const bool breaks = grid.find_point_data("crack_opening") != nullptr;
+  if (!breaks && stress != nullptr && stress->components == 6) {
     for (std::size_t i = 0; i < body.positions.size(); ++i) {
       body.stress.push_back(von_mises(stress->values.data() + 6 * i));
     }

@@ -20,7 +20,6 @@ namespace {
 constexpr int shades = 40;
 constexpr const char* ghost_style =
     "stroke=\"#9aa3ad\" stroke-linecap=\"round\" fill=\"none\" stroke-opacity=\"0.7\"";
-constexpr const char* face_color = "#5a0a12";
 constexpr const char* element_style = "stroke=\"#7d8894\" stroke-width=\"0.8\"";
 
 std::string stroke_width(double pixels) { return fmt::format("stroke-width=\"{:.2f}\"", pixels); }
@@ -125,12 +124,32 @@ void draw_balls(Svg& svg, const Scene& scene) {
   svg.close_group();
 }
 
+/// Crack faces by their opening, in steps from closed to the widest.
+constexpr int opening_steps = 6;
+
+std::string face_style(int step, double width) {
+  const double part = static_cast<double>(step) / opening_steps;
+  const auto mixed = [&](int from, int to) { return std::lround(from + part * (to - from)); };
+  return fmt::format("fill=\"none\" stroke=\"#{:02x}{:02x}{:02x}\" stroke-linecap=\"round\" {}",
+                     mixed(0x5a, 0x12), mixed(0x0a, 0x8c), mixed(0x12, 0xff),
+                     stroke_width(width * (1.0 + part)));
+}
+
+/// Of all broken bonds; zero where the file has no openings.
+double largest_opening(const PlotBody& body) {
+  double largest = 0.0;
+  for (const double opening : body.openings) largest = std::max(largest, opening);
+  return largest;
+}
+
 /// A broken bond between nearest neighbours shows as the face between their cells, once on either
 /// side: closed cracks become one line, open ones two. Longer bonds would only hide the crack.
 void draw_crack_faces(Svg& svg, const Scene& scene) {
   const double nearest = scene.square ? 1.2 : 1.5;  // sizes are those of halved cells at surfaces
-  SvgPath path;
-  for (const auto& [i, j] : scene.body.broken_bonds) {
+  const double widest = largest_opening(scene.body);
+  std::map<int, SvgPath> paths;
+  for (std::size_t k = 0; k < scene.body.broken_bonds.size(); ++k) {
+    const auto [i, j] = scene.body.broken_bonds[k];
     const Vector3& from = scene.body.positions[i];
     const Vector3& to = scene.body.positions[j];
     const double dx = to[0] - from[0];
@@ -138,6 +157,11 @@ void draw_crack_faces(Svg& svg, const Scene& scene) {
     const double length = std::hypot(dx, dy);
     const double size = std::max(scene.body.sizes[i], scene.body.sizes[j]);
     if (!(length > 0.0) || length > nearest * size) continue;
+    const int step =
+        widest > 0.0
+            ? static_cast<int>(std::lround(opening_steps * scene.body.openings[k] / widest))
+            : 0;
+    SvgPath& path = paths[step];
     const double face = (scene.square ? 1.0 : 0.62) * size * scene.page.pixels;
     const SvgPoint half_face{0.5 * face * dy / length, 0.5 * face * dx / length};
     for (const auto& [end, side] : {std::pair{i, 0.5}, std::pair{j, -0.5}}) {
@@ -150,8 +174,7 @@ void draw_crack_faces(Svg& svg, const Scene& scene) {
     }
   }
   const double width = std::clamp(0.09 * scene.spacing_px(), 0.5, 2.2);
-  svg.path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\" {}", face_color,
-                             stroke_width(width)));
+  for (const auto& [step, path] : paths) svg.path(path, face_style(step, width));
 }
 
 /// How much longer a line between two particles is than in the undeformed body, in spacings.
@@ -256,8 +279,10 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
     if (scene.body.elements.rows() > 0) key.push_back({"finite element", element_style});
     draw_bond_hairlines(svg, scene);
     draw_crack_faces(svg, scene);
-    if (!scene.body.broken_bonds.empty()) {
-      key.push_back({"crack face", fmt::format("stroke=\"{}\" stroke-width=\"2\"", face_color)});
+    if (!scene.body.broken_bonds.empty()) key.push_back({"crack face", face_style(0, 2.0)});
+    if (const double widest = largest_opening(scene.body); widest > 0.0) {
+      key.push_back(
+          {"crack face, opened by " + short_number(widest), face_style(opening_steps, 2.0)});
     }
   }
   draw_bars(svg, scene, key);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assembly/fields.hpp"
+#include "material/principal_values.hpp"
 
 namespace perilink {
 namespace {
@@ -135,6 +136,40 @@ void add_bars(VtuGrid& grid, const BarState& bars) {
   add("axial_stress", bars.stress);
   add("slip", bars.slip);
   add("bond_stress", bars.bond_stress);
+}
+
+void add_stresses(VtuGrid& grid, std::vector<double> stresses, int dim) {
+  constexpr std::size_t width = SymmetricTensor{}.size();
+  std::vector<double> principal, first, last;
+  for (std::size_t at = 0; at < stresses.size(); at += width) {
+    SymmetricTensor stress{}, opposite{};
+    for (std::size_t c = 0; c < width; ++c) opposite[c] = -(stress[c] = stresses[at + c]);
+    const PrincipalValues values = principal_values(stress, dim);
+    principal.insert(principal.end(), {values.first, values.middle, dim == 2 ? 0.0 : values.last});
+    const Vector3 most = principal_direction(stress, dim);
+    const Vector3 least = principal_direction(opposite, dim);
+    first.insert(first.end(), most.begin(), most.end());
+    last.insert(last.end(), least.begin(), least.end());
+  }
+  grid.point_data.push_back({"stress", 6, std::move(stresses)});
+  grid.point_data.push_back({"principal_stress", 3, std::move(principal)});
+  grid.point_data.push_back({"first_principal_direction", 3, std::move(first)});
+  grid.point_data.push_back({"last_principal_direction", 3, std::move(last)});
+}
+
+void add_openings(VtuGrid& grid, const Network& network, const CrackOpenings& openings,
+                  std::span<const Index> broken_elements_in_order) {
+  grid.point_data.push_back({"crack_opening", 1, openings_at_particles(network, openings)});
+  std::vector<double> of_cells(grid.types.size(), 0.0);
+  std::size_t cell = network.particles.volumes.size();
+  for (const Index e : broken_elements_in_order) {
+    const auto place = std::lower_bound(openings.bonds.begin(), openings.bonds.end(), e);
+    if (place != openings.bonds.end() && *place == e) {
+      of_cells[cell] = openings.opening[static_cast<std::size_t>(place - openings.bonds.begin())];
+    }
+    ++cell;
+  }
+  grid.cell_data.push_back({"crack_opening", 1, std::move(of_cells)});
 }
 
 void add_carriers(VtuGrid& grid, const Particles& particles, const Carriers& carriers,

@@ -5,6 +5,7 @@
 
 #include "assembly/bar_state.hpp"
 #include "assembly/linear_elements.hpp"
+#include "assembly/results/crack_state.hpp"
 #include "base/csr.hpp"
 #include "discretization/carriers/carriers.hpp"
 #include "io/fields/vtu.hpp"
@@ -51,6 +52,17 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
 /// Adds what bars bear as fields of cells, zero but for their segments: axial_strain, axial_force,
 /// axial_stress, slip and bond_stress (BarState). Before anything else is added to the cells.
 void add_bars(VtuGrid& grid, const BarState& bars);
+
+/// Adds stresses as fields of points: stress, principal_stress (largest first; in the plane or in
+/// space) and the unit vectors first_principal_direction and last_principal_direction.
+/// \param stresses  particle_stresses()
+void add_stresses(VtuGrid& grid, std::vector<double> stresses, int dim);
+
+/// Adds crack_opening: of each particle the largest of its damaged bonds, as a field of points; of
+/// each broken bond its own, as a field of cells. Before anything else is added to the cells.
+/// \param broken_elements_in_order  as the grid was made with
+void add_openings(VtuGrid& grid, const Network& network, const CrackOpenings& openings,
+                  std::span<const Index> broken_elements_in_order);
 
 /// Adds the finite elements that carry particles, between those nearest to their corners:
 /// quadrilaterals in the plane, hexahedra in space.

@@ -10,6 +10,7 @@
 #include "app/model/body/particle_model.hpp"
 #include "app/model/from_case/lattice_case.hpp"
 #include "app/model/gauges.hpp"
+#include "app/model/reactions.hpp"
 #include "app/process/signals.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
@@ -84,7 +85,10 @@ void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunStat
     VtuGrid grid =
         make_field_grid(model_.network, state.bonds.secants(), state.motion.displacement, moment,
                         bonds_break ? state.broken : std::vector<Index>{}, families_);
-    if (bonds_break) return grid;
+    if (bonds_break) {
+      add_forces_and_cracks(grid, record, state);
+      return grid;
+    }
     number_cracks(grid, state.broken);
     for (VtuArray& field : grid.point_data) {
       if (field.name == "damage") field.values = state.bonds.damage();
@@ -93,8 +97,31 @@ void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunStat
   });
 }
 
+/// Bonds turn with the body where strains are Green's, and small strains are none then.
+void MovingBondsRun::add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record,
+                                           const BondRunState& state) {
+  const std::vector<double> secants = state.bonds.secants();
+  const std::vector<double>& motion = state.motion.displacement;
+  const CrackOpenings openings = crack_openings(model_.network, families_, secants, motion);
+  add_openings(grid, model_.network, openings, state.broken);
+  cracks_ = widest_cracks(model_.network, openings);
+  if (input.analysis.strain == Strain::green) return;
+  add_stresses(grid, particle_stresses(stress_input(model_, families_, secants), motion),
+               model_.network.dim());
+  if (const auto places = held_places(input, model_); !places.empty()) {
+    files_->write_table("reactions", record.step,
+                        reaction_table(places, model_, {secants, motion, 1.0, record.load_factor}));
+  }
+}
+
 void MovingBondsRun::on_row(const ExplicitRecord& record, const BondRunState& state) {
-  files_->add_row(record, gauge_values(model_, state.motion.displacement, 1.0));
+  std::vector<double> gauges;
+  if (!model_.gauges.empty()) {
+    const std::vector<double> secants = state.bonds.secants();
+    gauges = gauge_values(model_, {secants, state.motion.displacement, 1.0, record.load_factor},
+                          families_);
+  }
+  files_->add_row(record, gauges);
   if (files_->fields_are_due(record.time)) write_state(record, state);
   files_->show_steps(record, steps_);
 }
@@ -137,6 +164,7 @@ class BondRun final : public MovingBondsRun {
     MotionExtras extras;
     if (model_.particle_fit) extras.constants = fit_json(*model_.particle_fit);
     tell_motion(summary, input, files(), result_, extras);
+    tell_cracks(summary, cracks_);
     tell_body(summary, model_);
     summary.rate = bond_rate(result_.steps);
     const double length = longest_side(model_.network.particles);

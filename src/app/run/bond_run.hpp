@@ -29,9 +29,12 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   void on_iteration(Index load_step, Index iteration, double residual) override;
   bool stop_requested() override;
   void write_state(const ExplicitRecord& record, const BondRunState& state);
+  void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record,
+                             const BondRunState& state);
 
-  Index steps_ = 0;         ///< in the whole run
-  Index loose_pieces_ = 0;  ///< parts of the broken body at the end that nothing holds
+  Index steps_ = 0;                ///< in the whole run
+  std::vector<ToldCrack> cracks_;  ///< in the last field file
+  Index loose_pieces_ = 0;         ///< parts of the broken body at the end that nothing holds
 
  private:
   Csr families_;

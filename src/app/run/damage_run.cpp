@@ -23,6 +23,8 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
   if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   plan += fmt::format(", {} unknowns", model_.unknowns.count);
+  // The sets of loads of stages have load factors of their own, which rows do not tell.
+  if (input.stages.empty()) places_held_ = held_places(input, model_);
 }
 
 void DamageRun::analyse() {
@@ -72,6 +74,7 @@ void DamageRun::tell(Summary& summary) const {
   summary.add_note(note_of_peaks(result_, model_, broken_));
   tell_quasistatic(summary, input, model_, found, seconds.analysis);
   tell_stages(summary, input, result_.stages);
+  tell_cracks(summary, cracks_);
   if (model_.carried) tell_elements(summary);
 }
 
@@ -140,6 +143,10 @@ bool DamageRun::wants_fields(const StepRecord& record) const {
   return every && broken_bonds / *every != last / *every;
 }
 
+ModelState DamageRun::model_state(const StepRecord& record, const StepState& state) const {
+  return {state.secants, state.displacement, scale_of(record), record.load_factor};
+}
+
 void DamageRun::write_state(const StepRecord& record, StateSource& source) {
   const Network& network = model_.network;
   files_->write_fields(record.step, record.step, [&] {
@@ -151,10 +158,19 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     for (double& u : motion) u *= scale_of(record);
     VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
                                    broken_, families_);
+    add_stresses(grid, particle_stresses(stress_input(model_, families_, state.secants), motion),
+                 network.dim());
+    const CrackOpenings openings = crack_openings(network, families_, state.secants, motion);
+    add_openings(grid, network, openings, broken_);
+    cracks_ = widest_cracks(network, openings);
+    if (!places_held_.empty()) {
+      files_->write_table("reactions", record.step,
+                          reaction_table(places_held_, model_, model_state(record, state)));
+    }
     if (!network.bars.bar.empty()) {
       const BarState bars = bar_state(network, state.secants, motion);
       add_bars(grid, bars);
-      files_->write_bars(record.step, bar_table(network, bars));
+      files_->write_table("bars", record.step, bar_table(network, bars));
     }
     if (model_.carried) {
       add_carriers(grid, network.particles, model_.carried->carriers, state.whole);
@@ -189,9 +205,10 @@ void DamageRun::show_progress(const StepRecord& record) {
 void DamageRun::on_step(const StepRecord& record, StateSource& source) {
   note_broken(record, source);
   note_places(record, source);
-  files_->add_row(record, model_.gauges.empty() ? std::vector<double>{}
-                                                : gauge_values(model_, source.state().displacement,
-                                                               scale_of(record)));
+  std::vector<double> gauges;
+  if (!model_.gauges.empty())
+    gauges = gauge_values(model_, model_state(record, source.state()), families_);
+  files_->add_row(record, gauges);
   show_progress(record);
   if (wants_fields(record)) write_state(record, source);
   last_element_ = record.element;

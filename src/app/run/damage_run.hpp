@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "app/model/reactions.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/csr.hpp"
@@ -24,6 +25,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
 
  private:
   double scale_of(const StepRecord& record) const;
+  ModelState model_state(const StepRecord& record, const StepState& state) const;
   void note_places(const StepRecord& record, StateSource& source);
   void tell_elements(Summary& summary) const;
   void begin_again(const LateConversion& late);
@@ -37,10 +39,12 @@ class DamageRun final : public NetworkRun, public StepObserver {
   Csr families_;                ///< made with the first field file
   std::vector<Index> broken_;   ///< bonds and ties, in the order of breaking
   std::vector<std::uint8_t> is_broken_;
-  Index last_element_ = no_index;   ///< that failed at the end of the last row
-  Index broken_at_fields_ = 0;      ///< number of broken bonds in the last field file
-  Index last_stage_ = 0;            ///< where the last row was
-  double highest_ = 0.0;            ///< |load| so far
+  Index last_element_ = no_index;  ///< that failed at the end of the last row
+  Index broken_at_fields_ = 0;     ///< number of broken bonds in the last field file
+  Index last_stage_ = 0;           ///< where the last row was
+  double highest_ = 0.0;           ///< |load| so far
+  std::vector<HeldPlace> places_held_;
+  std::vector<ToldCrack> cracks_;   ///< in the last field file
   std::vector<PlaceForce> places_;  ///< in the row of the largest |load|, where there are several
 };
 

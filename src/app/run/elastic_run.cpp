@@ -1,19 +1,18 @@
 #include <optional>
 
 #include "app/model/gauges.hpp"
+#include "app/model/reactions.hpp"
 #include "app/results/bar_file.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
-#include "assembly/fields.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {
 namespace {
 
-VtuGrid make_grid(const Model& model, std::span<const double> displacement,
+VtuGrid make_grid(const Model& model, const Csr& families, std::span<const double> displacement,
                   const std::optional<BarState>& bars, const FieldMoment& moment) {
   const Network& network = model.network;
-  const Csr families = bonds_of_particles(network.bonds, network.particles.size());
   const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
   VtuGrid grid = model.elements
                      ? make_element_grid(*model.elements, network.particles, displacement, moment)
@@ -23,9 +22,7 @@ VtuGrid make_grid(const Model& model, std::span<const double> displacement,
     add_carriers(grid, network.particles, model.carried->carriers, model.carried->whole);
   }
   if (network.shell) return grid;  // faces have stresses of their own
-  grid.point_data.push_back(
-      {"stress", 6,
-       particle_stresses(stress_input(model, families), translations(network, displacement))});
+  add_stresses(grid, particle_stresses(stress_input(model, families), displacement), network.dim());
   return grid;
 }
 
@@ -50,16 +47,23 @@ class ElasticRun final : public NetworkRun {
                                        1.0);
       places_ = place_forces(model_, row.load_factor, intact, displacement);
     }
-    files_->add_row(row, gauge_values(model_, displacement, row.load_factor));
+    const ModelState state{{}, displacement};
+    files_->add_row(row, gauge_values(model_, state, families_));
+    if (const auto places = held_places(input, model_); !places.empty()) {
+      files_->write_table("reactions", row.step, reaction_table(places, model_, state));
+    }
     std::optional<BarState> bars;
     if (!model_.network.bars.bar.empty()) {
       const std::vector<double> intact(static_cast<std::size_t>(model_.network.num_elements()),
                                        1.0);
       bars = bar_state(model_.network, intact, displacement);
-      files_->write_bars(row.step, bar_table(model_.network, *bars));
+      files_->write_table("bars", row.step, bar_table(model_.network, *bars));
     }
     files_->write_fields(row.step, row.step, [&] {
-      return make_grid(model_, displacement, bars, moment_of(row, input, model_));
+      if (families_.rows() == 0) {
+        families_ = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
+      }
+      return make_grid(model_, families_, displacement, bars, moment_of(row, input, model_));
     });
   }
 
@@ -80,6 +84,7 @@ class ElasticRun final : public NetworkRun {
  private:
   ElasticAnswer answer_;
   std::vector<PlaceForce> places_;
+  Csr families_;
 };
 
 }  // namespace

@@ -61,6 +61,7 @@ class RelaxationRun final : public MovingBondsRun {
     tell_energies(summary, energy);
     summary.line("energy", "{:.6g} work, {:.6g} dissipated by {} broken bonds, {:.6g} damped",
                  energy.external_work, energy.fractured, broken, energy.external_damping);
+    tell_cracks(summary, cracks_);
     tell_body(summary, model_);
     summary.doubts = doubts_at_rest(energy);
     summary.rate = bond_rate(result_.iterations);

@@ -14,7 +14,9 @@ namespace {
 /// The time of a step may fall short of the time that is wanted by this part of itself.
 constexpr double round_off = 1e-9;
 
-std::string bars_name(Index step) { return fmt::format("bars_{:06}.csv", step); }
+std::string table_name(const char* kind, Index step) {
+  return fmt::format("{}_{:06}.csv", kind, step);
+}
 
 bool is_relaxation(const CaseFile& input) {
   return input.analysis.type == AnalysisType::relaxation;
@@ -53,7 +55,9 @@ void RunFiles::begin_again() {
   std::filesystem::remove(directory_ / "fields.pvd");  // before the files that it names
   for (const PvdEntry& entry : series_) {
     std::filesystem::remove(directory_ / entry.file);
-    std::filesystem::remove(directory_ / bars_name(static_cast<Index>(entry.time)));
+    for (const char* kind : tables) {
+      std::filesystem::remove(directory_ / table_name(kind, static_cast<Index>(entry.time)));
+    }
   }
   series_.clear();
   rows_ = 0;
@@ -77,8 +81,8 @@ void RunFiles::write_fields(Index step, double at, const std::function<VtuGrid()
   seconds_writing_ += timer.seconds();
 }
 
-void RunFiles::write_bars(Index step, const std::string& text) {
-  write_whole_file((directory_ / bars_name(step)).string(), text);
+void RunFiles::write_table(const char* kind, Index step, const std::string& text) {
+  write_whole_file((directory_ / table_name(kind, step)).string(), text);
 }
 
 void RunFiles::show_steps(const ExplicitRecord& record, Index steps) {

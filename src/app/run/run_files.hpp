@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -37,8 +38,9 @@ class RunFiles {
   /// \param at         place of the file in the series of fields.pvd
   /// \param make_grid  makes what is in it
   void write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid);
-  /// Writes bars_STEP.csv beside the fields.
-  void write_bars(Index step, const std::string& text);
+  /// Writes KIND_STEP.csv beside the fields, KIND one of `tables`.
+  void write_table(const char* kind, Index step, const std::string& text);
+  static constexpr std::array<const char*, 2> tables = {"bars", "reactions"};
   /// Draws the progress of a run in steps, where it is time to.
   void show_steps(const ExplicitRecord& record, Index steps);
   ProgressBar& bar() { return bar_; }

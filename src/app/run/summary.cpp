@@ -1,6 +1,9 @@
 #include "app/run/summary.hpp"
 
+#include <fmt/ranges.h>
 #include <sys/resource.h>
+
+#include <algorithm>
 
 #include "app/model/body/particle_model.hpp"
 #include "app/results/calibration_text.hpp"
@@ -8,6 +11,9 @@
 #include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
+
+/// Cracks that a summary tells.
+constexpr std::size_t most_cracks = 10;
 
 void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
                 std::optional<double> reaction) {
@@ -82,6 +88,33 @@ std::string cells_text(const Network& network) {
 }
 
 }  // namespace
+
+std::vector<ToldCrack> widest_cracks(const Network& network, const CrackOpenings& openings) {
+  std::vector<ToldCrack> told;
+  for (std::size_t k = 0; k < std::min(most_cracks, openings.cracks.size()); ++k) {
+    ToldCrack& crack = told.emplace_back(ToldCrack{openings.cracks[k], {}});
+    const Index widest = crack.state.widest;
+    const auto first = network.particles.position(network.bonds.first[widest]);
+    const auto second = network.particles.position(network.bonds.second[widest]);
+    for (std::size_t a = 0; a < first.size(); ++a) {
+      crack.at.push_back(0.5 * (first[a] + second[a]));
+    }
+  }
+  return told;
+}
+
+void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
+  for (const ToldCrack& crack : cracks) {
+    summary.json["cracks"].push_back({{"bonds", crack.state.bonds},
+                                      {"mean_opening", crack.state.mean},
+                                      {"largest_opening", crack.state.largest},
+                                      {"widest_at", crack.at}});
+  }
+  if (cracks.empty()) return;
+  const ToldCrack& first = cracks.front();
+  summary.line("cracks", "of the largest {} bonds, opened by {:.4g} at most, at ({:.6g})",
+               first.state.bonds, first.state.largest, fmt::join(first.at, ", "));
+}
 
 void tell_body(Summary& summary, const Model& model, const std::string& more) {
   const Network& network = model.network;

@@ -11,6 +11,7 @@
 #include "analysis/quasistatic/load_curve.hpp"
 #include "app/model/model.hpp"
 #include "app/run/run_files.hpp"
+#include "assembly/results/crack_state.hpp"
 
 namespace perilink {
 
@@ -54,6 +55,18 @@ struct MotionExtras {
 /// What explicit runs tell, of bonds and of lattices, but for the sizes of their bodies.
 void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
                  const ExplicitResult& result, const MotionExtras& extras);
+
+/// A crack as the summary tells it.
+struct ToldCrack {
+  CrackState state;
+  std::vector<double> at;  ///< middle of its widest bond, size dim [length]
+};
+
+/// The cracks of the most bonds, ten at most.
+std::vector<ToldCrack> widest_cracks(const Network& network, const CrackOpenings& openings);
+
+/// Nothing where there are none.
+void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks);
 
 /// How many particles and bonds a model has, and how they were made.
 /// \param more  behind the line: ", 60 unknowns"

@@ -34,7 +34,10 @@ class StudyObserver final : public StepObserver {
   void on_step(const StepRecord& /*record*/, StateSource& /*source*/) override {}
   void on_end(const StepRecord& last, StateSource& source) override {
     if (model_.gauges.empty()) return;
-    gauges = gauge_values(model_, source.state().displacement, last.load_factor);
+    const StepState state = source.state();
+    Csr families;
+    gauges = gauge_values(
+        model_, {state.secants, state.displacement, last.load_factor, last.load_factor}, families);
   }
   bool stop_requested() override { return stop_signal_received(); }
 
@@ -100,7 +103,8 @@ void analyse_elastic(Repeat& repeat, int threads) {
   repeat.seconds.factorization = seconds.factorization;
   repeat.seconds.solve = seconds.solve;
   repeat.displacement = std::move(answer.solution.displacement);
-  repeat.gauges = gauge_values(repeat.model, repeat.displacement, 1.0);
+  Csr families;
+  repeat.gauges = gauge_values(repeat.model, {{}, repeat.displacement}, families);
 }
 
 void analyse_damage(Repeat& repeat, int threads) {

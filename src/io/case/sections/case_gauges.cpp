@@ -83,6 +83,28 @@ void write_gauges(TomlWriter& out, const CaseFile& input) {
   }
 }
 
+namespace {
+
+/// Stresses of bodies that move are those of small strains, and of bonds.
+void refuse_stress(const CaseFile& input, const std::string& key) {
+  const AnalysisType type = input.analysis.type;
+  if (type == AnalysisType::elastic) return;
+  if (has_state_based_particles(input.body)) {
+    throw InputError(input.where(key),
+                     fmt::format("is given, but analysis.type is \"{}\": of state-based particles "
+                                 "only elastic analyses have it",
+                                 word_of(type)),
+                     "measure a displacement, or set analysis.type = \"elastic\"");
+  }
+  if (!is_quasistatic(type) && input.analysis.strain == Strain::green) {
+    throw InputError(input.where(key),
+                     "is given, but analysis.strain is \"green\", whose forces turn with the body",
+                     "measure a displacement, or set strain = \"small\"");
+  }
+}
+
+}  // namespace
+
 void check_gauges(const CaseFile& input) {
   for (std::size_t k = 0; k < input.gauges.size(); ++k) {
     const GaugeSection& gauge = input.gauges[k];
@@ -93,13 +115,7 @@ void check_gauges(const CaseFile& input) {
                        fmt::format("is {}, the name of another gauge", quoted(gauge.name)),
                        "give every gauge a name of its own");
     }
-    if (gauge.stress && input.analysis.type != AnalysisType::elastic) {
-      throw InputError(
-          input.where(item_key("gauges", k, "stress")),
-          fmt::format("is given, but analysis.type is \"{}\", where what breaks carries none",
-                      word_of(input.analysis.type)),
-          "measure a displacement, or set analysis.type = \"elastic\"");
-    }
+    if (gauge.stress) refuse_stress(input, item_key("gauges", k, "stress"));
   }
 }
 

@@ -13,7 +13,7 @@ std::string stress_name(const std::array<int, 2>& axes);
 
 void write_gauges(TomlWriter& out, const CaseFile& input);
 
-/// Refuses two gauges of one name and stresses of bodies that break.
+/// Refuses two gauges of one name and stresses that the kind of body does not have.
 /// \throws InputError
 void check_gauges(const CaseFile& input);
 

@@ -107,6 +107,19 @@ TEST(PlotFields, DrawsEachFaceOnBothSidesOfTheCrack) {
   EXPECT_EQ(std::count(data.begin(), data.end(), 'l'), 8);
 }
 
+TEST(PlotFields, CrackFacesAreColouredByTheirOpening) {
+  VtuGrid grid = test::make_cracked_field({}, false);
+  std::vector<double> opening(grid.types.size(), 0.0);
+  const std::vector<double>& element = grid.cell_data[0].values;
+  const auto first = std::find(element.begin(), element.end(), 1.0) - element.begin();
+  opening[static_cast<std::size_t>(first)] = 0.25;
+  grid.cell_data.push_back({"crack_opening", 1, opening});
+  const std::string svg = draw_fields(read_body(grid, ""), {}, {"", "kip", "in"}, 0.0).str();
+  EXPECT_NE(svg.find("#128cff"), std::string::npos) << "the widest";
+  EXPECT_NE(svg.find("#5a0a12"), std::string::npos) << "those that are closed";
+  EXPECT_NE(svg.find("opened by 0.25"), std::string::npos);
+}
+
 TEST(PlotFields, LargeBodiesStayBelowFiveMegabytes) {
   EXPECT_LT(draw({.nx = 450, .ny = 300, .hexagonal = true, .spacing = 0.1}, false).size(),
             5'000'000u);

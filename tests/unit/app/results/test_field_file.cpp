@@ -55,6 +55,36 @@ TEST_F(FieldFile, CellsAreParticlesThenBrokenBondsThenBars) {
   EXPECT_EQ(grid_.offsets.back(), 12);
 }
 
+TEST_F(FieldFile, StressesHaveTheirPrincipalValuesAndDirections) {
+  std::vector<double> stresses(6 * 6, 0.0);
+  stresses[6 + 1] = 4.0;   // the second particle: yy
+  stresses[12 + 3] = -3.0;  // the third one: xy
+  add_stresses(grid_, stresses, 2);
+  EXPECT_EQ(grid_.find_point_data("stress")->values, stresses);
+  const std::vector<double>& values = grid_.find_point_data("principal_stress")->values;
+  EXPECT_EQ((std::vector<double>{values[3], values[4], values[5]}),
+            (std::vector<double>{4.0, 0.0, 0.0}));
+  EXPECT_NEAR(values[6], 3.0, 1e-15);
+  EXPECT_NEAR(values[7], -3.0, 1e-15);
+  const std::vector<double>& first = grid_.find_point_data("first_principal_direction")->values;
+  const std::vector<double>& last = grid_.find_point_data("last_principal_direction")->values;
+  EXPECT_NEAR(std::abs(first[4]), 1.0, 1e-15);
+  EXPECT_NEAR(std::abs(last[3]), 1.0, 1e-15);
+  EXPECT_NEAR(first[6] * first[7], -0.5, 1e-15) << "negative shear pulls along the other diagonal";
+  EXPECT_NEAR(last[6] * last[7], 0.5, 1e-15);
+}
+
+TEST_F(FieldFile, OpeningsBelongToBrokenBondsAndTheirParticles) {
+  CrackOpenings openings;
+  openings.bonds = {0, 3};  // a softened bond, and the first of the broken ones
+  openings.opening = {0.1, 0.3};
+  add_openings(grid_, network_, openings, std::vector<Index>{3, 4});
+  EXPECT_EQ(grid_.find_cell_data("crack_opening")->values,
+            (std::vector<double>{0, 0, 0, 0, 0, 0, 0.3, 0, 0}));
+  EXPECT_EQ(grid_.find_point_data("crack_opening")->values,
+            (std::vector<double>{0.1, 0.1, 0.3, 0.3, 0, 0}));
+}
+
 TEST_F(FieldFile, DisplacementsAndEnergiesAreThoseOfTheMotion) {
   const std::vector<double>& u = grid_.find_point_data("displacement")->values;
   EXPECT_EQ(u.size(), 18u);

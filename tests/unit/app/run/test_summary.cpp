@@ -70,6 +70,31 @@ TEST(Summary, TellsTheSizesOfABody) {
   EXPECT_THAT(summary.text, HasSubstr(size_text(model) + ", and more"));
 }
 
+/// Two bonds in a row and one apart.
+TEST(Summary, TellsTheLargestCracks) {
+  const Model model = build_model(test::strip_case());
+  CrackOpenings openings;
+  openings.bonds = {3, 5, 9};
+  openings.opening = {0.1, 0.3, 0.7};
+  openings.cracks = {summed_up(openings, std::array<std::size_t, 2>{0, 1}),
+                     summed_up(openings, std::array<std::size_t, 1>{2})};
+  const std::vector<ToldCrack> told = widest_cracks(model.network, openings);
+  ASSERT_EQ(told.size(), 2u);
+  Summary summary;
+  tell_cracks(summary, told);
+  EXPECT_EQ(summary.json["cracks"][0]["bonds"], 2);
+  EXPECT_DOUBLE_EQ(summary.json["cracks"][0]["mean_opening"], 0.2);
+  EXPECT_EQ(summary.json["cracks"][0]["largest_opening"], 0.3);
+  const Bonds& bonds = model.network.bonds;
+  const double x = 0.5 * (model.network.particles.position(bonds.first[5])[0] +
+                          model.network.particles.position(bonds.second[5])[0]);
+  EXPECT_DOUBLE_EQ(summary.json["cracks"][0]["widest_at"][0], x);
+  EXPECT_THAT(summary.text, HasSubstr("of the largest 2 bonds, opened by 0.3 at most"));
+  Summary none;
+  tell_cracks(none, {});
+  EXPECT_TRUE(none.text.empty());
+}
+
 TEST(Summary, KnowsTheMemoryOfTheProcess) { EXPECT_GT(peak_memory_bytes(), 1e6); }
 
 }  // namespace

@@ -57,8 +57,9 @@ TEST(CaseGauges, RefuseWhatCannotBeMeasured) {
   EXPECT_THAT(message_of(with(twice + "[[gauges]]\n" + twice)),
               HasSubstr("gauges[2].name: is \"a\", the name of another gauge"));
   EXPECT_THAT(message_of(std::string(small_case) +
+                         "[analysis]\ntype = \"relaxation\"\nstrain = \"green\"\n"
                          "[[gauges]]\nname = \"a\"\nat = [0, 0]\nstress = \"xx\"\n"),
-              HasSubstr("analysis.type is \"damage\""));
+              HasSubstr("whose forces turn with the body"));
 }
 
 TEST(CaseGauges, SpellComponentsByTheirAxes) {

@@ -1,9 +1,11 @@
-#include "assembly/stress.hpp"
+#include "assembly/results/stress.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "assembly/results/bond_strain.hpp"
 
 namespace perilink {
 namespace {
@@ -54,23 +56,25 @@ Eigen::Vector<double, Terms> terms_at(const Eigen::Vector<double, Dim>& x) {
 /// \param size  length that scales the positions
 /// \return whether the neighbours settle the polynomial
 template <int Dim, int Terms>
-bool fit_gradient(const Particles& particles, std::span<const double> displacement, Index particle,
+bool fit_gradient(const Network& network, std::span<const double> motion, Index particle,
                   std::span<const Index> neighbors, double size,
                   Eigen::Matrix<double, Dim, Dim>& gradient) {
   using Vector = Eigen::Map<const Eigen::Vector<double, Dim>>;
-  const auto at = [](std::span<const double> values, Index i) {
-    return Vector(values.data() + static_cast<std::size_t>(i) * Dim);
+  const auto at = [](std::span<const double> values, Index i, int width) {
+    return Vector(values.data() + static_cast<std::size_t>(i) * width);
   };
+  const std::vector<double>& positions = network.particles.positions;
+  const int width = network.width();
   if (neighbors.size() < Terms) return false;
   Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
   Eigen::Matrix<double, Terms, Dim> right = Eigen::Matrix<double, Terms, Dim>::Zero();
   for (const Index j : neighbors) {
     const Eigen::Vector<double, Dim> x =
-        (at(particles.positions, j) - at(particles.positions, particle)) / size;
+        (at(positions, j, Dim) - at(positions, particle, Dim)) / size;
     const Eigen::Vector<double, Terms> terms = terms_at<Dim, Terms>(x);
     const double weight = 1.0 / x.squaredNorm();
     normal += weight * terms * terms.transpose();
-    right += weight * terms * (at(displacement, j) - at(displacement, particle)).transpose();
+    right += weight * terms * (at(motion, j, width) - at(motion, particle, width)).transpose();
   }
   const Eigen::LDLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
   const auto pivots = factor.vectorD();
@@ -79,8 +83,10 @@ bool fit_gradient(const Particles& particles, std::span<const double> displaceme
   return true;
 }
 
+/// Of the polynomial that fits the displacements around a particle; zero where they settle none.
 template <int Dim>
-Stress stress_in(const StressInput& input, std::span<const double> displacement, Index particle) {
+Eigen::Matrix3d fitted_strain(const StressInput& input, std::span<const double> motion,
+                              Index particle) {
   const Particles& particles = input.network.particles;
   const std::vector<Index> neighbors = neighbors_of(input, particle);
   double size = 0.0;
@@ -92,14 +98,35 @@ Stress stress_in(const StressInput& input, std::span<const double> displacement,
     size = std::max(size, std::sqrt(square));
   }
   constexpr int quadratic = Dim + Dim * (Dim + 1) / 2;
-  Eigen::Matrix<double, Dim, Dim> gradient;
-  if (!fit_gradient<Dim, quadratic>(particles, displacement, particle, neighbors, size, gradient) &&
-      !fit_gradient<Dim, Dim>(particles, displacement, particle, neighbors, size, gradient)) {
-    return {};
-  }
   Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
-  strain.topLeftCorner<Dim, Dim>() = 0.5 * (gradient + gradient.transpose());
-  const HookeConstants& c = input.materials[particles.material[particle]];
+  Eigen::Matrix<double, Dim, Dim> gradient;
+  if (fit_gradient<Dim, quadratic>(input.network, motion, particle, neighbors, size, gradient) ||
+      fit_gradient<Dim, Dim>(input.network, motion, particle, neighbors, size, gradient)) {
+    strain.topLeftCorner<Dim, Dim>() = 0.5 * (gradient + gradient.transpose());
+  }
+  return strain;
+}
+
+bool is_damaged(const StressInput& input, Index particle) {
+  if (input.secants.size() == 0) return false;
+  const auto bonds = input.families.row(particle);
+  return std::any_of(bonds.begin(), bonds.end(), [&](Index e) {
+    return e < input.network.first_tie && input.secants.least(e) < 1.0;
+  });
+}
+
+template <int Dim>
+Stress stress_in(const StressInput& input, std::span<const double> motion, Index particle) {
+  const bool damaged = is_damaged(input, particle);
+  Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
+  if (damaged) {
+    const SymmetricTensor e =
+        bond_strain(input.network, input.families, input.secants, motion, particle);
+    strain << e[0], e[3], e[5], e[3], e[1], e[4], e[5], e[4], e[2];
+  } else {
+    strain = fitted_strain<Dim>(input, motion, particle);
+  }
+  const HookeConstants& c = input.materials[input.network.particles.material[particle]];
   const Eigen::Matrix3d s =
       c.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2.0 * c.mu * strain;
   const double out_of_plane = input.problem == Problem::plane_stress ? 0.0 : s(2, 2);
@@ -108,20 +135,19 @@ Stress stress_in(const StressInput& input, std::span<const double> displacement,
 
 }  // namespace
 
-Stress stress_at(const StressInput& input, std::span<const double> displacement, Index particle) {
-  return input.network.dim() == 2 ? stress_in<2>(input, displacement, particle)
-                                  : stress_in<3>(input, displacement, particle);
+Stress stress_at(const StressInput& input, std::span<const double> motion, Index particle) {
+  return input.network.dim() == 2 ? stress_in<2>(input, motion, particle)
+                                  : stress_in<3>(input, motion, particle);
 }
 
-std::vector<double> particle_stresses(const StressInput& input,
-                                      std::span<const double> displacement) {
+std::vector<double> particle_stresses(const StressInput& input, std::span<const double> motion) {
   const Particles& particles = input.network.particles;
   const std::size_t width = Stress{}.size();
   std::vector<double> stresses(width * static_cast<std::size_t>(particles.size()), 0.0);
 #pragma omp parallel for schedule(static)
   for (Index i = 0; i < particles.size(); ++i) {
     if (particles.kind[i] != ParticleKind::solid) continue;
-    const Stress stress = stress_at(input, displacement, i);
+    const Stress stress = stress_at(input, motion, i);
     std::copy(stress.begin(), stress.end(), stresses.begin() + static_cast<std::size_t>(i) * width);
   }
   return stresses;

@@ -1,4 +1,4 @@
-#include "assembly/stress.hpp"
+#include "assembly/results/stress.hpp"
 
 #include <gtest/gtest.h>
 

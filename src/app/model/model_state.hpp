@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "network/secants.hpp"
+
+namespace perilink {
+
+/// The present state of a model, as gauges and reactions look at it.
+struct ModelState {
+  Secants secants;                 ///< one per element; empty: all are intact
+  std::span<const double> motion;  ///< over `scale`, shape (particles, width)
+  double scale = 1.0;
+  double load_factor = 1.0;  ///< of the loads
+};
+
+}  // namespace perilink

@@ -1,0 +1,182 @@
+#include "app/model/reactions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "app/model/model_regions.hpp"
+#include "assembly/internal_force.hpp"
+#include "io/case/case_words.hpp"
+#include "io/text/csv.hpp"
+
+namespace perilink {
+namespace {
+
+/// All loads as they are.
+std::vector<double> present_loads(const Model& model, const ModelState& state) {
+  std::vector<double> loads = model.loads.forces;
+  for (double& load : loads) load *= state.load_factor;
+  return loads;
+}
+
+/// Particles near a plane of symmetry, as the supports find them.
+std::vector<Index> particles_in(const CaseFile& input, const Model& model, std::size_t k) {
+  const SymmetrySection& plane = input.symmetry[k];
+  if (!plane.at) {
+    return particles_of_region(input, model, plane.region, item_key("symmetry", k, "region"));
+  }
+  std::vector<Index> inside;
+  const Particles& particles = model.network.particles;
+  for (Index i = 0; i < particles.size(); ++i) {
+    const double away = std::abs(particles.position(i)[plane.axis] - *plane.at);
+    if (away <= 1e-6 * model.lattice.spacing) inside.push_back(i);
+  }
+  return inside;
+}
+
+/// Moment of a force about the origin.
+Vector3 moment_of(const Vector3& arm, const Vector3& force) {
+  return {arm[1] * force[2] - arm[2] * force[1], arm[2] * force[0] - arm[0] * force[2],
+          arm[0] * force[1] - arm[1] * force[0]};
+}
+
+Vector3 position_of(const Particles& particles, Index i) {
+  Vector3 x{};
+  std::copy_n(particles.position(i).begin(), particles.dim, x.begin());
+  return x;
+}
+
+/// The same resultant with its moment about the origin.
+Reaction about_origin(Reaction reaction) {
+  const Vector3 more = moment_of(reaction.middle, reaction.force);
+  for (int a = 0; a < 3; ++a) reaction.moment[a] += more[a];
+  reaction.middle = {};
+  return reaction;
+}
+
+std::string row_of(const std::string& name, const Reaction& reaction, int dim) {
+  CsvRow row;
+  row.text(name);
+  for (int a = 0; a < dim; ++a) row.number(reaction.middle[a]);
+  for (int a = 0; a < dim; ++a) row.number(reaction.force[a]);
+  for (int a = dim == 2 ? 2 : 0; a < 3; ++a) row.number(reaction.moment[a]);
+  return row.end();
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> held_slots(const Model& model) {
+  std::vector<std::uint8_t> held(model.unknowns.number.size(), 0);
+  for (std::size_t slot = 0; slot < held.size(); ++slot) {
+    if (model.unknowns.number[slot] == no_index) held[slot] = 1;
+  }
+  const std::vector<double>& springs = model.network.support_stiffness;
+  for (std::size_t slot = 0; slot < springs.size(); ++slot) {
+    if (springs[slot] > 0.0) held[slot] = 1;
+  }
+  return held;
+}
+
+std::vector<double> holding_forces(const Model& model, const ModelState& state) {
+  const Network& network = model.network;
+  std::vector<double> motion(state.motion.begin(), state.motion.end());
+  for (double& u : motion) u *= state.scale;
+  const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
+  const Secants secants = state.secants.size() > 0 ? state.secants : Secants(intact);
+  std::vector<double> forces = model.elements ? internal_force(*model.elements, motion).forces
+                                              : internal_force(network, secants, motion).forces;
+  const std::vector<double> loads = present_loads(model, state);
+  const std::vector<std::uint8_t> held = held_slots(model);
+  const std::vector<double>& springs = network.support_stiffness;
+  for (std::size_t slot = 0; slot < forces.size(); ++slot) {
+    const double spring = springs.empty() ? 0.0 : springs[slot] * motion[slot];
+    forces[slot] = held[slot] != 0 ? forces[slot] - spring - loads[slot] : 0.0;
+  }
+  return forces;
+}
+
+Reaction reaction_on(const Model& model, std::span<const Index> particles,
+                     std::span<const double> forces) {
+  const int dim = model.network.dim(), width = model.network.width();
+  Reaction sum;
+  if (particles.empty()) return sum;
+  for (const Index i : particles) {
+    const Vector3 x = position_of(model.network.particles, i);
+    for (int a = 0; a < dim; ++a) sum.middle[a] += x[a] / static_cast<double>(particles.size());
+  }
+  for (const Index i : particles) {
+    Vector3 arm = position_of(model.network.particles, i), force{};
+    const double* own = forces.data() + static_cast<std::size_t>(i) * width;
+    std::copy_n(own, dim, force.begin());
+    for (int a = 0; a < 3; ++a) arm[a] -= sum.middle[a];
+    const Vector3 moment = moment_of(arm, force);
+    for (int a = 0; a < 3; ++a) {
+      sum.force[a] += force[a];
+      sum.moment[a] += moment[a];
+    }
+    for (int a = dim; a < width; ++a) sum.moment[dim == 2 ? 2 : a - dim] += own[a];
+  }
+  return sum;
+}
+
+std::vector<HeldPlace> held_places(const CaseFile& input, const Model& model) {
+  const std::vector<std::uint8_t> held = held_slots(model);
+  const auto width = static_cast<std::size_t>(model.network.width());
+  std::vector<std::uint8_t> taken(held.size() / width, 0);
+  std::vector<HeldPlace> places;
+  const auto add = [&](const std::string& name, const std::vector<Index>& particles) {
+    HeldPlace& place = place_named(places, name);
+    for (const Index i : particles) {
+      const auto own = held.begin() + static_cast<std::ptrdiff_t>(i * width);
+      const bool holds = std::any_of(own, own + static_cast<std::ptrdiff_t>(width),
+                                     [](std::uint8_t h) { return h != 0; });
+      if (taken[i] != 0 || !holds) continue;
+      taken[i] = 1;
+      place.particles.push_back(i);
+    }
+  };
+  const auto add_all = [&](const std::string& table, const auto& sections) {
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+      add(fmt::format("{}: {}", table, sections[k].region),
+          particles_of_region(input, model, sections[k].region, item_key(table, k, "region")));
+    }
+  };
+  add_all("supports", input.supports);
+  add_all("displacements", input.displacements);
+  add_all("velocities", input.velocities);
+  for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
+    const SymmetrySection& plane = input.symmetry[k];
+    add(plane.at ? fmt::format("symmetry: {} = {:.6g}", axis_names[plane.axis], *plane.at)
+                 : "symmetry: " + plane.region,
+        particles_in(input, model, k));
+  }
+  add_all("springs", input.springs);
+  std::erase_if(places, [](const HeldPlace& place) { return place.particles.empty(); });
+  return places;
+}
+
+std::string reaction_table(const std::vector<HeldPlace>& places, const Model& model,
+                           const ModelState& state) {
+  const int dim = model.network.dim();
+  std::string text = dim == 2 ? "place,x,y,force_x,force_y,moment\n"
+                              : "place,x,y,z,force_x,force_y,force_z,moment_x,moment_y,moment_z\n";
+  const std::vector<double> forces = holding_forces(model, state);
+  std::vector<Index> everything(static_cast<std::size_t>(model.network.particles.size()));
+  std::iota(everything.begin(), everything.end(), 0);
+  Reaction sum = about_origin(reaction_on(model, everything, present_loads(model, state)));
+  std::string loads = row_of("loads", sum, dim);
+  for (const HeldPlace& place : places) {
+    const Reaction reaction = reaction_on(model, place.particles, forces);
+    text += row_of(place.name, reaction, dim);
+    const Reaction moved = about_origin(reaction);
+    for (int a = 0; a < 3; ++a) {
+      sum.force[a] += moved.force[a];
+      sum.moment[a] += moved.moment[a];
+    }
+  }
+  return text + loads + row_of("sum", sum, dim);
+}
+
+}  // namespace perilink

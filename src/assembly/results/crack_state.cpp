@@ -1,0 +1,120 @@
+#include "assembly/results/crack_state.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "material/principal_values.hpp"
+
+namespace perilink {
+namespace {
+
+/// Bonds of a crack have no more than this left.
+constexpr double half_of_stiffness = 0.5;
+
+/// Sum of what the damaged bonds of a particle have lost, times n n.
+SymmetricTensor lost_at(const Network& network, const Csr& families, Secants secants,
+                        Index particle) {
+  SymmetricTensor sum{};
+  for (const Index e : families.row(particle)) {
+    if (e >= network.first_tie || secants.axial(e) > half_of_stiffness) continue;
+    const auto direction = network.bonds.direction(e);
+    Vector3 n{};
+    std::copy(direction.begin(), direction.end(), n.begin());
+    const double lost = 1.0 - secants.axial(e);
+    for (int a = 0; a < 3; ++a) {
+      sum[a] += lost * n[a] * n[a];
+      sum[3 + a] += lost * n[a] * n[(a + 1) % 3];
+    }
+  }
+  return sum;
+}
+
+double opening_of(const Network& network, const Csr& families, Secants secants,
+                  std::span<const double> motion, Index bond) {
+  const Bonds& bonds = network.bonds;
+  const int dim = network.dim();
+  const auto width = static_cast<std::size_t>(network.width());
+  SymmetricTensor lost = lost_at(network, families, secants, bonds.first[bond]);
+  const SymmetricTensor more = lost_at(network, families, secants, bonds.second[bond]);
+  for (std::size_t c = 0; c < lost.size(); ++c) lost[c] += more[c];
+  const Vector3 normal = principal_direction(lost, dim);
+  double along = 0.0, apart = 0.0;
+  for (int a = 0; a < dim; ++a) {
+    along += normal[a] * bonds.direction(bond)[a];
+    apart += normal[a] *
+             (motion[bonds.second[bond] * width + a] - motion[bonds.first[bond] * width + a]);
+  }
+  const double opening = (1.0 - secants.axial(bond)) * (along < 0.0 ? -apart : apart);
+  return std::max(0.0, opening);
+}
+
+/// Number of the connected set that each of the bonds belongs to, in the order of their first ones.
+std::vector<Index> connected_sets(const Network& network, std::span<const Index> bonds) {
+  std::vector<Index> parent(static_cast<std::size_t>(network.particles.size()));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const Index e : bonds) parent[root(network.bonds.first[e])] = root(network.bonds.second[e]);
+  std::vector<Index> number(parent.size(), no_index), sets;
+  Index count = 0;
+  for (const Index e : bonds) {
+    Index& own = number[root(network.bonds.first[e])];
+    if (own == no_index) own = count++;
+    sets.push_back(own);
+  }
+  return sets;
+}
+
+}  // namespace
+
+CrackState summed_up(const CrackOpenings& openings, std::span<const std::size_t> places) {
+  CrackState state;
+  for (const std::size_t k : places) {
+    ++state.bonds;
+    state.mean += openings.opening[k];
+    if (state.widest != no_index && !(openings.opening[k] > state.largest)) continue;
+    state.largest = openings.opening[k];
+    state.widest = openings.bonds[k];
+  }
+  if (state.bonds > 0) state.mean /= state.bonds;
+  return state;
+}
+
+CrackOpenings crack_openings(const Network& network, const Csr& families, Secants secants,
+                             std::span<const double> motion) {
+  CrackOpenings openings;
+  for (Index e = 0; e < network.first_tie; ++e) {
+    if (secants.axial(e) > half_of_stiffness) continue;
+    openings.bonds.push_back(e);
+    openings.opening.push_back(opening_of(network, families, secants, motion, e));
+  }
+  const std::vector<Index> sets = connected_sets(network, openings.bonds);
+  std::vector<std::vector<std::size_t>> members;
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    members.resize(std::max(members.size(), static_cast<std::size_t>(sets[k]) + 1));
+    members[sets[k]].push_back(k);
+  }
+  std::stable_sort(members.begin(), members.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  openings.crack.resize(sets.size());
+  for (std::size_t number = 0; number < members.size(); ++number) {
+    openings.cracks.push_back(summed_up(openings, members[number]));
+    for (const std::size_t k : members[number]) openings.crack[k] = static_cast<Index>(number);
+  }
+  return openings;
+}
+
+std::vector<double> openings_at_particles(const Network& network, const CrackOpenings& openings) {
+  std::vector<double> at(static_cast<std::size_t>(network.particles.size()), 0.0);
+  for (std::size_t k = 0; k < openings.bonds.size(); ++k) {
+    for (const Index i :
+         {network.bonds.first[openings.bonds[k]], network.bonds.second[openings.bonds[k]]}) {
+      at[i] = std::max(at[i], openings.opening[k]);
+    }
+  }
+  return at;
+}
+
+}  // namespace perilink
