@@ -87,6 +87,7 @@ std::vector<double> holding_forces(const Model& model, const ModelState& state) 
   const Secants secants = state.secants.size() > 0 ? state.secants : Secants(intact);
   std::vector<double> forces = model.elements ? internal_force(*model.elements, motion).forces
                                               : internal_force(network, secants, motion).forces;
+  load_particles(network, forces);
   const std::vector<double> loads = present_loads(model, state);
   const std::vector<std::uint8_t> held = held_slots(model);
   const std::vector<double>& springs = network.support_stiffness;

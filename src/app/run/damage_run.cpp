@@ -158,8 +158,10 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     for (double& u : motion) u *= scale_of(record);
     VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
                                    broken_, families_);
-    add_stresses(grid, particle_stresses(stress_input(model_, families_, state.secants), motion),
-                 network.dim());
+    if (!network.shell) {  // its faces have stresses of their own
+      add_stresses(grid, particle_stresses(stress_input(model_, families_, state.secants), motion),
+                   network.dim());
+    }
     const CrackOpenings openings = crack_openings(network, families_, state.secants, motion);
     add_openings(grid, network, openings, broken_);
     cracks_ = widest_cracks(network, openings);

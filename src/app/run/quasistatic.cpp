@@ -39,8 +39,9 @@ std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Sec
     for (std::size_t a = 0; a < dim; ++a) at.force.push_back(load_factor * place.force[a]);
   }
   if (model.driven_places.empty()) return places;
-  const InternalForce internal = model.elements ? internal_force(*model.elements, motion)
-                                                : internal_force(model.network, secants, motion);
+  InternalForce internal = model.elements ? internal_force(*model.elements, motion)
+                                          : internal_force(model.network, secants, motion);
+  load_particles(model.network, internal.forces);
   for (const DrivenPlace& place : model.driven_places) {
     PlaceForce& at = places.emplace_back(PlaceForce{place.name, std::vector<double>(dim, 0.0)});
     for (const std::size_t slot : place.slots) {
