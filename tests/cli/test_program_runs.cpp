@@ -342,25 +342,23 @@ TEST_F(ProgramRuns, DoubtResultsThatRoundOffHasReached) {
   EXPECT_THAT(read_text(work() / "r/log.txt"), testing::HasSubstr("doubt: " + doubt));
 }
 
-/// Ten thousand times as long as high: the factor's answer is 5 % off, and a hundred times at ten times
-/// the length, where its residual is a tenth of the load. Conjugate gradients bring the beam's w =
-/// 4 F L^3 / (E b h^3), here of the softer bonds without a corrected surface.
+/// Ten and twenty thousand times as long as high: the factor's answers are 0.2 and some 10 % off,
+/// those of conjugate gradients grow with the third power of the length. Work and energy differ.
 TEST_F(ProgramRuns, AnEquilibriumThatRoundOffHasLostIsAFailure) {
   const std::string force = "[[loads]]\nregion = \"right\"\nforce = [0, 1]";
-  const auto solved_by = [&](int length, const std::string& solver) {
+  const auto solve = [&](int length) {
     write_text(work() / "slender.toml",
-               cantilever_case(length, force, "elastic\"\nsolver = \"" + solver));
+               cantilever_case(length, force, "elastic\"\nsolver = \"direct"));
     return run({"run", "slender.toml", "--out", "r", "--force"});
   };
-  const ProcessEnd end = solved_by(20000, "direct");
+  EXPECT_EQ(solve(20000).exit_status, 0);
+  EXPECT_GT(summary("r")["energy_error"].get<double>(), 1e-6);
+  EXPECT_EQ(summary("r")["doubts"].size(), 2u);
+  const ProcessEnd end = solve(40000);
   EXPECT_EQ(end.exit_status, 3);
-  EXPECT_THAT(end.err, testing::HasSubstr("work and energy are out of balance by 0.0"));
+  EXPECT_THAT(end.err, testing::HasSubstr("work and energy are out of balance by 0."));
+  EXPECT_THAT(end.err, testing::HasSubstr("(solver = \"iterative\") lose less"));
   EXPECT_EQ(summary("r")["status"], "failed");
-  ASSERT_EQ(solved_by(2000, "iterative").exit_status, 0);
-  const double shorter = summary("r")["peak_displacement"];
-  ASSERT_EQ(solved_by(20000, "iterative").exit_status, 0);
-  EXPECT_NEAR(summary("r")["peak_displacement"].get<double>() / (1000.0 * shorter), 1.0, 0.01);
-  EXPECT_LT(summary("r")["energy_error"].get<double>(), 1e-9);
 }
 
 /// What is left of the load in the last row is zero, not round-off, and in the picture too.

@@ -98,8 +98,8 @@ std::optional<std::string> doubt_about_size(const CurvePoint& peak, double lengt
   if (part <= small) return std::nullopt;
   return fmt::format(
       "the peak, {:.6g} at displacement {:.6g}, lies where the body has moved by {:.2g} of its "
-      "longest side: bonds are made for small displacements, so that no body bears this load; look "
-      "at the curve before, and end the run there by [stop]",
+      "longest side: bonds are made for small displacements and cannot tell whether it bears this "
+      "load; look at the curve before, and end the run there by [stop]",
       peak.load, peak.displacement, part);
 }
 

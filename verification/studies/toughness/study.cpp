@@ -1,17 +1,20 @@
 // What long cracks cost: strips of every lattice, and whole cases with each rule of critical
 // stretches.
 //
-//   toughness table   measures the rows of src/network/crack_cost.cpp, writes result_table.csv
+//   toughness table   measures the rows of src/network/crack_cost.cpp, writes result_table.csv, and
+//                     goes on where an earlier run has ended
 //   toughness cases   clamped strips and double cantilevers as cases, writes result.csv
 //   toughness clouds  clamped strips of tetrahedra, writes result_clouds.csv
 //
-// Exit status 1 when a case misses its acceptance. Some minutes each.
+// Exit status 1 when a case misses its acceptance. Some minutes each; the table takes hours.
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -23,6 +26,8 @@
 
 namespace perilink::verification {
 namespace {
+
+constexpr const char* table_file = "result_table.csv";
 
 /// Prints and keeps lines.
 class Table {
@@ -41,25 +46,44 @@ struct Series {
   std::vector<double> horizon_ratios;  ///< one for each number of neighbours
 };
 
-void measure_strips(Table& table, Strip strip) {
+/// Lines that an earlier run has measured.
+std::vector<std::string> lines_of(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+/// \param measured  lines of an earlier run, which are taken over
+void measure_strips(Table& table, Strip strip, const std::vector<std::string>& measured) {
   const bool space = strip.pattern == Pattern::cubic || strip.pattern == Pattern::face_centred;
   // High enough to hold the cracks that wind at short horizons, in the plane at three heights.
   const std::vector<double> heights =
       space ? std::vector<double>{2.6} : std::vector<double>{3.0, 4.0, 5.0};
   for (const double height : heights) {
     strip.half_height = std::max(height, (7.0 + height) / strip.horizon_ratio);
+    const std::string key =
+        fmt::format("{},{:.3f},{:.4f},{},{},{:.1f},", word_of(strip.pattern), strip.horizon_ratio,
+                    strip.lame_ratio,
+                    strip.growth[0] == 0   ? "y"
+                    : strip.growth[1] == 0 ? "x"
+                                           : "diagonal",
+                    strip.calibrated ? "calibrated" : "none", strip.half_height);
+    const auto known = std::find_if(measured.begin(), measured.end(),
+                                    [&](const std::string& line) { return line.starts_with(key); });
+    if (known != measured.end()) {
+      table.add(*known + "\n");
+      continue;
+    }
     const StripCost cost = measure_crack_cost(strip);
-    table.add(fmt::format("{},{:.3f},{:.4f},{},{},{:.1f},{:.4f},{:.4f},{},{}\n",
-                          word_of(strip.pattern), strip.horizon_ratio, strip.lame_ratio,
-                          strip.growth[0] == 0   ? "y"
-                          : strip.growth[1] == 0 ? "x"
-                                                 : "diagonal",
-                          strip.calibrated ? "calibrated" : "none", strip.half_height,
-                          cost.dissipated, cost.released, cost.events, cost.unknowns));
+    table.add(fmt::format("{}{:.4f},{:.4f},{},{}\n", key, cost.dissipated, cost.released,
+                          cost.events, cost.unknowns));
+    write_result(PERILINK_STUDY_DIR, table.text, table_file);
   }
 }
 
 void measure_table() {
+  const auto measured = lines_of(std::string(PERILINK_STUDY_DIR) + "/" + table_file);
   Table table(
       "pattern,horizon_ratio,lame_ratio,direction,surface,half_height,dissipated_over_GF,released_"
       "over_GF,events,unknowns\n");
@@ -73,7 +97,7 @@ void measure_table() {
         strip.pattern = series.pattern;
         strip.horizon_ratio = ratio;
         strip.lame_ratio = lame;
-        measure_strips(table, strip);
+        measure_strips(table, strip, measured);
       }
     }
   }
@@ -96,7 +120,7 @@ void measure_table() {
           strip.skipped = 3;
           strip.counted = 5;
         }
-        measure_strips(table, strip);
+        measure_strips(table, strip, measured);
       }
     }
   }
@@ -104,15 +128,15 @@ void measure_table() {
     Strip strip;
     strip.horizon_ratio = ratio;
     strip.calibrated = false;
-    measure_strips(table, strip);
+    measure_strips(table, strip, measured);
     strip.calibrated = true;
     strip.growth = {2, 2};
-    measure_strips(table, strip);
+    measure_strips(table, strip, measured);
     strip.pattern = Pattern::hexagonal;
     strip.growth = {0, 4};
-    measure_strips(table, strip);
+    measure_strips(table, strip, measured);
   }
-  write_result(PERILINK_STUDY_DIR, table.text, "result_table.csv");
+  write_result(PERILINK_STUDY_DIR, table.text, table_file);
 }
 
 /// One body by every rule.
