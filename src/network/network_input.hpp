@@ -69,7 +69,7 @@ struct NetworkInput {
   double horizon = 0.0;    ///< delta [length]
   double thickness = 1.0;  ///< t of two-dimensional bodies [length]
   bool shell = false;      ///< the body is a sheet of a shell, in plane stress
-  double radius = 0.0;     ///< of the cylinder that it lies on, x around it; 0: flat [length]
+  double radius = 0.0;     ///< the cylinder it lies on, x around it; 0: flat [length]
   Constants micromodulus = Constants::lattice;
   Constants critical_stretch = Constants::lattice;
   std::vector<SolidMaterial> materials;  ///< by Particles::material

@@ -80,7 +80,7 @@ TEST(Shells, ClampedPlatesCrackAlongTheirEdges) {
   double energy = 0.0;
   for (int m = 0; m < 6; ++m) {
     double stiffness = modes.stiffness[m];
-    if (m == 1 || m > 3) {  // of shear: the ratio of before the calibration
+    if (m == 1 || m > 3) {  // shear, by the ratio of before the calibration
       stiffness *= model.network.ratio_of_bending(first) * model.network.stiffness[first] /
                    model.network.bending[first];
     }

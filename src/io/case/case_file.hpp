@@ -32,7 +32,7 @@ struct BodySection {
   BodyModel model = BodyModel::bond_based;
   double torsion = 1.0;    ///< torsional over bending modulus of micropolar bonds, 3D
   double thickness = 1.0;  ///< two-dimensional bodies and shells [length]
-  /// Of the cylinder that the sheet of a shell lies on, x around it; absent: it is flat [length].
+  /// The cylinder that the sheet of a shell lies on, x around it; absent: it is flat [length].
   std::optional<double> radius;
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
   Surface surface = Surface::calibrated;
