@@ -176,7 +176,9 @@ TEST(ReinforcedBars, AShortBarFollowsTheModelCode) {
     slip = row.displacement;
   }
   EXPECT_NEAR(result.peak_load / surface, 15.0, 0.05 * 15.0);
-  EXPECT_NEAR(work / surface, curve.area(slip), 0.01 * curve.area(slip));
+  // The path through the events runs along the tops of the teeth, half a ripple above the curve.
+  EXPECT_GT(work / surface, curve.area(slip));
+  EXPECT_LT(work / surface, 1.025 * curve.area(slip));
   EXPECT_LT(result.energy_error, 1e-9);
 }
 
@@ -247,6 +249,7 @@ TEST(ReinforcedBars, APrestrainCompressesTheStrip) {
 TEST(ReinforcedBars, ABarThatHasYieldedUnloadsElastically) {
   for (const double hardening : {0.0, 20e3}) {
     Strip strip;
+    strip.thickness = 10.0;  // stiffer concrete would make the bar yield in compression
     const double yield = 400.0 / steel;
     strip.material.yield_strength = 400.0;
     if (hardening > 0.0) {
@@ -265,23 +268,23 @@ TEST(ReinforcedBars, ABarThatHasYieldedUnloadsElastically) {
     body.reference = {true, 1.0};
     body.sets = {{body.loads, body.unknowns, body.reference}};
     DamageOptions options;
-    const double most = 4.0 * yield * 400.0;
-    options.stages = {{0, most, {}}, {0, std::nullopt, {}, 0.0}, {0, 1.5 * most, {}}};
+    const double most = 2.5 * yield * 400.0;
+    options.stages = {{0, most, {}}, {0, std::nullopt, {}, 0.0}, {0, 1.6 * most, {}}};
     Rows rows;
     const DamageResult result = run_damage_analysis(body, options, rows);
     ASSERT_EQ(result.stages.size(), 3u) << result.reason;
-    const double solid = concrete * 1e4, bar = steel * area;
-    const double stress = 400.0 + hardening * 3.0 * yield;
-    const double left = (bar * 4.0 * yield - stress * area) / (bar + solid);
+    const double solid = concrete * 1e3, bar = steel * area;
+    const double stress = 400.0 + hardening * 1.5 * yield;
+    const double left = (bar * 2.5 * yield - stress * area) / (bar + solid);
     EXPECT_NEAR(result.stages[1].last.displacement / 400.0, left,
                 0.05 * stress * area / (bar + solid));
     // Reloading goes back to the envelope.
-    const double again = solid * 6.0 * yield + (400.0 + hardening * 5.0 * yield) * area;
+    const double again = solid * 4.0 * yield + (400.0 + hardening * 3.0 * yield) * area;
     EXPECT_NEAR(result.stages[2].last.load, again, 0.03 * stress * area);
     EXPECT_LT(result.energy_error, 1e-8);
     // Once it has unloaded, the plastic work is what is dissipated.
     const double flow =
-        0.5 * (400.0 + stress) * 3.0 * yield + 0.5 * (400.0 * yield - stress * stress / steel);
+        0.5 * (400.0 + stress) * 1.5 * yield + 0.5 * (400.0 * yield - stress * stress / steel);
     EXPECT_NEAR(result.stages[1].last.dissipated_energy, flow * area * 400.0,
                 0.03 * flow * area * 400.0);
   }

@@ -75,6 +75,13 @@ Bonds ways_to_solid(const Body& body, const NetworkInput& input, const RebarMesh
   Bonds ways;
   ways.dim = dim;
   for (Index k = 0; k < near.rows(); ++k) {
+    const auto x = particles.position(mesh.anchored[k].particle);
+    const auto holds = [&](const Box& box) {
+      return box.contains(x, 1e-6 * body.lattice.spacing);
+    };
+    if (!input.solid.empty() && std::none_of(input.solid.begin(), input.solid.end(), holds)) {
+      continue;  // it stands out of the body
+    }
     for (const Index i : near.row(k)) ways.append(particles, i, mesh.anchored[k].particle);
   }
   if (!input.cracks.empty()) {
@@ -145,7 +152,7 @@ Index add_anchor(Network& network, Index at, std::span<const Index> particles,
   for (int a = 0; a < all.dim; ++a) {
     all.positions.push_back(all.positions[static_cast<std::size_t>(at) * all.dim + a]);
   }
-  all.volumes.push_back(0.0);
+  all.volumes.push_back(all.volumes[at]);
   all.material.push_back(no_index);
   all.kind.push_back(ParticleKind::anchor);
   network.anchors.append(particles, weights);
