@@ -11,7 +11,7 @@ struct ModelState {
   Secants secants;                 ///< one per element; empty: all are intact
   std::span<const double> motion;  ///< over `scale`, shape (particles, width)
   double scale = 1.0;
-  double load_factor = 1.0;  ///< of the loads
+  double load_factor = 1.0;  ///< factor on the loads
 };
 
 }  // namespace perilink

@@ -26,7 +26,7 @@ std::vector<double> holding_forces(const Model& model, const ModelState& state);
 struct Reaction {
   Vector3 middle{};  ///< mean of their positions, about which the moment counts [length]
   Vector3 force{};
-  Vector3 moment{};  ///< of forces, and of moments where rotations are held
+  Vector3 moment{};  ///< with the moments that hold rotations
 };
 Reaction reaction_on(const Model& model, std::span<const Index> particles,
                      std::span<const double> forces);

@@ -135,7 +135,7 @@ std::string face_style(int step, double width) {
                      stroke_width(width * (1.0 + part)));
 }
 
-/// Of all broken bonds; zero where the file has no openings.
+/// The widest of all broken bonds; zero where the file has no openings.
 double largest_opening(const PlotBody& body) {
   double largest = 0.0;
   for (const double opening : body.openings) largest = std::max(largest, opening);

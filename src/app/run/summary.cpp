@@ -112,7 +112,7 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
   }
   if (cracks.empty()) return;
   const ToldCrack& first = cracks.front();
-  summary.line("cracks", "of the largest {} bonds, opened by {:.4g} at most, at ({:.6g})",
+  summary.line("cracks", "the largest has {} bonds and is open by {:.4g} at most, at ({:.6g})",
                first.state.bonds, first.state.largest, fmt::join(first.at, ", "));
 }
 

@@ -39,7 +39,7 @@ struct Virial {
   using Tensor = Eigen::Vector<double, components<Dim>>;
   using Vector = Eigen::Vector<double, Dim>;
 
-  Tensor present = Tensor::Zero();  ///< of the forces as they are
+  Tensor present = Tensor::Zero();  ///< that of the forces as they are
   /// The virial of intact bonds in every strain.
   Eigen::Matrix<double, components<Dim>, components<Dim>> intact =
       Eigen::Matrix<double, components<Dim>, components<Dim>>::Zero();

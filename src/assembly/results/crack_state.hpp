@@ -11,7 +11,7 @@ namespace perilink {
 /// A connected set of damaged bonds.
 struct CrackState {
   Index bonds = 0;
-  double mean = 0.0, largest = 0.0;  ///< of their openings [length]
+  double mean = 0.0, largest = 0.0;  ///< opening [length]
   Index widest = no_index;           ///< the bond with the largest
 };
 

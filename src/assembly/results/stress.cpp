@@ -83,7 +83,7 @@ bool fit_gradient(const Network& network, std::span<const double> motion, Index 
   return true;
 }
 
-/// Of the polynomial that fits the displacements around a particle; zero where they settle none.
+/// That of the polynomial that fits the displacements around a particle; zero where there is none.
 template <int Dim>
 Eigen::Matrix3d fitted_strain(const StressInput& input, std::span<const double> motion,
                               Index particle) {

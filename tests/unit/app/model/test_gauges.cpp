@@ -106,8 +106,8 @@ struct Collector final : StepObserver {
   void on_step(const StepRecord& record, StateSource& source) override {
     rows.push_back(record);
     const StepState state = source.state();
-    gauges.push_back(gauge_values(
-        model, {state.secants, state.displacement, record.load_factor}, families));
+    gauges.push_back(
+        gauge_values(model, {state.secants, state.displacement, record.load_factor}, families));
   }
   const Model& model;
   Csr families;

@@ -57,7 +57,7 @@ TEST_F(FieldFile, CellsAreParticlesThenBrokenBondsThenBars) {
 
 TEST_F(FieldFile, StressesHaveTheirPrincipalValuesAndDirections) {
   std::vector<double> stresses(6 * 6, 0.0);
-  stresses[6 + 1] = 4.0;   // the second particle: yy
+  stresses[6 + 1] = 4.0;    // the second particle: yy
   stresses[12 + 3] = -3.0;  // the third one: xy
   add_stresses(grid_, stresses, 2);
   EXPECT_EQ(grid_.find_point_data("stress")->values, stresses);

@@ -57,7 +57,9 @@ TEST_F(CrackOpeningsTest, EveryBondOfACrackThatOpensEvenlyShowsItsOpening) {
   EXPECT_NEAR(found.cracks[0].largest, 0.02, 2e-4);
   for (std::size_t k = 0; k < found.bonds.size(); ++k) {
     const double x = network.particles.position(network.bonds.first[found.bonds[k]])[0];
-    if (x > 0.55 && x < 1.05) EXPECT_NEAR(found.opening[k], 0.02, 1e-12);
+    if (x > 0.55 && x < 1.05) {
+      EXPECT_NEAR(found.opening[k], 0.02, 1e-12);
+    }
   }
 }
 
@@ -66,7 +68,9 @@ TEST_F(CrackOpeningsTest, SlidingOpensNothing) {
   const CrackOpenings found = openings(moved_apart(0.02, 0.0));
   for (std::size_t k = 0; k < found.bonds.size(); ++k) {
     const double x = network.particles.position(network.bonds.first[found.bonds[k]])[0];
-    if (x > 0.55 && x < 1.05) EXPECT_NEAR(found.opening[k], 0.0, 1e-12);
+    if (x > 0.55 && x < 1.05) {
+      EXPECT_NEAR(found.opening[k], 0.0, 1e-12);
+    }
   }
 }
 
@@ -103,8 +107,12 @@ TEST_F(CrackOpeningsTest, AParticleHasTheLargestOfItsBonds) {
   for (Index i = 0; i < network.particles.size(); ++i) {
     const double away = std::abs(network.particles.position(i)[1] - 0.9);
     const double x = network.particles.position(i)[0];
-    if (away > 0.5) EXPECT_EQ(at[i], 0.0);
-    if (away < 0.15 && x > 0.75 && x < 0.85) EXPECT_NEAR(at[i], 0.02, 2e-4);
+    if (away > 0.5) {
+      EXPECT_EQ(at[i], 0.0);
+    }
+    if (away < 0.15 && x > 0.75 && x < 0.85) {
+      EXPECT_NEAR(at[i], 0.02, 2e-4);
+    }
   }
 }
 
