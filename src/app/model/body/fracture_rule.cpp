@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/case/sections/case_kinds.hpp"
 #include "network/crack_cost.hpp"
 
 namespace perilink {
@@ -67,7 +66,8 @@ std::optional<std::string> unmeasured_cost_note(const CaseFile& input, const Mod
         "taken; choose a spacing that divides all sides of the body more evenly",
         what, 100.0 * (ratio - 1.0));
   }
-  if (dimension_of(input.body) == 2 || !model.network.carries_moments()) return std::nullopt;
+  if (model.network.dim() == 2 || model.network.shell || !model.network.carries_moments())
+    return std::nullopt;
   return fmt::format(
       "{} in irregular clouds in space whose bonds bend: that of bonds without bending is taken",
       what);
