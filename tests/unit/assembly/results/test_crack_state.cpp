@@ -40,6 +40,13 @@ class CrackOpeningsTest : public testing::Test {
     return crack_openings(network, families, secants, motion);
   }
 
+  /// Whether the families of both ends are whole.
+  bool is_inside(Index bond) const {
+    const double i = network.particles.position(network.bonds.first[bond])[0];
+    const double j = network.particles.position(network.bonds.second[bond])[0];
+    return std::min(i, j) > 0.45 && std::max(i, j) < 1.15;
+  }
+
   Network network;
   Csr families;
   std::vector<double> secants;
@@ -56,8 +63,7 @@ TEST_F(CrackOpeningsTest, EveryBondOfACrackThatOpensEvenlyShowsItsOpening) {
   EXPECT_NEAR(found.cracks[0].mean, 0.02, 2e-4);
   EXPECT_NEAR(found.cracks[0].largest, 0.02, 2e-4);
   for (std::size_t k = 0; k < found.bonds.size(); ++k) {
-    const double x = network.particles.position(network.bonds.first[found.bonds[k]])[0];
-    if (x > 0.55 && x < 1.05) {
+    if (is_inside(found.bonds[k])) {
       EXPECT_NEAR(found.opening[k], 0.02, 1e-12);
     }
   }
@@ -67,8 +73,7 @@ TEST_F(CrackOpeningsTest, SlidingOpensNothing) {
   damage(0.0);
   const CrackOpenings found = openings(moved_apart(0.02, 0.0));
   for (std::size_t k = 0; k < found.bonds.size(); ++k) {
-    const double x = network.particles.position(network.bonds.first[found.bonds[k]])[0];
-    if (x > 0.55 && x < 1.05) {
+    if (is_inside(found.bonds[k])) {
       EXPECT_NEAR(found.opening[k], 0.0, 1e-12);
     }
   }
