@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <exception>
 
-#include "solver/energy_gains.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
@@ -19,7 +18,7 @@ struct Search {
   const LinearMap& product;
   const LinearMap& precondition;
   double enough, scale;
-  EnergyGains gains = {};
+  StepGains gains = {};
   GradientsReport report = {};
   double curvature = 0.0;  ///< p'A p of the last product
   double rz = 0.0, first = 0.0;
