@@ -22,8 +22,8 @@ struct Campaign {
 
 void PrintTo(const Campaign& campaign, std::ostream* stream) { *stream << campaign.name; }
 
-/// A notched strip in elements that let go of their particles too late, so that the run begins again
-/// and takes back the files that it has written.
+/// A notched strip in elements that let go of their particles too late: the run begins again and
+/// takes back the files that it has written.
 constexpr const char* late_elements_case = R"([body]
 spacing = 2.0
 horizon_ratio = 3

@@ -37,7 +37,7 @@ bool softens(const Network& network) {
 /// The whole run as far as the case tells its length.
 std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& cost,
                      bool softening) {
-  const double begin = set_up + cost.factorization + cost.field_file;  // of the first row
+  const double begin = set_up + cost.factorization + cost.field_file;  // the first row has one
   if (input.analysis.type == AnalysisType::elastic) return "about " + time_text(begin);
   if (softening) {
     return fmt::format(
