@@ -11,8 +11,8 @@ namespace perilink {
 /// The uniform strain in which the bonds of a particle, if they were intact, would have the virial
 /// that they have as they are: sum of force times bond vector over all its bonds. In a uniform
 /// strain it is that strain for intact bonds, anywhere in the body and for any stiffnesses, and a
-/// times that strain where all of them have the secant a. Zero where the bonds do not resist every strain. Ties and
-/// bars do not count.
+/// times that strain where all of them have the secant a. Zero where the bonds do not resist every
+/// strain. Ties and bars do not count.
 /// \param families  bonds of each particle (bonds_of_particles)
 /// \param motion    shape (particles, width)
 SymmetricTensor bond_strain(const Network& network, const Csr& families, Secants secants,
