@@ -32,7 +32,8 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options,
       observer_(observer),
       problem_(problem),
       engine_(make_engine()),
-      state_(problem.network, *engine_) {
+      state_(problem.network, *engine_),
+      strains_(problem.network) {
   result_.unknowns = problem.unknowns.count;
   if (problem.carried) {
     conversion_.emplace(network_, *problem.carried);
@@ -128,6 +129,22 @@ void EventRun::adopt(const Unknowns& unknowns) {
 /// pays when it has grown by a tenth.
 bool EventRun::residual_may_be_large() const {
   return checked_compliance_ > 0.0 && compliance_ > 1.1 * checked_compliance_;
+}
+
+/// Whether the next event comes so late that it means nothing: then the run ends.
+bool EventRun::leaves_small_strains(double load_factor) {
+  if (!strains_.is_due(load_factor)) return false;
+  const bool beyond =
+      staged_ != nullptr
+          ? strains_.is_beyond(staged_->displacement(), 1.0, engine_->secants())
+          : strains_.is_beyond(engine_->where_elements_fail(), load_factor, engine_->secants());
+  if (!beyond) return false;
+  end(Ending::nothing_breaks,
+      fmt::format("before the next bond fails, at the load factor {:.4g}, others would be shorter "
+                  "by more than a tenth: what is crushed or only compressed bears any load, and "
+                  "small strains tell no more about it",
+                  load_factor));
+  return true;
 }
 
 /// Events between looks at the residual.
@@ -261,6 +278,7 @@ DamageResult EventRun::by_events() {
       end(Ending::nothing_breaks, "no bond can break under this load");
       break;
     }
+    if (leaves_small_strains(event.load_factor)) break;
     record(event.load_factor, work, event.element);
     if (stop_rule_met() || !pass(event)) break;
     follow_motion();

@@ -11,6 +11,7 @@
 #include "analysis/quasistatic/damage_options.hpp"
 #include "analysis/quasistatic/events/staged_engine.hpp"
 #include "analysis/quasistatic/path_energy.hpp"
+#include "analysis/quasistatic/strain_watch.hpp"
 #include "base/timer.hpp"
 
 /// \file
@@ -71,6 +72,7 @@ class EventRun {
   void take_over(const Unknowns& unknowns, double load_factor);
   void note_late_conversions(const Event& event, double sense);
   bool residual_may_be_large() const;
+  bool leaves_small_strains(double load_factor);
   int check_interval() const;
   bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }
   void record_separated(double load_factor, const LoadWork& work);
@@ -95,6 +97,7 @@ class EventRun {
   /// Bonds that conversions have freed since the last event, with the load factor of the alert.
   std::vector<std::pair<std::vector<Index>, double>> freed_;
   PathEnergy energy_;
+  StrainWatch strains_;
   Timer timer_;
   double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...
   double checked_compliance_ = 0.0;  ///< ... when the residual was last measured

@@ -29,6 +29,7 @@ void EventRun::begin_stage(std::size_t number) {
   stop_ = &stage.stop;
   rows_below_ = 0;
   if (!others) return;
+  strains_.restart();
   result_.peaks = {};
   reference_ = &problem_.sets[stage.set].reference;
   const Unknowns& held = problem_.sets[stage.set].unknowns;
@@ -86,7 +87,12 @@ bool EventRun::follow_stage(const StageRules& stage) {
       return false;
     }
     const double load_factor = arrived ? *aim : event.load_factor;
+    const double before = staged_->load_factor();
     staged_->move_to(load_factor);
+    if (leaves_small_strains(load_factor)) {
+      staged_->move_to(before);
+      return false;
+    }
     row_.avalanche = event.avalanche ? 1 : 0;
     row_.side_change = event.changes_side ? 1 : 0;
     record(load_factor, work, event.element);

@@ -1,5 +1,7 @@
 #include "analysis/quasistatic/events/staged_engine.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -84,7 +86,9 @@ Event StagedEngine::next_event() {
   }
   const double distance =
       last.element != no_index ? last.distance : std::numeric_limits<double>::infinity();
-  if (const Event change = side_change_within(distance); change.element != no_index) return change;
+  if (const Event change = side_change_within(distance); change.element != no_index) {
+    return turns_back(change) ? Event{worst().element, load_factor_, true} : change;
+  }
   if (last.element == no_index) return {};
   return {last.element, load_factor_ + last.distance};
 }
@@ -111,8 +115,38 @@ Event StagedEngine::side_change_within(double distance) {
   return {change.element, load_factor_ + change.distance, false, true};
 }
 
+bool StagedEngine::is_last_change(double load_factor) const {
+  constexpr double round_off = 1e-12;
+  return changes_there_ > 0 &&
+         std::abs(load_factor - changed_at_) <= round_off * std::abs(load_factor);
+}
+
+/// Whether bonds have just changed sides the other way here. What exceeds its limit is then loaded
+/// more either way from here: there is no load factor near by that it can bear.
+bool StagedEngine::turns_back(const Event& change) {
+  return is_last_change(change.load_factor) && direction_ != changed_towards_ &&
+         worst().ratio > 1.0 + tie_tolerance;
+}
+
+/// Bonds that are to change sides at one load factor do so together.
+void StagedEngine::count_changes() {
+  constexpr int most_changes = 100;
+  changes_there_ = is_last_change(load_factor_) ? changes_there_ + 1 : 1;
+  changed_at_ = load_factor_;
+  changed_towards_ = direction_;
+  if (changes_there_ < most_changes) return;
+  throw SolverError(fmt::format(
+      "damaged bonds open and close again and again at the load factor {:.6g}: it cannot be told "
+      "which of them are closed",
+      load_factor_));
+}
+
 EventOutcome StagedEngine::apply(const Event& event) {
-  if (event.changes_side) return equilibrium_.pass_side_change(direction_);
+  if (event.changes_side) {
+    count_changes();
+    return equilibrium_.pass_side_change(direction_);
+  }
+  changes_there_ = 0;
   const EventOutcome outcome = SingleEventEngine::apply(event);
   if (!outcome.mechanism) crossings_.set_limit(event.element, limit_of(event.element));
   return outcome;

@@ -52,6 +52,9 @@ class StagedEngine final : public SingleEventEngine {
   BreakSearch::Hit worst();
   std::span<const double> displacement_at(double load_factor);
   Event side_change_within(double distance);
+  bool is_last_change(double load_factor) const;
+  bool turns_back(const Event& change);
+  void count_changes();
 
   const LoadedNetwork& problem_;
   CrossingSearch crossings_;
@@ -63,7 +66,10 @@ class StagedEngine final : public SingleEventEngine {
   std::size_t set_ = 0;
   std::size_t newest_ = 0;  ///< last one of the sets that have grown
   double load_factor_ = 0.0;
-  double direction_ = 0.0;   ///< in which it moves when damaged bonds close or open next
+  double direction_ = 0.0;        ///< in which it moves when damaged bonds close or open next
+  double changed_at_ = 0.0;       ///< load factor at which they did last, ...
+  double changed_towards_ = 0.0;  ///< ... in which direction ...
+  int changes_there_ = 0;    ///< ... and how often one after the other; 0: something failed since
   std::vector<double> now_;  ///< displacements at the load factor asked for last
 };
 

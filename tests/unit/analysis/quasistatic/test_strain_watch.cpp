@@ -1,0 +1,76 @@
+#include "analysis/quasistatic/strain_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "support/analysis_bodies.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+/// Four particles in a square, every pair bonded, whose right half moves to the left.
+struct Pressed {
+  Network network = make_square().network;
+  std::vector<double> motion = std::vector<double>(8, 0.0);
+  double side = 0.0;
+
+  Pressed() {
+    const Particles& particles = network.particles;
+    for (Index i = 0; i < particles.size(); ++i) {
+      side = std::max(side, particles.position(i)[0] - particles.position(0)[0]);
+    }
+    for (Index i = 0; i < particles.size(); ++i) {
+      motion[2 * i] = -(particles.position(i)[0] - particles.position(0)[0]) / side;
+    }
+  }
+};
+
+TEST(StrainWatch, LooksWhereTheLoadHasDoubled) {
+  const Pressed body;
+  StrainWatch watch(body.network);
+  EXPECT_TRUE(watch.is_due(3.0)) << "the first one";
+  EXPECT_FALSE(watch.is_due(-5.9));
+  EXPECT_TRUE(watch.is_due(-6.0));
+  EXPECT_FALSE(watch.is_due(6.0));
+  watch.restart();
+  EXPECT_TRUE(watch.is_due(0.1)) << "other loads";
+}
+
+TEST(StrainWatch, TellsBondsThatAreShorterByMoreThanATenth) {
+  Pressed body;
+  for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
+  const StrainWatch watch(body.network);
+  const std::vector<double> secants = intact(body.network);
+  EXPECT_FALSE(watch.is_beyond(body.motion, 0.099 * body.side, secants));
+  EXPECT_TRUE(watch.is_beyond(body.motion, 0.101 * body.side, secants));
+  EXPECT_FALSE(watch.is_beyond(body.motion, -0.101 * body.side, secants)) << "it is pulled";
+}
+
+TEST(StrainWatch, LeavesBodiesAloneWhoseBondsBearAsMuch) {
+  Pressed body;
+  for (double& stretch : body.network.critical_stretch) stretch = 0.02;
+  const std::vector<double> secants = intact(body.network);
+  EXPECT_FALSE(StrainWatch(body.network).is_beyond(body.motion, 0.199 * body.side, secants));
+  EXPECT_TRUE(StrainWatch(body.network).is_beyond(body.motion, 0.201 * body.side, secants));
+}
+
+TEST(StrainWatch, LooksAtNoBondThatIsBrokenOrCannotBreak) {
+  Pressed body;
+  for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
+  const std::vector<double> broken(intact(body.network).size(), 0.0);
+  EXPECT_FALSE(StrainWatch(body.network).is_beyond(body.motion, body.side, broken));
+  EXPECT_TRUE(
+      StrainWatch(body.network).is_beyond(body.motion, body.side, {broken, intact(body.network)}))
+      << "they are closed";
+  for (double& stretch : body.network.critical_stretch) {
+    stretch = std::numeric_limits<double>::infinity();
+  }
+  EXPECT_FALSE(StrainWatch(body.network).is_beyond(body.motion, body.side, intact(body.network)));
+}
+
+}  // namespace
+}  // namespace perilink
