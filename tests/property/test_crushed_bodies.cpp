@@ -1,0 +1,76 @@
+// Bodies that are pressed until they are crushed, with bonds that close: their runs come to an end
+// that means something.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/whole_run.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+constexpr double youngs_modulus = 30000.0, height = 50.0;
+
+/// A block of 100 by 50 held at its left side.
+/// \param material  lines of its material
+std::string block(const std::string& body, const std::string& material, const std::string& loads) {
+  return body +
+         "pattern = \"rectangular\"\nspacing = 10\n"
+         "[[regions]]\nname = \"block\"\nx = [0, 100]\ny = [0, 50]\n"
+         "[[regions]]\nname = \"left\"\nx = [0, 0]\ny = [0, 50]\n"
+         "[[regions]]\nname = \"right\"\nx = [100, 100]\ny = [0, 50]\n"
+         "[[regions]]\nname = \"corner\"\nx = [0, 0]\ny = [0, 0]\n" +
+         fmt::format("[[materials]]\nregion = \"block\"\nyoungs_modulus = {}\n", youngs_modulus) +
+         "fracture_energy = 0.1\ntensile_strength = 3\nsoftening_error = 0.1\n" + material +
+         "[[supports]]\nregion = \"left\"\nfix = [\"x\"]\n"
+         "[[supports]]\nregion = \"corner\"\nfix = [\"y\"]\n" +
+         loads;
+}
+
+TEST(CrushedBodies, EndBeforeStrainsAreLarge) {
+  const WholeRun run(block("[body]\nproblem = \"plane_stress\"\nhorizon_ratio = 3\n",
+                           "softening = \"bilinear\"\n",
+                           "[[displacements]]\nregion = \"right\"\nx = -0.1\n"));
+  const auto& told = run.summary.json;
+  EXPECT_EQ(told.at("status"), "nothing_breaks");
+  EXPECT_THAT(told.at("reason").get<std::string>(), testing::HasSubstr("shorter by more than"));
+  EXPECT_LT(std::abs(told.at("peak_load").get<double>()), 0.1 * youngs_modulus * height);
+  EXPECT_LT(std::abs(told.at("peak_displacement").get<double>()), 0.1 * 100.0);
+  EXPECT_LT(told.at("energy_error").get<double>(), 1e-9);
+}
+
+/// After an event a bond is beyond its limit at a load factor where another closes. Where the load
+/// grows the other opens, and more of the load comes upon the first; where it falls the other is
+/// closed, and the same. So the first one fails where it is.
+TEST(CrushedBodies, BondsThatBearNoLoadFactorNearByFailAtTheirOwn) {
+  const WholeRun run(block(
+      "[body]\nproblem = \"plane_strain\"\nmodel = \"micropolar\"\nhorizon_ratio = 2\n",
+      "poissons_ratio = 0.18\nsoftening = \"linear\"\n[[cracks]]\npoints = [[52, -1], [52, 20]]\n",
+      "[[loads]]\nregion = \"block\"\nforce = [0, -50]\nstage = \"weight\"\n"
+      "[[displacements]]\nregion = \"right\"\nx = -0.05\nstage = \"press\"\n"
+      "[[stages]]\nname = \"weight\"\nto = 1\n"
+      "[[stages]]\nname = \"press\"\nload_fraction = 0.6\n"));
+  EXPECT_LT(run.summary.json.at("energy_error").get<double>(), 1e-9);
+  EXPECT_NE(run.summary.json.at("status"), "failed") << run.summary.json.at("reason");
+  const CsvTable history = run.history();
+  const auto value = [&](std::size_t row, const char* name) {
+    return history.rows[row][history.column(name)];
+  };
+  int avalanches_after_a_change = 0;
+  for (std::size_t k = 1; k < history.rows.size(); ++k) {
+    const bool same_place = value(k, "load_factor") == value(k - 1, "load_factor");
+    if (!same_place || value(k - 1, "side_change") == 0.0) continue;
+    EXPECT_EQ(value(k, "side_change"), 0.0) << "row " << k << " changes sides back";
+    if (value(k, "avalanche") == 1.0) ++avalanches_after_a_change;
+  }
+  EXPECT_GT(avalanches_after_a_change, 0);
+}
+
+}  // namespace
+}  // namespace perilink
