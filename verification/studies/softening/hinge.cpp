@@ -12,6 +12,7 @@ constexpr int bisections = 60;
 /// Stresses over f_t, lengths over E G_F / f_t^2 and elongations over G_F / f_t.
 struct Hinge {
   double knee_stress, knee_opening, depth;
+  const std::vector<SkinPoint>& skin;
 
   double length() const { return 0.5 * depth; }
 
@@ -21,13 +22,22 @@ struct Hinge {
     return std::max(0.0, knee_stress * (last - opening) / (last - knee));
   }
 
+  double stress_of_skin(double strain) const {
+    const auto next = std::find_if(skin.begin() + 1, skin.end() - 1,
+                                   [&](const SkinPoint& point) { return point.strain >= strain; });
+    const SkinPoint &a = *(next - 1), &b = *next;
+    return a.stress + (b.stress - a.stress) * (strain - a.strain) / (b.strain - a.strain);
+  }
+
   /// Stress of a fibre with this elongation.
   double stress(double elongation) const {
-    if (elongation <= length()) return elongation / length();
+    if (elongation <= 0.0) return elongation / length();
+    const double last_strain = skin.back().strain * length();
+    if (elongation <= last_strain) return stress_of_skin(elongation / length());
     double low = 0.0, high = elongation;
     for (int k = 0; k < bisections; ++k) {
       const double opening = 0.5 * (low + high);
-      (opening + length() * cohesion(opening) > elongation ? high : low) = opening;
+      (opening + last_strain * cohesion(opening) > elongation ? high : low) = opening;
     }
     return cohesion(low);
   }
@@ -61,8 +71,9 @@ struct Hinge {
 
 }  // namespace
 
-double hinge_strength(double knee_stress_ratio, double knee_opening_ratio, double depth) {
-  const Hinge hinge{knee_stress_ratio, knee_opening_ratio, depth};
+double hinge_strength(double knee_stress_ratio, double knee_opening_ratio, double depth,
+                      const std::vector<SkinPoint>& skin) {
+  const Hinge hinge{knee_stress_ratio, knee_opening_ratio, depth, skin};
   double best = 0.0;
   for (double rotation = 0.9; rotation < 10.0; rotation *= 1.03) {
     best = std::max(best, hinge.nominal(rotation));

@@ -8,6 +8,7 @@
 #include "hinge.hpp"
 #include "problems/program.hpp"
 #include "problems/result.hpp"
+#include "skin.hpp"
 #include "specimens.hpp"
 
 namespace perilink::verification {
@@ -142,20 +143,39 @@ void run_hinge() {
   write_result(PERILINK_STUDY_DIR, table.text(), "hinge.csv");
 }
 
+/// The same by a cohesive hinge whose fibres soften before they crack as the body does.
+void run_skin() {
+  Table table(
+      "model,knee_stress_ratio,knee_opening_ratio,horizon,strength_factor,strain_at_strength,"
+      "hinge");
+  const double length = 30000.0 * fracture_energy / (tensile_strength * tensile_strength);
+  constexpr double knees[][2] = {{1.0 / 3.0, 2.0 / 9.0}, {0.25, 0.15}, {0.15, 0.10}};
+  for (const double poissons_ratio : {1.0 / 3.0, 0.2}) {
+    for (const auto& [stress, opening] : knees) {
+      for (const double horizon : {15.0, 10.0, 7.5, 5.0}) {
+        const Skin skin = skin_of({poissons_ratio, stress, opening, horizon / length});
+        table.add(fmt::format("{},{:.3g},{:.3g},{},{:.4f},{:.4f},{:.4f}\n",
+                              poissons_ratio > 0.3 ? "bond_based" : "micropolar", stress, opening,
+                              horizon, skin.strength_factor, skin.curve.back().strain,
+                              hinge_strength(stress, opening, 100.0 / length, skin.curve)));
+      }
+    }
+  }
+  write_result(PERILINK_STUDY_DIR, table.text(), "skin.csv");
+}
+
 }  // namespace
 }  // namespace perilink::verification
 
 /// Strength and energy of strips and beams whose bonds soften, over what the material says:
-/// `softening strips` writes strips.csv, and so beams, unnotched, knees and hinge.
+/// `softening strips` writes strips.csv, and so beams, unnotched, knees, hinge and skin.
 bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
-  const std::map<std::string, void (*)()> parts = {{"strips", run_strips},
-                                                   {"beams", run_beams},
-                                                   {"unnotched", run_unnotched},
-                                                   {"knees", run_knees},
-                                                   {"hinge", run_hinge}};
+  const std::map<std::string, void (*)()> parts = {
+      {"strips", run_strips}, {"beams", run_beams}, {"unnotched", run_unnotched},
+      {"knees", run_knees},   {"hinge", run_hinge}, {"skin", run_skin}};
   const auto part = parts.find(arguments.empty() ? "" : arguments[0]);
   if (part == parts.end()) {
-    throw std::invalid_argument("name strips, beams, unnotched, knees or hinge");
+    throw std::invalid_argument("name strips, beams, unnotched, knees, hinge or skin");
   }
   part->second();
   return true;
