@@ -76,9 +76,7 @@ Bonds ways_to_solid(const Body& body, const NetworkInput& input, const RebarMesh
   ways.dim = dim;
   for (Index k = 0; k < near.rows(); ++k) {
     const auto x = particles.position(mesh.anchored[k].particle);
-    const auto holds = [&](const Box& box) {
-      return box.contains(x, 1e-6 * body.lattice.spacing);
-    };
+    const auto holds = [&](const Box& box) { return box.contains(x, 1e-6 * body.lattice.spacing); };
     if (!input.solid.empty() && std::none_of(input.solid.begin(), input.solid.end(), holds)) {
       continue;  // it stands out of the body
     }

@@ -4,7 +4,7 @@
 
 #include "discretization/lattices/lattice.hpp"
 #include "material/elasticity.hpp"
-#include "material/state_fit.hpp"
+#include "material/states/state_fit.hpp"
 #include "network/network.hpp"
 
 namespace perilink {

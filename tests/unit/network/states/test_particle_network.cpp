@@ -13,7 +13,7 @@
 #include "assembly/stiffness.hpp"
 #include "discretization/lattices/make_body.hpp"
 #include "discretization/lattices/triangulate.hpp"
-#include "material/state_moduli.hpp"
+#include "material/states/state_moduli.hpp"
 #include "support/particle_clouds.hpp"
 
 namespace perilink {

@@ -8,7 +8,7 @@
 #include "material/elasticity.hpp"
 #include "material/j2_plasticity.hpp"
 #include "material/lattice_rules.hpp"
-#include "material/state_moduli.hpp"
+#include "material/states/state_moduli.hpp"
 
 namespace perilink {
 

@@ -1,4 +1,4 @@
-#include "material/state_fit.hpp"
+#include "material/states/state_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "material/state_moduli.hpp"
+#include "material/states/state_moduli.hpp"
 
 namespace perilink {
 namespace {

@@ -1,4 +1,4 @@
-#include "material/state_fit.hpp"
+#include "material/states/state_fit.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "material/state_moduli.hpp"
+#include "material/states/state_moduli.hpp"
 
 #include <gtest/gtest.h>
 
