@@ -39,7 +39,8 @@ CaseFile clamped_plate(double thickness, const std::string& energy, const std::s
 double deflection(const CaseFile& input) {
   const Model model = build_model(input);
   const ElasticResult result = run_elastic_analysis(model, {});
-  return -gauge_values(model, result.displacement, 1.0)[0];
+  Csr families;
+  return -gauge_values(model, {{}, result.displacement}, families)[0];
 }
 
 /// Timoshenko & Woinowsky-Krieger 1959, section 44: 0.00126 q a^4 / D; 0.00126532 of later work

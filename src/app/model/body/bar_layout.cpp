@@ -244,14 +244,20 @@ void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars
   const auto inside = inside_of(input, body);
   for (std::size_t bar = 0; bar < bars.lines.size(); ++bar) {
     const std::size_t k = bars.sections[bar];
-    if (input.rebar[k].across_gaps) continue;
+    const RebarSection& section = input.rebar[k];
+    // Nodes in the air hang on their bar alone.
+    const bool stays_in_line = section.bends || section.bond == RebarBond::concrete;
+    if (section.across_gaps && stays_in_line) continue;
     const auto point = first_outside(bars.lines[bar], look_step * body.lattice.spacing, inside);
     if (!point) continue;
     throw InputError(
         input.where(item_key("rebar", k)),
         fmt::format("leaves the body at ({:.6g})",
                     fmt::join(point->begin(), point->begin() + body.particles.dim, ", ")),
-        "move the bar into the body, or set across_gaps = true for one that runs through air");
+        section.across_gaps
+            ? "set bends = true: without bending stiffness nothing keeps a bar in line in the air"
+            : "move the bar into the body, or set across_gaps = true for one that runs through "
+              "air");
   }
 }
 

@@ -230,6 +230,7 @@ TEST(BoundaryConditions, LooseParticlesAreRefused) {
   RebarSection bar;  // its outer node, off the corner of the body, hangs on one line
   bar.points = {{40.0, 80.0, 0.0}, {47.0, 87.0, 0.0}};
   bar.bond = RebarBond::concrete;
+  bar.across_gaps = true;
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;
   input.rebar.push_back(bar);

@@ -209,6 +209,8 @@ TEST(Configure, BarsStayInTheBodyUnlessTheyAreWantedAcrossGaps) {
   input.rebar[0].points[0][1] = -9.0;
   expect_refused(input, "rebar[1]", "leaves the body at (22, -9)");
   input.rebar[0].across_gaps = true;
+  expect_refused(input, "rebar[1]", "set bends = true");
+  input.rebar[0].bends = true;
   EXPECT_NO_THROW(build_model(input));
 }
 
