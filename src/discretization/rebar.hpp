@@ -43,7 +43,7 @@ struct RebarMesh {
 };
 
 /// Divides each straight piece of a bar into equal segments of about the spacing and appends their
-/// nodes to `particles` (kind rebar, volume `cell_volume`, the volume that gives a tie the stiffness
+/// nodes to `particles` (kind rebar, volume `cell_volume`, the one that gives a tie the stiffness
 /// of a bond of the concrete). Nodes of anchored bars are their own, but for a bar that ends where
 /// it begins. Others are tied to the solid particles within the horizon, and one within 1e-6
 /// spacings of a solid particle or of another bar's node is that particle or node.

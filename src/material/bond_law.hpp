@@ -103,7 +103,7 @@ class BondLaw {
 
   Sense sense_;
   std::vector<Tooth> teeth_;  ///< before the bond breaks
-  double ratio_;  ///< of neighbouring teeth behind the last one; 0: the bond breaks there
+  double ratio_;  ///< between neighbouring teeth behind the last one; 0: the bond breaks
   bool closes_ = false;
   std::vector<Tooth> crushing_;  ///< in compression, before the bond breaks
   bool keeps_shear_ = false;

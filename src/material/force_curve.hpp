@@ -33,7 +33,7 @@ void check_curve(const ForceCurve& curve);
 /// The curve as falling secants, whose deformations are over that of its first point. Between the
 /// deformations at which two neighbouring secants leave the curve a tooth dissipates exactly what
 /// the curve does (docs/theory/softening.md).
-/// \param ratio  of neighbouring secants, above one: the force moves by about (ratio - 1) / 2 about
+/// \param ratio  between secants, above one: the force moves by about (ratio - 1) / 2 about
 ///               a plateau
 /// \throws std::invalid_argument as check_curve(), or for another ratio
 BondLaw law_of(const ForceCurve& curve, double ratio);

@@ -40,9 +40,9 @@ struct Bars {
   std::vector<double> area;          ///< cross-section [length^2], per segment
   std::vector<Index> bar;            ///< number of the bar, per segment
   std::vector<std::uint8_t> turned;  ///< nonzero: its second end comes first along the bar
-  /// Of the surface that touches the solid [length], per segment; empty: that of round bars.
+  /// Around the surface that touches the solid [length], per segment; empty: round bars.
   std::vector<double> perimeter = {};
-  /// Stress over strain, over those of yielding, per bar; without points: a plateau. Empty: all are.
+  /// Stress over strain, over those of yielding, per bar; no points: a plateau. Empty: all are.
   std::vector<ForceCurve> curves = {};
   /// Whether the segment and the one before belong to one bar.
   bool continues(std::size_t segment) const {
@@ -96,7 +96,7 @@ struct Network {
   /// [force/length], shape (particles, width); empty: none.
   std::vector<double> support_stiffness;
   Index first_tie = 0;  ///< number of the first tie
-  /// Number of the first tie between a node of a bar and its anchor. At each node there is one along
+  /// Number of the first tie between a node of a bar and its anchor. At a node there is one along
   /// the bar, then those across it.
   Index first_anchored_tie = 0;
   Index first_segment = 0;  ///< number of the first bar segment

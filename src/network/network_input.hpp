@@ -39,7 +39,7 @@ struct BarBond {
   /// Bond stress over slip [force/length^2, length]; empty: perfect, the bar does not slip.
   std::optional<ForceCurve> curve = {};
   bool elastic = false;    ///< its first line goes on for ever
-  double perimeter = 0.0;  ///< of the bar [length]
+  double perimeter = 0.0;  ///< around the bar [length]
   bool hook_from = false;  ///< the end where the bar begins does not slip
   bool hook_to = false;    ///< nor does the other
 };
@@ -54,7 +54,7 @@ struct BarMaterial {
                            ///< anchored
   /// Stress over strain from the yield strength on, in place of a plateau.
   std::optional<ForceCurve> curve = {};
-  BarBond bond = {};   ///< of anchored bars
+  BarBond bond = {};   ///< that anchored bars have
   bool bends = false;  ///< it resists bending too, as round bars do, if it is anchored
   /// Its segments end at anchors of their own that a prestrain or flow moves away from their nodes;
   /// of anchored bars.

@@ -1,5 +1,5 @@
-// The program under mpiexec: the same answers by any number of processes. Where the build has no MPI
-// only the message that says so is tested.
+// The program under mpiexec: the same answers by any number of processes. Where the build has no
+// MPI only the message that says so is tested.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

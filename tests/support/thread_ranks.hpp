@@ -25,8 +25,8 @@ class ThreadRanks final : public Ranks {
     explicit World(int size) : count(size), meeting(size), motions(size), values(size) {}
     const int count;
     std::barrier<> meeting;
-    std::vector<std::span<double>> motions;   // of each rank, while ghosts are updated
-    std::vector<std::vector<double>> values;  // of each rank, while sums are taken
+    std::vector<std::span<double>> motions;   // by rank, while ghosts are updated
+    std::vector<std::vector<double>> values;  // by rank, while sums are taken
     std::mutex mutex;
     std::condition_variable arrived;
     std::map<std::pair<int, int>, std::deque<std::vector<std::byte>>> mail;  // by from, to

@@ -33,7 +33,7 @@ struct ElasticSeconds {
 struct ElasticResult {
   std::vector<double> displacement;  ///< shape (particles, width) [length], rotations [-]
   double strain_energy = 0.0;        ///< summed over the elements [force length]
-  double work = 0.0;                 ///< of loads and reactions [force length]
+  double work = 0.0;                 ///< that loads and reactions do [force length]
   double residual = 0.0;             ///< |f - K u| / |f| after one step of refinement
   FactorStatistics factor;           ///< the stiffness has, or that of boxes
   Index boxes = 0;                   ///< that conjugate gradients have taken; 0: a factor

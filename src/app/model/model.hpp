@@ -54,7 +54,7 @@ struct Model : LoadedNetwork {
   std::vector<std::uint8_t> gripped;
   std::vector<HookeConstants> hooke;  ///< elastic constants per material
   LoadResultant resultant;
-  std::vector<std::size_t> entry_of_bar;  ///< of [[rebar]], by Bars::bar
+  std::vector<std::size_t> entry_of_bar;  ///< in [[rebar]], by Bars::bar
   std::vector<std::string> notes;  ///< what the user should know: pinned modes, unbalanced moments
 };
 

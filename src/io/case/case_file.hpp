@@ -152,7 +152,7 @@ struct BarLayout {
   double cover = 0.0;
   std::optional<int> face;        ///< axis of the normal: 0 to 2 the lower face, 3 to 5 the upper
   int number = 1;                 ///< bars beside the face
-  std::optional<double> spacing;  ///< of stirrups, about [length]
+  std::optional<double> spacing;  ///< between stirrups, about [length]
 };
 
 /// [[rebar]]: exactly one of points, layout and curve.

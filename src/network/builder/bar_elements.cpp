@@ -19,7 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Ties are not stiffer than those of this length, in spacings.
 constexpr double shortest_tie = 0.1;
 
-/// Stiffness of ties that are meant to be rigid, over that of the segments of their bar: forces pass
+/// Stiffness of ties that are meant to be rigid, over that of the segments of their bar: loads pass
 /// from the bar to the solid within a third of a segment.
 constexpr double rigid = 10.0;
 

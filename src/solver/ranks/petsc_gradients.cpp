@@ -152,7 +152,7 @@ PetscErrorCode set_up(Objects& objects, Search& search, std::span<const double> 
   return 0;
 }
 
-/// Of methods that do not count energies: that of the answer, and the root of r'z in place of the
+/// Methods that do not count energies: that of the answer, and the root of r'z in place of the
 /// error.
 void look_at_answer(const Objects& objects, Search& search, std::span<const double> right) {
   const OwnPart answer(objects.solution);

@@ -8,7 +8,7 @@
 namespace perilink::verification {
 namespace {
 
-constexpr double ripple = 0.02;  // of the teeth, which adds less than 0.3 % to the strength
+constexpr double ripple = 0.02;  // that teeth have, which adds less than 0.3 % to the strength
 constexpr int rounds = 8;        // each finds a digit of the strength factor
 
 /// Points that rise, stresses over E s_0 and strains over s_0.

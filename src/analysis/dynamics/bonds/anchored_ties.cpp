@@ -96,7 +96,7 @@ class AnchoredTies final : public ExplicitBonds {
   /// A tie as one of the particles at its ends sees it; all see the same.
   struct Share {
     Index tie;
-    double weight;  ///< of the particle in the extension
+    double weight;  ///< by which the particle counts in the extension
     bool at_node;   ///< the particle is the node, which counts the energy
     int tooth;
     double secant;  ///< present, over the intact stiffness

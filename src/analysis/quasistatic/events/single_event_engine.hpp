@@ -60,7 +60,7 @@ class SingleEventEngine : public EventEngine {
   bool closes_;                            ///< Network::has_closing()
   std::optional<CrushingBonds> crushing_;  ///< where there are some
   std::vector<int> teeth_;                 ///< present tooth of each element
-  /// Of bars that have flowed.
+  /// Where bars have flowed.
   struct OwnLaw {
     BondLaw law;
     double stretch;

@@ -21,7 +21,7 @@ class StagedEngine final : public SingleEventEngine {
   /// \param held  how particles move from the first stage of the set on, used if it is_new()
   void begin_stage(std::size_t set, const Unknowns& held);
 
-  /// Before begin_stage(): bars that have flowed unload elastically from now on, from where they are.
+  /// Before begin_stage(): bars that have flowed unload elastically from there on, as they are.
   /// The equilibrium stays.
   /// \return whether some have
   bool leave_flow();

@@ -17,15 +17,15 @@ struct BodyPart {
   /// Positions are left out: the products need directions and lengths alone.
   Network network;
   std::vector<double> axial, other;  ///< secants of the elements
-  Unknowns unknowns;                 ///< of owned particles; ghosts have none
+  Unknowns unknowns;                 ///< owned particles have some, ghosts none
   Ghosts ghosts;
 
   /// Inverse stiffness of each owned particle alone, shape (owned, width, width).
   std::vector<double> blocks;
   SparseMatrix coarse;                      ///< P'K P of the whole body, lower triangle
   std::vector<Index> boxes;                 ///< per owned particle
-  std::vector<std::array<double, 6>> rows;  ///< of P, shape (owned, width)
-  int motions = 3;                          ///< of a box
+  std::vector<std::array<double, 6>> rows;  ///< rows of P, shape (owned, width)
+  int motions = 3;                          ///< that a box has
 
   Index owned() const { return static_cast<Index>(boxes.size()); }
   Secants secants() const { return {other, axial}; }
@@ -41,7 +41,7 @@ struct Partition {
 };
 Partition share_out(const Network& network, const Unknowns& unknowns, int ranks);
 
-/// \param stiffness  of the boxes and particles of the whole body, its blocks inverted
+/// \param stiffness  boxes and particles of the whole body, its blocks inverted
 BodyPart cut_part(const Network& network, Secants secants, const Unknowns& unknowns,
                   const BoxMotions& motions, const BoxStiffness& stiffness,
                   const Partition& partition, int rank);

@@ -23,8 +23,8 @@
 #include "discretization/lattices/make_body.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "io/case/sections/case_kinds.hpp"
-#include "io/case/sections/case_softening.hpp"
 #include "io/case/sections/case_unused.hpp"
+#include "io/case/sections/laws/case_softening.hpp"
 #include "network/bond_softening.hpp"
 #include "network/builder/network_builder.hpp"
 

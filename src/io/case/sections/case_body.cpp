@@ -8,9 +8,9 @@
 
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_sections.hpp"
-#include "io/case/sections/case_softening.hpp"
-#include "io/case/sections/lattice/case_lattice.hpp"
+#include "io/case/sections/laws/case_softening.hpp"
 
 namespace perilink {
 namespace {

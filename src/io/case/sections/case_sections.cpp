@@ -10,7 +10,7 @@
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_bond_dynamics.hpp"
 #include "io/case/sections/case_kinds.hpp"
-#include "io/case/sections/lattice/case_lattice.hpp"
+#include "io/case/sections/case_lattice.hpp"
 
 namespace perilink {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/case/sections/lattice/case_lattice.hpp"
+#include "io/case/sections/case_lattice.hpp"
 
 #include <fmt/format.h>
 

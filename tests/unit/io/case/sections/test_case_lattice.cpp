@@ -1,4 +1,4 @@
-#include "io/case/sections/lattice/case_lattice.hpp"
+#include "io/case/sections/case_lattice.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "io/case/sections/lattice/case_lattice.hpp"
+#include "io/case/sections/case_lattice.hpp"
 #include "support/case_texts.hpp"
 
 namespace perilink {

@@ -1,4 +1,4 @@
-#include "io/case/sections/case_softening.hpp"
+#include "io/case/sections/laws/case_softening.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_kinds.hpp"
-#include "io/case/sections/lattice/case_lattice.hpp"
+#include "io/case/sections/case_lattice.hpp"
 
 namespace perilink {
 void read_lattice_yielding(const CaseTable& table, const BodySection& body,
