@@ -7,7 +7,6 @@
 #include <string>
 #include <system_error>
 
-#include "app/commands/commands.hpp"
 #include "app/process/console.hpp"
 
 namespace perilink {
@@ -28,7 +27,7 @@ int first_of(std::initializer_list<const char*> variables) {
 // Open MPI; MPICH and those that follow it
 bool is_one_of_many() { return first_of({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) > 1; }
 
-int become_rank(char** words) {
+void become_rank(char** words) {
   std::error_code fault;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", fault);
   const std::string program = (self.parent_path() / "perilink-mpi").string();
@@ -38,7 +37,6 @@ int become_rank(char** words) {
         "several processes were started, and this build knows no MPI: all would do the same\n"
         "  start one process without mpiexec, or build with PETSc (docs/mpi.md)");
   }
-  return exit_bad_input;
 }
 
 Ranks* ranks() { return shared; }

@@ -7,9 +7,9 @@ namespace perilink {
 /// Whether mpiexec has started this process as one of several.
 bool is_one_of_many();
 
-/// Goes on as perilink-mpi, which lies beside the program where it was built with MPI.
-/// \return the exit status, where there is none: the first process says so
-int become_rank(char** words);
+/// Goes on as perilink-mpi, which lies beside the program where it was built with MPI. Comes back
+/// where there is none; the first process says so.
+void become_rank(char** words);
 
 /// The processes that share the work of this one, null where it is alone.
 Ranks* ranks();
