@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -30,7 +29,7 @@ double work_of(double energy, std::span<const double> solution, std::span<const 
     missed += solution[k] * missing[k];
     sizes += std::abs(solution[k] * load[k]);
   }
-  return std::max(energy, std::abs(missed)) <= no_energy * sizes ? energy : energy + 0.5 * missed;
+  return energy <= no_energy * sizes ? energy : energy + 0.5 * missed;
 }
 
 void refuse_lost_balance(const ElasticResult& result) {

@@ -97,7 +97,7 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
   body.displacements = as_vectors(point_values("displacement", 3));
   body.damage = point_values("damage", 1);
   for (const double kind : point_values("kind", 1)) {
-    if (!(kind >= 0.0 && kind <= 2.0)) throw FileError(path + ": a particle has no known 'kind'");
+    if (!(kind >= 0.0 && kind <= 3.0)) throw FileError(path + ": a particle has no known 'kind'");
     body.kind.push_back(static_cast<int>(kind));
   }
   read_lines(grid, values_of(grid.find_cell_data("element"), "element", 1, path), body);

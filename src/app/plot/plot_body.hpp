@@ -31,7 +31,7 @@ struct PlotBody {
   bool is_sheet = false;         ///< a plate or shell in space
   std::vector<double> stress;    ///< von Mises [force/length^2]; of elastic analyses, else empty;
                                  ///< of sheets without damage the size of the displacement [length]
-  std::vector<int> kind;         ///< 0 solid, 1 ghost, 2 rebar
+  std::vector<int> kind;         ///< 0 solid, 1 ghost, 2 rebar, 3 anchor
   std::vector<Ends> broken_bonds;
   std::vector<Ends> segments;
   std::vector<double> bar_stress;  ///< per segment [force/length^2]; empty: not in the file
