@@ -70,8 +70,8 @@ std::string case_text(const Series& series, int columns) {
   const double y = 0.5 * height + 0.02, tip = 0.5 * width;
   return fmt::format("[body]\nspacing = 1\nhorizon_ratio = {}\n{}{}", series.horizon_ratio,
                      series.space ? "problem = \"three_dimensional\"\n" : "", series.heading) +
-         region("body", 0, height) + region("base", 0, 2) + region("cap", height - 2, height) +
-         "[[materials]]\nregion = \"body\"\nyoungs_modulus = 30000\nfracture_energy = "
+         region("block", 0, height) + region("base", 0, 2) + region("cap", height - 2, height) +
+         "[[materials]]\nregion = \"block\"\nyoungs_modulus = 30000\nfracture_energy = "
          "\"infinite\"\n" +
          series.material + "[[supports]]\nregion = \"base\"\nfix = [\"x\", \"y\"" +
          (series.space ? ", \"z\"" : "") + "]\n[[displacements]]\nregion = \"cap\"\ny = 1\n" +
