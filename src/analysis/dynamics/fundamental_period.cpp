@@ -67,10 +67,15 @@ class Vibration {
     for (const VectorXd& other : others) u -= product(other, u) * other;
   }
   VectorXd force_of(const VectorXd& u) {
-    VectorXd all = u;
-    follow_particles(network_, {all.data(), static_cast<std::size_t>(all.size())});
-    internal_force(network_, secants_, {all.data(), static_cast<std::size_t>(all.size())}, inner_);
-    load_particles(network_, inner_.forces);
+    const auto size = static_cast<std::size_t>(u.size());
+    if (network_.anchors.size() == 0) {
+      internal_force(network_, secants_, {u.data(), size}, inner_);
+    } else {
+      VectorXd all = u;
+      follow_particles(network_, {all.data(), size});
+      internal_force(network_, secants_, {all.data(), size}, inner_);
+      load_particles(network_, inner_.forces);
+    }
     return masked(Eigen::Map<const VectorXd>(inner_.forces.data(), u.size()));
   }
   VectorXd random_start() const;
