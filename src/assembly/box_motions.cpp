@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "assembly/network_blocks.hpp"
+#include "base/block.hpp"
 #include "discretization/point_boxes.hpp"
 
 namespace perilink {
@@ -154,6 +155,51 @@ void BoxMotions::add(std::span<const double> coarse, std::span<double> result) c
         double sum = 0.0;
         for (int m = 0; m < motions; ++m) sum += moves[m] * values[m];
         result[unknown] += sum;
+      }
+    }
+  }
+}
+
+void BoxMotions::restrict_block(std::span<const double> residuals, std::span<double> coarse) const {
+  const int motions = num_motions(), width = unknowns_.width;
+  const std::size_t size = coarse.size() / block_width;
+  for (Index b = 0; b < num_boxes(); ++b) {
+    std::array<std::array<double, block_width>, 6> sums{};
+    for (const Index p : boxes_[b]) {
+      for (int c = 0; c < width; ++c) {
+        const std::array<double, 6> moves = row(p, c);
+        const double* residual =
+            residuals.data() + (static_cast<std::size_t>(p) * width + c) * block_width;
+        for (int m = 0; m < motions; ++m) {
+          if (moves[m] == 0.0) continue;
+          for (int k = 0; k < block_width; ++k) sums[m][k] += moves[m] * residual[k];
+        }
+      }
+    }
+    double* to = coarse.data() + static_cast<std::size_t>(b) * motions;
+    for (int k = 0; k < block_width; ++k) {
+      for (int m = 0; m < motions; ++m) to[k * size + m] = sums[m][k];
+    }
+  }
+}
+
+void BoxMotions::add_block(std::span<const double> coarse, std::span<double> results) const {
+  const int motions = num_motions(), width = unknowns_.width;
+  const std::size_t size = coarse.size() / block_width;
+  for (Index b = 0; b < num_boxes(); ++b) {
+    std::array<std::array<double, block_width>, 6> values{};
+    const double* from = coarse.data() + static_cast<std::size_t>(b) * motions;
+    for (int k = 0; k < block_width; ++k) {
+      for (int m = 0; m < motions; ++m) values[m][k] = from[k * size + m];
+    }
+    for (const Index p : boxes_[b]) {
+      for (int c = 0; c < width; ++c) {
+        const std::array<double, 6> moves = row(p, c);
+        double* result = results.data() + (static_cast<std::size_t>(p) * width + c) * block_width;
+        for (int m = 0; m < motions; ++m) {
+          if (moves[m] == 0.0) continue;
+          for (int k = 0; k < block_width; ++k) result[k] += moves[m] * values[m][k];
+        }
       }
     }
   }

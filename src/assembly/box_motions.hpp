@@ -33,6 +33,12 @@ class BoxMotions {
   /// result += P coarse
   void add(std::span<const double> coarse, std::span<double> result) const;
 
+  /// The same of many vectors side by side, of all particles: those of shape (particles, width,
+  /// block_width), zero where something is held, and coarse ones of shape (block_width, boxes,
+  /// motions).
+  void restrict_block(std::span<const double> residuals, std::span<double> coarse) const;
+  void add_block(std::span<const double> coarse, std::span<double> results) const;
+
  private:
   void split_by_cracks(const Network& network, Secants secants);
   void find_centres(const Network& network);

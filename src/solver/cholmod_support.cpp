@@ -142,6 +142,17 @@ void CholmodRoute::solve(std::span<const double> rhs, std::span<double> solution
   std::ranges::copy(solve_system(CHOLMOD_A, {rhs.begin(), rhs.end()}), solution.begin());
 }
 
+void CholmodRoute::solve_all(std::span<double> columns) {
+  const SerialOpenMp serial;
+  cholmod_dense b = view_column(columns);
+  b.nrow = b.d = factor_->n;
+  b.ncol = columns.size() / factor_->n;
+  cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_.get(), &b, session_.get());
+  if (x == nullptr) throw SolverError("out of memory while solving");
+  std::copy_n(static_cast<const double*>(x->x), columns.size(), columns.begin());
+  cholmod_free_dense(&x, session_.get());
+}
+
 std::vector<double> CholmodRoute::columns(std::span<const SparseVector> x) {
   std::vector<double> result;
   for (const SparseVector& column : x) {

@@ -2,30 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
+#include "solver/energy_gains.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
 
 double scalar_product(std::span<const double> first, std::span<const double> second) {
   return std::inner_product(first.begin(), first.end(), second.begin(), 0.0);
-}
-
-double StepGains::error() const {
-  constexpr std::size_t shortest = 6;
-  constexpr double slowest = 0.999;
-  const std::size_t window = std::max(shortest, gains_.size() / 8);
-  if (gains_.size() < 2 * window) return std::numeric_limits<double>::infinity();
-  const auto sum_to = [&](std::size_t end) {
-    return std::accumulate(gains_.end() - static_cast<std::ptrdiff_t>(end + window),
-                           gains_.end() - static_cast<std::ptrdiff_t>(end), 0.0);
-  };
-  const double last = sum_to(0), before = sum_to(window);
-  const double ratio = before > 0.0 ? std::min(last / before, slowest) : 0.0;
-  return std::sqrt(last / (1.0 - ratio));
 }
 
 GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
@@ -35,7 +21,7 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
   const std::size_t size = right.size();
   GradientsReport report;
   std::vector<double> r(right.begin(), right.end()), z(size), p(size), q(size);
-  StepGains gains;
+  EnergyGains gains;
   const auto is_enough = [&] {
     return report.error <= enough * std::sqrt(std::max(report.energy, scale));
   };

@@ -28,20 +28,6 @@ struct GradientsReport {
   bool converged = false;
 };
 
-/// What the steps of a search have brought. Energies of two windows of steps one after the other
-/// fall by a factor, and go on to. The slower the search, the longer the windows have to be.
-class StepGains {
- public:
-  void add(double gain) { gains_.push_back(gain); }
-  bool empty() const { return gains_.empty(); }
-  /// Square root of the energy that was missing before the last window: its own and what a
-  /// geometric series of windows adds behind it. Infinite before there are two.
-  double error() const;
-
- private:
-  std::vector<double> gains_;
-};
-
 /// A correction whose r'z, near the energy of its error, is no more than this part of the energy
 /// that counts as no error, is not looked for.
 inline constexpr double negligible_correction = 0.01;

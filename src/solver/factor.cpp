@@ -8,6 +8,14 @@ double Factor::pivot(const SparseVector& x) {
   return 1.0 - removed;
 }
 
+void Factor::solve_all(std::span<double> columns) {
+  const auto size = static_cast<std::size_t>(statistics().size);
+  for (std::size_t begin = 0; begin < columns.size(); begin += size) {
+    const std::span<double> column = columns.subspan(begin, size);
+    solve(column, column);
+  }
+}
+
 SparseVector combine(std::span<const SparseVector> x, std::span<const double> weights) {
   SparseVector sum;
   for (std::size_t a = 0; a < x.size(); ++a) {

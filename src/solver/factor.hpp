@@ -45,6 +45,9 @@ class Factor {
   /// solution = K^-1 rhs, both of size n; they may be the same memory.
   virtual void solve(std::span<const double> rhs, std::span<double> solution) = 0;
 
+  /// Many right sides at once, solved where they are: one column after the other, each of size n.
+  virtual void solve_all(std::span<double> columns);
+
   /// Says which entries of the solution a downdate has to keep current, size n; it may leave the
   /// others as they are. A route may ignore it.
   virtual void keep_current(std::span<const std::uint8_t> /*wanted*/) {}

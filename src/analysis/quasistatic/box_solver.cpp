@@ -4,10 +4,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
+#include "assembly/block_forces.hpp"
 #include "base/error.hpp"
+#include "solver/block_gradients.hpp"
 #include "solver/factor_routes.hpp"
 #include "solver/not_positive_definite.hpp"
 
@@ -16,7 +19,8 @@ namespace {
 
 constexpr int most_iterations = 20000;
 
-/// Particles of a box. Where the body is large, larger ones keep the coarse factor small.
+/// Particles of a box. Where the body is large, larger ones keep the coarse factor small, whose part
+/// is less beside the product of a block.
 Index particles_of_box(const Network& network, const BoxSolverOptions& options) {
   const bool plane = network.dim() == 2;
   const double edge = options.edge > 0                       ? options.edge
@@ -25,19 +29,28 @@ Index particles_of_box(const Network& network, const BoxSolverOptions& options) 
   return static_cast<Index>(plane ? edge * edge : edge * edge * edge);
 }
 
+SolverError not_there(int iterations, double error, double tolerance) {
+  return SolverError(fmt::format(
+      "conjugate gradients stopped after {} iterations with an error of {:.1e} where {:.0e} was "
+      "asked for: parts of the body are held together by very little, or the tolerance is below "
+      "what round-off allows; take solver = \"direct\"",
+      iterations, error, tolerance));
+}
+
 }  // namespace
 
-BoxSolver::BoxSolver(const LoadedNetwork& problem, Secants secants, const BoxSolverOptions& options)
-    : problem_(problem),
+BoxSolver::BoxSolver(const Network& network, const Unknowns& unknowns, Secants secants,
+                     const BoxSolverOptions& options, const std::vector<double>* ground)
+    : network_(network),
+      unknowns_(unknowns),
       secants_(secants),
       options_(options),
-      motions_(problem.network, secants, problem.unknowns,
-               particles_of_box(problem.network, options)),
-      factor_(make_factor(FactorRoute::in_place, 1)),
-      motion_(problem.unknowns.number.size(), 0.0) {
-  expect_nothing_carried(problem.unknowns);
-  BoxStiffness stiffness =
-      assemble_box_stiffness(problem.network, secants, problem.unknowns, motions_);
+      motions_(network, secants, unknowns, particles_of_box(network, options)),
+      ground_(ground),
+      factor_(make_factor(options.blocks ? FactorRoute::refactorize : FactorRoute::in_place, 1)),
+      motion_(unknowns.number.size(), 0.0) {
+  expect_nothing_carried(unknowns);
+  BoxStiffness stiffness = assemble_box_stiffness(network, secants, unknowns, motions_);
   blocks_ = std::move(stiffness.blocks);
   invert_blocks();
   const int motions = motions_.num_motions();
@@ -45,10 +58,9 @@ BoxSolver::BoxSolver(const LoadedNetwork& problem, Secants secants, const BoxSol
   std::vector<Index> groups;
   for (Index b = 0; b < num_boxes(); ++b) groups.insert(groups.end(), motions, b);
   factor_->factorize(stiffness.coarse, groups);
-  if (options.ranks && can_be_shared(problem.network, problem.unknowns)) {
+  if (options.ranks && ground == nullptr && can_be_shared(network, unknowns)) {
     stiffness.blocks = blocks_;
-    team_ = std::make_unique<Team>(*options.ranks, problem.network, problem.unknowns, secants,
-                                   motions_, stiffness);
+    team_ = std::make_unique<Team>(*options.ranks, network, unknowns, secants, motions_, stiffness);
   }
   require_resistance();
 }
@@ -60,7 +72,7 @@ void BoxSolver::require_resistance() {
   constexpr double none = 1e-8, enough = 1e-4;
   constexpr int most_steps = 2000;
   std::mt19937 random(7);  // fixed: the same verdict in every run
-  std::vector<double> forces(static_cast<std::size_t>(problem_.unknowns.count));
+  std::vector<double> forces(static_cast<std::size_t>(unknowns_.count));
   for (double& force : forces) force = static_cast<double>(random() % 2) - 0.5;
   std::vector<double> motion(forces.size(), 0.0);
   const GradientsReport report = search(forces, motion, enough, 0.0, most_steps);
@@ -80,7 +92,7 @@ GradientsReport BoxSolver::search(std::span<const double> right, std::span<doubl
 }
 
 void BoxSolver::invert_blocks() {
-  const int width = problem_.unknowns.width;
+  const int width = unknowns_.width;
   const std::size_t size = static_cast<std::size_t>(width) * width;
   for (std::size_t begin = 0; begin < blocks_.size(); begin += size) {
     Eigen::Map<Eigen::MatrixXd> block(blocks_.data() + begin, width, width);
@@ -93,17 +105,16 @@ void BoxSolver::invert_blocks() {
 }
 
 void BoxSolver::precondition(std::span<const double> residual, std::span<double> result) {
-  const Unknowns& unknowns = problem_.unknowns;
-  const int width = unknowns.width;
+  const int width = unknowns_.width;
   const double* block = blocks_.data();
-  for (Index p = 0; p < problem_.network.particles.size(); ++p, block += width * width) {
+  for (Index p = 0; p < network_.particles.size(); ++p, block += width * width) {
     for (int a = 0; a < width; ++a) {
-      if (unknowns.at(p, a) < 0) continue;
+      if (unknowns_.at(p, a) < 0) continue;
       double sum = 0.0;
       for (int b = 0; b < width; ++b) {
-        if (unknowns.at(p, b) >= 0) sum += block[a * width + b] * residual[unknowns.at(p, b)];
+        if (unknowns_.at(p, b) >= 0) sum += block[a * width + b] * residual[unknowns_.at(p, b)];
       }
-      result[unknowns.at(p, a)] = sum;
+      result[unknowns_.at(p, a)] = sum;
     }
   }
   motions_.restrict(residual, coarse_);
@@ -113,30 +124,71 @@ void BoxSolver::precondition(std::span<const double> residual, std::span<double>
 
 /// result = K q
 void BoxSolver::multiply(std::span<const double> q, std::span<double> result) {
-  const std::vector<Index>& number = problem_.unknowns.number;
+  const std::vector<Index>& number = unknowns_.number;
   for (std::size_t slot = 0; slot < number.size(); ++slot) {
     if (number[slot] >= 0) motion_[slot] = q[number[slot]];
   }
-  internal_force(problem_.network, secants_, motion_, forces_);
+  internal_force(network_, secants_, motion_, forces_);
   for (std::size_t slot = 0; slot < number.size(); ++slot) {
     if (number[slot] >= 0) result[number[slot]] = forces_.forces[slot];
   }
+  if (ground_ == nullptr) return;
+  for (std::size_t k = 0; k < ground_->size(); ++k) result[k] += (*ground_)[k] * q[k];
 }
 
 void BoxSolver::solve(std::span<const double> right, std::span<double> solution) {
   const std::vector<double> wanted(right.begin(), right.end());
   std::fill(solution.begin(), solution.end(), 0.0);
-  const GradientsReport report =
-      search(wanted, solution, options_.tolerance, energy_, most_iterations);
+  const GradientsReport report = search(wanted, solution, options_.tolerance,
+                                        options_.blocks ? 0.0 : energy_, most_iterations);
   iterations_ += report.iterations;
-  energy_ = std::max(energy_, report.energy);
+  energy_ = options_.blocks ? report.energy : std::max(energy_, report.energy);
   error_ = energy_ > 0.0 ? report.error / std::sqrt(energy_) : 0.0;
-  if (report.converged) return;
-  throw SolverError(fmt::format(
-      "conjugate gradients stopped after {} iterations with an error of {:.1e} where {:.0e} was "
-      "asked for: parts of the body are held together by very little, or the tolerance is below "
-      "what round-off allows; take solver = \"direct\"",
-      report.iterations, error_, options_.tolerance));
+  if (!report.converged) throw not_there(report.iterations, error_, options_.tolerance);
+}
+
+void BoxSolver::precondition_block(std::span<const double> residuals, std::span<double> results) {
+  const int width = unknowns_.width;
+  const double* block = blocks_.data();
+  const std::size_t size = static_cast<std::size_t>(width) * block_width;
+  for (std::size_t begin = 0; begin < residuals.size(); begin += size, block += width * width) {
+    for (int a = 0; a < width; ++a) {
+      std::array<double, block_width> sums{};
+      for (int b = 0; b < width; ++b) {
+        const double* residual = residuals.data() + begin + b * block_width;
+        for (int k = 0; k < block_width; ++k) sums[k] += block[a * width + b] * residual[k];
+      }
+      std::copy(sums.begin(), sums.end(), results.data() + begin + a * block_width);
+    }
+  }
+  motions_.restrict_block(residuals, coarse_block_);
+  factor_->solve_all(coarse_block_);
+  motions_.add_block(coarse_block_, results);
+}
+
+void BoxSolver::multiply_block(std::span<const double> motions, std::span<double> results) {
+  block_forces(network_, secants_, motions, results);
+  const std::vector<Index>& number = unknowns_.number;
+  for (std::size_t slot = 0; slot < number.size(); ++slot) {
+    double* result = results.data() + slot * block_width;
+    if (number[slot] < 0) {
+      std::fill_n(result, block_width, 0.0);
+    } else if (ground_ != nullptr && !ground_->empty()) {
+      const double* motion = motions.data() + slot * block_width;
+      for (int k = 0; k < block_width; ++k) result[k] += (*ground_)[number[slot]] * motion[k];
+    }
+  }
+}
+
+GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution) {
+  coarse_block_.resize(coarse_.size() * block_width);
+  const GradientsReport report = block_conjugate_gradients(
+      [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
+      [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
+      solution, options_.tolerance, most_iterations);
+  iterations_ += report.iterations;
+  if (!report.converged) throw not_there(report.iterations, report.error, options_.tolerance);
+  return report;
 }
 
 }  // namespace perilink

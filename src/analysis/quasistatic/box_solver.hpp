@@ -7,7 +7,8 @@
 #include "analysis/quasistatic/ranks/team.hpp"
 #include "assembly/box_motions.hpp"
 #include "assembly/internal_force.hpp"
-#include "network/loaded_network.hpp"
+#include "network/network.hpp"
+#include "network/unknowns.hpp"
 #include "solver/conjugate_gradients.hpp"
 #include "solver/factor.hpp"
 
@@ -16,8 +17,10 @@ namespace perilink {
 /// How far conjugate gradients go, and with which boxes.
 struct BoxSolverOptions {
   double tolerance = 1e-10;  ///< error over solution, both in the norm of energy
-  Index edge = 0;          ///< particles along an edge of a box; 0: as many as serve the body best
-  Ranks* ranks = nullptr;  ///< that share the work, where there are several
+  Index edge = 0;  ///< particles along an edge of a box; 0: as many as serve the body best
+  /// Whether solve_block() is wanted; the errors of solve() then count each by its own energy.
+  bool blocks = false;
+  Ranks* ranks = nullptr;  ///< that share the work of solve(), where there are several
 };
 
 /// Equilibrium without a factor of the stiffness: conjugate gradients on the network itself, with
@@ -25,14 +28,24 @@ struct BoxSolverOptions {
 /// (docs/theory/large_bodies.md). The number of iterations hardly grows with the body.
 class BoxSolver {
  public:
-  /// \param problem  nothing may carry its particles; kept by reference, as the secants
+  /// \param unknowns  nothing may carry particles; kept by reference, as network and secants: the
+  ///                  product is that of the secants as they are
+  /// \param ground    springs that hold unknowns, size n, or empty: may be filled later
   /// \throws NotPositiveDefinite where a part of the body can move without resistance
-  BoxSolver(const LoadedNetwork& problem, Secants secants, const BoxSolverOptions& options);
+  BoxSolver(const Network& network, const Unknowns& unknowns, Secants secants,
+            const BoxSolverOptions& options, const std::vector<double>* ground = nullptr);
 
   /// Both of size n; they may be the same memory. What is solved later may correct what was solved
   /// before: the error counts by the largest energy so far.
   /// \throws SolverError where the iterations do not get there
   void solve(std::span<const double> right, std::span<double> solution);
+
+  /// Many right sides from zero, each to the tolerance by itself; shape (particles, width,
+  /// block_width), zero where something is held.
+  /// \param right  used up
+  /// \return iterations, and the largest error as the tolerance counts
+  /// \throws SolverError as solve()
+  GradientsReport solve_block(std::span<double> right, std::span<double> solution);
 
   int iterations() const { return iterations_; }  ///< in all solves
   double error() const { return error_; }         ///< the last solve left, as the tolerance counts
@@ -47,16 +60,21 @@ class BoxSolver {
                          double scale, int most_steps);
   void invert_blocks();
   void require_resistance();
+  void precondition_block(std::span<const double> residuals, std::span<double> results);
+  void multiply_block(std::span<const double> motions, std::span<double> results);
 
-  const LoadedNetwork& problem_;
+  const Network& network_;
+  const Unknowns& unknowns_;
   Secants secants_;
   BoxSolverOptions options_;
   BoxMotions motions_;
   std::vector<double> blocks_;  // inverse, shape (particles, width, width)
+  const std::vector<double>* ground_;
   std::unique_ptr<Factor> factor_;
   std::unique_ptr<Team> team_;  ///< null: this process works alone
   std::vector<double> coarse_;  // residual or motion of the boxes, shape (boxes, motions)
   std::vector<double> motion_;  // shape (particles, width), zero where it is prescribed
+  std::vector<double> coarse_block_;
   InternalForce forces_;
   double energy_ = 0.0, error_ = 0.0;
   int iterations_ = 0;

@@ -100,7 +100,8 @@ auto by_factor(const Unknowns& unknowns, int threads, Assemble assemble) {
 auto by_boxes(const LoadedNetwork& problem, Secants secants, const BoxSolverOptions& options) {
   return [&problem, secants, options](ElasticResult& result) {
     const Timer timer;
-    const auto solver = std::make_shared<BoxSolver>(problem, secants, options);
+    const auto solver =
+        std::make_shared<BoxSolver>(problem.network, problem.unknowns, secants, options);
     result.seconds.factorization = timer.seconds();
     result.factor = solver->coarse();
     result.factor.factorizations = 0;  // none of the stiffness

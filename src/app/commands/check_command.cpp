@@ -177,8 +177,9 @@ void print_set_up(const ExpectedSetUp& set_up) {
 /// \param factor  that of the stiffness; none where conjugate gradients need none
 void print_cost(const CaseFile& input, const Network& network,
                 const std::optional<FactorStatistics>& factor, const ExpectedSetUp& set_up) {
+  const bool events = input.analysis.type != AnalysisType::elastic;
   const ExpectedCost cost =
-      factor ? expected_cost(network, *factor) : expected_cost_of_boxes(network);
+      factor ? expected_cost(network, *factor) : expected_cost_of_boxes(network, events);
   fmt::print("# expected cost of a run\n");
   if (factor) {
     fmt::print("#   factor             {:.3g} M numbers, {:.3g} MB\n", factor->entries / 1e6,
@@ -193,7 +194,7 @@ void print_cost(const CaseFile& input, const Network& network,
   print_set_up(set_up);
   fmt::print("#   {:<18} {}\n", factor ? "factorisation" : "solution",
              time_text(cost.factorization));
-  if (input.analysis.type != AnalysisType::elastic) {
+  if (events) {
     fmt::print("#   {:<18} {:.3g} ms{}; 1000 of them {}\n",
                softens(network) ? "each event" : "each broken bond", 1e3 * cost.broken_bond,
                input.elements ? " at first" : "", time_text(1e3 * cost.broken_bond));
@@ -348,8 +349,10 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   const Network& network = model.network;
   const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
   std::optional<FactorStatistics> factor;
-  if (input.analysis.type == AnalysisType::damage || model.elements ||
-      !is_for_boxes(model, input.analysis.solver)) {
+  const bool by_boxes = input.analysis.type == AnalysisType::damage
+                            ? is_followed_by_boxes(model, input.analysis.solver)
+                            : is_for_boxes(model, input.analysis.solver);
+  if (model.elements || !by_boxes) {
     factor = estimate_factor(assemble_stiffness(network, intact, model.unknowns),
                              model.unknowns.owners());
   }

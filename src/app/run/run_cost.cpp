@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/run/summary.hpp"
+#include "base/block.hpp"
 #include "base/timer.hpp"
 
 namespace perilink {
@@ -21,6 +22,9 @@ constexpr double seconds_per_row = 35e-6;
 
 /// A field file: compressed, brought to the disk (meshes/block_tension.toml, notched_beam.toml).
 constexpr double seconds_per_file = 2e-3, seconds_per_particle_of_file = 1e-6;
+/// Columns that a window and its search for more hold, in blocks, and how much of a solution an
+/// event costs: a column more, solved for along with others.
+constexpr double blocks_of_a_window = 12.0, solutions_per_event = 0.3;
 
 /// Passes through the factor per break. A micropolar bond leaves with three modes in the plane and
 /// six in space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240
@@ -105,13 +109,17 @@ Index field_files(const OutputSection& output, Index broken_bonds) {
   return files;
 }
 
-ExpectedCost expected_cost_of_boxes(const Network& network) {
+ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
   const double bonds = network.num_elements();
   ExpectedCost cost;
   const bool frames = network.carries_moments();
   cost.memory = box_bytes + bonds * (frames ? box_bytes_per_frame_bond : box_bytes_per_bond);
   cost.factorization = bonds * (frames ? box_seconds_per_frame_bond : box_seconds_per_bond);
   cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
+  if (!events) return cost;
+  const double unknowns = static_cast<double>(network.particles.size()) * network.width();
+  cost.memory += blocks_of_a_window * block_width * 8.0 * unknowns;
+  cost.broken_bond = solutions_per_event * cost.factorization + seconds_per_row;
   return cost;
 }
 

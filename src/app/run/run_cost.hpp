@@ -35,7 +35,8 @@ Index field_files(const OutputSection& output, Index broken_bonds);
 ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor);
 
 /// What conjugate gradients cost in place of a factor.
-ExpectedCost expected_cost_of_boxes(const Network& network);
+/// \param events  whether the run follows events
+ExpectedCost expected_cost_of_boxes(const Network& network, bool events);
 
 /// Time of a step of an explicit run, from some steps of it that begin at rest [s]. What cracks
 /// cost is a mean, what flow costs is not in it.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <exception>
 
+#include "solver/energy_gains.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
@@ -18,7 +19,7 @@ struct Search {
   const LinearMap& product;
   const LinearMap& precondition;
   double enough, scale;
-  StepGains gains = {};
+  EnergyGains gains = {};
   GradientsReport report = {};
   double curvature = 0.0;  ///< p'A p of the last product
   double rz = 0.0, first = 0.0;

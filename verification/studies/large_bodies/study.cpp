@@ -3,21 +3,26 @@
 //
 //   large_bodies           all bodies, one after the other; writes result.csv
 //   large_bodies quick     those below 300 000 unknowns, prints only
+//   large_bodies events [COLUMNS [EVENTS [direct]]]
+//                          events of three scenes without a factor, and with one beside it
 //
 // Exit status 1 when iterations grow by more than 15 % from the smallest body of a series to the
-// largest. A quarter of an hour, and 12 GB for the largest factor.
+// largest, or events differ. A quarter of an hour, and 12 GB for the largest factor.
 
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "analysis/quasistatic/damage_analysis.hpp"
 #include "analysis/quasistatic/elastic_analysis.hpp"
 #include "app/model/from_case/configure.hpp"
 #include "app/run/summary.hpp"
@@ -61,7 +66,9 @@ const std::vector<Series> all_series = {
 
 /// Twice as high as wide, held below, its upper end driven along y, with a notch in the middle that
 /// is half as deep as the body is wide.
-std::string case_text(const Series& series, int columns) {
+/// \param breaks  lines of the material that say when bonds break
+std::string case_text(const Series& series, int columns,
+                      const std::string& breaks = "fracture_energy = \"infinite\"\n") {
   const double width = columns, height = 2.0 * columns, deep = columns;
   const auto region = [&](const char* name, double from, double to) {
     return fmt::format("[[regions]]\nname = \"{}\"\nx = [0, {}]\ny = [{}, {}]\n{}", name, width,
@@ -71,22 +78,83 @@ std::string case_text(const Series& series, int columns) {
   return fmt::format("[body]\nspacing = 1\nhorizon_ratio = {}\n{}{}", series.horizon_ratio,
                      series.space ? "problem = \"three_dimensional\"\n" : "", series.heading) +
          region("block", 0, height) + region("base", 0, 2) + region("cap", height - 2, height) +
-         "[[materials]]\nregion = \"block\"\nyoungs_modulus = 30000\nfracture_energy = "
-         "\"infinite\"\n" +
-         series.material + "[[supports]]\nregion = \"base\"\nfix = [\"x\", \"y\"" +
-         (series.space ? ", \"z\"" : "") + "]\n[[displacements]]\nregion = \"cap\"\ny = 1\n" +
+         "[[materials]]\nregion = \"block\"\nyoungs_modulus = 30000\n" + breaks + series.material +
+         "[[supports]]\nregion = \"base\"\nfix = [\"x\", \"y\"" + (series.space ? ", \"z\"" : "") +
+         "]\n[[displacements]]\nregion = \"cap\"\ny = 1\n" +
          (series.space
               ? fmt::format(
                     "[[cracks]]\ncorners = [[-1, {0}, -1], [{1}, {0}, -1], [{1}, {0}, {2}], "
                     "[-1, {0}, {2}]]\n",
                     y, tip, deep + 1)
               : fmt::format("[[cracks]]\npoints = [[-1, {0}], [{1}, {0}]]\n", y, tip)) +
-         "[analysis]\ntype = \"elastic\"\n";
+         "[analysis]\n";
+}
+
+struct Events final : StepObserver {
+  void on_step(const StepRecord& record, StateSource&) override {
+    rows.push_back(record);
+    seconds.push_back(processor_seconds());
+  }
+  static double processor_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  }
+  std::vector<StepRecord> rows;
+  std::vector<double> seconds;
+};
+
+Events follow(const Model& model, LinearSolver solver, Index count) {
+  DamageOptions options;
+  options.engine.solver = solver;
+  options.stop.broken_bonds = count;
+  Events events;
+  const double start = Events::processor_seconds();
+  const DamageResult result = run_damage_analysis(model, options, events);
+  const double first = events.seconds.front();
+  fmt::print(",{},{:.2f},{:.1f},{:.1e},{:.1e}", events.rows.size() - 1, first - start,
+             1e3 * (events.seconds.back() - first) / static_cast<double>(events.rows.size() - 1),
+             result.largest_residual, result.energy_error);
+  std::fflush(stdout);
+  return events;
+}
+
+/// Bonds that scatter by nothing, so that symmetry makes ties, break one after the other.
+bool compare_events(int columns, Index count, bool direct) {
+  const std::string brittle = "fracture_energy = 0.1\n";
+  const Series scenes[] = {
+      {"cubic", true, "", 3.0, {}, 0},
+      {"cubic", true, "", 2.0, {}, 0},
+      {"cubic micropolar", true, "model = \"micropolar\"\n", 2.0, {}, 0, "poissons_ratio = 0.1\n"}};
+  fmt::print(
+      "body,horizon_ratio,unknowns,events,start,ms_per_event,residual,energy_error"
+      "{},other_element,load_factor_difference\n",
+      direct ? ",events,start,ms_per_event,residual,energy_error" : "");
+  bool good = true;
+  for (const Series& scene : scenes) {
+    const Model model = build_model(parse_case(case_text(scene, columns, brittle), "body"));
+    fmt::print("{},{},{}", scene.name, scene.horizon_ratio, model.unknowns.count);
+    const Events found = follow(model, LinearSolver::iterative, count);
+    Index other = 0;
+    double largest = 0.0;
+    if (direct) {
+      const Events expected = follow(model, LinearSolver::direct, count);
+      for (std::size_t k = 0; k < std::min(found.rows.size(), expected.rows.size()); ++k) {
+        if (found.rows[k].element != expected.rows[k].element) ++other;
+        largest = std::max(
+            largest, std::abs(found.rows[k].load_factor / expected.rows[k].load_factor - 1.0));
+      }
+      good = good && other == 0 && largest < 1e-9 && found.rows.size() == expected.rows.size();
+    }
+    fmt::print(",{},{:.1e}\n", other, largest);
+  }
+  return good;
 }
 
 std::string measure(const Series& series, int columns, LinearSolver solver) {
   const Timer timer;
-  const Model model = build_model(parse_case(case_text(series, columns), "body"));
+  const Model model =
+      build_model(parse_case(case_text(series, columns) + "type = \"elastic\"\n", "body"));
   const double set_up = timer.seconds(), calibration = model.network.calibration->seconds;
   const ElasticResult found = run_elastic_analysis(model, {.threads = 1, .solver = solver});
   const ElasticSeconds& took = found.seconds;
@@ -123,6 +191,12 @@ std::string measure_apart(const Series& series, int columns, LinearSolver solver
 }  // namespace perilink::verification
 
 bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
+  if (!arguments.empty() && arguments[0] == "events") {
+    const auto number = [&](std::size_t k, int otherwise) {
+      return arguments.size() > k ? std::stoi(arguments[k]) : otherwise;
+    };
+    return compare_events(number(1, 14), number(2, 500), arguments.size() > 3);
+  }
   const bool quick = !arguments.empty() && arguments[0] == "quick";
   std::string table =
       "body,horizon_ratio,unknowns,solver,iterations,set_up,calibration,preparation,solution,"

@@ -4,7 +4,7 @@
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 
 /// \file
-/// Which displacements the events of an equilibrium keep current.
+/// What the events of an equilibrium keep current: displacements, columns of boxes.
 
 namespace perilink {
 
@@ -18,7 +18,7 @@ void Equilibrium::choose_current_unknowns() {
   for (std::size_t slot = 0; unknowns_->carries() && slot < displacement_.size(); ++slot) {
     if (unknowns_->number[slot] != no_index) moving_slots_.push_back(slot);
   }
-  if (!driven_elements_.empty() || constant_) return;
+  if (!driven_elements_.empty() || constant_ || boxes_ != nullptr) return;
   const Bonds& bonds = network_.bonds;
   std::vector<std::uint8_t> current(static_cast<std::size_t>(network_.particles.size()), 0);
   for (Index e = 0; e < network_.num_elements(); ++e) {
@@ -88,6 +88,37 @@ void Equilibrium::keep_all_current() {
   if (partial_) factor_->keep_current(std::vector<std::uint8_t>(solution_.size(), 1));
   if (stale_) refresh();
   partial_ = false;
+}
+
+bool is_followed_by_boxes(const LoadedNetwork& problem, LinearSolver solver) {
+  constexpr Index most_for_a_factor = 60000;
+  if (solver != LinearSolver::automatic) return solver == LinearSolver::iterative;
+  return problem.network.dim() == 3 && problem.unknowns.count > most_for_a_factor &&
+         problem.sets.empty() && !problem.carried && !problem.network.has_closing();
+}
+
+std::vector<Index> Equilibrium::unknowns_of(Index element) const {
+  std::vector<Index> unknowns;
+  const int width = network_.width();
+  for (const Index end : {network_.bonds.first[element], network_.bonds.second[element]}) {
+    for (int a = 0; a < (is_frame(element) ? width : network_.dim()); ++a) {
+      if (unknowns_->at(end, a) >= 0) unknowns.push_back(unknowns_->at(end, a));
+    }
+  }
+  return unknowns;
+}
+
+bool Equilibrium::is_prepared(Index element) const {
+  return boxes_ == nullptr || boxes_->holds(unknowns_of(element));
+}
+
+void Equilibrium::expect(std::span<const Index> elements) {
+  std::vector<Index> unknowns;
+  for (const Index element : elements) {
+    const std::vector<Index> own = unknowns_of(element);
+    unknowns.insert(unknowns.end(), own.begin(), own.end());
+  }
+  boxes_->expect(std::move(unknowns));
 }
 
 }  // namespace perilink

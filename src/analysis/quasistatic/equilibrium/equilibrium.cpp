@@ -47,9 +47,15 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
       unknowns_(&problem.unknowns),
       loads_(&problem.loads),
       options_(options),
-      factor_(make_factor(options.route, options.threads)),
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
       has_kept_(network_.has_kept_shear()) {
+  if (is_followed_by_boxes(problem, options.solver)) {
+    auto boxes = std::make_unique<BoxFactor>(network_, options.boxes);
+    boxes_ = boxes.get();
+    factor_ = std::move(boxes);
+  } else {
+    factor_ = make_factor(options.route, options.threads);
+  }
   for (const double stiffness : network_.stiffness) stiffness_sum_ += stiffness;
   for (const double stiffness : network_.support_stiffness) stiffness_sum_ += stiffness;
   if (network_.has_closing() || has_kept_) axial_ = secants_;
@@ -89,6 +95,7 @@ void Equilibrium::find_driven_elements() {
 void Equilibrium::factorize_anew() {
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
+  if (boxes_ != nullptr) return boxes_->begin(*unknowns_, secants(), ground_stiffness_);
   factor_->factorize(assemble_stiffness(network_, secants(), *unknowns_), unknowns_->owners());
 }
 
@@ -364,6 +371,10 @@ Balance Equilibrium::restore() {
 }
 
 void Equilibrium::factorize() {
+  if (boxes_ != nullptr) {
+    factorize_anew();
+    return refresh();
+  }
   auto stiffness = assemble_stiffness(network_, secants(), *unknowns_);
   for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
     const Index unknown = static_cast<Index>(k);

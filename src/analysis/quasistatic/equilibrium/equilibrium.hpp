@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/quasistatic/equilibrium/box_factor.hpp"
 #include "analysis/quasistatic/equilibrium/constant_field.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/error.hpp"
 #include "network/loaded_network.hpp"
 #include "solver/factor_routes.hpp"
+#include "solver/linear_solver.hpp"
 
 namespace perilink {
 
@@ -68,7 +70,14 @@ struct EquilibriumOptions {
   FactorRoute route = FactorRoute::in_place;
   double residual_tolerance = 1e-10;
   int threads = 1;
+  LinearSolver solver = LinearSolver::automatic;
+  BoxSolverOptions boxes = {};  ///< where conjugate gradients take the factor's place
 };
+
+/// Whether conjugate gradients take the place of a factor that follows every event: where they are
+/// chosen, or a factor would take more memory than most machines have (docs/theory/large_bodies.md,
+/// section 5).
+bool is_followed_by_boxes(const LoadedNetwork& problem, LinearSolver solver);
 
 /// Pivots below this are computed again from energies: a body that is slender or about to separate
 /// has a condition number that takes most digits of what the factor says.
@@ -138,6 +147,11 @@ class Equilibrium {
 
   const Factor& factor() const { return *factor_; }
 
+  /// Whether an event of the element costs no solution by conjugate gradients.
+  bool is_prepared(Index element) const;
+  /// Elements that are likely to have events next, the likeliest first.
+  void expect(std::span<const Index> elements);
+
   // Constant loads beside those that grow: constant_loads.cpp.
 
   /// Other loads and prescribed motions grow from now on, beside constant ones; all displacements
@@ -178,6 +192,7 @@ class Equilibrium {
   void adopt_motion();
   void adopt_load();
   void factorize_anew();
+  std::vector<Index> unknowns_of(Index element) const;
   void find_driven_elements();
   void choose_current_unknowns();
   void choose_glanced(const std::vector<std::uint8_t>& current);
@@ -272,6 +287,7 @@ class Equilibrium {
   const Loads* loads_;
   EquilibriumOptions options_;
   std::unique_ptr<Factor> factor_;
+  BoxFactor* boxes_ = nullptr;  // the factor, where it is one
 
   /// Whether its shear and bending stay as they are until it breaks.
   bool keeps_shear(Index element) const { return has_kept_ && network_.law(element).keeps_shear(); }

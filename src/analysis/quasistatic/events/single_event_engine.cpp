@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/block.hpp"
+
 namespace perilink {
 
 SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem, const EngineOptions& options)
@@ -39,7 +41,25 @@ bool SingleEventEngine::is_noise(Index element) const {
   return std::abs(extension) <= round_off * size;
 }
 
+/// Where an event needs columns of K^-1 that are not at hand, those of elements near their events
+/// are solved for with them.
+void SingleEventEngine::prepare(const Event& event) {
+  if (equilibrium_.is_prepared(event.element)) return;
+  constexpr std::size_t enough = 2 * block_width;
+  std::vector<Index> expected;
+  std::vector<std::uint8_t> listed(teeth_.size(), 0);
+  for (const double fraction : {0.95, 0.9, 0.8, 0.65, 0.5}) {
+    for (const Index element : near_events(event, fraction)) {
+      if (listed[element] == 0) expected.push_back(element);
+      listed[element] = 1;
+    }
+    if (expected.size() >= enough) break;
+  }
+  equilibrium_.expect(expected);
+}
+
 EventOutcome SingleEventEngine::apply(const Event& event) {
+  prepare(event);
   const BondLaw& law = law_of(event.element);
   const bool compressed =
       law.crushes() && is_shorter(network_, event.element, equilibrium_.where_elements_fail());

@@ -38,6 +38,8 @@ class SingleEventEngine : public EventEngine {
   int cut(std::span<const Index> elements);
 
  protected:
+  void prepare(const Event& event);
+
   /// The stretch at which the element has its next event; infinity: it is broken.
   double limit_of(Index element) const;
 

@@ -23,6 +23,8 @@ DamageOptions damage_options(const CaseFile& input, int threads) {
   DamageOptions options;
   options.engine.threads = threads;
   options.engine.route = input.analysis.factor;
+  options.engine.solver = input.analysis.solver;
+  options.engine.boxes.edge = input.analysis.coarse_box.value_or(0);
   const bool steps = input.analysis.control == LoadControl::steps;
   if (steps) options.load_factors = input.analysis.load_factors;
   options.stop = rules_of(input.stop);

@@ -143,10 +143,6 @@ AnalysisSection read_analysis(const CaseTable& table, AnalysisType type) {
   read_explicit_analysis(table, is_explicit ? analysis : other);
   read_relaxation(table, relaxes ? analysis : other);
   read_events(table, is_explicit || relaxes ? other : analysis);
-  if (analysis.solver == LinearSolver::iterative && type == AnalysisType::damage) {
-    table.refuse("solver", "is \"iterative\", but damage analyses follow every event by a factor",
-                 "delete it, or set type = \"elastic\"");
-  }
   if (relaxes) analysis.load_factors = {1.0};
   if (!table.has("load_factors") && analysis.control != LoadControl::steps) return analysis;
   const std::vector<double> factors = read_load_factors(table);

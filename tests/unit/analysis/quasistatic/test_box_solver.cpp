@@ -15,7 +15,7 @@ const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
 TEST(BoxSolver, CountsIterationsAndTheErrorItLeaves) {
   const AnalysisBody body = make_block({cubic});
   const std::vector<double> secants = intact(body.network);
-  BoxSolver solver(body, secants, {.tolerance = 1e-8, .edge = 2});
+  BoxSolver solver(body.network, body.unknowns, secants, {.tolerance = 1e-8, .edge = 2});
   EXPECT_GT(solver.num_boxes(), 8);
   EXPECT_EQ(solver.coarse().size, 6 * solver.num_boxes());
   const std::vector<double> load = body.unknowns.restrict(body.loads.forces);
@@ -31,7 +31,7 @@ TEST(BoxSolver, CountsIterationsAndTheErrorItLeaves) {
 TEST(BoxSolver, ACorrectionCountsByTheSolutionThatItCorrects) {
   const AnalysisBody body = make_block({cubic});
   const std::vector<double> secants = intact(body.network);
-  BoxSolver solver(body, secants, {.tolerance = 1e-8, .edge = 2});
+  BoxSolver solver(body.network, body.unknowns, secants, {.tolerance = 1e-8, .edge = 2});
   std::vector<double> load = body.unknowns.restrict(body.loads.forces), solution = load;
   solver.solve(load, solution);
   const int first = solver.iterations();
@@ -46,7 +46,7 @@ TEST(BoxSolver, RefusesABodyThatNothingHolds) {
   const std::vector<double> secants = intact(body.network);
   EXPECT_THROW(
       {
-        BoxSolver solver(body, secants, {.edge = 2});
+        BoxSolver solver(body.network, body.unknowns, secants, {.edge = 2});
         std::vector<double> solution = body.unknowns.restrict(body.loads.forces);
         solver.solve(solution, solution);
       },
@@ -60,7 +60,7 @@ TEST(BoxSolver, RefusesParticlesThatSomethingCarries) {
   const Unknowns::Share half[] = {{0, 0.5}};
   body.unknowns.carry(held, half);
   const std::vector<double> secants = intact(body.network);
-  EXPECT_THROW(BoxSolver(body, secants, {}), std::invalid_argument);
+  EXPECT_THROW(BoxSolver(body.network, body.unknowns, secants, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ AnalysisBody block_on_spring(const BlockCase& block) {
 }
 
 std::vector<double> solve(const AnalysisBody& body, Secants secants, Ranks* ranks) {
-  BoxSolver solver(body, secants, {.tolerance = 1e-12, .edge = 2, .ranks = ranks});
+  BoxSolver solver(body.network, body.unknowns, secants,
+                   {.tolerance = 1e-12, .edge = 2, .ranks = ranks});
   std::vector<double> solution =
       assemble_right_hand_side(body.network, secants, body.unknowns, body.loads);
   solver.solve(solution, solution);

@@ -1,0 +1,258 @@
+#include "analysis/quasistatic/equilibrium/box_factor.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "solver/block_gradients.hpp"
+
+namespace perilink {
+namespace {
+
+/// Columns of the window, at most: more cost more at every event than solving for them again.
+constexpr std::size_t most_blocks = 8, fewest_blocks = 2;
+
+/// Iterations of a block, over those of the first, from which on the boxes are made anew.
+constexpr double slower = 1.3;
+
+/// Memory that the window may take where that leaves the fewest blocks.
+constexpr double most_bytes = 2e9;
+
+}  // namespace
+
+BoxFactor::BoxFactor(const Network& network, const BoxSolverOptions& options)
+    : network_(network), options_(options) {
+  options_.blocks = true;
+}
+
+void BoxFactor::begin(const Unknowns& unknowns, Secants secants,
+                      const std::vector<double>& ground) {
+  unknowns_ = &unknowns;
+  secants_ = secants;
+  ground_ = &ground;
+  slot_of_ = unknowns.slots();
+  ++begun_;
+  place_of_.assign(static_cast<std::size_t>(unknowns.count), no_index);
+  window_.clear();
+  forget();
+  make_solver();
+}
+
+/// Boxes of the body as it is now, split along its cracks.
+void BoxFactor::make_solver() {
+  solver_.reset();  // before there are two
+  solver_ = std::make_unique<BoxSolver>(network_, *unknowns_, secants_, options_, ground_);
+  first_iterations_ = 0;
+}
+
+void BoxFactor::factorize(const SparseMatrix& /*matrix*/, std::span<const Index> /*groups*/) {
+  throw std::logic_error("there is no matrix to factorise, see begin()");
+}
+
+void BoxFactor::refactorize(const SparseMatrix& /*matrix*/) {
+  throw std::logic_error("there is no matrix to factorise, see begin()");
+}
+
+void BoxFactor::solve(std::span<const double> rhs, std::span<double> solution) {
+  solver_->solve(rhs, solution);
+}
+
+bool BoxFactor::holds(std::span<const Index> unknowns) const {
+  return std::all_of(unknowns.begin(), unknowns.end(),
+                     [&](Index unknown) { return place_of_[unknown] != no_index; });
+}
+
+void BoxFactor::forget() {
+  for (const Index unknown : window_) place_of_[unknown] = no_index;
+  window_.clear();
+  used_.clear();
+  blocks_.clear();
+  shares_.resize(0, 0);
+  compliance_.resize(0, 0);
+}
+
+/// Half of the blocks are made free: the columns that were used last go over to what they are now.
+void BoxFactor::keep_latest() {
+  const std::size_t kept = std::min(blocks_.size() / 2 * block_width, window_.size());
+  std::vector<Eigen::Index> places(window_.size());
+  std::iota(places.begin(), places.end(), 0);
+  std::stable_sort(places.begin(), places.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return used_[a] > used_[b]; });
+  places.resize(kept);
+  const std::size_t columns = (kept + block_width - 1) / block_width * block_width;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> shares =
+      Eigen::MatrixXd::Zero(shares_.rows(), static_cast<Eigen::Index>(columns));
+  shares.leftCols(static_cast<Eigen::Index>(kept)) = shares_(Eigen::all, places);
+  recombine(blocks_, {shares.data(), static_cast<std::size_t>(shares.size())});
+  compliance_ = Eigen::MatrixXd(compliance_(places, places));
+  shares_ = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(columns),
+                                      static_cast<Eigen::Index>(kept));
+  std::vector<Index> window;
+  std::vector<int> used;
+  for (const Index unknown : window_) place_of_[unknown] = no_index;
+  for (const Eigen::Index place : places) {
+    place_of_[window_[place]] = static_cast<Index>(window.size());
+    window.push_back(window_[place]);
+    used.push_back(used_[place]);
+  }
+  window_ = std::move(window);
+  used_ = std::move(used);
+}
+
+std::size_t BoxFactor::most_columns() const {
+  const double bytes = 8.0 * static_cast<double>(unknowns_->number.size()) * block_width;
+  const auto blocks = static_cast<std::size_t>(most_bytes / bytes);
+  return block_width * std::clamp(blocks, fewest_blocks, most_blocks);
+}
+
+/// Takes the unknowns of these vectors into the window, and with them those that are expected.
+void BoxFactor::need(std::span<const SparseVector> x) {
+  std::vector<Index> missing;
+  std::vector<std::uint8_t> listed(place_of_.size(), 0);
+  const auto list = [&](Index unknown) {
+    if (place_of_[unknown] != no_index || listed[unknown] != 0) return;
+    listed[unknown] = 1;
+    missing.push_back(unknown);
+  };
+  for (const SparseVector& column : x) std::ranges::for_each(column.rows, list);
+  if (missing.empty()) return;
+  ++now_;
+  for (const SparseVector& column : x) {
+    for (const Index unknown : column.rows) {
+      if (place_of_[unknown] != no_index) used_[place_of_[unknown]] = now_;
+    }
+  }
+  if ((blocks_.size() + 1) * block_width > most_columns()) keep_latest();
+  for (const Index unknown : expected_) {
+    if (missing.size() < block_width) list(unknown);
+  }
+  expected_.clear();
+  take_in(missing);
+}
+
+/// Solves for columns and puts them at the end of the window.
+void BoxFactor::take_in(const std::vector<Index>& unknowns) {
+  const auto before = static_cast<Eigen::Index>(window_.size());
+  const auto size = before + static_cast<Eigen::Index>(unknowns.size());
+  std::vector<double> right(unknowns_->number.size() * block_width, 0.0);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    right[slot_of_[unknowns[k]] * block_width + k] = 1.0;
+    place_of_[unknowns[k]] = static_cast<Index>(window_.size());
+    window_.push_back(unknowns[k]);
+    used_.push_back(now_);
+  }
+  blocks_.emplace_back(right.size());
+  const int iterations = solver_->solve_block(right, blocks_.back()).iterations;
+  if (first_iterations_ == 0) first_iterations_ = iterations;
+  if (iterations > slower * first_iterations_) make_solver();
+  columns_solved_ += static_cast<Index>(unknowns.size());
+
+  // Places in the window go on behind those of full blocks alone: unused columns stay zero.
+  compliance_.conservativeResize(size, size);
+  Eigen::MatrixXd shares =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(blocks_.size() * block_width), size);
+  shares.topLeftCorner(shares_.rows(), before) = shares_;
+  shares_ = std::move(shares);
+  const double* columns = blocks_.back().data();
+  for (Eigen::Index k = before; k < size; ++k) {
+    const Eigen::Index c = k - before;
+    shares_(static_cast<Eigen::Index>((blocks_.size() - 1) * block_width) + c, k) = 1.0;
+    for (Eigen::Index w = 0; w < size; ++w) {
+      compliance_(w, k) = columns[slot_of_[window_[w]] * block_width + c];
+    }
+  }
+  compliance_.bottomLeftCorner(size - before, before) =
+      compliance_.topRightCorner(before, size - before).transpose();
+  const Eigen::MatrixXd own = compliance_.bottomRightCorner(size - before, size - before);
+  compliance_.bottomRightCorner(size - before, size - before) = 0.5 * (own + own.transpose());
+}
+
+/// The vector by places of the window.
+Eigen::VectorXd BoxFactor::in_window(const SparseVector& x) {
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
+  ++now_;
+  for (int k = 0; k < x.size(); ++k) {
+    d[place_of_[x.rows[k]]] += x.values[k];
+    used_[place_of_[x.rows[k]]] = now_;
+  }
+  return d;
+}
+
+/// Blocks times weights, per unknown.
+std::vector<double> BoxFactor::motion_of(const Eigen::VectorXd& weights) const {
+  std::vector<double> motion(unknowns_->number.size(), 0.0);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::span<const double> own(weights.data() + b * block_width, block_width);
+    if (std::ranges::all_of(own, [](double weight) { return weight == 0.0; })) continue;
+    add_combination(blocks_[b], own, motion);
+  }
+  std::vector<double> result(slot_of_.size());
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = motion[slot_of_[k]];
+  return result;
+}
+
+std::vector<double> BoxFactor::columns(std::span<const SparseVector> x) {
+  need(x);
+  std::vector<double> result;
+  for (const SparseVector& column : x) {
+    const std::vector<double> motion = motion_of(shares_ * in_window(column));
+    result.insert(result.end(), motion.begin(), motion.end());
+  }
+  return result;
+}
+
+void BoxFactor::compliance(std::span<const SparseVector> x, std::span<double> result) {
+  need(x);
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      double sum = 0.0;
+      for (int k = 0; k < x[a].size(); ++k) {
+        for (int l = 0; l < x[b].size(); ++l) {
+          sum += x[a].values[k] * x[b].values[l] *
+                 compliance_(place_of_[x[a].rows[k]], place_of_[x[b].rows[l]]);
+        }
+      }
+      result[a * x.size() + b] = result[b * x.size() + a] = sum;
+    }
+  }
+}
+
+/// K^-1 goes to K^-1 + sign (K^-1 x) (K^-1 x)' / pivot.
+void BoxFactor::change(const Eigen::VectorXd& d, double pivot, double sign) {
+  const Eigen::VectorXd h = compliance_ * d, f = shares_ * d;
+  compliance_.noalias() += (sign / pivot) * h * h.transpose();
+  shares_.noalias() += (sign / pivot) * f * h.transpose();
+}
+
+void BoxFactor::downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
+                         std::span<const double> pivots, std::span<double> solution) {
+  need(x);
+  if (!solution.empty()) {
+    const std::vector<double> shares = extensions(x, load_changes, solution);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
+    for (std::size_t a = 0; a < x.size(); ++a) sum += shares[a] / pivots[a] * in_window(x[a]);
+    const std::vector<double> motion = motion_of(shares_ * sum);
+    for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
+  }
+  for (std::size_t a = 0; a < x.size(); ++a) change(in_window(x[a]), pivots[a], 1.0);
+}
+
+void BoxFactor::update(const SparseVector& x) {
+  double removed = 0.0;
+  compliance({&x, 1}, {&removed, 1});
+  change(in_window(x), 1.0 + removed, -1.0);
+}
+
+FactorStatistics BoxFactor::statistics() const {
+  FactorStatistics result;
+  result.size = static_cast<Index>(slot_of_.size());
+  result.entries = static_cast<double>(slot_of_.size()) * static_cast<double>(window_.size());
+  result.bytes = 8.0 * result.entries;
+  result.event_bytes = result.bytes;
+  // To begin anew costs two solutions: some hundred products of ten operations for each bond.
+  result.flops = 1000.0 * static_cast<double>(network_.num_elements());
+  result.factorizations = begun_;
+  return result;
+}
+
+}  // namespace perilink

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <vector>
+
+#include "analysis/quasistatic/box_solver.hpp"
+#include "network/network.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// What a factor does for events, by conjugate gradients (docs/theory/large_bodies.md, section 4):
+/// a window of columns of K^-1, those of unknowns where elements are near their events, and how
+/// they combine since elements have failed. An event whose unknowns are all in the window costs one
+/// pass over its columns.
+class BoxFactor final : public Factor {
+ public:
+  BoxFactor(const Network& network, const BoxSolverOptions& options);
+
+  /// Begins anew. All of it is kept by reference: products are those of the secants as they are.
+  /// \param ground  springs that hold unknowns, or empty
+  /// \throws NotPositiveDefinite where a part of the body can move without resistance
+  void begin(const Unknowns& unknowns, Secants secants, const std::vector<double>& ground);
+
+  /// Whether K^-1 of these unknowns is at hand.
+  bool holds(std::span<const Index> unknowns) const;
+  /// Unknowns that are likely to be asked for next, the likeliest first: taken into the window
+  /// along with those that are asked for and not in it.
+  void expect(std::vector<Index> unknowns) { expected_ = std::move(unknowns); }
+
+  void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
+  void refactorize(const SparseMatrix& matrix) override;
+  void solve(std::span<const double> rhs, std::span<double> solution) override;
+  std::vector<double> columns(std::span<const SparseVector> x) override;
+  void compliance(std::span<const SparseVector> x, std::span<double> result) override;
+  void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
+                std::span<const double> pivots, std::span<double> solution) override;
+  void update(const SparseVector& x) override;
+  int factorizations() const override { return begun_; }
+  FactorStatistics statistics() const override;
+
+  Index columns_solved() const { return columns_solved_; }
+
+ private:
+  void need(std::span<const SparseVector> x);
+  void forget();
+  void keep_latest();
+  void make_solver();
+  void take_in(const std::vector<Index>& unknowns);
+  Eigen::VectorXd in_window(const SparseVector& x);
+  std::vector<double> motion_of(const Eigen::VectorXd& weights) const;
+  void change(const Eigen::VectorXd& d, double pivot, double sign);
+  std::size_t most_columns() const;
+
+  const Network& network_;
+  BoxSolverOptions options_;
+  const Unknowns* unknowns_ = nullptr;
+  Secants secants_;
+  const std::vector<double>* ground_ = nullptr;
+  std::unique_ptr<BoxSolver> solver_;
+  int first_iterations_ = 0;          ///< of the first block with these boxes
+  std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
+  std::vector<Index> expected_;
+  std::vector<Index> window_;    ///< unknowns whose columns are at hand
+  std::vector<Index> place_of_;  ///< per unknown: its place in the window, or no_index
+  std::vector<int> used_;        ///< per place: when an event used it last
+  int now_ = 0;                  ///< events and calls so far
+  /// Columns of K^-1 as it was when they were solved for, block after block, each of shape
+  /// (particles, width, block_width).
+  std::vector<std::vector<double>> blocks_;
+  Eigen::MatrixXd shares_;      ///< F: the present columns are those of the blocks times F
+  Eigen::MatrixXd compliance_;  ///< H: rows of the window of the present columns
+  int begun_ = 0;
+  Index columns_solved_ = 0;
+};
+
+}  // namespace perilink

@@ -1,0 +1,133 @@
+#include "assembly/block_forces.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "assembly/internal_force.hpp"
+#include "network/frame.hpp"
+
+namespace perilink {
+namespace {
+
+/// As many numbers as a processor's widest registers hold; those of a block come in parts of so
+/// many.
+constexpr int lanes = 8;
+using Lanes [[gnu::vector_size(8 * lanes)]] = double;
+using LanesInMemory [[gnu::vector_size(8 * lanes), gnu::aligned(8), gnu::may_alias]] = double;
+
+const LanesInMemory& at(const double* numbers) {
+  return *reinterpret_cast<const LanesInMemory*>(numbers);
+}
+LanesInMemory& at(double* numbers) { return *reinterpret_cast<LanesInMemory*>(numbers); }
+
+/// Where the numbers of a particle begin.
+template <int Width>
+std::size_t begin_of(Index particle) {
+  return static_cast<std::size_t>(particle) * Width * block_width;
+}
+
+/// Bonds of a particle mostly follow each other: its motion and force stay in registers meanwhile.
+template <int Dim>
+void add_trusses(const Network& network, Secants secants, const double* motions, double* forces) {
+  const Bonds& bonds = network.bonds;
+  const Index count = network.num_elements();
+  for (Index begin = 0, end = 0; begin < count; begin = end) {
+    const Index own = bonds.first[begin];
+    while (end < count && bonds.first[end] == own) ++end;
+    for (int part = 0; part < block_width; part += lanes) {
+      const double* own_motion = motions + begin_of<Dim>(own) + part;
+      double* own_force = forces + begin_of<Dim>(own) + part;
+      Lanes motion[Dim], force[Dim];
+      for (int a = 0; a < Dim; ++a) {
+        motion[a] = at(own_motion + a * block_width);
+        force[a] = at(own_force + a * block_width);
+      }
+      for (Index e = begin; e < end; ++e) {
+        const double stiffness = network.stiffness[e] * secants.axial(e);
+        if (stiffness == 0.0) continue;
+        const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
+        const std::size_t other = begin_of<Dim>(bonds.second[e]) + part;
+        Lanes tension{};
+        for (int a = 0; a < Dim; ++a) {
+          tension += n[a] * (at(motions + other + a * block_width) - motion[a]);
+        }
+        tension *= stiffness;
+        for (int a = 0; a < Dim; ++a) {
+          force[a] -= n[a] * tension;
+          at(forces + other + a * block_width) += n[a] * tension;
+        }
+      }
+      for (int a = 0; a < Dim; ++a) at(own_force + a * block_width) = force[a];
+    }
+  }
+}
+
+template <int Dim>
+void add_frames(const Network& network, Secants secants, const double* motions, double* forces) {
+  using Modes = FrameModes<Dim>;
+  constexpr int width = Modes::width;
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (secants.axial(e) == 0.0) continue;
+    const Modes modes = frame_modes<Dim>(network, e);
+    const std::size_t first = begin_of<width>(network.bonds.first[e]);
+    const std::size_t second = begin_of<width>(network.bonds.second[e]);
+    for (int part = 0; part < block_width; part += lanes) {
+      for (int m = 0; m < Modes::count; ++m) {
+        const double stiffness = modes.stiffness[m] * (m == 0 ? secants.axial(e) : secants[e]);
+        if (stiffness == 0.0) continue;
+        Lanes tension{};
+        for (int a = 0; a < width; ++a) {
+          tension += modes.first[m][a] * at(motions + first + a * block_width + part) +
+                     modes.second[m][a] * at(motions + second + a * block_width + part);
+        }
+        tension *= stiffness;
+        for (int a = 0; a < width; ++a) {
+          at(forces + first + a * block_width + part) += modes.first[m][a] * tension;
+          at(forces + second + a * block_width + part) += modes.second[m][a] * tension;
+        }
+      }
+    }
+  }
+}
+
+/// One motion after the other, where states and finite elements count as well.
+void find_one_by_one(const Network& network, Secants secants, std::span<const double> motions,
+                     std::span<double> forces) {
+  const std::size_t slots = motions.size() / block_width;
+  std::vector<double> motion(slots);
+  InternalForce internal;
+  for (std::size_t c = 0; c < block_width; ++c) {
+    for (std::size_t slot = 0; slot < slots; ++slot) motion[slot] = motions[slot * block_width + c];
+    internal_force(network, secants, motion, internal);
+    for (std::size_t slot = 0; slot < slots; ++slot) {
+      forces[slot * block_width + c] = internal.forces[slot];
+    }
+  }
+}
+
+}  // namespace
+
+void block_forces(const Network& network, Secants secants, std::span<const double> motions,
+                  std::span<double> forces) {
+  if (network.has_states() || network.cells) {
+    return find_one_by_one(network, secants, motions, forces);
+  }
+  std::fill(forces.begin(), forces.end(), 0.0);
+  const bool plane = network.dim() == 2;
+  if (network.carries_moments()) {
+    plane ? add_frames<2>(network, secants, motions.data(), forces.data())
+          : add_frames<3>(network, secants, motions.data(), forces.data());
+  } else {
+    plane ? add_trusses<2>(network, secants, motions.data(), forces.data())
+          : add_trusses<3>(network, secants, motions.data(), forces.data());
+  }
+  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
+    const double spring = network.support_stiffness[slot];
+    if (spring == 0.0) continue;
+    for (std::size_t k = slot * block_width; k < (slot + 1) * block_width; ++k) {
+      forces[k] += spring * motions[k];
+    }
+  }
+}
+
+}  // namespace perilink

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/block.hpp"
+#include "solver/conjugate_gradients.hpp"
+
+namespace perilink {
+
+/// conjugate_gradients() of many right sides side by side, from zero: each goes its own way, and
+/// products and preconditioner are applied to all of them at once. Ends where the last one has got
+/// there. Vectors have shape (n, block_width).
+/// \param right  used up
+/// \return iterations, and the largest error of all, over the root of the energy of its solution
+/// \throws NotPositiveDefinite where A is not
+GradientsReport block_conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
+                                          std::span<double> right, std::span<double> solution,
+                                          double enough, int most_iterations);
+
+/// blocks <- blocks shares: columns, block_width of them in each block of shape (n, block_width),
+/// go over to combinations of them, which may be fewer.
+/// \param shares  of each old column in each new one, shape (old, new); new a multiple of
+///                block_width
+void recombine(std::vector<std::vector<double>>& blocks, std::span<const double> shares);
+
+/// result += columns weights, the columns of shape (n, block_width).
+void add_combination(std::span<const double> columns, std::span<const double> weights,
+                     std::span<double> result);
+
+}  // namespace perilink

@@ -1,0 +1,130 @@
+#include "analysis/quasistatic/equilibrium/box_factor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "assembly/element_vector.hpp"
+#include "assembly/stiffness.hpp"
+#include "solver/factor_routes.hpp"
+#include "support/analysis_bodies.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+/// Errors of columns are 1e-12 in the norm of energy, and far less in what small blocks magnify.
+constexpr double closeness = 1e-9;
+const BoxSolverOptions fine{.tolerance = 1e-12, .edge = 3};
+
+double largest_difference(std::span<const double> a, std::span<const double> b) {
+  double largest = 0.0, size = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    largest = std::max(largest, std::abs(a[k] - b[k]));
+    size = std::max(size, std::abs(b[k]));
+  }
+  return largest / size;
+}
+
+/// Follows the same removals as a factor of the matrix: more than the window holds.
+void expect_what_a_factor_says(const BlockCase& block) {
+  const AnalysisBody body = make_block(block);
+  std::vector<double> secants = intact(body.network);
+  const std::vector<double> no_ground;
+  BoxFactor boxes(body.network, fine);
+  boxes.begin(body.unknowns, secants, no_ground);
+  const auto factor = make_factor(FactorRoute::in_place, 1);
+  factor->factorize(assemble_stiffness(body.network, secants, body.unknowns),
+                    body.unknowns.owners());
+  std::vector<double> motion = body.unknowns.restrict(body.loads.forces), other = motion;
+  boxes.solve(motion, motion);
+  factor->solve(other, other);
+  EXPECT_LT(largest_difference(motion, other), closeness);
+
+  int followed = 0;
+  for (Index e = 0; followed < 60 && e < body.network.num_elements(); e += 7) {
+    const double fraction = e % 2 == 0 ? 1.0 : 0.3;
+    const ElementVectors parts =
+        element_vectors(body.network, body.unknowns, e, fraction * secants[e]);
+    if (parts.x[0].size() == 0) continue;
+    const SparseVector& x = parts.x[0];
+    const double pivot = factor->pivot(x);
+    EXPECT_NEAR(boxes.pivot(x), pivot, closeness);
+    if (parts.count > 1) {  // the modes of a frame interact
+      std::vector<double> found(9), expected(9);
+      const std::span<const SparseVector> three(parts.x.data(), 3);
+      boxes.compliance(three, found);
+      factor->compliance(three, expected);
+      EXPECT_LT(largest_difference(found, expected), closeness);
+    }
+    if (pivot < 0.2) continue;
+    EXPECT_LT(largest_difference(boxes.columns({&x, 1}), factor->columns({&x, 1})), closeness);
+    if (parts.count == 1)
+      secants[e] *= 1.0 - fraction;  // products follow, of frames they cannot
+    else
+      continue;
+    const double load = 0.1 * followed++;
+    boxes.downdate({&x, 1}, {&load, 1}, {&pivot, 1}, motion);
+    factor->downdate({&x, 1}, {&load, 1}, {&pivot, 1}, other);
+    ASSERT_LT(largest_difference(motion, other), closeness) << followed;
+  }
+  if (!body.network.carries_moments()) {
+    EXPECT_EQ(followed, 60);
+    EXPECT_GT(boxes.columns_solved(), 2 * block_width);
+    std::vector<double> again = body.unknowns.restrict(body.loads.forces), expected = again;
+    boxes.solve(again, again);  // with the secants as they are now
+    factor->solve(expected, expected);
+    EXPECT_LT(largest_difference(again, expected), closeness);
+  }
+}
+
+TEST(BoxFactor, SaysWhatAFactorSays) {
+  expect_what_a_factor_says({{"hexagonal", Pattern::hexagonal, Surface::none}, false, false, 9});
+  expect_what_a_factor_says({{"cubic", Pattern::cubic, Surface::none}, false, false, 5});
+  BlockCase frames{{"hexagonal", Pattern::hexagonal, Surface::none}};
+  frames.micropolar = true;
+  expect_what_a_factor_says(frames);
+}
+
+TEST(BoxFactor, ASpringIsAnUpdate) {
+  const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}});
+  const std::vector<double> secants = intact(body.network);
+  std::vector<double> ground;
+  BoxFactor boxes(body.network, fine);
+  boxes.begin(body.unknowns, secants, ground);
+  SparseVector x, other;
+  x.add(40, 3.0);
+  other.add(41, 2.0);
+  const double before = 1.0 - boxes.pivot(x);
+  double coupled[4];
+  const SparseVector both[] = {x, other};
+  boxes.compliance(both, coupled);
+  boxes.update(x);
+  EXPECT_NEAR(1.0 - boxes.pivot(x), before / (1.0 + before), 1e-12);
+  EXPECT_NEAR(1.0 - boxes.pivot(other), coupled[3] - coupled[1] * coupled[1] / (1.0 + before),
+              1e-12);
+  ground.assign(static_cast<std::size_t>(body.unknowns.count), 0.0);
+  ground[40] = 9.0;
+  std::vector<double> load(ground.size(), 0.0);
+  load[40] = 3.0;
+  boxes.solve(load, load);
+  EXPECT_NEAR(3.0 * load[40], before / (1.0 + before), 1e-11);
+}
+
+TEST(BoxFactor, HoldsWhatWasExpected) {
+  const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}});
+  const std::vector<double> secants = intact(body.network), no_ground;
+  BoxFactor boxes(body.network, fine);
+  boxes.begin(body.unknowns, secants, no_ground);
+  SparseVector x;
+  x.add(5, 1.0);
+  const std::vector<Index> two = {7, 9}, many = {5, 7, 9};
+  EXPECT_FALSE(boxes.holds(two));
+  boxes.expect(two);
+  boxes.pivot(x);
+  EXPECT_TRUE(boxes.holds(many));
+  EXPECT_EQ(boxes.columns_solved(), 3);
+  EXPECT_THROW(boxes.refactorize({}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace perilink

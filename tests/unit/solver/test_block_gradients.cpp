@@ -1,0 +1,87 @@
+#include "solver/block_gradients.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "solver/not_positive_definite.hpp"
+
+namespace perilink {
+namespace {
+
+using Eigen::MatrixXd;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, block_width, Eigen::RowMajor>;
+
+/// Positive definite where `shift` is positive.
+MatrixXd matrix_of(int size, double shift) {
+  std::mt19937 random(5);  // fixed: the same matrix in every run
+  std::normal_distribution<double> entry;
+  const MatrixXd any = MatrixXd::NullaryExpr(size, size, [&] { return entry(random); });
+  return any * any.transpose() / size + shift * MatrixXd::Identity(size, size);
+}
+
+LinearMap product_with(const MatrixXd& matrix) {
+  return [&matrix](std::span<const double> x, std::span<double> result) {
+    Eigen::Map<Rows>(result.data(), matrix.rows(), block_width) =
+        matrix * Eigen::Map<const Rows>(x.data(), matrix.rows(), block_width);
+  };
+}
+
+const LinearMap identity = [](std::span<const double> x, std::span<double> result) {
+  std::copy(x.begin(), x.end(), result.begin());
+};
+
+TEST(BlockGradients, SolveEveryRightSideToItsOwnTolerance) {
+  constexpr int size = 60;
+  const MatrixXd matrix = matrix_of(size, 0.1);
+  Rows exact = Rows::Random(size, block_width);
+  exact.col(3) *= 1e-8;  // small beside the others
+  exact.col(5).setZero();
+  Rows right = matrix * exact, solution(size, block_width);
+  solution.setOnes();  // no guess
+  const GradientsReport report = block_conjugate_gradients(
+      product_with(matrix), identity, {right.data(), std::size_t(right.size())},
+      {solution.data(), std::size_t(solution.size())}, 1e-9, 1000);
+  EXPECT_TRUE(report.converged);
+  EXPECT_GT(report.iterations, 12);
+  EXPECT_LE(report.error, 1e-9);
+  for (int c = 0; c < block_width; ++c) {
+    const Eigen::VectorXd missing = exact.col(c) - solution.col(c);
+    const Eigen::VectorXd whole = exact.col(c);
+    EXPECT_LE(std::sqrt(missing.dot(matrix * missing)), 1e-9 * std::sqrt(whole.dot(matrix * whole)))
+        << c;
+  }
+  EXPECT_EQ(solution.col(5).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(BlockGradients, SayWhereTheyDoNotGetThere) {
+  const MatrixXd matrix = matrix_of(60, 1e-3);
+  Rows right = Rows::Random(60, block_width), solution(60, block_width);
+  const std::span<double> r(right.data(), std::size_t(right.size()));
+  const std::span<double> x(solution.data(), std::size_t(solution.size()));
+  const GradientsReport report =
+      block_conjugate_gradients(product_with(matrix), identity, r, x, 1e-12, 14);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.iterations, 14);
+  EXPECT_GT(report.error, 1e-12);
+  const MatrixXd indefinite = matrix_of(60, -1.0);
+  right = Rows::Random(60, block_width);
+  EXPECT_THROW(block_conjugate_gradients(product_with(indefinite), identity, r, x, 1e-12, 500),
+               NotPositiveDefinite);
+}
+
+TEST(BlockGradients, AddsACombination) {
+  const Rows columns = Rows::Random(7, block_width);
+  const Eigen::VectorXd weights = Eigen::VectorXd::Random(block_width);
+  Eigen::VectorXd result = Eigen::VectorXd::Ones(7);
+  const Eigen::VectorXd expected = result + columns * weights;
+  add_combination({columns.data(), std::size_t(columns.size())}, {weights.data(), block_width},
+                  {result.data(), 7});
+  EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+}  // namespace
+}  // namespace perilink
