@@ -19,14 +19,18 @@ namespace {
 
 constexpr int most_iterations = 20000;
 
-/// Particles of a box. Where the body is large, larger ones keep the coarse factor small, whose part
-/// is less beside the product of a block.
+/// Particles along the edge of a box. Where the body is large, larger ones keep the coarse factor
+/// small; solutions that are many pay for one that is larger.
+double edge_of_box(const Network& network, const BoxSolverOptions& options) {
+  const Index particles = network.particles.size();
+  if (options.edge > 0) return options.edge;
+  if (network.dim() == 2) return options.blocks ? 6.0 : 8.0;
+  if (options.blocks && particles < 100'000) return 4.0;
+  return particles < 1'000'000 ? 6.0 : 8.0;
+}
+
 Index particles_of_box(const Network& network, const BoxSolverOptions& options) {
-  const bool plane = network.dim() == 2;
-  const double edge = options.edge > 0                       ? options.edge
-                      : network.particles.size() < 1'000'000 ? plane ? 8.0 : 6.0
-                                                             : 8.0;
-  return static_cast<Index>(plane ? edge * edge : edge * edge * edge);
+  return static_cast<Index>(std::pow(edge_of_box(network, options), network.dim()));
 }
 
 SolverError not_there(int iterations, double error, double tolerance) {

@@ -10,10 +10,13 @@ namespace perilink {
 namespace {
 
 /// Columns of the window, at most: more cost more at every event than solving for them again.
-constexpr std::size_t most_blocks = 8, fewest_blocks = 2;
+constexpr std::size_t most_blocks = 32, fewest_blocks = 8;
 
 /// Iterations of a block, over those of the first, from which on the boxes are made anew.
 constexpr double slower = 1.3;
+
+/// Pivots below which the window begins anew.
+constexpr double small_pivot = 0.05;
 
 /// Memory that the window may take where that leaves the fewest blocks.
 constexpr double most_bytes = 2e9;
@@ -122,16 +125,20 @@ void BoxFactor::need(std::span<const SparseVector> x) {
       if (place_of_[unknown] != no_index) used_[place_of_[unknown]] = now_;
     }
   }
-  if ((blocks_.size() + 1) * block_width > most_columns()) keep_latest();
+  const std::size_t blocks = (missing.size() + block_width - 1) / block_width;
+  if ((blocks_.size() + blocks) * block_width > most_columns()) keep_latest();
   for (const Index unknown : expected_) {
-    if (missing.size() < block_width) list(unknown);
+    if (missing.size() < blocks * block_width) list(unknown);
   }
   expected_.clear();
-  take_in(missing);
+  const std::span<const Index> all(missing);
+  for (std::size_t begin = 0; begin < all.size(); begin += block_width) {
+    take_in(all.subspan(begin, std::min<std::size_t>(block_width, all.size() - begin)));
+  }
 }
 
 /// Solves for columns and puts them at the end of the window.
-void BoxFactor::take_in(const std::vector<Index>& unknowns) {
+void BoxFactor::take_in(std::span<const Index> unknowns) {
   const auto before = static_cast<Eigen::Index>(window_.size());
   const auto size = before + static_cast<Eigen::Index>(unknowns.size());
   std::vector<double> right(unknowns_->number.size() * block_width, 0.0);
@@ -235,6 +242,8 @@ void BoxFactor::downdate(std::span<const SparseVector> x, std::span<const double
     for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
   }
   for (std::size_t a = 0; a < x.size(); ++a) change(in_window(x[a]), pivots[a], 1.0);
+  // Errors of columns grow by as much as the motions do.
+  if (std::ranges::any_of(pivots, [](double pivot) { return pivot < small_pivot; })) forget();
 }
 
 void BoxFactor::update(const SparseVector& x) {

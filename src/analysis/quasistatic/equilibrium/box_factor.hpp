@@ -47,7 +47,7 @@ class BoxFactor final : public Factor {
   void forget();
   void keep_latest();
   void make_solver();
-  void take_in(const std::vector<Index>& unknowns);
+  void take_in(std::span<const Index> unknowns);
   Eigen::VectorXd in_window(const SparseVector& x);
   std::vector<double> motion_of(const Eigen::VectorXd& weights) const;
   void change(const Eigen::VectorXd& d, double pivot, double sign);

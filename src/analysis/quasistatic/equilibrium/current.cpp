@@ -91,10 +91,7 @@ void Equilibrium::keep_all_current() {
 }
 
 bool is_followed_by_boxes(const LoadedNetwork& problem, LinearSolver solver) {
-  constexpr Index most_for_a_factor = 60000;
-  if (solver != LinearSolver::automatic) return solver == LinearSolver::iterative;
-  return problem.network.dim() == 3 && problem.unknowns.count > most_for_a_factor &&
-         problem.sets.empty() && !problem.carried && !problem.network.has_closing();
+  return solver == LinearSolver::iterative && !problem.carried;
 }
 
 std::vector<Index> Equilibrium::unknowns_of(Index element) const {

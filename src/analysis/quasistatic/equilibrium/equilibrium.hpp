@@ -75,8 +75,7 @@ struct EquilibriumOptions {
 };
 
 /// Whether conjugate gradients take the place of a factor that follows every event: where they are
-/// chosen, or a factor would take more memory than most machines have (docs/theory/large_bodies.md,
-/// section 5).
+/// asked for and nothing carries particles (docs/theory/large_bodies.md, section 5).
 bool is_followed_by_boxes(const LoadedNetwork& problem, LinearSolver solver);
 
 /// Pivots below this are computed again from energies: a body that is slender or about to separate

@@ -45,7 +45,7 @@ bool SingleEventEngine::is_noise(Index element) const {
 /// are solved for with them.
 void SingleEventEngine::prepare(const Event& event) {
   if (equilibrium_.is_prepared(event.element)) return;
-  constexpr std::size_t enough = 2 * block_width;
+  constexpr std::size_t enough = 4 * block_width;
   std::vector<Index> expected;
   std::vector<std::uint8_t> listed(teeth_.size(), 0);
   for (const double fraction : {0.95, 0.9, 0.8, 0.65, 0.5}) {
