@@ -1,5 +1,6 @@
 #include "io/case/sections/case_bond_dynamics.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string with_analysis(const std::string& keys) {
-  return std::string(small_case) + "[analysis]\n" + keys;
+  return fmt::format("{}[analysis]\n{}", small_case, keys);
 }
 
 std::string explicit_case(const std::string& keys) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,7 +67,7 @@ TEST(CaseWriter, WritesMicropolarBodies) {
 
 TEST(CaseWriter, WritesBodiesOfLinearElements) {
   const CaseFile input =
-      parse_case(replaced(std::string(small_case) + "[analysis]\ntype = \"elastic\"\n",
+      parse_case(replaced(fmt::format("{}[analysis]\ntype = \"elastic\"\n", small_case),
                           "horizon_ratio = 3", "method = \"linear_elements\""),
                  "");
   const std::string written = write_case(input);
