@@ -132,7 +132,7 @@ constexpr double round_off = 1e-10;
 TEST_P(CarriedParticles, EventsAreThoseOfTheConstrainedBody) {
   for (const FactorRoute route :
        {FactorRoute::in_place, FactorRoute::cholmod_updown, FactorRoute::refactorize}) {
-    EngineOptions options;
+    EquilibriumOptions options;
     options.route = route;
     const auto engine = make_event_engine(body_, options);
     std::vector<int> teeth(static_cast<std::size_t>(body_.network.num_elements()), 0);

@@ -57,6 +57,8 @@ TEST_P(Blocks, BreakAlike) {
   const Outcome expected = outcome_of(body, false, {}), found = outcome_of(body, true, {});
   EXPECT_GT(expected.rows.size(), 50u);
   expect_the_same(found, expected, before_separation);
+  EXPECT_EQ(found.rows.size(), expected.rows.size());
+  EXPECT_EQ(found.result.ending, expected.result.ending) << found.result.reason;
 }
 
 /// Forces that are beyond what a body bears take it apart within a step.

@@ -54,7 +54,7 @@ struct RouteTime {
 
 /// Median over the events of one route of a whole event: search, pivot, downdate, displacement.
 RouteTime time_events(const Model& model, FactorRoute route, int events, int threads) {
-  EngineOptions options;
+  EquilibriumOptions options;
   options.route = route;
   options.threads = threads;
   const auto engine = make_event_engine(model, options);

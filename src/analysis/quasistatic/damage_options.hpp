@@ -44,7 +44,7 @@ struct StageResult {
 };
 
 struct DamageOptions {
-  EngineOptions engine;
+  EquilibriumOptions engine;
   std::vector<double> load_factors;  ///< control by steps when not empty, else by events
   StopRules stop;
   std::vector<StageRules> stages;  ///< one after the other, in place of those two

@@ -202,7 +202,7 @@ struct AnalysisSection {
   RigidBodyModes rigid_body_modes = RigidBodyModes::refuse;
   FactorRoute factor = FactorRoute::in_place;
   LinearSolver solver = LinearSolver::automatic;
-  std::optional<int> coarse_box;    ///< particles along an edge of a box, for type = elastic
+  std::optional<int> coarse_box;    ///< particles along an edge of a box
   double duration = 0.0;            ///< [time]; from here on: type = explicit
   double ramp_time = 0.0;           ///< until the load factor is one [time]
   std::optional<double> time_step;  ///< [time]

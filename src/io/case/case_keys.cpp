@@ -245,7 +245,7 @@ const std::vector<KeySchema> analysis_keys = {
     {"rigid_body_modes", {no_lattice_key}},
     {"factor", of_events},
     {"solver", solvers},
-    {"coarse_box", set_aside(damage | explicit_ | relaxation)},
+    {"coarse_box", of_events},
     {"duration", of_time},
     {"ramp_time", of_time},
     {"time_step", of_time},

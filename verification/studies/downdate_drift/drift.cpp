@@ -115,7 +115,7 @@ Detachment measure_detachment(const Model& model, double x, double y, double rad
   }
   result.bonds = static_cast<int>(cut.size());
 
-  SingleEventEngine engine(model, EngineOptions{});
+  SingleEventEngine engine(model, EquilibriumOptions{});
   result.springs = engine.cut(cut);
   const std::span<const double> displacement = engine.displacement();
 

@@ -87,11 +87,11 @@ PathEnergy measure_case(const CrackedCase& text, double first, double second, do
   const auto model_at = [&](double tip) { return build_model(parse_case(text(tip), "crack")); };
   const auto stiffness_at = [&](double tip) {
     const Model model = model_at(tip);
-    return stiffness_of(*make_event_engine(model, EngineOptions{}));
+    return stiffness_of(*make_event_engine(model, EquilibriumOptions{}));
   };
   const double begin = stiffness_at(second), end = stiffness_at(third);
   const Model model = model_at(first);
-  const auto engine = make_event_engine(model, EngineOptions{});
+  const auto engine = make_event_engine(model, EquilibriumOptions{});
   PathEnergy energy = energy_between(*engine, begin, end);
   energy.dissipated /= third - second;
   energy.released /= third - second;

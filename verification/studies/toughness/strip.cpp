@@ -225,12 +225,12 @@ StripCost measure_crack_cost(const Strip& strip) {
   const StripBuilder builder(strip, inside);
   const auto stiffness_at = [&](int periods) {
     const LoadedNetwork cut = builder.cut(periods);
-    return stiffness_of(*make_event_engine(cut, EngineOptions{}));
+    return stiffness_of(*make_event_engine(cut, EquilibriumOptions{}));
   };
   const double begin = stiffness_at(strip.skipped);
   const double end = stiffness_at(strip.skipped + strip.counted);
   const LoadedNetwork whole = builder.cut(0);
-  const PathEnergy energy = energy_between(*make_event_engine(whole, EngineOptions{}), begin, end);
+  const PathEnergy energy = energy_between(*make_event_engine(whole, EquilibriumOptions{}), begin, end);
   // Critical stretches are one: a plane crack would hold half of the fracture sum per area.
   const double sum = fracture_sum_of_family(inside.problem, inside.offsets, inside.stiffness.axial,
                                             inside.lattice.cell_volume);

@@ -109,7 +109,7 @@ std::size_t BoxFactor::most_columns() const {
 }
 
 /// Takes the unknowns of these vectors into the window, and with them those that are expected.
-void BoxFactor::need(std::span<const SparseVector> x) {
+void BoxFactor::hold(std::span<const SparseVector> x) {
   std::vector<Index> missing;
   std::vector<std::uint8_t> listed(place_of_.size(), 0);
   const auto list = [&](Index unknown) {
@@ -199,7 +199,7 @@ std::vector<double> BoxFactor::motion_of(const Eigen::VectorXd& weights) const {
 }
 
 std::vector<double> BoxFactor::columns(std::span<const SparseVector> x) {
-  need(x);
+  hold(x);
   std::vector<double> result;
   for (const SparseVector& column : x) {
     const std::vector<double> motion = motion_of(shares_ * in_window(column));
@@ -209,7 +209,7 @@ std::vector<double> BoxFactor::columns(std::span<const SparseVector> x) {
 }
 
 void BoxFactor::compliance(std::span<const SparseVector> x, std::span<double> result) {
-  need(x);
+  hold(x);
   for (std::size_t a = 0; a < x.size(); ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
       double sum = 0.0;
@@ -233,7 +233,9 @@ void BoxFactor::change(const Eigen::VectorXd& d, double pivot, double sign) {
 
 void BoxFactor::downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                          std::span<const double> pivots, std::span<double> solution) {
-  need(x);
+  for (const SparseVector& column : x) {
+    if (!holds(column.rows)) throw std::logic_error("columns are solved for before a change");
+  }
   if (!solution.empty()) {
     const std::vector<double> shares = extensions(x, load_changes, solution);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));

@@ -25,6 +25,9 @@ class BoxFactor final : public Factor {
 
   /// Whether K^-1 of these unknowns is at hand.
   bool holds(std::span<const Index> unknowns) const;
+  /// From now on it is, of the unknowns of these vectors. Called before the secants change: a
+  /// downdate of unknowns that are not held would take the change twice.
+  void hold(std::span<const SparseVector> x);
   /// Unknowns that are likely to be asked for next, the likeliest first: taken into the window
   /// along with those that are asked for and not in it.
   void expect(std::vector<Index> unknowns) { expected_ = std::move(unknowns); }
@@ -43,7 +46,6 @@ class BoxFactor final : public Factor {
   Index columns_solved() const { return columns_solved_; }
 
  private:
-  void need(std::span<const SparseVector> x);
   void forget();
   void keep_latest();
   void make_solver();

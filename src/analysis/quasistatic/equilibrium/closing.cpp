@@ -111,8 +111,8 @@ std::vector<Index> Equilibrium::on_wrong_side() const {
 
 void Equilibrium::close(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
+  factor_->update(axial.x[0]);  // of the body as it was until now
   axial_[element] = 1.0;
-  factor_->update(axial.x[0]);
 }
 
 /// \return false where nothing but the bond holds the body: then all is as it was

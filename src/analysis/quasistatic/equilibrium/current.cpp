@@ -90,10 +90,6 @@ void Equilibrium::keep_all_current() {
   partial_ = false;
 }
 
-bool is_followed_by_boxes(const LoadedNetwork& problem, LinearSolver solver) {
-  return solver == LinearSolver::iterative && !problem.carried;
-}
-
 std::vector<Index> Equilibrium::unknowns_of(Index element) const {
   std::vector<Index> unknowns;
   const int width = network_.width();

@@ -53,7 +53,8 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
       options_(options),
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
       has_kept_(network_.has_kept_shear()) {
-  if (is_followed_by_boxes(problem, options.solver)) {
+  if (is_followed_by_boxes(options.solver)) {
+    if (problem.carried) throw std::invalid_argument("boxes do not follow what is carried");
     auto boxes = std::make_unique<BoxFactor>(network_, options.boxes);
     boxes_ = boxes.get();
     factor_ = std::move(boxes);

@@ -74,9 +74,9 @@ struct EquilibriumOptions {
   BoxSolverOptions boxes = {};  ///< where conjugate gradients take the factor's place
 };
 
-/// Whether conjugate gradients take the place of a factor that follows every event: where they are
-/// asked for and nothing carries particles (docs/theory/large_bodies.md, section 5).
-bool is_followed_by_boxes(const LoadedNetwork& problem, LinearSolver solver);
+/// Whether conjugate gradients take the place of a factor that follows every event: only where they
+/// are asked for (docs/theory/large_bodies.md, section 5).
+inline bool is_followed_by_boxes(LinearSolver solver) { return solver == LinearSolver::iterative; }
 
 /// Pivots below this are computed again from energies: a body that is slender or about to separate
 /// has a condition number that takes most digits of what the factor says.
@@ -88,6 +88,7 @@ inline constexpr double doubtful_pivot = 1e-2;
 class Equilibrium {
  public:
   /// \throws SolverError when the stiffness matrix is not positive definite
+  /// \throws std::invalid_argument where boxes are asked for and something carries particles
   Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options);
 
   /// Present stiffness of every element as a fraction of the intact one.
@@ -145,6 +146,8 @@ class Equilibrium {
   Freedom change_motion(const Unknowns& unknowns);
 
   const Factor& factor() const { return *factor_; }
+  /// Differences of displacements that are smaller, over the displacements, may be none.
+  double resolution() const { return boxes_ == nullptr ? 1e-12 : options_.boxes.tolerance; }
 
   /// Whether an event of the element costs no solution by conjugate gradients.
   bool is_prepared(Index element) const;

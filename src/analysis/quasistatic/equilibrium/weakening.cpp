@@ -155,6 +155,8 @@ void Equilibrium::follow(const EventOutcome& outcome) {
 }
 
 void Equilibrium::commit(const Removal& removal, Index element, double secant) {
+  // A factor that was made anew on the way has no columns yet: those of the body as it was.
+  if (boxes_ != nullptr && !must_rebuild_) boxes_->hold(removal.vectors());
   const bool is_first = secants_[element] == 1.0;
   if (!axial_.empty() && is_first && network_.law(element).closes()) damaged_.push_back(element);
   set_secant(element, secant);

@@ -66,17 +66,8 @@ class EventEngine {
 /// Relative width within which load factors count as equal.
 inline constexpr double tie_tolerance = 1e-10;
 
-enum class EngineKind {
-  single_events,  ///< one factor, one event at a time
-};
-
-/// What an engine needs to know.
-struct EngineOptions : EquilibriumOptions {
-  EngineKind kind = EngineKind::single_events;
-};
-
 /// \throws SolverError when the stiffness matrix is not positive definite
 std::unique_ptr<EventEngine> make_event_engine(const LoadedNetwork& problem,
-                                               const EngineOptions& options);
+                                               const EquilibriumOptions& options);
 
 }  // namespace perilink

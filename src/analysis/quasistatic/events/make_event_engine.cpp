@@ -5,11 +5,8 @@
 namespace perilink {
 
 std::unique_ptr<EventEngine> make_event_engine(const LoadedNetwork& problem,
-                                               const EngineOptions& options) {
-  switch (options.kind) {
-    case EngineKind::single_events: return std::make_unique<SingleEventEngine>(problem, options);
-  }
-  return nullptr;
+                                               const EquilibriumOptions& options) {
+  return std::make_unique<SingleEventEngine>(problem, options);
 }
 
 }  // namespace perilink

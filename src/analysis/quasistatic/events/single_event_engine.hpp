@@ -14,7 +14,7 @@ namespace perilink {
 /// One event at a time: search all elements, weaken the one found, move the displacement.
 class SingleEventEngine : public EventEngine {
  public:
-  SingleEventEngine(const LoadedNetwork& problem, const EngineOptions& options);
+  SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options);
 
   Event next_event() override;
   EventOutcome apply(const Event& event) override;
@@ -52,7 +52,7 @@ class SingleEventEngine : public EventEngine {
   /// Tells the search the next limits of an element after its event.
   void set_limits(Index element);
 
-  bool is_noise(Index element) const;
+  bool is_noise(const BreakSearch::Hit& hit) const;
   std::vector<Index> elements_above(double ratio, std::span<const double> motion);
 
   const Network& network_;

@@ -10,7 +10,7 @@
 
 namespace perilink {
 
-StagedEngine::StagedEngine(const LoadedNetwork& problem, const EngineOptions& options)
+StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOptions& options)
     : SingleEventEngine(problem, options),
       problem_(problem),
       crossings_(problem.network),

@@ -14,7 +14,7 @@ namespace perilink {
 /// at the present load factor.
 class StagedEngine final : public SingleEventEngine {
  public:
-  StagedEngine(const LoadedNetwork& problem, const EngineOptions& options);
+  StagedEngine(const LoadedNetwork& problem, const EquilibriumOptions& options);
 
   /// A set of loads grows from its present load factor, 0 at first; the others stay as they are.
   /// What the set drives is gripped where it is.

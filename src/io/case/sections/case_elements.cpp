@@ -65,7 +65,7 @@ void check_elements(const CaseFile& input) {
         input.where("analysis.solver"),
         "is \"iterative\", but the elements of [elements] carry particles, which only a "
         "factor serves",
-        "delete one of the two");
+        "delete one of the two, or set solver = \"direct\"");
   }
   if (input.body.surface != Surface::calibrated) {
     throw InputError(

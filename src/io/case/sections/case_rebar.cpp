@@ -247,7 +247,7 @@ void check_rebar(const CaseFile& input) {
       throw InputError(input.where("analysis.solver"),
                        "is \"iterative\", but the body has bars, whose nodes are tied to "
                        "combinations of particles, which only a factor serves",
-                       "delete the line, or set bond = \"concrete\" in [[rebar]]");
+                       "set solver = \"direct\", or bond = \"concrete\" in [[rebar]]");
     }
     if (input.analysis.strain == Strain::green) {
       throw InputError(input.where("analysis.strain"),

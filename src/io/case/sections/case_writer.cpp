@@ -159,11 +159,12 @@ void write_run(TomlWriter& out, const CaseFile& input) {
   }
   out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
   out.write("factor", word_of(input.analysis.factor));
-  const bool bonds = input.body.method == BodyMethod::bonds;
-  if (bonds && input.analysis.type == AnalysisType::elastic) {
+  if (input.body.method == BodyMethod::bonds) {
     out.write("solver", word_of(input.analysis.solver));
     out.write("coarse_box", input.analysis.coarse_box);
-    out.write("tolerance", input.analysis.tolerance);
+    if (input.analysis.type == AnalysisType::elastic) {
+      out.write("tolerance", input.analysis.tolerance);
+    }
   }
   if (input.stages.empty()) {
     out.header("[stop]");

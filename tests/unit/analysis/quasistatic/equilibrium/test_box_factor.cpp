@@ -127,5 +127,19 @@ TEST(BoxFactor, HoldsWhatWasExpected) {
   EXPECT_THROW(boxes.refactorize({}), std::logic_error);
 }
 
+/// Columns that were solved for after the secants have changed would take the change twice.
+TEST(BoxFactor, ChangesOnlyWhatItHolds) {
+  const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}});
+  const std::vector<double> secants = intact(body.network), no_ground;
+  BoxFactor boxes(body.network, fine);
+  boxes.begin(body.unknowns, secants, no_ground);
+  SparseVector x;
+  x.add(5, 1.0);
+  const double load = 0.0, pivot = 0.5;
+  EXPECT_THROW(boxes.downdate({&x, 1}, {&load, 1}, {&pivot, 1}, {}), std::logic_error);
+  boxes.hold({&x, 1});
+  EXPECT_NO_THROW(boxes.downdate({&x, 1}, {&load, 1}, {&pivot, 1}, {}));
+}
+
 }  // namespace
 }  // namespace perilink

@@ -16,12 +16,12 @@ constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_up
 const LatticeCase rectangular{"rectangular", Pattern::rectangular, Surface::none};
 const LatticeCase hexagonal{"hexagonal", Pattern::hexagonal, Surface::none};
 
-SingleEventEngine make_engine(const AnalysisBody& body, const EngineOptions& options = {}) {
+SingleEventEngine make_engine(const AnalysisBody& body, const EquilibriumOptions& options = {}) {
   return {body, options};
 }
 
-EngineOptions with_route(FactorRoute route) {
-  EngineOptions options;
+EquilibriumOptions with_route(FactorRoute route) {
+  EquilibriumOptions options;
   options.route = route;
   return options;
 }
@@ -168,7 +168,7 @@ TEST(Equilibrium, PartialDisplacementsFindTheSameEvents) {
 /// as the residual stays near what the fresh factor left.
 TEST(Equilibrium, FactorizesAtMostOncePerLook) {
   const AnalysisBody body = make_block({rectangular, false, false, 8});
-  EngineOptions options;
+  EquilibriumOptions options;
   options.residual_tolerance = 1e-30;
   SingleEventEngine engine = make_engine(body, options);
   EXPECT_EQ(engine.factor_statistics().factorizations, 1);

@@ -19,7 +19,7 @@ constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_up
                                   FactorRoute::refactorize};
 
 SingleEventEngine make_engine(const AnalysisBody& body, FactorRoute route) {
-  EngineOptions options;
+  EquilibriumOptions options;
   options.route = route;
   return {body, options};
 }

@@ -14,8 +14,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
                                   FactorRoute::refactorize};
 
-EngineOptions with_route(FactorRoute route) {
-  EngineOptions options;
+EquilibriumOptions with_route(FactorRoute route) {
+  EquilibriumOptions options;
   options.route = route;
   return options;
 }

@@ -12,7 +12,7 @@ using namespace test;
 
 std::unique_ptr<EventEngine> make_engine(const AnalysisBody& body,
                                          FactorRoute route = FactorRoute::in_place) {
-  EngineOptions options;
+  EquilibriumOptions options;
   options.route = route;
   return make_event_engine(body, options);
 }

@@ -13,8 +13,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
                                   FactorRoute::refactorize};
 
-EngineOptions with_route(FactorRoute route) {
-  EngineOptions options;
+EquilibriumOptions with_route(FactorRoute route) {
+  EquilibriumOptions options;
   options.route = route;
   return options;
 }
@@ -92,6 +92,27 @@ TEST(SingleEventEngine, BarThatWasCutDoesNotYield) {
   const std::vector<Index> bar{body.network.first_segment};
   EXPECT_EQ(engine.cut(bar), 0);
   EXPECT_EQ(engine.next_event().element, no_index);
+}
+
+/// A body that moves as a whole strains nothing: what its bonds stretch by is round-off, and names
+/// none of them, neither of springs nor of frames, with a factor and without.
+TEST(SingleEventEngine, WhatOnlyMovesHasNoEvent) {
+  for (const bool micropolar : {false, true}) {
+    for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::iterative}) {
+      AnalysisBody body =
+          make_block({{"cubic", Pattern::cubic, Surface::none}, true, false, 4, 0.1, micropolar});
+      const auto width = static_cast<std::size_t>(body.network.width());
+      for (std::size_t slot = 0; slot < body.unknowns.number.size(); slot += width) {
+        if (body.unknowns.number[slot] == no_index) body.unknowns.prescribed[slot] = 1.0;
+      }
+      EquilibriumOptions options;
+      options.solver = solver;
+      options.boxes.edge = 3;
+      SingleEventEngine engine(body, options);
+      EXPECT_NEAR(engine.displacement()[0], 1.0, 1e-9);
+      EXPECT_EQ(engine.next_event().element, no_index) << micropolar;
+    }
+  }
 }
 
 }  // namespace
