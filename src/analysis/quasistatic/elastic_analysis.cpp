@@ -69,8 +69,10 @@ ElasticResult solve_elastic(const Unknowns& unknowns, const Loads& loads, Prepar
     for (const double value : residual) square += value * value;
     result.strain_energy = internal.energy;
     result.residual = load_norm > 0.0 ? std::sqrt(square / load_norm) : std::sqrt(square);
-    result.work = work_of(internal.energy, solution, load, residual);
-    if (pass == 1) break;
+    if (pass == 1) {
+      result.work = work_of(internal.energy, solution, load, residual);
+      break;
+    }
     solve(residual, residual);
     for (std::size_t k = 0; k < solution.size(); ++k) solution[k] += residual[k];
   }

@@ -87,8 +87,7 @@ std::vector<std::string> doubts_at_rest(const EnergyBalance& energy) {
   if (kept <= (1.0 + most_surplus) * energy.external_work) return {};
   return {fmt::format(
       "{:.6g} is stored and dissipated, but the load steps saw a work of {:.6g} only: bonds broke "
-      "at "
-      "a larger load than at the ends of their step; take smaller steps of load_factors",
+      "at a larger load than at the ends of their step; take smaller steps of load_factors",
       kept, energy.external_work)};
 }
 

@@ -16,15 +16,16 @@ struct SearchOrder {
   int most_iterations;
 };
 
-std::vector<double> take(std::span<const double> all, const std::vector<Index>& numbers) {
+std::vector<double> take(std::span<const double> all, const std::vector<GlobalIndex>& numbers) {
   std::vector<double> own;
   own.reserve(numbers.size());
-  for (const Index k : numbers) own.push_back(all[k]);
+  for (const GlobalIndex k : numbers) own.push_back(entry(all, k));
   return own;
 }
 
-void add(std::span<double> all, const std::vector<Index>& numbers, std::span<const double> own) {
-  for (std::size_t k = 0; k < numbers.size(); ++k) all[numbers[k]] += own[k];
+void add(std::span<double> all, const std::vector<GlobalIndex>& numbers,
+         std::span<const double> own) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) entry(all, numbers[k]) += own[k];
 }
 
 /// The part of a search of a rank that does not lead.
