@@ -59,8 +59,10 @@ void DamageRun::begin_again(const LateConversion& late) {
 void DamageRun::tell(Summary& summary) const {
   Equilibria found(result_);
   found.places = places_;
-  const double length = longest_side(model_.network.particles);
-  if (auto doubt = doubt_about_size(result_.peaks.highest(), length)) {
+  const CurvePoint peak = result_.peaks.highest();
+  if (result_.beyond_small_strains) {
+    found.doubts.push_back(doubt_about_crushing(peak));
+  } else if (auto doubt = doubt_about_size(peak, longest_side(model_.network.particles))) {
     found.doubts.push_back(std::move(*doubt));
   }
   if (late_conversions_ > 0) {

@@ -102,6 +102,14 @@ std::optional<std::string> doubt_about_size(const CurvePoint& peak, double lengt
       peak.load, peak.displacement, part);
 }
 
+std::string doubt_about_crushing(const CurvePoint& peak) {
+  return fmt::format(
+      "bonds are shorter than small strains allow, or were about to be: the peak, {:.6g} at "
+      "displacement {:.6g}, may be borne by what is crushed and is no strength of the body; look at "
+      "the curve before, and end the run there by [stop]",
+      peak.load, peak.displacement);
+}
+
 std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,
                                            double unsolved) {
   // Results are printed with six digits; equilibria are exact but for round-off, which leaves ten.
