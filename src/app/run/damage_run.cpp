@@ -160,13 +160,13 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     for (double& u : motion) u *= scale_of(record);
     VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
                                    broken_, families_);
-    if (!network.shell) {  // its faces have stresses of their own
+    if (!network.shell) {  // its faces have stresses of their own, and open where it turns
       add_stresses(grid, particle_stresses(stress_input(model_, families_, state.secants), motion),
                    network.dim());
+      const CrackOpenings openings = crack_openings(network, families_, state.secants, motion);
+      add_openings(grid, network, openings, broken_);
+      cracks_ = widest_cracks(network, openings);
     }
-    const CrackOpenings openings = crack_openings(network, families_, state.secants, motion);
-    add_openings(grid, network, openings, broken_);
-    cracks_ = widest_cracks(network, openings);
     if (!places_held_.empty()) {
       files_->write_table("reactions", record.step,
                           reaction_table(places_held_, model_, model_state(record, state)));

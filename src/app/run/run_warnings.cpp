@@ -105,7 +105,8 @@ std::optional<std::string> doubt_about_size(const CurvePoint& peak, double lengt
 std::string doubt_about_crushing(const CurvePoint& peak) {
   return fmt::format(
       "bonds are shorter than small strains allow, or were about to be: the peak, {:.6g} at "
-      "displacement {:.6g}, may be borne by what is crushed and is no strength of the body; look at "
+      "displacement {:.6g}, may be borne by what is crushed and is no strength of the body; look "
+      "at "
       "the curve before, and end the run there by [stop]",
       peak.load, peak.displacement);
 }
