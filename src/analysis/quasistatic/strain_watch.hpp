@@ -14,7 +14,7 @@ class StrainWatch {
   explicit StrainWatch(const Network& network) : network_(network) {}
 
   /// Whether to look, which costs a pass over the bonds: where the motion is twice as large as at
-  /// the last look, and at every hundredth event.
+  /// the last look, or could bring the shortest bond to its limit, and at every hundredth event.
   /// \param motion  load factor or displacement: what grows with the motion of the body
   bool is_due(double motion);
 
@@ -25,12 +25,13 @@ class StrainWatch {
   /// ten times the stretch at which it begins to fail where that is more.
   /// \param motion  shape (particles, width)
   /// \param factor  by which it counts
-  bool is_beyond(std::span<const double> motion, double factor, const Secants& secants) const;
+  bool is_beyond(std::span<const double> motion, double factor, const Secants& secants);
 
  private:
   const Network& network_;
   double looked_at_ = 0.0;
-  int events_ = 0;  ///< since the last look
+  double due_at_ = 0.0;  ///< size of the motion at which to look next
+  int events_ = 0;       ///< since the last look
 };
 
 }  // namespace perilink

@@ -40,6 +40,7 @@ auto lead(Ranks& ranks, Act act) {
     throw;
   } catch (const std::exception& error) {
     ranks.abandon(failure_text(error));
+    throw;  // not reached, which GCC does not see
   }
 }
 

@@ -49,6 +49,19 @@ TEST(StrainWatch, LooksAtEveryHundredthEvent) {
   EXPECT_EQ(looks, 4);
 }
 
+/// Near the limit no event may leap over it.
+TEST(StrainWatch, LooksBeforeTheShortestBondIsAtItsLimit) {
+  Pressed body;
+  for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
+  StrainWatch watch(body.network);
+  const std::vector<double> secants = intact(body.network);
+  EXPECT_TRUE(watch.is_due(8.0));
+  EXPECT_FALSE(watch.is_beyond(body.motion, 0.08 * body.side, secants));
+  EXPECT_FALSE(watch.is_due(9.9));
+  EXPECT_TRUE(watch.is_due(10.1));
+  EXPECT_TRUE(watch.is_beyond(body.motion, 0.101 * body.side, secants));
+}
+
 /// Ties of bars slip: that is no strain of the solid.
 TEST(StrainWatch, LooksAtBondsOfTheSolidAlone) {
   Pressed body;
@@ -69,7 +82,7 @@ TEST(StrainWatch, EachBondHasItsOwnLimit) {
 TEST(StrainWatch, TellsBondsThatAreShorterByMoreThanATenth) {
   Pressed body;
   for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
-  const StrainWatch watch(body.network);
+  StrainWatch watch(body.network);
   const std::vector<double> secants = intact(body.network);
   EXPECT_FALSE(watch.is_beyond(body.motion, 0.099 * body.side, secants));
   EXPECT_TRUE(watch.is_beyond(body.motion, 0.101 * body.side, secants));
