@@ -14,9 +14,6 @@ namespace perilink {
 /// machine and keep the bond tables, which are read once per event, half as large.
 using Index = std::int32_t;
 
-/// Number in the whole body of a particle or unknown, where the plain one is that of a rank's part.
-enum class GlobalIndex : Index {};
-
 /// Marks "no such particle, bond or unknown".
 inline constexpr Index no_index = -1;
 

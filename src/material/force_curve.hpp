@@ -14,8 +14,6 @@ struct ForceCurve {
   std::vector<std::array<double, 2>> points;
   bool endless = true;  ///< behind the last point its force stays; false: it falls to zero there
 
-  /// Whether a force is left behind the last point.
-  bool stays() const { return endless && points.back()[1] > 0.0; }
   double initial_stiffness() const { return points.front()[1] / points.front()[0]; }
   double force(double deformation) const;
   /// Area below the curve.

@@ -141,14 +141,10 @@ std::vector<std::uint8_t> rotating_particles(const Network& network) {
   return rotating;
 }
 
-void hold_idle_rotations(const Network& network, std::vector<std::uint8_t>& held) {
-  const std::vector<std::uint8_t> rotating = rotating_particles(network);
-  const std::size_t width = network.width();
-  for (std::size_t i = 0; i < rotating.size(); ++i) {
-    for (std::size_t a = network.dim(); a < width && !rotating[i]; ++a) held[i * width + a] = 1;
-  }
-}
+namespace {
 
+/// In space a straight bar that bends turns freely about itself: marks one rotation of its first
+/// node as held. Nothing is strained by that, since the whole bar turns until it is zero.
 void hold_twist_of_bars(const Network& network, std::vector<std::uint8_t>& held) {
   constexpr double straight = 1.0 - 1e-9;  // least cosine between pieces
   const std::vector<Index>& bar = network.bars.bar;
@@ -167,6 +163,17 @@ void hold_twist_of_bars(const Network& network, std::vector<std::uint8_t>& held)
     const auto node = static_cast<std::size_t>(network.bonds.first[first]);
     held[node * network.width() + 3 + static_cast<std::size_t>(most - n.begin())] = 1;
   }
+}
+
+}  // namespace
+
+void hold_idle_rotations(const Network& network, std::vector<std::uint8_t>& held) {
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  const std::size_t width = network.width();
+  for (std::size_t i = 0; i < rotating.size(); ++i) {
+    for (std::size_t a = network.dim(); a < width && !rotating[i]; ++a) held[i * width + a] = 1;
+  }
+  hold_twist_of_bars(network, held);
 }
 
 }  // namespace perilink

@@ -110,8 +110,4 @@ std::vector<std::uint8_t> rotating_particles(const Network& network);
 /// Marks the rotations of all particles that nothing turns as held, shape (particles, width).
 void hold_idle_rotations(const Network& network, std::vector<std::uint8_t>& held);
 
-/// In space a straight bar that bends turns freely about itself: marks one rotation of its first
-/// node as held. Nothing is strained by that, since the whole bar turns until it is zero.
-void hold_twist_of_bars(const Network& network, std::vector<std::uint8_t>& held);
-
 }  // namespace perilink

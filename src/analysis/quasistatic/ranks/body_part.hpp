@@ -34,6 +34,9 @@ struct BodyPart {
   static BodyPart unpack(Parcel parcel);
 };
 
+/// Number in the whole body of a particle or unknown; a plain one is that of a rank's part.
+enum class GlobalIndex : Index {};
+
 /// Which rank owns each particle, and where its unknowns are in its part.
 struct Partition {
   std::vector<std::vector<GlobalIndex>> particles;  ///< per rank, ascending

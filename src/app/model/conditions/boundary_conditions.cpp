@@ -223,7 +223,6 @@ void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescrip
 /// Explicit runs carry nothing: they find the forces of anchors by themselves.
 Unknowns unknowns_of(const CaseFile& input, const Network& network, Prescription& prescription) {
   hold_idle_rotations(network, prescription.held);
-  hold_twist_of_bars(network, prescription.held);
   hold_anchors(network, prescription.held);
   Unknowns unknowns = number_unknowns(network.width(), prescription.held, prescription.value);
   if (is_quasistatic(input.analysis.type)) carry_anchors(network, unknowns);
