@@ -77,7 +77,7 @@ TEST(BarRuns, PrestrainAloneStressesTheBar) {
   const WholeRun run(beam(false, straight + "prestrain = 1e-3\n", elastic));
   EXPECT_EQ(run.summary.json.at("status"), "completed");
   const double stress = stress_in_the_middle(run);
-  // Of a strip in uniform compression: EA of the concrete is 30000 x 100 x 10.
+  // A strip in uniform compression: EA of the concrete is 30000 x 100 x 10.
   const double uniform = steel * 1e-3 / (1.0 + steel * area / 30e6);
   EXPECT_LT(stress, steel * 1e-3);
   EXPECT_NEAR(stress, uniform, 0.1 * uniform);

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -24,27 +25,27 @@ constexpr double lost_balance = 1e-2;
 /// squared: the body moves as a whole, without stress.
 constexpr double no_energy = 1e-24;
 
-/// Takes from a displacement the rigid-body motion that is nearest to it.
-void take_rigid_motion(const Network& network, std::vector<double>& displacement) {
+/// Takes from a displacement the rigid-body motion that is nearest to that of the supports.
+void take_settlement(const Network& network, const Unknowns& unknowns,
+                     std::vector<double>& displacement) {
   Fragment whole;
   whole.particles.resize(static_cast<std::size_t>(network.particles.size()));
   std::iota(whole.particles.begin(), whole.particles.end(), 0);
   const std::vector<std::vector<double>> motions =
       free_motions(network, whole, std::vector<std::uint8_t>(displacement.size(), 0));
-  const auto as_vector = [](const std::vector<double>& values) {
-    return Eigen::Map<const Eigen::VectorXd>(values.data(),
-                                             static_cast<Eigen::Index>(values.size()));
-  };
   const auto count = static_cast<Eigen::Index>(motions.size());
-  Eigen::MatrixXd products(count, count);
-  Eigen::VectorXd parts(count);
-  for (Eigen::Index m = 0; m < count; ++m) {
-    parts[m] = as_vector(motions[m]).dot(as_vector(displacement));
-    for (Eigen::Index n = 0; n < count; ++n) {
-      products(m, n) = as_vector(motions[m]).dot(as_vector(motions[n]));
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count, count);
+  Eigen::VectorXd parts = Eigen::VectorXd::Zero(count);
+  const auto width = static_cast<std::size_t>(unknowns.width);
+  for (std::size_t k = 0; k < displacement.size(); ++k) {
+    const bool is_rotation = k % width >= static_cast<std::size_t>(network.dim());
+    if (unknowns.number[k] >= 0 || is_rotation) continue;
+    for (Eigen::Index m = 0; m < count; ++m) {
+      parts[m] += motions[m][k] * displacement[k];
+      for (Eigen::Index n = 0; n < count; ++n) products(m, n) += motions[m][k] * motions[n][k];
     }
   }
-  parts = products.ldlt().solve(parts).eval();
+  parts = products.completeOrthogonalDecomposition().solve(parts).eval();
   for (Eigen::Index m = 0; m < count; ++m) {
     for (std::size_t k = 0; k < displacement.size(); ++k) {
       displacement[k] -= parts[m] * motions[m][k];
@@ -52,10 +53,10 @@ void take_rigid_motion(const Network& network, std::vector<double>& displacement
   }
 }
 
-/// Work of loads and reactions: the energy, and what the forces that are out of balance add. Forces
-/// in balance do no work on a rigid-body motion; round-off in them would, and is no error of the
-/// answer.
-/// \param network  null: rigid-body motions count
+/// Work of loads and reactions: the energy, and what the forces that are out of balance add. On a
+/// rigid-body motion of the supports forces in balance do no work; round-off in them would, and is
+/// no error of the answer.
+/// \param network  null: such motions count
 double work_of(const ElasticResult& result, const Network* network, const Unknowns& unknowns,
                std::span<const double> solution, std::span<const double> load,
                std::span<const double> missing) {
@@ -67,9 +68,12 @@ double work_of(const ElasticResult& result, const Network* network, const Unknow
     sizes += std::abs(solution[k] * load[k]);
   }
   if (energy <= no_energy * sizes) return energy;
-  if (std::abs(missed) > nothing * energy && network != nullptr && !unknowns.carries()) {
+  const auto is_not_zero = [](double value) { return value != 0.0; };
+  const bool settles =
+      std::any_of(unknowns.prescribed.begin(), unknowns.prescribed.end(), is_not_zero);
+  if (settles && std::abs(missed) > nothing * energy && network != nullptr && !unknowns.carries()) {
     std::vector<double> motion = result.displacement;
-    take_rigid_motion(*network, motion);
+    take_settlement(*network, unknowns, motion);
     motion = unknowns.restrict(motion);
     missed = std::inner_product(motion.begin(), motion.end(), missing.begin(), 0.0);
   }

@@ -164,8 +164,7 @@ Event StagedEngine::side_change_within(double distance) {
 
 bool StagedEngine::is_last_change(double load_factor) const {
   constexpr double round_off = 1e-12;
-  return changes_there_ > 0 &&
-         std::abs(load_factor - changed_at_) <= round_off * largest_factor_;
+  return changes_there_ > 0 && std::abs(load_factor - changed_at_) <= round_off * largest_factor_;
 }
 
 /// Whether bonds have just changed sides the other way here. What exceeds its limit is then loaded
