@@ -21,8 +21,8 @@ class StrainWatch {
   /// Other loads grow from now on.
   void restart() { looked_at_ = 0.0; }
 
-  /// Whether a bond of the solid that may break, and holds, is shorter by more than a tenth, or by
-  /// ten times the stretch at which it begins to fail where that is more.
+  /// Whether a bond of the solid that holds, and breaks by tension alone, is shorter by more than a
+  /// tenth, or by ten times the stretch at which it begins to fail where that is more.
   /// \param motion  shape (particles, width)
   /// \param factor  by which it counts
   bool is_beyond(std::span<const double> motion, double factor, const Secants& secants);

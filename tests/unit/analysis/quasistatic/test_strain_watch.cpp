@@ -70,6 +70,15 @@ TEST(StrainWatch, LooksAtBondsOfTheSolidAlone) {
   EXPECT_FALSE(StrainWatch(body.network).is_beyond(body.motion, body.side, intact(body.network)));
 }
 
+/// Bonds that fail under compression bear no load without limit.
+TEST(StrainWatch, LooksAtNoBondThatIsCrushedByItself) {
+  Pressed body;
+  for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
+  body.network.laws.front() = BondLaw::brittle().crushing({{1.0, 1.0}}, 10.0, false);
+  ASSERT_TRUE(body.network.law(0).crushes());
+  EXPECT_FALSE(StrainWatch(body.network).is_beyond(body.motion, body.side, intact(body.network)));
+}
+
 /// One tough material does not lift the limit of the others.
 TEST(StrainWatch, EachBondHasItsOwnLimit) {
   Pressed body;
