@@ -26,16 +26,11 @@ else()
   set(PERILINK_BLAS_PATH "unknown")
 endif()
 
-# Optional backends. Nothing is linked before a source of the program uses it: PETSc alone would
-# double the start-up time.
-find_package(PkgConfig QUIET)
-if(PKG_CONFIG_FOUND)
-  pkg_check_modules(PETSC QUIET PETSc)
-endif()
+# Optional backends. PETSc is linked to perilink-mpi alone: it would double the start-up time.
 set(PERILINK_PETSC "no")
 set(PERILINK_GMSH_SUMMARY "no")
-if(PETSC_FOUND)
-  set(PERILINK_PETSC "no (found ${PETSC_VERSION}, not used yet)")
+if(PERILINK_HAS_MPI)
+  set(PERILINK_PETSC "yes, ${PETSC_VERSION} in perilink-mpi")
 endif()
 if(PERILINK_HAS_GMSH)
   perilink_header_version(gmsh_version ${GMSH_INCLUDE_DIR}/gmshc.h

@@ -1,13 +1,41 @@
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "analysis/quasistatic/ranks/team.hpp"
 #include "app/process/ranks.hpp"
 #include "app/program.hpp"
 #include "solver/ranks/petsc_ranks.hpp"
+
+namespace perilink {
+namespace {
+
+/// All ranks take their parts of what the first one runs: another command would be lost.
+void require_one_command(Ranks& ranks, int argc, char** argv) {
+  std::string words;
+  for (int k = 1; k < argc; ++k) words.append(argv[k]).push_back('\0');
+  const std::span<const std::byte> own = std::as_bytes(std::span(words));
+  if (!ranks.leads()) return ranks.send(0, own);
+  for (int rank = 1; rank < ranks.count(); ++rank) {
+    const std::vector<std::byte> others = ranks.receive(rank);
+    if (std::equal(own.begin(), own.end(), others.begin(), others.end())) continue;
+    ranks.abandon(
+        "mpiexec has started different commands, of which one alone would run: all processes of "
+        "an mpiexec work on one case");
+  }
+}
+
+}  // namespace
+}  // namespace perilink
 
 /// The program as one of several processes under mpiexec: the first runs the command, the others
 /// take their parts of the body.
 int main(int argc, char** argv) {
   using namespace perilink;
   const std::unique_ptr<Ranks> ranks = start_petsc_ranks();
+  require_one_command(*ranks, argc, argv);
   if (!ranks->leads()) {
     serve(*ranks);
     return 0;

@@ -1,6 +1,7 @@
 #include "assembly/bar_state.hpp"
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -65,6 +66,33 @@ std::vector<double> motion_of_solid(const Network& network, std::span<const doub
   return found;
 }
 
+/// Segments before and behind each one in its bar, in which a closed bar has no ends; at an end the
+/// segment itself.
+std::vector<std::array<std::size_t, 2>> neighbours_of(const Network& network) {
+  const Bars& bars = network.bars;
+  const auto nodes = [&](std::size_t s) {
+    const Index e = network.first_segment + static_cast<Index>(s);
+    return std::array{node_of(network, network.bonds.first[e]),
+                      node_of(network, network.bonds.second[e])};
+  };
+  std::vector<std::array<std::size_t, 2>> neighbours(bars.bar.size());
+  for (std::size_t begin = 0, end = 0; begin < bars.bar.size(); begin = end) {
+    for (end = begin; end == begin || bars.continues(end); ++end) {
+      neighbours[end] = {end == begin ? end : end - 1, bars.continues(end + 1) ? end + 1 : end};
+    }
+    const std::size_t last = end - 1;
+    if (last < begin + 2) continue;
+    for (const Index i : nodes(begin)) {
+      for (const Index j : nodes(last)) {
+        if (i != j) continue;
+        neighbours[begin][0] = last;
+        neighbours[last][1] = begin;
+      }
+    }
+  }
+  return neighbours;
+}
+
 }  // namespace
 
 BarState bar_state(const Network& network, Secants secants, std::span<const double> motion) {
@@ -94,6 +122,7 @@ BarState bar_state(const Network& network, Secants secants, std::span<const doub
     state.stress.push_back(force / bars.area[s]);
     state.slip.push_back(bars.turned[s] != 0 ? 0.0 - slip : slip);
   }
+  const std::vector<std::array<std::size_t, 2>> neighbours = neighbours_of(network);
   for (std::size_t s = 0; s < bars.bar.size(); ++s) {
     const double perimeter = bars.perimeter.empty()
                                  ? std::sqrt(4.0 * std::numbers::pi * bars.area[s])
@@ -103,12 +132,13 @@ BarState bar_state(const Network& network, Secants secants, std::span<const doub
     const auto length_of = [&](std::size_t k) {
       return bonds.lengths[network.first_segment + static_cast<Index>(k)];
     };
-    const double at_begin = bars.continues(s) ? (state.force[s] - state.force[s - 1]) /
-                                                    (0.5 * (length_of(s) + length_of(s - 1)))
-                                              : state.force[s] / (0.5 * length_of(s));
-    const double at_end = bars.continues(s + 1) ? (state.force[s + 1] - state.force[s]) /
-                                                      (0.5 * (length_of(s) + length_of(s + 1)))
-                                                : -state.force[s] / (0.5 * length_of(s));
+    const std::size_t before = neighbours[s][0], after = neighbours[s][1];
+    const double at_begin = before != s ? (state.force[s] - state.force[before]) /
+                                              (0.5 * (length_of(s) + length_of(before)))
+                                        : state.force[s] / (0.5 * length_of(s));
+    const double at_end = after != s ? (state.force[after] - state.force[s]) /
+                                           (0.5 * (length_of(s) + length_of(after)))
+                                     : -state.force[s] / (0.5 * length_of(s));
     state.bond_stress.push_back(0.5 * (at_begin + at_end) / perimeter);
   }
   return state;

@@ -16,6 +16,9 @@ constexpr double round_off = 1e-12;
 
 double secant_of(const std::array<double, 2>& point) { return point[1] / point[0]; }
 
+/// Whether a force is left behind the last point.
+bool stays(const ForceCurve& curve) { return curve.endless && curve.points.back()[1] > 0.0; }
+
 /// The largest deformation at which the secant is at least this.
 double leaves_at(const ForceCurve& curve, double secant) {
   for (std::size_t k = 1; k < curve.points.size(); ++k) {
@@ -33,7 +36,7 @@ double end_of(const ForceCurve& curve) {
   double largest = 0.0;
   for (const auto& point : curve.points) largest = std::max(largest, point[1]);
   const auto& last = curve.points.back();
-  if (curve.endless || last[1] >= negligible_force * largest) return last[0];
+  if (stays(curve) || last[1] >= negligible_force * largest) return last[0];
   const auto& before = curve.points[curve.points.size() - 2];
   const double fall = std::max(before[1] - negligible_force * largest, 0.0);
   return before[0] + (last[0] - before[0]) * fall / (before[1] - last[1]);
@@ -105,7 +108,6 @@ void check_curve(const ForceCurve& curve) {
 BondLaw law_of(const ForceCurve& curve, double ratio) {
   check_curve(curve);
   if (!(ratio > 1.0)) throw std::invalid_argument("secants fall by a ratio above one");
-  const bool stays = curve.endless && curve.points.back()[1] > 0.0;
   const double stiffness = curve.initial_stiffness(), first = curve.points.front()[0];
   const double end = end_of(curve), last = curve.force(end) / end;
   const double fall = std::log(stiffness / last) / std::log(ratio);
@@ -124,7 +126,7 @@ BondLaw law_of(const ForceCurve& curve, double ratio) {
     const double at = k == count ? end : leaves_at(curve, next);
     add(next, at, curve.area(at) - curve.area(begin));
   }
-  if (stays) {
+  if (stays(curve)) {
     const double next = begin * ratio;
     add(secant / ratio, next, curve.points.back()[1] * (next - begin));
     return BondLaw::both_ways(std::move(teeth), ratio);

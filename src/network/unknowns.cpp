@@ -1,6 +1,7 @@
 #include "network/unknowns.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -140,12 +141,39 @@ std::vector<std::uint8_t> rotating_particles(const Network& network) {
   return rotating;
 }
 
+namespace {
+
+/// In space a straight bar that bends turns freely about itself: marks one rotation of its first
+/// node as held. Nothing is strained by that, since the whole bar turns until it is zero.
+void hold_twist_of_bars(const Network& network, std::vector<std::uint8_t>& held) {
+  constexpr double straight = 1.0 - 1e-9;  // least cosine between pieces
+  const std::vector<Index>& bar = network.bars.bar;
+  if (network.dim() < 3 || !network.carries_moments()) return;
+  for (std::size_t begin = 0, end = 0; begin < bar.size(); begin = end) {
+    const Index first = network.first_segment + static_cast<Index>(begin);
+    const auto n = network.bonds.direction(first);
+    bool turns = network.bending[first] > 0.0;
+    for (end = begin; end == begin || network.bars.continues(end); ++end) {
+      const auto m = network.bonds.direction(network.first_segment + static_cast<Index>(end));
+      turns = turns && std::abs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) > straight;
+    }
+    if (!turns) continue;
+    const auto most = std::max_element(
+        n.begin(), n.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const auto node = static_cast<std::size_t>(network.bonds.first[first]);
+    held[node * network.width() + 3 + static_cast<std::size_t>(most - n.begin())] = 1;
+  }
+}
+
+}  // namespace
+
 void hold_idle_rotations(const Network& network, std::vector<std::uint8_t>& held) {
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const std::size_t width = network.width();
   for (std::size_t i = 0; i < rotating.size(); ++i) {
     for (std::size_t a = network.dim(); a < width && !rotating[i]; ++a) held[i * width + a] = 1;
   }
+  hold_twist_of_bars(network, held);
 }
 
 }  // namespace perilink

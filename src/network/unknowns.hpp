@@ -107,7 +107,8 @@ void load_particles(const Network& network, std::span<double> forces);
 /// and must not be unknown. Empty where no bond carries a moment.
 std::vector<std::uint8_t> rotating_particles(const Network& network);
 
-/// Marks the rotations of all particles that nothing turns as held, shape (particles, width).
+/// Marks the rotations of all particles that nothing turns as held, shape (particles, width). In
+/// space also one of the first node of each straight bar that bends: it turns freely about itself.
 void hold_idle_rotations(const Network& network, std::vector<std::uint8_t>& held);
 
 }  // namespace perilink

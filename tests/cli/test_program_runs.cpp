@@ -147,6 +147,15 @@ std::string micropolar_case(int columns, int broken_bonds) {
   return text;
 }
 
+TEST_F(ProgramRuns, TakeAsManyThreadsAsTheEnvironmentSays) {
+  write_text(work() / "small.toml", small_ghost_case);
+  setenv("OMP_NUM_THREADS", "3", 1);
+  const ProcessEnd end = run({"run", "small.toml", "--out", "r"});
+  unsetenv("OMP_NUM_THREADS");
+  ASSERT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_EQ(summary("r")["threads"], 3);
+}
+
 /// Not a bit of the history may depend on the threads or on the run.
 TEST_F(ProgramRuns, HistoriesDoNotDependOnThreads) {
   write_text(work() / "small.toml", small_ghost_case);

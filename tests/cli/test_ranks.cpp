@@ -162,6 +162,32 @@ TEST_F(RankFolder, EndTogetherWhereOneIsKilled) {
   EXPECT_THAT(end.err, HasSubstr("signal 9"));
 }
 
+/// The first rank holds the whole body: where it has no room for a search the others do not wait.
+TEST_F(RankFolder, EndTogetherWhereTheFirstHasNoMemory) {
+  if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
+  std::string text = bar_case(true, "");
+  text.replace(text.find("spacing = 1"), 11, "spacing = 0.3");
+  write_text(work() / "c.toml", text);
+  const std::string words = std::string("'") + PERILINK_PROGRAM + "' run c.toml --threads 1";
+  for (const int megabytes : {550, 600, 650, 700}) {
+    const std::string command = fmt::format(
+        "cd '{}' && timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 "
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+        "mpiexec -n 1 sh -c \"ulimit -v {}; exec {} --force\" : -n 1 {} --force "
+        ">out 2>&1",
+        work().string(), 1000 * megabytes, words, words);
+    EXPECT_NE(WEXITSTATUS(std::system(command.c_str())), 124) << megabytes << " MB: they wait";
+  }
+}
+
+TEST_F(RankFolder, HaveOneCommandAlone) {
+  if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
+  const ProcessEnd end =
+      run_ranks(1, std::string("run a.toml : -n 1 '") + PERILINK_PROGRAM + "' run b.toml");
+  EXPECT_NE(end.exit_status, 0);
+  EXPECT_THAT(end.err, HasSubstr("different commands"));
+}
+
 TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
   // A copy, beside which there is no perilink-mpi.
   fs::copy_file(PERILINK_PROGRAM, work() / "perilink");

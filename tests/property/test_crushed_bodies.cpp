@@ -39,10 +39,39 @@ TEST(CrushedBodies, EndBeforeStrainsAreLarge) {
                            "[[displacements]]\nregion = \"right\"\nx = -0.1\n"));
   const auto& told = run.summary.json;
   EXPECT_EQ(told.at("status"), "nothing_breaks");
-  EXPECT_THAT(told.at("reason").get<std::string>(), testing::HasSubstr("shorter by more than"));
+  EXPECT_THAT(told.at("reason").get<std::string>(), testing::HasSubstr("shorter than small"));
   EXPECT_LT(std::abs(told.at("peak_load").get<double>()), 0.1 * youngs_modulus * height);
   EXPECT_LT(std::abs(told.at("peak_displacement").get<double>()), 0.1 * 100.0);
   EXPECT_LT(told.at("energy_error").get<double>(), 1e-9);
+  EXPECT_THAT(told.at("doubts").dump(), testing::HasSubstr("is no strength of the body"));
+}
+
+/// Loads that are asked for are borne, and their peak is in doubt.
+TEST(CrushedBodies, AskedForByStepsAreInDoubt) {
+  const auto doubts = [](const std::string& load_factors) {
+    const WholeRun run(block("[body]\nproblem = \"plane_stress\"\nhorizon_ratio = 3\n",
+                             "softening = \"bilinear\"\n",
+                             "[[displacements]]\nregion = \"right\"\nx = -0.1\n"
+                             "[analysis]\ncontrol = \"steps\"\nload_factors = " +
+                                 load_factors + "\n"));
+    EXPECT_EQ(run.summary.json.at("status"), "completed");
+    return run.summary.json.at("doubts").dump();
+  };
+  EXPECT_THAT(doubts("[0.1, 0.2]"), testing::Not(testing::HasSubstr("small strains")));
+  EXPECT_THAT(doubts("[10, 200]"), testing::HasSubstr("is no strength of the body"));
+}
+
+/// The load that a stage goes to is reached where nothing fails on the way.
+TEST(CrushedBodies, AStageEndsAtItsLoadInDoubt) {
+  const std::string held = block("[body]\nproblem = \"plane_stress\"\nhorizon_ratio = 3\n",
+                                 "softening = \"bilinear\"\n", "");
+  const WholeRun run(held.substr(0, held.find("[[supports]]")) +
+                     "[[displacements]]\nregion = \"surface\"\nx = \"-0.01 * x\"\n"
+                     "y = \"-0.01 * y\"\nstage = \"press\"\n"
+                     "[[stages]]\nname = \"press\"\nto = 30\n");
+  EXPECT_EQ(run.summary.json.at("status"), "completed");
+  EXPECT_EQ(run.history().rows.size(), 1u);
+  EXPECT_THAT(run.summary.json.at("doubts").dump(), testing::HasSubstr("small strains"));
 }
 
 /// After an event a bond is beyond its limit at a load factor where another closes. Where the load

@@ -127,18 +127,24 @@ bool EventRun::residual_may_be_large() const {
   return checked_compliance_ > 0.0 && compliance_ > 1.1 * checked_compliance_;
 }
 
-/// Whether the next event comes so late that it means nothing: then the run ends.
-bool EventRun::leaves_small_strains(double load_factor) {
-  if (!strains_.is_due(load_factor)) return false;
+/// Looks whether bonds are too short for small strains.
+bool EventRun::is_beyond_small_strains(double load_factor) {
   const bool beyond =
       staged_ != nullptr
           ? strains_.is_beyond(staged_->displacement(), 1.0, engine_->secants())
           : strains_.is_beyond(engine_->where_elements_fail(), load_factor, engine_->secants());
-  if (!beyond) return false;
+  if (beyond) result_.beyond_small_strains = true;
+  return beyond;
+}
+
+/// Whether the next event comes so late that it means nothing: then the run ends.
+bool EventRun::leaves_small_strains(double load_factor) {
+  const double motion = reference_->driven ? load_factor : load_factor * compliance_;
+  if (!strains_.is_due(motion) || !is_beyond_small_strains(load_factor)) return false;
   end(Ending::nothing_breaks,
       fmt::format("before the next bond fails, at the load factor {:.4g}, others would be shorter "
-                  "by more than a tenth: what is crushed or only compressed bears any load, and "
-                  "small strains tell no more about it",
+                  "than small strains allow: what is crushed or only compressed bears any load, "
+                  "and this analysis tells no more about it",
                   load_factor));
   return true;
 }
@@ -320,6 +326,7 @@ DamageResult EventRun::by_steps() {
       event = engine_->next_event();
       while (converts(event, 1.0, load_factor)) event = engine_->next_event();
     }
+    is_beyond_small_strains(load_factor);  // these loads are asked for: they get a doubt
     record(load_factor, engine_->load_work(), last);
     if (stop_rule_met()) return finish();
     follow_motion();

@@ -86,6 +86,7 @@ struct DamageResult {
   /// Largest |work - stored - dissipated - freed| / work of all rows, the stored energy summed over
   /// the elements wherever the whole equilibrium was measured.
   double energy_error = 0.0;
+  bool beyond_small_strains = false;  ///< a bond was shorter than they allow (StrainWatch)
   FactorStatistics factor;
 };
 

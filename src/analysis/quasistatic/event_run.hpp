@@ -72,6 +72,7 @@ class EventRun {
   void take_over(const Unknowns& unknowns, double load_factor);
   void note_late_conversions(const Event& event, double sense);
   bool residual_may_be_large() const;
+  bool is_beyond_small_strains(double load_factor);
   bool leaves_small_strains(double load_factor);
   int check_interval() const;
   bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }

@@ -28,9 +28,9 @@ void EventRun::begin_stage(std::size_t number) {
   row_.stage = static_cast<Index>(number + 1);
   stop_ = &stage.stop;
   rows_below_ = 0;
+  strains_.restart();
   const bool flowed = number > 0 && staged_->leave_flow();
   if (!others && !flowed) return;
-  strains_.restart();
   if (others) result_.peaks = {};
   reference_ = &problem_.sets[stage.set].reference;
   const Unknowns& held = problem_.sets[stage.set].unknowns;
@@ -90,7 +90,9 @@ bool EventRun::follow_stage(const StageRules& stage) {
     const double load_factor = arrived ? *aim : event.load_factor;
     const double before = staged_->load_factor();
     staged_->move_to(load_factor);
-    if (leaves_small_strains(load_factor)) {
+    if (arrived) {
+      is_beyond_small_strains(load_factor);  // this load is asked for: it gets a doubt
+    } else if (leaves_small_strains(load_factor)) {
       staged_->move_to(before);
       return false;
     }

@@ -38,8 +38,13 @@ void fill_difference(const CaseFile& input, const Model& model, const std::strin
   }
   gauge.terms = {{from, -1.0}, {to, 1.0}};
   if (section.axis) return;
-  const Vector3& a = section.between[0];
-  const Vector3& b = section.between[1];
+  Vector3 a = section.between[0], b = section.between[1];
+  if (model.network.shell) {  // the points are on the flat sheet, the particles in space
+    for (int axis = 0; axis < 3; ++axis) {
+      a[axis] = model.network.particles.position(from)[axis];
+      b[axis] = model.network.particles.position(to)[axis];
+    }
+  }
   const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   for (int axis = 0; axis < 3; ++axis) gauge.direction[axis] = (b[axis] - a[axis]) / length;
 }

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <latch>
-#include <thread>
 #include <vector>
 
 #include "app/process/console.hpp"
@@ -61,7 +60,7 @@ int threads_with_room(int wanted) {
 }  // namespace
 
 int set_threads(int wanted) {
-  if (wanted <= 0) wanted = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (wanted <= 0) wanted = omp_get_max_threads();
   const int threads = threads_that_start(threads_with_room(wanted));
   if (threads < wanted) {
     complain(

@@ -82,11 +82,12 @@ void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunStat
     FieldMoment moment = moment_of(record, input, model_);
     moment.time = record.time;
     const bool bonds_break = !model_.network.has_states();
-    VtuGrid grid =
-        make_field_grid(model_.network, state.bonds.secants(), state.motion.displacement, moment,
-                        bonds_break ? state.broken : std::vector<Index>{}, families_);
+    std::vector<double> motion = state.motion.displacement;
+    follow_particles(model_.network, motion);  // anchors stand still in these runs
+    VtuGrid grid = make_field_grid(model_.network, state.bonds.secants(), motion, moment,
+                                   bonds_break ? state.broken : std::vector<Index>{}, families_);
     if (bonds_break) {
-      add_forces_and_cracks(grid, record, state);
+      add_forces_and_cracks(grid, record, state, motion);
       return grid;
     }
     number_cracks(grid, state.broken);
@@ -99,9 +100,9 @@ void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunStat
 
 /// Bonds turn with the body where strains are Green's, and small strains are none then.
 void MovingBondsRun::add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record,
-                                           const BondRunState& state) {
+                                           const BondRunState& state,
+                                           const std::vector<double>& motion) {
   const std::vector<double> secants = state.bonds.secants();
-  const std::vector<double>& motion = state.motion.displacement;
   const CrackOpenings openings = crack_openings(model_.network, families_, secants, motion);
   add_openings(grid, model_.network, openings, state.broken);
   cracks_ = widest_cracks(model_.network, openings);

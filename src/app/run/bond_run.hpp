@@ -29,8 +29,9 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   void on_iteration(Index load_step, Index iteration, double residual) override;
   bool stop_requested() override;
   void write_state(const ExplicitRecord& record, const BondRunState& state);
-  void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record,
-                             const BondRunState& state);
+  /// \param motion  that of the state, with the anchors of bars
+  void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record, const BondRunState& state,
+                             const std::vector<double>& motion);
 
   Index steps_ = 0;                ///< in the whole run
   std::vector<ToldCrack> cracks_;  ///< in the last field file

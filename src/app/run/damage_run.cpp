@@ -59,8 +59,10 @@ void DamageRun::begin_again(const LateConversion& late) {
 void DamageRun::tell(Summary& summary) const {
   Equilibria found(result_);
   found.places = places_;
-  const double length = longest_side(model_.network.particles);
-  if (auto doubt = doubt_about_size(result_.peaks.highest(), length)) {
+  const CurvePoint peak = result_.peaks.highest();
+  if (result_.beyond_small_strains) {
+    found.doubts.push_back(doubt_about_crushing(peak));
+  } else if (auto doubt = doubt_about_size(peak, longest_side(model_.network.particles))) {
     found.doubts.push_back(std::move(*doubt));
   }
   if (late_conversions_ > 0) {
@@ -158,13 +160,13 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     for (double& u : motion) u *= scale_of(record);
     VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
                                    broken_, families_);
-    if (!network.shell) {  // its faces have stresses of their own
+    if (!network.shell) {  // its faces have stresses of their own, and open where it turns
       add_stresses(grid, particle_stresses(stress_input(model_, families_, state.secants), motion),
                    network.dim());
+      const CrackOpenings openings = crack_openings(network, families_, state.secants, motion);
+      add_openings(grid, network, openings, broken_);
+      cracks_ = widest_cracks(network, openings);
     }
-    const CrackOpenings openings = crack_openings(network, families_, state.secants, motion);
-    add_openings(grid, network, openings, broken_);
-    cracks_ = widest_cracks(network, openings);
     if (!places_held_.empty()) {
       files_->write_table("reactions", record.step,
                           reaction_table(places_held_, model_, model_state(record, state)));

@@ -110,8 +110,10 @@ void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& 
   summary.add("strain_energy", last.strain_energy);
   summary.add("dissipated_energy", last.dissipated_energy);
   summary.add("energy_error", found.energy_error);
-  summary.line("energy", "{:.6g} dissipated, balance to {:.1e}", last.dissipated_energy,
-               found.energy_error);
+  if (last.step > 0) {
+    summary.line("energy", "{:.6g} dissipated, balance to {:.1e}", last.dissipated_energy,
+                 found.energy_error);
+  }
   summary.add("largest_residual", found.largest_residual);
 }
 

@@ -87,8 +87,7 @@ std::vector<std::string> doubts_at_rest(const EnergyBalance& energy) {
   if (kept <= (1.0 + most_surplus) * energy.external_work) return {};
   return {fmt::format(
       "{:.6g} is stored and dissipated, but the load steps saw a work of {:.6g} only: bonds broke "
-      "at "
-      "a larger load than at the ends of their step; take smaller steps of load_factors",
+      "at a larger load than at the ends of their step; take smaller steps of load_factors",
       kept, energy.external_work)};
 }
 
@@ -101,6 +100,15 @@ std::optional<std::string> doubt_about_size(const CurvePoint& peak, double lengt
       "longest side: bonds are made for small displacements and cannot tell whether it bears this "
       "load; look at the curve before, and end the run there by [stop]",
       peak.load, peak.displacement, part);
+}
+
+std::string doubt_about_crushing(const CurvePoint& peak) {
+  return fmt::format(
+      "bonds are shorter than small strains allow, or were about to be: the peak, {:.6g} at "
+      "displacement {:.6g}, may be borne by what is crushed and is no strength of the body; look "
+      "at "
+      "the curve before, and end the run there by [stop]",
+      peak.load, peak.displacement);
 }
 
 std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,

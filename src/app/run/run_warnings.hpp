@@ -59,6 +59,9 @@ std::vector<std::string> doubts_at_rest(const EnergyBalance& energy);
 /// \param length  longest side of the body [length]
 std::optional<std::string> doubt_about_size(const CurvePoint& peak, double length);
 
+/// The largest load of a run that went on, or ended, where bonds are too short for small strains.
+std::string doubt_about_crushing(const CurvePoint& peak);
+
 /// The same of a quasistatic run: energies that balance, or forces, to no more than six digits.
 /// \param energy_error      largest of all rows, over the work [-]
 /// \param largest_residual  forces out of balance, over the loads [-]

@@ -155,7 +155,7 @@ struct BarLayout {
   std::optional<double> spacing;  ///< between stirrups, about [length]
 };
 
-/// [[rebar]]: exactly one of points, layout and curve.
+/// [[rebar]]: either points or a layout.
 struct RebarSection {
   std::vector<Vector3> points;  ///< ends and bends
   std::optional<BarLayout> layout = {};

@@ -186,7 +186,7 @@ std::vector<Index> find_loose_particles(const Network& network) {
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const std::vector<std::uint8_t> in_cells = vertices_of_cells(network);
   std::vector<Index> loose;
-  for (Index i = 0; i < network.particles.size(); ++i) {
+  for (Index i = 0; i < network.first_anchor(); ++i) {  // anchors go with their particles
     if (!in_cells.empty() && in_cells[i] != 0) continue;
     // One frame holds every direction.
     if (is_loose[i] && (rotating.empty() || !rotating[i])) loose.push_back(i);

@@ -60,7 +60,13 @@ class PetscGhostLayer final : public GhostLayer {
 class PetscRanks final : public Ranks {
  public:
   PetscRanks() {
-    if (PetscInitializeNoArguments() != 0) throw SolverError("MPI or PETSc does not start");
+    char name[] = "perilink", own_options_alone[] = "-skip_petscrc";
+    char* words[] = {name, own_options_alone, nullptr};
+    char** argv = words;
+    int argc = 2;
+    if (PetscInitialize(&argc, &argv, nullptr, nullptr) != 0) {
+      throw SolverError("MPI or PETSc does not start");
+    }
     PetscCallAbort(PETSC_COMM_WORLD, PetscPopSignalHandler());  // the program has its own
     MPI_Comm_size(PETSC_COMM_WORLD, &count_);
     MPI_Comm_rank(PETSC_COMM_WORLD, &own_);

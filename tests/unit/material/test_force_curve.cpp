@@ -42,6 +42,19 @@ TEST(ForceCurve, TeethOfOneThatEndsDissipateItsArea) {
   }
 }
 
+/// A table whose last force is zero ends there, whoever made it.
+TEST(ForceCurve, NothingStaysBehindAForceOfZero) {
+  ForceCurve table = softens;
+  table.endless = true;
+  const BondLaw law = law_of(table, 1.1), expected = law_of(softens, 1.1);
+  EXPECT_FALSE(law.endless());
+  ASSERT_EQ(count_teeth(law), count_teeth(expected));
+  for (int k = 0; k < count_teeth(law); ++k) {
+    EXPECT_EQ(law.tooth(k).secant, expected.tooth(k).secant);
+    EXPECT_EQ(law.tooth(k).limit, expected.tooth(k).limit);
+  }
+}
+
 /// Where a secant leaves the curve an element has dissipated the area less what it stores.
 TEST(ForceCurve, TeethFollowItWithTheirRipple) {
   for (const ForceCurve& curve : {hardens, softens, stays}) {

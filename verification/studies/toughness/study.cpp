@@ -54,8 +54,8 @@ std::vector<std::string> lines_of(const std::string& path) {
   return lines;
 }
 
-/// \param measured  lines of an earlier run, which are taken over
-void measure_strips(Table& table, Strip strip, const std::vector<std::string>& measured) {
+/// \param measured  lines of an earlier run: those of these strips go over to the table
+void measure_strips(Table& table, Strip strip, std::vector<std::string>& measured) {
   const bool space = strip.pattern == Pattern::cubic || strip.pattern == Pattern::face_centred;
   // High enough to hold the cracks that wind at short horizons, in the plane at three heights.
   const std::vector<double> heights =
@@ -73,17 +73,21 @@ void measure_strips(Table& table, Strip strip, const std::vector<std::string>& m
                                     [&](const std::string& line) { return line.starts_with(key); });
     if (known != measured.end()) {
       table.add(*known + "\n");
+      measured.erase(known);
       continue;
     }
     const StripCost cost = measure_crack_cost(strip);
     table.add(fmt::format("{}{:.4f},{:.4f},{},{}\n", key, cost.dissipated, cost.released,
                           cost.events, cost.unknowns));
-    write_result(PERILINK_STUDY_DIR, table.text, table_file);
+    std::string text = table.text;  // with what a run that is ended here would lose
+    for (const std::string& line : measured) text += line + "\n";
+    write_result(PERILINK_STUDY_DIR, text, table_file);
   }
 }
 
 void measure_table() {
-  const auto measured = lines_of(std::string(PERILINK_STUDY_DIR) + "/" + table_file);
+  std::vector<std::string> measured = lines_of(std::string(PERILINK_STUDY_DIR) + "/" + table_file);
+  if (!measured.empty()) measured.erase(measured.begin());  // the heading
   Table table(
       "pattern,horizon_ratio,lame_ratio,direction,surface,half_height,dissipated_over_GF,released_"
       "over_GF,events,unknowns\n");

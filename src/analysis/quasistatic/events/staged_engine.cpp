@@ -77,6 +77,8 @@ void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
   load_factors_[set_] = load_factor_;
   set_ = set;
   load_factor_ = load_factors_[set];
+  changes_there_ = 0;
+  largest_factor_ = 0.0;
   ConstantField constant;
   constant.unknowns = *unknowns_;
   constant.unknowns.prescribed = gripped_at_;
@@ -100,6 +102,7 @@ void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
 
 void StagedEngine::move_to(double load_factor) {
   load_factor_ = load_factor;
+  largest_factor_ = std::max(largest_factor_, std::abs(load_factor));
   equilibrium_.move_to(load_factor);
 }
 
@@ -161,8 +164,7 @@ Event StagedEngine::side_change_within(double distance) {
 
 bool StagedEngine::is_last_change(double load_factor) const {
   constexpr double round_off = 1e-12;
-  return changes_there_ > 0 &&
-         std::abs(load_factor - changed_at_) <= round_off * std::abs(load_factor);
+  return changes_there_ > 0 && std::abs(load_factor - changed_at_) <= round_off * largest_factor_;
 }
 
 /// Whether bonds have just changed sides the other way here. What exceeds its limit is then loaded

@@ -76,6 +76,7 @@ class StagedEngine final : public SingleEventEngine {
   std::size_t newest_ = 0;  ///< last one of the sets that have grown
   double load_factor_ = 0.0;
   double direction_ = 0.0;        ///< in which it moves when damaged bonds close or open next
+  double largest_factor_ = 0.0;   ///< largest |load factor| of this stage
   double changed_at_ = 0.0;       ///< load factor at which they did last, ...
   double changed_towards_ = 0.0;  ///< ... in which direction ...
   int changes_there_ = 0;    ///< ... and how often one after the other; 0: something failed since

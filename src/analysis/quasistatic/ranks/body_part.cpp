@@ -40,7 +40,7 @@ void for_each_member(Part& part, Visit visit) {
 std::vector<int> owners_of(const Partition& partition, Index count) {
   std::vector<int> owners(static_cast<std::size_t>(count));
   for (std::size_t r = 0; r < partition.particles.size(); ++r) {
-    for (const Index p : partition.particles[r]) owners[p] = static_cast<int>(r);
+    for (const GlobalIndex p : partition.particles[r]) entry(owners, p) = static_cast<int>(r);
   }
   return owners;
 }
@@ -48,12 +48,12 @@ std::vector<int> owners_of(const Partition& partition, Index count) {
 /// Numbers that particles have in a part, given in the order in which they are met.
 class LocalNumbers {
  public:
-  LocalNumbers(const std::vector<Index>& owned, Index count)
+  LocalNumbers(const std::vector<GlobalIndex>& owned, Index count)
       : number_(static_cast<std::size_t>(count), no_index), particles(owned) {
-    for (std::size_t k = 0; k < owned.size(); ++k) number_[owned[k]] = static_cast<Index>(k);
+    for (std::size_t k = 0; k < owned.size(); ++k) entry(number_, owned[k]) = static_cast<Index>(k);
   }
-  Index of(Index particle) {
-    Index& number = number_[particle];
+  Index of(GlobalIndex particle) {
+    Index& number = entry(number_, particle);
     if (number == no_index) {
       number = static_cast<Index>(particles.size());
       particles.push_back(particle);
@@ -65,7 +65,7 @@ class LocalNumbers {
   std::vector<Index> number_;
 
  public:
-  std::vector<Index> particles;  ///< owned, then ghosts
+  std::vector<GlobalIndex> particles;  ///< owned, then ghosts
 };
 
 /// Copies the elements with an owned end.
@@ -76,8 +76,8 @@ void cut_elements(const Network& network, Secants secants, const std::vector<int
   for (Index e = 0; e < network.num_elements(); ++e) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
     if (owners[i] != rank && owners[j] != rank) continue;
-    own.bonds.first.push_back(local.of(i));
-    own.bonds.second.push_back(local.of(j));
+    own.bonds.first.push_back(local.of(GlobalIndex{i}));
+    own.bonds.second.push_back(local.of(GlobalIndex{j}));
     own.bonds.lengths.push_back(network.bonds.lengths[e]);
     const double* n = network.bonds.directions.data() + static_cast<std::size_t>(e) * dim;
     own.bonds.directions.insert(own.bonds.directions.end(), n, n + dim);
@@ -90,8 +90,8 @@ void cut_elements(const Network& network, Secants secants, const std::vector<int
 }
 
 /// Springs and numbers of unknowns of owned particles; ghosts have neither.
-void cut_slots(const Network& network, const Unknowns& unknowns, const std::vector<Index>& owned,
-               std::size_t particles, BodyPart& part) {
+void cut_slots(const Network& network, const Unknowns& unknowns,
+               const std::vector<GlobalIndex>& owned, std::size_t particles, BodyPart& part) {
   const std::size_t width = static_cast<std::size_t>(unknowns.width);
   part.unknowns.width = unknowns.width;
   part.unknowns.number.assign(particles * width, no_index);
@@ -101,11 +101,12 @@ void cut_slots(const Network& network, const Unknowns& unknowns, const std::vect
   }
   for (std::size_t k = 0; k < owned.size(); ++k) {
     for (std::size_t a = 0; a < width; ++a) {
-      const std::size_t slot = static_cast<std::size_t>(owned[k]) * width + a;
       const std::size_t own = k * width + a;
-      if (unknowns.number[slot] >= 0) part.unknowns.number[own] = part.unknowns.count++;
+      if (entry(unknowns.number, owned[k], width, a) >= 0) {
+        part.unknowns.number[own] = part.unknowns.count++;
+      }
       if (!network.support_stiffness.empty()) {
-        part.network.support_stiffness[own] = network.support_stiffness[slot];
+        part.network.support_stiffness[own] = entry(network.support_stiffness, owned[k], width, a);
       }
     }
   }
@@ -153,12 +154,14 @@ BodyPart BodyPart::unpack(Parcel parcel) {
 
 Partition share_out(const Network& network, const Unknowns& unknowns, int ranks) {
   Partition partition;
-  partition.particles = split_into_parts(network.particles.positions, network.dim(), ranks);
-  for (const std::vector<Index>& owned : partition.particles) {
-    std::vector<Index>& numbers = partition.unknowns.emplace_back();
+  for (const std::vector<Index>& owned :
+       split_into_parts(network.particles.positions, network.dim(), ranks)) {
+    std::vector<GlobalIndex>& particles = partition.particles.emplace_back();
+    std::vector<GlobalIndex>& numbers = partition.unknowns.emplace_back();
     for (const Index p : owned) {
+      particles.push_back(GlobalIndex{p});
       for (int a = 0; a < unknowns.width; ++a) {
-        if (unknowns.at(p, a) >= 0) numbers.push_back(unknowns.at(p, a));
+        if (unknowns.at(p, a) >= 0) numbers.push_back(GlobalIndex{unknowns.at(p, a)});
       }
     }
   }
@@ -169,7 +172,7 @@ BodyPart cut_part(const Network& network, Secants secants, const Unknowns& unkno
                   const BoxMotions& motions, const BoxStiffness& stiffness,
                   const Partition& partition, int rank) {
   const std::vector<int> owners = owners_of(partition, network.particles.size());
-  const std::vector<Index>& owned = partition.particles[rank];
+  const std::vector<GlobalIndex>& owned = partition.particles[rank];
   LocalNumbers local(owned, network.particles.size());
   BodyPart part;
   part.network.particles.dim = part.network.bonds.dim = network.dim();
@@ -177,17 +180,19 @@ BodyPart cut_part(const Network& network, Secants secants, const Unknowns& unkno
   cut_elements(network, secants, owners, rank, local, part);
   cut_slots(network, unknowns, owned, local.particles.size(), part);
   for (std::size_t k = owned.size(); k < local.particles.size(); ++k) {
-    const Index ghost = local.particles[k];
-    const std::vector<Index>& there = partition.particles[owners[ghost]];
-    part.ghosts.owners.push_back(owners[ghost]);
+    const GlobalIndex ghost = local.particles[k];
+    const int owner = entry(owners, ghost);
+    const std::vector<GlobalIndex>& there = partition.particles[owner];
+    part.ghosts.owners.push_back(owner);
     part.ghosts.numbers.push_back(
         static_cast<Index>(std::lower_bound(there.begin(), there.end(), ghost) - there.begin()));
   }
   part.coarse = stiffness.coarse;
   part.motions = motions.num_motions();
   const std::size_t block = static_cast<std::size_t>(unknowns.width) * unknowns.width;
-  for (const Index p : owned) {
-    const double* own = stiffness.blocks.data() + static_cast<std::size_t>(p) * block;
+  for (const GlobalIndex number : owned) {
+    const Index p = static_cast<Index>(number);
+    const double* own = &entry(stiffness.blocks, number, block);
     part.blocks.insert(part.blocks.end(), own, own + block);
     part.boxes.push_back(motions.box_of(p));
     for (int a = 0; a < unknowns.width; ++a) part.rows.push_back(motions.row(p, a));

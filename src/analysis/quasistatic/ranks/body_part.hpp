@@ -34,11 +34,21 @@ struct BodyPart {
   static BodyPart unpack(Parcel parcel);
 };
 
+/// Number in the whole body of a particle or unknown; a plain one is that of a rank's part.
+enum class GlobalIndex : Index {};
+
 /// Which rank owns each particle, and where its unknowns are in its part.
 struct Partition {
-  std::vector<std::vector<Index>> particles;  ///< per rank, ascending
-  std::vector<std::vector<Index>> unknowns;   ///< per rank: numbers in the whole body
+  std::vector<std::vector<GlobalIndex>> particles;  ///< per rank, ascending
+  std::vector<std::vector<GlobalIndex>> unknowns;   ///< per rank, in the order of its part
 };
+
+/// An entry of a list, shape (whole body,) or (whole body, width).
+template <class List>
+auto& entry(List& all, GlobalIndex number, std::size_t width = 1, std::size_t component = 0) {
+  return all[static_cast<std::size_t>(number) * width + component];
+}
+
 Partition share_out(const Network& network, const Unknowns& unknowns, int ranks);
 
 /// \param stiffness  boxes and particles of the whole body, its blocks inverted

@@ -99,11 +99,35 @@ std::vector<Points> stirrups(const BarLayout& layout, const Box& room, int dim) 
   return bars;
 }
 
+/// More bars than this are a slip of the pen.
+constexpr double most_bars = 1e5;
+
+void refuse_too_many(const CaseFile& input, std::size_t k, double count) {
+  if (count <= most_bars) return;
+  const bool by_spacing = input.rebar[k].layout && input.rebar[k].layout->spacing;
+  throw InputError(input.where(item_key("rebar", k, by_spacing ? "spacing" : "copies")),
+                   fmt::format("makes {:.3g} bars; an entry may have {:.0e}", count, most_bars),
+                   "look at the units, or lay fewer");
+}
+
+/// Closed bars have no ends that a hook could hold.
+void refuse_hooks_of_closed(const CaseFile& input, std::size_t k, const Points& bar) {
+  if (input.rebar[k].hooks == Hooks::none || bar.front() != bar.back()) return;
+  throw InputError(input.where(item_key("rebar", k, "hooks")),
+                   fmt::format("is \"{}\", but the bar is closed: it has no ends",
+                               word_of(input.rebar[k].hooks)),
+                   "delete it; what holds a closed bar is its corners");
+}
+
 /// The bars of an entry without copies.
 std::vector<Points> first_bars(const CaseFile& input, std::size_t k, int dim) {
   const RebarSection& section = input.rebar[k];
   if (!section.layout) return {section.points};
   const Box room = room_of(input, k, dim);
+  if (section.layout->spacing) {
+    const int along = section.layout->along;
+    refuse_too_many(input, k, (room.upper[along] - room.lower[along]) / *section.layout->spacing);
+  }
   return section.layout->face ? bars_at_face(*section.layout, room, dim)
                               : stirrups(*section.layout, room, dim);
 }
@@ -225,6 +249,10 @@ LaidBars lay_bars(const CaseFile& input, int dim) {
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {
     const RebarSection& section = input.rebar[k];
     std::vector<Points> bars = first_bars(input, k, dim);
+    for (const Points& bar : bars) refuse_hooks_of_closed(input, k, bar);
+    refuse_too_many(input, k,
+                    std::accumulate(section.copies.begin(), section.copies.end(),
+                                    static_cast<double>(bars.size()), std::multiplies<>()));
     copy_bars(section, bars);
     const BarMaterial material =
         material_of(section, input.analysis.type != AnalysisType::elastic, !input.stages.empty());

@@ -200,6 +200,7 @@ void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescrip
   const auto not_zero = [](double value) { return value != 0.0; };
   const std::vector<double>& springs = model.network.support_stiffness;
   if (input.analysis.type == AnalysisType::explicit_ || !model.reference.driven ||
+      prescription.stretched > 0.0 ||
       std::any_of(model.loads.forces.begin(), model.loads.forces.end(), not_zero) ||
       std::any_of(springs.begin(), springs.end(), not_zero)) {
     return;
@@ -240,11 +241,11 @@ void collect_sets(const CaseFile& input, Model& model) {
     of_stage.network.particles.dim = model.network.dim();
     of_stage.network.bending = model.network.bending;
     of_stage.network.support_stiffness = model.network.support_stiffness;
-    of_stage.unknowns = unknowns_of(input, model.network, prescription);
-    refuse_nothing_to_solve(input, of_stage);
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
     refuse_mere_shift(input, of_stage, prescription, stage);
+    of_stage.unknowns = unknowns_of(input, model.network, prescription);
+    refuse_nothing_to_solve(input, of_stage);
     refuse_idle_loads(input, of_stage, stage);
     model.sets.push_back(
         {std::move(of_stage.loads), std::move(of_stage.unknowns), of_stage.reference});

@@ -43,7 +43,7 @@ ElasticOptions elastic_options(const CaseFile& input, int threads) {
   options.threads = threads;
   options.solver = input.analysis.solver;
   options.boxes.edge = input.analysis.coarse_box.value_or(0);
-  options.boxes.ranks = ranks();
+  if (ranks() != nullptr && ranks()->count() > 1) options.boxes.ranks = ranks();
   options.boxes.tolerance = input.analysis.tolerance.value_or(options.boxes.tolerance);
   return options;
 }

@@ -115,6 +115,12 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
                  "has not as many entries as the other of `copies` and `steps`",
                  "give a number and a step for each direction: copies = [3], steps = [[0, 50]]");
   }
+  for (std::size_t k = 0; k < bar.steps.size(); ++k) {
+    if (bar.steps[k] != Vector3{}) continue;
+    table.refuse("steps",
+                 fmt::format("has a step {} of zero, which lays bars upon each other", k + 1),
+                 "give the way from bar to bar");
+  }
   assign(bar.across_gaps, table.boolean("across_gaps"));
 }
 
@@ -230,6 +236,10 @@ RebarSection read_rebar(const CaseTable& table, int dim) {
   read_place(table, dim, bar);
   read_steel(table, bar);
   read_bond(table, bar);
+  if (bar.bends && (bar.rupture_strain || (!bar.curve.empty() && bar.curve.back()[1] == 0.0))) {
+    table.refuse("bends", "is true, but the steel breaks: what a broken bar leaves could not turn",
+                 "delete it, or the end of the steel");
+  }
   assign(bar.prestrain, table.number("prestrain"));
   assign(bar.stage, table.text("stage"));
   if (!bar.stage.empty() && bar.prestrain == 0.0) {

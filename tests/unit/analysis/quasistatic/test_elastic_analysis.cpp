@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "base/error.hpp"
 #include "support/analysis_bodies.hpp"
+#include "support/slender_bodies.hpp"
 
 namespace perilink {
 namespace {
@@ -67,6 +70,35 @@ TEST(ElasticAnalysis, ChainByHand) {
     EXPECT_EQ(result.displacement[slot(body, i, 1)], 0.0);
   }
   EXPECT_NEAR(result.strain_energy, 2 * 0.3, 1e-15);  // two chains
+}
+
+/// Supports that settle and turn by a million times its strains leave a body as strained as before:
+/// what round-off does on their motion is no imbalance.
+TEST(ElasticAnalysis, ASettlementIsNoImbalance) {
+  AnalysisBody body = make_block({rectangular, true});
+  const double strained = run_elastic_analysis(body).strain_energy;
+  const Particles& particles = body.network.particles;
+  for (double& u : body.unknowns.prescribed) u *= 1e-6;
+  for (Index i = 0; i < particles.size(); ++i) {
+    const std::span<const double> x = particles.position(i);
+    if (body.unknowns.at(i, 0) < 0) body.unknowns.prescribed[slot(body, i, 0)] += 2.0 - 0.5 * x[1];
+    if (body.unknowns.at(i, 1) < 0) body.unknowns.prescribed[slot(body, i, 1)] += 3.0 + 0.5 * x[0];
+  }
+  const ElasticResult result = run_elastic_analysis(body);
+  EXPECT_NEAR(result.strain_energy, 1e-12 * strained, 1e-7 * 1e-12 * strained);
+  EXPECT_NEAR(result.work, result.strain_energy, 1e-7 * result.strain_energy);
+}
+
+/// Five hundred times as long as it is thick: round-off is a part of its strains.
+TEST(ElasticAnalysis, RefusesAnEquilibriumThatIsLostInRoundOff) {
+  AnalysisBody body = make_slender({20000, 3, SlenderLoad::force_across});
+  try {
+    run_elastic_analysis(body);
+    ADD_FAILURE() << "accepted";
+  } catch (const SolverError& error) {
+    EXPECT_NE(std::string(error.what()).find("out of balance by"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(ElasticAnalysis, RefusesABodyThatNothingHolds) {

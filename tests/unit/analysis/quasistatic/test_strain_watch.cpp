@@ -29,7 +29,7 @@ struct Pressed {
   }
 };
 
-TEST(StrainWatch, LooksWhereTheLoadHasDoubled) {
+TEST(StrainWatch, LooksWhereTheMotionHasDoubled) {
   const Pressed body;
   StrainWatch watch(body.network);
   EXPECT_TRUE(watch.is_due(3.0)) << "the first one";
@@ -40,10 +40,58 @@ TEST(StrainWatch, LooksWhereTheLoadHasDoubled) {
   EXPECT_TRUE(watch.is_due(0.1)) << "other loads";
 }
 
+/// A body that softens may move far while its load falls.
+TEST(StrainWatch, LooksAtEveryHundredthEvent) {
+  const Pressed body;
+  StrainWatch watch(body.network);
+  int looks = 0;
+  for (int k = 0; k <= 300; ++k) looks += watch.is_due(1.0);
+  EXPECT_EQ(looks, 4);
+}
+
+/// Near the limit no event may leap over it.
+TEST(StrainWatch, LooksBeforeTheShortestBondIsAtItsLimit) {
+  Pressed body;
+  for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
+  StrainWatch watch(body.network);
+  const std::vector<double> secants = intact(body.network);
+  EXPECT_TRUE(watch.is_due(8.0));
+  EXPECT_FALSE(watch.is_beyond(body.motion, 0.08 * body.side, secants));
+  EXPECT_FALSE(watch.is_due(9.9));
+  EXPECT_TRUE(watch.is_due(10.1));
+  EXPECT_TRUE(watch.is_beyond(body.motion, 0.101 * body.side, secants));
+}
+
+/// Ties of bars slip: that is no strain of the solid.
+TEST(StrainWatch, LooksAtBondsOfTheSolidAlone) {
+  Pressed body;
+  for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
+  body.network.first_tie = 0;
+  EXPECT_FALSE(StrainWatch(body.network).is_beyond(body.motion, body.side, intact(body.network)));
+}
+
+/// Bonds that fail under compression bear no load without limit.
+TEST(StrainWatch, LooksAtNoBondThatIsCrushedByItself) {
+  Pressed body;
+  for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
+  body.network.laws.front() = BondLaw::brittle().crushing({{1.0, 1.0}}, 10.0, false);
+  ASSERT_TRUE(body.network.law(0).crushes());
+  EXPECT_FALSE(StrainWatch(body.network).is_beyond(body.motion, body.side, intact(body.network)));
+}
+
+/// One tough material does not lift the limit of the others.
+TEST(StrainWatch, EachBondHasItsOwnLimit) {
+  Pressed body;
+  for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
+  body.network.critical_stretch.back() = 0.5;
+  const std::vector<double> secants = intact(body.network);
+  EXPECT_TRUE(StrainWatch(body.network).is_beyond(body.motion, 0.101 * body.side, secants));
+}
+
 TEST(StrainWatch, TellsBondsThatAreShorterByMoreThanATenth) {
   Pressed body;
   for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
-  const StrainWatch watch(body.network);
+  StrainWatch watch(body.network);
   const std::vector<double> secants = intact(body.network);
   EXPECT_FALSE(watch.is_beyond(body.motion, 0.099 * body.side, secants));
   EXPECT_TRUE(watch.is_beyond(body.motion, 0.101 * body.side, secants));

@@ -33,7 +33,7 @@ class BodyPartTest : public testing::Test {
 };
 
 TEST_F(BodyPartTest, EveryParticleAndUnknownHasOneOwner) {
-  std::vector<Index> particles, unknowns;
+  std::vector<GlobalIndex> particles, unknowns;
   for (int rank = 0; rank < 3; ++rank) {
     particles.insert(particles.end(), partition_.particles[rank].begin(),
                      partition_.particles[rank].end());
@@ -44,32 +44,31 @@ TEST_F(BodyPartTest, EveryParticleAndUnknownHasOneOwner) {
   }
   std::sort(particles.begin(), particles.end());
   std::sort(unknowns.begin(), unknowns.end());
-  for (std::size_t k = 0; k < particles.size(); ++k) EXPECT_EQ(particles[k], k);
+  for (std::size_t k = 0; k < particles.size(); ++k) EXPECT_EQ(particles[k], GlobalIndex(k));
   EXPECT_EQ(particles.size(), static_cast<std::size_t>(body_.network.particles.size()));
-  for (std::size_t k = 0; k < unknowns.size(); ++k) EXPECT_EQ(unknowns[k], k);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) EXPECT_EQ(unknowns[k], GlobalIndex(k));
   EXPECT_EQ(unknowns.size(), static_cast<std::size_t>(body_.unknowns.count));
 }
 
 TEST_F(BodyPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
   const BodyPart own = part(1);
-  std::vector<Index> numbers = partition_.particles[1];  // in the whole body, ghosts behind
+  std::vector<GlobalIndex> numbers = partition_.particles[1];  // in the whole body, ghosts behind
   for (std::size_t g = 0; g < own.ghosts.owners.size(); ++g) {
     EXPECT_NE(own.ghosts.owners[g], 1);
     numbers.push_back(partition_.particles[own.ghosts.owners[g]][own.ghosts.numbers[g]]);
   }
-  std::vector<std::pair<Index, Index>> ends, expected;
+  std::vector<std::pair<GlobalIndex, GlobalIndex>> ends, expected;
   const Bonds& bonds = own.network.bonds;
   for (Index e = 0; e < bonds.size(); ++e) {
     ends.emplace_back(numbers[bonds.first[e]], numbers[bonds.second[e]]);
   }
-  const auto is_own = [&](Index p) {
+  const auto is_own = [&](GlobalIndex p) {
     return std::binary_search(partition_.particles[1].begin(), partition_.particles[1].end(), p);
   };
   const Bonds& all = body_.network.bonds;
   for (Index e = 0; e < all.size(); ++e) {
-    if (is_own(all.first[e]) || is_own(all.second[e])) {
-      expected.emplace_back(all.first[e], all.second[e]);
-    }
+    const GlobalIndex i{all.first[e]}, j{all.second[e]};
+    if (is_own(i) || is_own(j)) expected.emplace_back(i, j);
   }
   EXPECT_EQ(ends, expected);
 }

@@ -39,7 +39,7 @@ TEST(CaseRebar, HasBendsCopiesAndABondCurve) {
   const CaseFile input = with(
       "points = [[0, 0], [0.5, 0], [1, 1]]\ncopies = [2, 3]\nsteps = [[0, 0.1], [0.1, 0]]\n"
       "bond = \"curve\"\nbond_curve = [[0.1, 4], [1, 10], [5, 0]]\nhooks = \"both\"\n"
-      "stress_strain = [[0.0025, 500], [0.05, 600]]\nrupture_strain = 0.06\nbends = true\n");
+      "stress_strain = [[0.0025, 500], [0.05, 600]]\nrupture_strain = 0.06\n");
   const RebarSection& bar = input.rebar.at(0);
   EXPECT_EQ(bar.points.at(2), (Vector3{1.0, 1.0, 0.0}));
   EXPECT_THAT(bar.copies, testing::ElementsAre(2, 3));
@@ -52,11 +52,12 @@ TEST(CaseRebar, FollowsTheModelCode) {
   const CaseFile input = with(
       "from = [0, 0]\nto = [1, 2]\nbond = \"model_code\"\nconcrete_strength = 38e6\n"
       "rib_spacing = 8e-3\nbond_failure = \"splitting_stirrups\"\nbond_conditions = \"other\"\n"
-      "megapascal = 1e6\nmillimetre = 1e-3\n");
+      "megapascal = 1e6\nmillimetre = 1e-3\nbends = true\n");
   const ModelCodeBond& code = input.rebar.at(0).model_code;
   EXPECT_EQ(code.failure, BondFailure::splitting_stirrups);
   EXPECT_EQ(code.conditions, BondConditions::other);
   EXPECT_EQ(code.megapascal, 1e6);
+  EXPECT_TRUE(input.rebar.at(0).bends);
   expect_read_back(input);
 }
 

@@ -1,0 +1,171 @@
+// Bars in whole runs, from the case to the files: what only the program puts together.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <string>
+
+#include "support/whole_run.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+constexpr double steel = 200e3, area = 100.0;  // N, mm
+
+/// A beam of 200 by 100 (by 100) with one bar, held at its left end.
+/// \param rest  keys of the bar, then tables
+std::string beam(bool space, const std::string& bar, const std::string& rest) {
+  const std::string depth = space ? "z = [0, 100]\n" : "";
+  return fmt::format(
+      "[body]\nproblem = \"{}\"\n{}spacing = {}\nhorizon_ratio = {}\n"
+      "[[regions]]\nname = \"beam\"\nx = [0, 200]\ny = [0, 100]\n{}"
+      "[[regions]]\nname = \"left\"\nx = [0, 10]\ny = [0, 100]\n{}"
+      "[[regions]]\nname = \"right\"\nx = [190, 200]\ny = [0, 100]\n{}"
+      "[[materials]]\nregion = \"beam\"\nyoungs_modulus = 30000\nfracture_energy = 0.1\n"
+      "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\"{}]\n"
+      "[[rebar]]\nyoungs_modulus = {}\narea = {}\n{}{}",
+      space ? "three_dimensional" : "plane_stress", space ? "" : "thickness = 10\n",
+      space ? 20 : 10, space ? 2 : 3, depth, depth, depth, space ? ", \"z\"" : "", steel, area, bar,
+      rest);
+}
+
+const std::string straight = "from = [20, 43]\nto = [180, 43]\n";
+const std::string pulled = "[[displacements]]\nregion = \"right\"\nx = 0.02\n";
+const std::string elastic = "[analysis]\ntype = \"elastic\"\n";
+
+double told(const WholeRun& run, const char* key) { return run.summary.json.at(key).get<double>(); }
+
+/// Columns of the last row of the only table of a kind: force and moment.
+std::vector<double> sum_of_reactions(const WholeRun& run, int step) {
+  const std::string text = read_text(run.work / fmt::format("reactions_{:06}.csv", step));
+  std::vector<double> values(5);
+  const std::string last = text.substr(text.find("\nsum,") + 5);
+  EXPECT_EQ(std::sscanf(last.c_str(), "%lf,%lf,%lf,%lf,%lf", &values[0], &values[1], &values[2],
+                        &values[3], &values[4]),
+            5)
+      << text;
+  return {values[2], values[3], values[4]};
+}
+
+/// Values of the segments of bars, in their order.
+std::vector<double> of_segments(const VtuGrid& grid, const char* name) {
+  const std::vector<double>& kinds = grid.find_cell_data("element")->values;
+  const std::vector<double>& all = grid.find_cell_data(name)->values;
+  std::vector<double> values;
+  for (std::size_t cell = 0; cell < all.size(); ++cell) {
+    if (kinds[cell] == 2.0) values.push_back(all[cell]);
+  }
+  return values;
+}
+
+/// Stress of the segment in the middle of the bar.
+double stress_in_the_middle(const WholeRun& run) {
+  const VtuGrid grid = run.fields(run.series().size() - 1);
+  const std::vector<double> stresses = of_segments(grid, "axial_stress");
+  return stresses.at(stresses.size() / 2);
+}
+
+/// Nothing else loads the body: the bar is stressed by its strain less what the concrete gives way,
+/// and the concrete, which nothing pulls, lies in balance with it.
+TEST(BarRuns, PrestrainAloneStressesTheBar) {
+  const WholeRun run(beam(false, straight + "prestrain = 1e-3\n", elastic));
+  EXPECT_EQ(run.summary.json.at("status"), "completed");
+  const double stress = stress_in_the_middle(run);
+  // A strip in uniform compression: EA of the concrete is 30000 x 100 x 10.
+  const double uniform = steel * 1e-3 / (1.0 + steel * area / 30e6);
+  EXPECT_LT(stress, steel * 1e-3);
+  EXPECT_NEAR(stress, uniform, 0.1 * uniform);
+}
+
+/// Flow is left behind between stages, by segments that end at points of their own.
+TEST(BarRuns, BarsYieldInStages) {
+  const WholeRun run(
+      beam(false, straight + "yield_strength = 10\n",
+           "[[displacements]]\nregion = \"right\"\nx = 0.02\nstage = \"pull\"\n"
+           "[[stages]]\nname = \"pull\"\nto = 1\n[[stages]]\nloads = \"pull\"\nname = \"back\"\n"
+           "to = 0.2\n"));
+  EXPECT_GT(told(run, "yield_events"), 0.0);
+  EXPECT_LT(told(run, "energy_error"), 1e-9);
+}
+
+/// A straight bar is free to turn about itself, whichever way it lies.
+TEST(BarRuns, StraightBarsBendInSpace) {
+  const auto energy = [](const std::string& bar) {
+    const WholeRun run(beam(true, bar, pulled + elastic));
+    EXPECT_EQ(run.summary.json.at("status"), "completed") << run.summary.json.at("reason");
+    EXPECT_LT(told(run, "largest_residual"), 1e-10);
+    return told(run, "strain_energy");
+  };
+  for (const std::string place :
+       {"from = [25, 45, 50]\nto = [175, 45, 50]\n", "from = [25, 25, 30]\nto = [175, 75, 65]\n"}) {
+    const double hinged = energy(place), bending = energy(place + "bends = true\n");
+    EXPECT_GT(bending, hinged);
+    EXPECT_LT(bending, 1.01 * hinged) << "a straight bar under tension bends next to nothing";
+  }
+}
+
+/// Anchors stand still while particles move in time: what is written goes by where they belong.
+TEST(BarRuns, RelaxationTellsWhatElasticityDoes) {
+  for (const std::string bond : {"", "bond = \"linear\"\nbond_stiffness = 50\n"}) {
+    const WholeRun still(beam(false, straight + bond, pulled + elastic));
+    const WholeRun moved(beam(false, straight + bond,
+                              pulled + "[analysis]\ntype = \"relaxation\"\n"
+                                       "tolerance = 1e-8\nload_factors = [1.0]\n"));
+    ASSERT_EQ(moved.summary.json.at("status"), "completed") << moved.summary.json.at("reason");
+    const auto energy = [](const WholeRun& run) {
+      const VtuGrid grid = run.fields(run.series().size() - 1);
+      const std::vector<double>& density = grid.find_point_data("strain_energy_density")->values;
+      return std::inner_product(density.begin(), density.end(),
+                                grid.find_point_data("volume")->values.begin(), 0.0);
+    };
+    EXPECT_NEAR(energy(moved), energy(still), 1e-5 * energy(still)) << bond;
+    const double load = told(still, "peak_load");
+    const std::string path = moved.series().back().file;
+    int step = 0;
+    ASSERT_EQ(std::sscanf(path.c_str(), "fields_%d", &step), 1) << path;
+    for (const double value : sum_of_reactions(moved, step))
+      EXPECT_LT(std::abs(value), 1e-3 * load);
+  }
+}
+
+/// Both halves of a closed bar bear the same, and so does what they give to the solid: it has no
+/// end where its line begins.
+TEST(BarRuns, ClosedBarsHaveNoEnds) {
+  const WholeRun run(beam(false, "points = [[55, 25], [145, 25], [145, 75], [55, 75], [55, 25]]\n",
+                          pulled + elastic));
+  const std::vector<double> stresses = of_segments(run.fields(0), "bond_stress");
+  // The rectangle, of sides of 9 and 5 segments, is its own mirror image about y = 50.
+  ASSERT_EQ(stresses.size(), 28u);
+  const std::size_t side = 9;
+  double most = 0.0, apart = 0.0;
+  for (std::size_t k = 0; k < side; ++k) {
+    const double lower = stresses[k], upper = stresses[2 * side + 5 - 1 - k];
+    most = std::max(most, std::abs(lower));
+    apart = std::max(apart, std::abs(lower + upper));
+  }
+  EXPECT_LT(apart, 1e-6 * most);
+}
+
+/// A bond whose table ends at zero slips on its way there, as one that ends next to it does.
+TEST(BarRuns, BondsThatEndSlipBefore) {
+  const auto yields = [](const char* last) {
+    const WholeRun run(beam(false,
+                            straight + fmt::format("bond = \"curve\"\nbond_curve = [[0.001, 0.3], "
+                                                   "[1, {}]]\n",
+                                                   last),
+                            pulled + "[stop]\ndisplacement = 0.01\n"));
+    return told(run, "yield_events");
+  };
+  const double ends = yields("0"), stays = yields("0.001");
+  EXPECT_GT(stays, 10.0);
+  EXPECT_NEAR(ends, stays, 0.2 * stays);
+}
+
+}  // namespace
+}  // namespace perilink
