@@ -111,7 +111,7 @@ std::vector<Index> Equilibrium::on_wrong_side() const {
 
 void Equilibrium::close(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
-  factor_->update(axial.x[0]);  // of the body as it was until now
+  factor_->update(axial.x[0]);  // while the body is as it was
   axial_[element] = 1.0;
 }
 
