@@ -90,6 +90,18 @@ void Equilibrium::keep_all_current() {
   partial_ = false;
 }
 
+void Equilibrium::find_largest_motion() {
+  if (boxes_ == nullptr && !network_.carries_moments()) return;
+  const auto width = static_cast<std::size_t>(network_.width());
+  const auto dim = static_cast<std::size_t>(network_.dim());
+  largest_motion_ = 0.0;
+  for (std::size_t begin = 0; begin < displacement_.size(); begin += width) {
+    for (std::size_t slot = begin; slot < begin + dim; ++slot) {
+      largest_motion_ = std::max(largest_motion_, std::abs(displacement_[slot]));
+    }
+  }
+}
+
 std::vector<Index> Equilibrium::unknowns_of(Index element) const {
   std::vector<Index> unknowns;
   const int width = network_.width();

@@ -246,6 +246,7 @@ void Equilibrium::scatter_solution() {
     return;
   }
   for (std::size_t k = 0; k < slot_of_.size(); ++k) displacement_[slot_of_[k]] = solution_[k];
+  find_largest_motion();
 }
 
 /// Extensions at driven particles summed over all elements there, unless the growth of the

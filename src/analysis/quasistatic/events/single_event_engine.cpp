@@ -27,20 +27,21 @@ Event SingleEventEngine::next_event() {
 /// Whether the extension of the element that comes next is nothing but round-off of the motion of
 /// its ends: then no element is in tension at all, and the load factor would mean nothing.
 bool SingleEventEngine::is_noise(const BreakSearch::Hit& hit) const {
+  constexpr double round_off = 1e-12;
+  const Index element = hit.element;
+  if (network_.carries_moments()) {  // the search compares with shear and bending
+    return hit.ratio * limit_of(element) * network_.bonds.lengths[element] <= equilibrium_.noise();
+  }
   const std::span<const double> u = equilibrium_.where_elements_fail();
-  const std::span<const double> n = network_.bonds.direction(hit.element);
-  const auto width = static_cast<std::size_t>(network_.width());
-  const std::size_t i = network_.bonds.first[hit.element] * width;
-  const std::size_t j = network_.bonds.second[hit.element] * width;
-  const bool frame = network_.carries_moments();
+  const std::span<const double> n = network_.bonds.direction(element);
+  const std::size_t i = static_cast<std::size_t>(network_.bonds.first[element]) * network_.width();
+  const std::size_t j = static_cast<std::size_t>(network_.bonds.second[element]) * network_.width();
   double extension = 0.0, size = 0.0;
   for (int a = 0; a < network_.dim(); ++a) {
     extension += n[a] * (u[j + a] - u[i + a]);
-    size += (frame ? 1.0 : std::abs(n[a])) * (std::abs(u[j + a]) + std::abs(u[i + a]));
+    size += std::abs(n[a]) * (std::abs(u[j + a]) + std::abs(u[i + a]));
   }
-  // The search compares a frame with shear and bending.
-  if (frame) extension = hit.ratio * limit_of(hit.element) * network_.bonds.lengths[hit.element];
-  return std::abs(extension) <= equilibrium_.resolution() * size;
+  return std::abs(extension) <= round_off * size + equilibrium_.noise();
 }
 
 /// Where an event needs columns of K^-1 that are not at hand, those of elements near their events
