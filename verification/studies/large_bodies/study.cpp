@@ -112,9 +112,9 @@ Events follow(const Model& model, LinearSolver solver, Index count) {
   const double start = Events::processor_seconds();
   const DamageResult result = run_damage_analysis(model, options, events);
   const double first = events.seconds.front();
-  fmt::print(",{},{:.2f},{:.1f},{:.1e},{:.1e}", events.rows.size() - 1, first - start,
+  fmt::print(",{},{:.2f},{:.1f},{:.2f},{:.1e},{:.1e}", events.rows.size() - 1, first - start,
              1e3 * (events.seconds.back() - first) / static_cast<double>(events.rows.size() - 1),
-             result.largest_residual, result.energy_error);
+             peak_memory_bytes() / 1e9, result.largest_residual, result.energy_error);
   std::fflush(stdout);
   return events;
 }
@@ -127,9 +127,9 @@ bool compare_events(int columns, Index count, bool direct) {
       {"cubic", true, "", 2.0, {}, 0},
       {"cubic micropolar", true, "model = \"micropolar\"\n", 2.0, {}, 0, "poissons_ratio = 0.1\n"}};
   fmt::print(
-      "body,horizon_ratio,unknowns,events,start,ms_per_event,residual,energy_error"
+      "body,horizon_ratio,unknowns,events,start,ms_per_event,peak_gigabytes,residual,energy_error"
       "{},other_element,load_factor_difference\n",
-      direct ? ",events,start,ms_per_event,residual,energy_error" : "");
+      direct ? ",events,start,ms_per_event,peak_gigabytes,residual,energy_error" : "");
   bool good = true;
   for (const Series& scene : scenes) {
     const Model model = build_model(parse_case(case_text(scene, columns, brittle), "body"));
