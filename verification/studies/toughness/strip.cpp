@@ -230,7 +230,8 @@ StripCost measure_crack_cost(const Strip& strip) {
   const double begin = stiffness_at(strip.skipped);
   const double end = stiffness_at(strip.skipped + strip.counted);
   const LoadedNetwork whole = builder.cut(0);
-  const PathEnergy energy = energy_between(*make_event_engine(whole, EquilibriumOptions{}), begin, end);
+  const PathEnergy energy =
+      energy_between(*make_event_engine(whole, EquilibriumOptions{}), begin, end);
   // Critical stretches are one: a plane crack would hold half of the fracture sum per area.
   const double sum = fracture_sum_of_family(inside.problem, inside.offsets, inside.stiffness.axial,
                                             inside.lattice.cell_volume);

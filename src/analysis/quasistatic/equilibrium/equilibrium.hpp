@@ -146,8 +146,8 @@ class Equilibrium {
   Freedom change_motion(const Unknowns& unknowns);
 
   const Factor& factor() const { return *factor_; }
-  /// Smaller differences of displacements may be none, also between particles that do not move: what
-  /// the rest of the body does leaves its errors there [length]. Of trusses by a factor zero.
+  /// Smaller differences of displacements may be none, also between particles that do not move: the
+  /// rest of the body leaves its errors there [length]. Of trusses by a factor zero.
   double noise() const {
     return largest_motion_ * (boxes_ == nullptr ? 1e-12 : options_.boxes.tolerance);
   }
@@ -326,7 +326,7 @@ class Equilibrium {
   std::vector<std::size_t> moving_slots_, current_slots_;
   std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;
-  double largest_motion_ = 0.0;  ///< by displacement_, see noise()
+  double largest_motion_ = 0.0;   ///< by displacement_, see noise()
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_
   std::vector<double> ground_stiffness_;  ///< per unknown, empty until a fragment came loose
   std::vector<double> ground_load_;

@@ -7,7 +7,8 @@
 
 namespace perilink {
 
-SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options)
+SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
+                                     const EquilibriumOptions& options)
     : network_(problem.network),
       threads_(options.threads),
       equilibrium_(problem, options),
