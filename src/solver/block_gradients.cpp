@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "solver/energy_gains.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {

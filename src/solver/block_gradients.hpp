@@ -20,7 +20,7 @@ GradientsReport block_conjugate_gradients(const LinearMap& product, const Linear
 
 /// blocks <- blocks shares: columns, block_width of them in each block of shape (n, block_width),
 /// go over to combinations of them, which may be fewer.
-/// \param shares  of each old column in each new one, shape (old, new); new a multiple of
+/// \param shares  what each new column has of each old one, shape (old, new); new a multiple of
 ///                block_width
 void recombine(std::vector<std::vector<double>>& blocks, std::span<const double> shares);
 

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "solver/energy_gains.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {

@@ -32,7 +32,7 @@ Outcome outcome_of(const AnalysisBody& body, bool boxes, std::vector<double> loa
   return outcome;
 }
 
-/// \param share  of the rows
+/// \param share  so much of the rows
 void expect_the_same(const Outcome& found, const Outcome& expected, double share) {
   const auto rows = static_cast<std::size_t>(share * static_cast<double>(expected.rows.size()));
   ASSERT_GE(found.rows.size(), rows) << found.result.reason;

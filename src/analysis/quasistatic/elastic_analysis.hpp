@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "analysis/quasistatic/box_solver.hpp"
+#include "analysis/quasistatic/boxes/box_solver.hpp"
 #include "assembly/linear_elements.hpp"
 #include "network/loaded_network.hpp"
 #include "network/network.hpp"

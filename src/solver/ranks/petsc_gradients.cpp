@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <exception>
 
-#include "solver/energy_gains.hpp"
+#include "solver/conjugate_gradients.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {

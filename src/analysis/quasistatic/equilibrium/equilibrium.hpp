@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/quasistatic/equilibrium/box_factor.hpp"
+#include "analysis/quasistatic/boxes/box_factor.hpp"
 #include "analysis/quasistatic/equilibrium/constant_field.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
 #include "assembly/internal_force.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/quasistatic/box_solver.hpp"
+#include "analysis/quasistatic/boxes/box_solver.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
 #include "support/analysis_bodies.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/quasistatic/equilibrium/box_factor.hpp"
+#include "analysis/quasistatic/boxes/box_factor.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "analysis/quasistatic/box_solver.hpp"
+#include "analysis/quasistatic/boxes/box_solver.hpp"
 #include "network/network.hpp"
 #include "solver/factor.hpp"
 
@@ -61,7 +61,7 @@ class BoxFactor final : public Factor {
   Secants secants_;
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<BoxSolver> solver_;
-  int first_iterations_ = 0;          ///< of the first block with these boxes
+  int first_iterations_ = 0;          ///< the first block took with these boxes
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
   std::vector<Index> expected_;
   std::vector<Index> window_;    ///< unknowns whose columns are at hand

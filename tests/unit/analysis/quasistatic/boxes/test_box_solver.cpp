@@ -1,4 +1,4 @@
-#include "analysis/quasistatic/box_solver.hpp"
+#include "analysis/quasistatic/boxes/box_solver.hpp"
 
 #include <gtest/gtest.h>
 
