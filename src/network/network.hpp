@@ -108,7 +108,8 @@ struct Network {
   /// Bonds that pre-cracks have broken and that close where they are compressed, ascending; others
   /// are taken out.
   std::vector<Index> cut_elements;
-  std::vector<Index> cut_by_crack;  ///< bonds that each pre-crack took out
+  std::vector<Index> cut_by_crack;        ///< bonds that each pre-crack took out
+  std::vector<Index> bonds_of_interface;  ///< how many cross each weak interface
 
   /// Ordinary finite elements where the body has no bonds. Particles are their vertices; their
   /// edges are the last bonds of the solid, without stiffness: they connect, and carry nothing.

@@ -8,6 +8,7 @@
 #include "io/case/case_overrides.hpp"
 #include "io/case/case_table.hpp"
 #include "io/case/sections/case_elements.hpp"
+#include "io/case/sections/laws/case_interfaces.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/case_rules.hpp"
@@ -159,6 +160,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   const int axes = axes_of(input.body);
   input.springs = document.list("springs", about(read_springs, axes));
   input.cracks = document.list("cracks", about(read_crack, dim));
+  input.interfaces = document.list("interfaces", about(read_interface, dim));
   input.rebar = document.list("rebar", about(read_rebar, dim));
   input.gauges = document.list("gauges", about(read_gauge, input.body));
   input.elements = read_elements(document.table("elements"));

@@ -328,6 +328,12 @@ void check_rules(const CaseFile& input) {
     }
   }
   check_rebar(input);
+  for (std::size_t i = 0; i < input.interfaces.size(); ++i) {
+    for (const std::string& region : input.interfaces[i].between) {
+      check_reference(input, names, item_key("interfaces", i, "between"), region,
+                      Reserved::refused);
+    }
+  }
   if (input.elements) {
     for (const std::string& region : input.elements->regions) {
       check_reference(input, names, "elements.regions", region, Reserved::allowed);
