@@ -1,7 +1,10 @@
 #include "network/weak_interfaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <span>
 
 #include "discretization/cuts/cracks.hpp"
@@ -11,6 +14,9 @@
 
 namespace perilink {
 namespace {
+
+/// A face is plane where so much of its area is seen along its mean normal.
+constexpr double plane = 0.98;
 
 /// Bonds of the solid that cross the face, without those that pre-cracks have cut.
 std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face,
@@ -34,105 +40,121 @@ std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face,
   return crossing;
 }
 
-/// Particles on the surface and those bonded to them.
-std::vector<std::uint8_t> near_surface(const Network& network) {
-  std::vector<std::uint8_t> at(static_cast<std::size_t>(network.particles.size()), 0);
-  for (Index f = 0; f < network.facets.size(); ++f) {
-    if (!network.facets.on_surface(f)) continue;
-    for (const Index i : network.facets.corners.row(f)) at[i] = 1;
-  }
-  std::vector<std::uint8_t> near = at;
-  for (Index e = 0; e < network.first_tie; ++e) {
-    if (at[network.bonds.first[e]] != 0) near[network.bonds.second[e]] = 1;
-    if (at[network.bonds.second[e]] != 0) near[network.bonds.first[e]] = 1;
-  }
-  return near;
+Vector3 direction_of(const Network& network, Index bond) {
+  Vector3 n{};
+  const auto direction = network.bonds.direction(bond);
+  std::copy(direction.begin(), direction.end(), n.begin());
+  return n;
 }
 
-/// Sum of k xi^2 of the bonds through a unit area of the face [force/length].
-double fracture_sum(const Network& network, std::span<const Index> crossing) {
-  const auto count = static_cast<std::size_t>(network.particles.size());
-  const auto dim = static_cast<std::size_t>(network.dim());
-  // The normal at a particle is the axis along which its crossing bonds lie most.
-  std::vector<SymmetricTensor> axes(count, SymmetricTensor{});
-  std::vector<std::uint8_t> beside(count, 0);
-  for (const Index e : crossing) {
-    Vector3 n{};
-    std::copy_n(network.bonds.direction(e).begin(), dim, n.begin());
-    for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
-      beside[i] = 1;
-      for (int a = 0; a < 3; ++a) {
-        axes[i][a] += n[a] * n[a];
-        axes[i][3 + a] += n[a] * n[(a + 1) % 3];
-      }
-    }
-  }
-  const std::vector<std::uint8_t> outer = near_surface(network);
-  bool any_inner = false;
-  for (std::size_t i = 0; i < count; ++i) any_inner |= beside[i] != 0 && outer[i] == 0;
-  std::vector<Vector3> normal(count, Vector3{});
-  double volume = 0.0, sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (any_inner && outer[i] != 0) beside[i] = 0;
-    if (beside[i] == 0) continue;
-    normal[i] = principal_direction(axes[i], network.dim());
-    volume += network.particles.volumes[i];
-  }
-  for (Index e = 0; e < network.first_tie; ++e) {
-    for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
-      if (beside[i] == 0) continue;
-      double cosine = 0.0;
-      for (std::size_t a = 0; a < dim; ++a) cosine += normal[i][a] * network.bonds.direction(e)[a];
-      sum += 0.5 * network.stiffness[e] * std::pow(network.bonds.lengths[e], 3) * std::abs(cosine);
-    }
-  }
-  return sum / volume;
+double cosine_between(const Vector3& a, const Vector3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Mean constants of the materials on both sides, with the law of the face.
-SolidMaterial material_of(const WeakInterface& face, const NetworkInput& input,
-                          const Network& network, std::span<const Index> crossing) {
-  SolidMaterial mean;
-  mean.fracture_energy = face.fracture_energy;
-  mean.softening = face.softening;
+/// Where the bonds that cross lie: sums of n n.
+using Axes = SymmetricTensor;
+
+void add(const Axes& other, Axes& axes) {
+  for (std::size_t a = 0; a < axes.size(); ++a) axes[a] += other[a];
+}
+
+/// What the bonds that cross a face make of it.
+struct Face {
+  double area = 0.0;                 ///< [length^2]
+  double fracture_sum = 0.0;         ///< sum of k xi^2 over the area [force/length]
+  std::optional<Vector3> normal;     ///< nothing: it is not plane
+  std::array<double, 2> moduli{};    ///< mean E behind it and where the normal points
+  SolidMaterial material;            ///< mean constants of both sides, with the law of the face
+};
+
+/// Mean constants of the materials at the ends of the bonds.
+void mix(const NetworkInput& input, const Network& network, std::span<const Index> crossing,
+         const Vector3& normal, Face& face) {
+  const double part = 1.0 / static_cast<double>(crossing.size());
   for (const Index e : crossing) {
-    for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
-      const SolidMaterial& own = input.materials[network.particles.material[i]];
-      const double part = 0.5 / static_cast<double>(crossing.size());
-      mean.youngs_modulus += part * own.youngs_modulus;
-      mean.poissons_ratio += part * own.poissons_ratio;
-    }
+    const bool along = cosine_between(normal, direction_of(network, e)) > 0.0;
+    const auto own = [&](Index i) { return input.materials[network.particles.material[i]]; };
+    const SolidMaterial from = own(network.bonds.first[e]), to = own(network.bonds.second[e]);
+    face.moduli[along ? 0 : 1] += part * from.youngs_modulus;
+    face.moduli[along ? 1 : 0] += part * to.youngs_modulus;
+    face.material.poissons_ratio += 0.5 * part * (from.poissons_ratio + to.poissons_ratio);
   }
-  return mean;
+  face.material.youngs_modulus = 0.5 * (face.moduli[0] + face.moduli[1]);
+}
+
+/// A uniform dilatation of one brings a stress of dim lambda + 2 mu, which bonds carry across the
+/// face by k xi: that settles the area that they carry. The normal where a bond crosses is the axis
+/// along which the bonds at its ends lie most.
+Face measure(const NetworkInput& input, const Network& network, std::span<const Index> crossing) {
+  const int dim = network.dim();
+  std::vector<LameConstants> constants;
+  for (const SolidMaterial& m : input.materials) constants.push_back(lame_constants(input, m));
+  std::map<Index, Axes> axes;
+  Axes mean{};
+  for (const Index e : crossing) {
+    const auto [x, y, z] = direction_of(network, e);
+    const Axes own{x * x, y * y, z * z, x * y, y * z, z * x};
+    add(own, axes[network.bonds.first[e]]);
+    add(own, axes[network.bonds.second[e]]);
+    add(own, mean);
+  }
+  Face face;
+  const Vector3 normal = principal_direction(mean, dim);
+  double along = 0.0;  // the area seen along the normal
+  for (const Index e : crossing) {
+    const Index i = network.bonds.first[e], j = network.bonds.second[e];
+    Axes both = axes[i];
+    add(axes[j], both);
+    double stress = 0.0;
+    for (const Index end : {i, j}) {
+      const LameConstants& own = constants[network.particles.material[end]];
+      stress += 0.5 * (dim * own.lambda + 2.0 * own.mu);
+    }
+    const Vector3 n = direction_of(network, e);
+    const double length = network.bonds.lengths[e];
+    const double area = network.stiffness[e] * length / stress;
+    face.area += area * std::abs(cosine_between(n, principal_direction(both, dim)));
+    along += area * std::abs(cosine_between(n, normal));
+    face.fracture_sum += network.stiffness[e] * length * length;
+  }
+  face.fracture_sum /= face.area;
+  if (along > plane * face.area) face.normal = normal;
+  mix(input, network, crossing, normal, face);
+  return face;
+}
+
+MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Face& face) {
+  const double mean = face.material.youngs_modulus;
+  const FaceShape shape{face.normal, {face.moduli[0] / mean, face.moduli[1] / mean}};
+  return bonds_of_face(
+      body, input, shape, face.material,
+      lattice_critical_stretch(face.material.fracture_energy, face.fracture_sum));
 }
 
 }  // namespace
 
 void weaken_interfaces(const Body& body, const NetworkInput& input, Network& network) {
   for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
-    const WeakInterface& face = input.interfaces[k];
-    const std::vector<Index> crossing = crossing_bonds(body, face, network);
-    network.bonds_of_interface.push_back(static_cast<Index>(crossing.size()));
-    if (crossing.empty() || input.draft) continue;
-    const SolidMaterial material = material_of(face, input, network, crossing);
-    const double brittle =
-        lattice_critical_stretch(material.fracture_energy, fracture_sum(network, crossing));
-    MaterialBonds bonds{BondLaw::brittle(), {}};
-    bonds.strength.first_stretch = brittle;
-    const bool softens = material.softening.shape.kind != Softening::brittle;
-    if (softens || material.softening.closes) {
-      try {
-        bonds = bonds_of_material(body, input, material, brittle);
-      } catch (const TooStrong& error) {
-        throw TooStrong(static_cast<Index>(input.materials.size() + k), error.share);
+    const WeakInterface& section = input.interfaces[k];
+    const std::vector<Index> crossing = crossing_bonds(body, section, network);
+    InterfaceBonds& own = network.interfaces.emplace_back();
+    own.count = static_cast<Index>(crossing.size());
+    if (crossing.empty()) continue;
+    Face face = measure(input, network, crossing);
+    face.material.fracture_energy = section.fracture_energy;
+    face.material.softening = section.softening;
+    own.area = face.area;
+    try {
+      const MaterialBonds bonds = bonds_of(body, input, face);
+      own.strength = bonds.strength;
+      network.law_of.resize(network.stiffness.size(), 0);
+      for (const Index e : crossing) {
+        network.law_of[e] = static_cast<Index>(network.laws.size());
+        network.critical_stretch[e] = bonds.strength.first_stretch;
       }
-    }
-    const auto law = static_cast<Index>(network.laws.size());
-    network.laws.push_back(bonds.law);
-    network.law_of.resize(network.stiffness.size(), 0);
-    for (const Index e : crossing) {
-      network.law_of[e] = law;
-      network.critical_stretch[e] = softens ? bonds.strength.first_stretch : brittle;
+      network.laws.push_back(bonds.law);
+    } catch (const TooStrong& error) {
+      throw TooStrong(static_cast<Index>(input.materials.size() + k), error.share);
     }
   }
 }

@@ -20,6 +20,7 @@
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/laws/case_interfaces.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -334,6 +335,7 @@ void check_rules(const CaseFile& input) {
                       Reserved::refused);
     }
   }
+  check_interfaces(input);
   if (input.elements) {
     for (const std::string& region : input.elements->regions) {
       check_reference(input, names, "elements.regions", region, Reserved::allowed);

@@ -18,6 +18,12 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
     table.refuse("between", fmt::format("names {} regions", section.between.size()),
                  "name the two on either side of the face: [\"plate\", \"patch\"]");
   }
+  if (section.between.size() == 2 && section.between[0] == section.between[1]) {
+    table.refuse("between", fmt::format("names {} twice", quoted(section.between[0])),
+                 "name the two on either side of the face; a face inside one region is given by "
+                 "its " +
+                     quoted(key));
+  }
   assign(section.points, table.vectors(key, dim));
   if (table.has(key) && section.points.size() < static_cast<std::size_t>(dim)) {
     table.refuse(key, fmt::format("has {}", section.points.size()),
@@ -33,6 +39,17 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
                                          "the energy that the face takes per area");
   }
   return section;
+}
+
+void check_interfaces(const CaseFile& input) {
+  if (input.interfaces.empty()) return;
+  for (std::size_t m = 0; m < input.materials.size(); ++m) {
+    if (input.materials[m].softening.shape.kind != Softening::concrete) continue;
+    throw InputError(
+        input.where(item_key("materials", m, "softening")),
+        "is \"concrete\", whose bonds crush beside damaged ones, but the case has [[interfaces]]",
+        "take \"linear\", \"bilinear\", \"exponential\" or \"brittle\", or delete the interfaces");
+  }
 }
 
 void write_interface(TomlWriter& out, const InterfaceSection& section, int dim) {

@@ -6,6 +6,9 @@
 
 namespace perilink {
 
+/// \throws InputError  for what the reader of a section cannot see: the rest of the case
+void check_interfaces(const CaseFile& input);
+
 InterfaceSection read_interface(const CaseTable& table, int dim);
 void write_interface(TomlWriter& out, const InterfaceSection& section, int dim);
 
