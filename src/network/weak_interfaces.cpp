@@ -18,6 +18,9 @@ namespace {
 /// A face is plane where so much of its area is seen along its mean normal.
 constexpr double plane = 0.98;
 
+/// Normals at single particles are those of so many rounds of neighbours across the face.
+constexpr int rounds_of_spreading = 3;
+
 /// Bonds of the solid that cross the face, without those that pre-cracks have cut.
 std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face,
                                   const Network& network) {
@@ -82,6 +85,26 @@ void mix(const NetworkInput& input, const Network& network, std::span<const Inde
   face.material.youngs_modulus = 0.5 * (face.moduli[0] + face.moduli[1]);
 }
 
+/// Axes at each particle with crossing bonds, those of particles around it along such bonds added.
+std::map<Index, Axes> axes_of_face(const Network& network, std::span<const Index> crossing) {
+  std::map<Index, Axes> axes;
+  for (const Index e : crossing) {
+    const auto [x, y, z] = direction_of(network, e);
+    const Axes own{x * x, y * y, z * z, x * y, y * z, z * x};
+    add(own, axes[network.bonds.first[e]]);
+    add(own, axes[network.bonds.second[e]]);
+  }
+  for (int round = 0; round < rounds_of_spreading; ++round) {
+    const std::map<Index, Axes> before = axes;
+    for (const Index e : crossing) {
+      const Index i = network.bonds.first[e], j = network.bonds.second[e];
+      add(before.at(i), axes.at(j));
+      add(before.at(j), axes.at(i));
+    }
+  }
+  return axes;
+}
+
 /// A uniform dilatation of one brings a stress of dim lambda + 2 mu, which bonds carry across the
 /// face by k xi: that settles the area that they carry. The normal where a bond crosses is the axis
 /// along which the bonds at its ends lie most.
@@ -89,22 +112,16 @@ Face measure(const NetworkInput& input, const Network& network, std::span<const 
   const int dim = network.dim();
   std::vector<LameConstants> constants;
   for (const SolidMaterial& m : input.materials) constants.push_back(lame_constants(input, m));
-  std::map<Index, Axes> axes;
+  const std::map<Index, Axes> axes = axes_of_face(network, crossing);
   Axes mean{};
-  for (const Index e : crossing) {
-    const auto [x, y, z] = direction_of(network, e);
-    const Axes own{x * x, y * y, z * z, x * y, y * z, z * x};
-    add(own, axes[network.bonds.first[e]]);
-    add(own, axes[network.bonds.second[e]]);
-    add(own, mean);
-  }
+  for (const auto& own : axes) add(own.second, mean);
   Face face;
   const Vector3 normal = principal_direction(mean, dim);
   double along = 0.0;  // the area seen along the normal
   for (const Index e : crossing) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
-    Axes both = axes[i];
-    add(axes[j], both);
+    Axes both = axes.at(i);
+    add(axes.at(j), both);
     double stress = 0.0;
     for (const Index end : {i, j}) {
       const LameConstants& own = constants[network.particles.material[end]];
@@ -117,8 +134,11 @@ Face measure(const NetworkInput& input, const Network& network, std::span<const 
     along += area * std::abs(cosine_between(n, normal));
     face.fracture_sum += network.stiffness[e] * length * length;
   }
+  if (along > plane * face.area) {
+    face.normal = normal;
+    face.area = along;
+  }
   face.fracture_sum /= face.area;
-  if (along > plane * face.area) face.normal = normal;
   mix(input, network, crossing, normal, face);
   return face;
 }

@@ -104,7 +104,9 @@ TEST_P(FacesOfBodies, HaveTheirStrength) {
   EXPECT_NEAR(own.tensile_strength, strength, 1e-3 * strength);  // sought to 1e-4
   EXPECT_GT(own.teeth, 5);
   EXPECT_LT(own.first_stretch, strength / youngs_modulus);
-  EXPECT_GT(own.first_stretch, 0.6 * strength / youngs_modulus);
+  // The force of all bonds at their largest is 3/2 in the plane and twice in space that of those
+  // at the stretch of the first.
+  EXPECT_GT(own.first_stretch, 0.49 * strength / youngs_modulus);
 }
 
 INSTANTIATE_TEST_SUITE_P(
