@@ -49,9 +49,8 @@ struct ForceRows {
   int dim;
   bool bending;  ///< bonds that carry moments
   bool dilatation = false;
-  bool joint = false;  ///< rows are those of a Joint, which fills them
 
-  int third_order() const { return joint ? (dim == 2 ? 6 : 18) : dim == 2 ? 4 : 10; }
+  int third_order() const { return dim == 2 ? 4 : 10; }
   int odd() const { return third_order() + (bending ? dim : 0); }
   int balance() const { return odd() + (bending ? (dim == 2 ? 2 : 5) : 0); }  ///< forces, moments
   int count() const { return balance() + (dilatation ? 1 : 0); }

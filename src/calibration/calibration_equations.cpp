@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "calibration/joint.hpp"
 #include "calibration/least_change/variable_parts.hpp"
 #include "calibration/surface_columns.hpp"
 
@@ -50,7 +49,7 @@ CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double
       orbits_(orbits),
       least_weight_(least_weight),
       dim_(input.particles.dim),
-      forces_{dim_, !stiffness.bending.empty(), false, input.joint != nullptr},
+      forces_{dim_, !stiffness.bending.empty()},
       stiffness_(stiffness),
       facets_(facets),
       start_{stiffness, facets.shares},
@@ -60,7 +59,6 @@ CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double
   measure_particles();
   on_surface_.assign(static_cast<std::size_t>(input.particles.size()), 0);
   for (const Index i : facets_.corners.values) on_surface_[i] = 1;
-  if (input.joint) at_joint_ = particles_at_joint(*input.joint, input.particles, input.bonds);
 }
 
 void CalibrationEquations::choose_points() {
@@ -203,10 +201,6 @@ void CalibrationEquations::apply(std::span<const double> weights) {
 void CalibrationEquations::fill_row(const ForceRows& form, const Variable& variable,
                                     double* row) const {
   const Bonds& bonds = input_.bonds;
-  if (input_.joint) {
-    fill_row_of_joint(form, variable, row);
-    return;
-  }
   if (variable.kind == Kind::axial) {
     form.axial(bonds.lengths[variable.index], bonds.direction(variable.index), row);
     return;
@@ -225,25 +219,6 @@ void CalibrationEquations::fill_row(const ForceRows& form, const Variable& varia
     mu_area[a] = jump.mu * facets_.area_vector(variable.index)[a];
   }
   form.right(lambda_area, mu_area, row);
-}
-
-void CalibrationEquations::fill_row_of_joint(const ForceRows& form, const Variable& variable,
-                                             double* row) const {
-  const Joint& joint = *input_.joint;
-  if (form.dilatation) row[form.balance()] = 0.0;
-  if (variable.kind == Kind::share) {
-    joint.right(facets_.area_vector(variable.index), facets_.inside[variable.index],
-                facets_.outside[variable.index], row);
-    return;
-  }
-  const Index b = variable.index;
-  const double from = joint.height(input_.particles.position(variable.first));
-  const double to = joint.height(input_.particles.position(variable.second));
-  const double length = input_.bonds.lengths[b];
-  joint.axial(length, input_.bonds.direction(b), from, to, row);
-  if (form.dilatation) {
-    row[form.balance()] = joint.dilatation(length, input_.bonds.direction(b), from, to);
-  }
 }
 
 /// All but the right sides of the dilatation.
@@ -276,10 +251,6 @@ PointEquations CalibrationEquations::make_equations(const ForceRows& form) const
 
 /// Shape (particles, rows of forces_).
 std::vector<double> CalibrationEquations::out_of_balance() const {
-  if (input_.joint) {
-    return forces_out_of_balance(*input_.joint, facets_, input_.particles, input_.bonds,
-                                 stiffness_.axial);
-  }
   return forces_out_of_balance(forces_, facets_, input_.materials, input_.bonds, stiffness_,
                                input_.particles.size());
 }
@@ -293,10 +264,7 @@ void CalibrationEquations::set_right_sides(PointEquations& equations) const {
   for (const Index i : particle_of_) {
     for (std::size_t r = 0; r < rows; ++r) {
       equations.right.push_back(r < known ? rest[i * known + r] : 0.0);
-      double arm = static_cast<int>(r) < equations.odd ? length_[i] : r < known ? 1.0 : 0.0;
-      // They follow from those in front of them.
-      const bool beside = input_.joint && at_joint_[i] == 0;
-      if (beside && static_cast<int>(r) >= input_.joint->rows_in_front() && r < known) arm = 0.0;
+      const double arm = static_cast<int>(r) < equations.odd ? length_[i] : r < known ? 1.0 : 0.0;
       equations.scale.push_back(arm / modulus_[i]);
     }
   }
@@ -312,7 +280,7 @@ void CalibrationEquations::set_right_sides(PointEquations& equations) const {
 }
 
 PointEquations CalibrationEquations::settling() const {
-  PointEquations equations = make_equations({dim_, forces_.bending, true, forces_.joint});
+  PointEquations equations = make_equations({dim_, forces_.bending, true});
   equations.ridge.resize(static_cast<std::size_t>(equations.rows), 0.0);
   if (dim_ == 3) std::fill_n(equations.ridge.begin(), forces_.odd(), forces_ridge_in_space);
   equations.ridge.back() = dilatation_ridge;
@@ -326,17 +294,51 @@ void CalibrationEquations::gather_dilatations(PointEquations& equations) const {
   for (const Index i : particle_of_) {
     const Index group = point_of_[head[i] == no_index ? i : head[i]];
     equations.group.push_back(group);
-    const Index material = input_.particles.material[i];
-    const double volume = input_.particles.volumes[i];
-    equations.right[(group + 1) * rows - 1] +=
-        input_.joint
-            ? volume *
-                  input_.joint->dilatation_at(input_.joint->height(input_.particles.position(i)))
-            : dilatation_modulus(dim_, volume, input_.materials[material]);
+    equations.right[(group + 1) * rows - 1] += dilatation_modulus(
+        dim_, input_.particles.volumes[i], input_.materials[input_.particles.material[i]]);
   }
   scale_last_rows(equations);
   for (std::size_t p = 0; p < particle_of_.size(); ++p) {
     if (head[particle_of_[p]] == no_index) equations.scale[(p + 1) * rows - 1] = 0.0;
+  }
+}
+
+void CalibrationEquations::report_balance(CalibrationReport& report) const {
+  const std::vector<double> rest = out_of_balance();
+  const std::size_t rows = static_cast<std::size_t>(forces_.count());
+  report.residual_after = report.moment_after = report.sum_after = 0.0;
+  report.unmet = 0;
+  report.worst_particle = no_index;
+  for (const Index i : particle_of_) {
+    double force = 0.0, moment = 0.0;  // largest on this particle
+    for (std::size_t r = 0; r < rows; ++r) {
+      double size = std::abs(rest[i * rows + r]) / modulus_[i];
+      if (!std::isfinite(size)) size = std::numeric_limits<double>::infinity();
+      const bool is_force = static_cast<int>(r) < forces_.odd();
+      double& largest = is_force ? force : moment;
+      largest = std::max(largest, is_force ? size * length_[i] : size);
+    }
+    report.unmet += std::max(force, moment) > met;
+    report.sum_after += std::max(force, moment);
+    if (std::max(force, moment) > std::max(report.residual_after, report.moment_after)) {
+      report.worst_particle = i;
+    }
+    report.residual_after = std::max(report.residual_after, force);
+    report.moment_after = std::max(report.moment_after, moment);
+  }
+}
+
+void CalibrationEquations::report_weights(CalibrationReport& report) const {
+  report.free_bonds = static_cast<Index>(free_bonds_.size());
+  for (const Index b : free_bonds_) {
+    if (stiffness_.axial[b] == 0.0) {
+      ++report.dropped;
+      continue;
+    }
+    const double weight = stiffness_.axial[b] / start_.stiffness.axial[b];
+    report.at_least_weight += weight <= 1.000001 * least_weight_;
+    report.smallest_weight = std::min(report.smallest_weight, weight);
+    report.largest_weight = std::max(report.largest_weight, weight);
   }
 }
 
@@ -376,6 +378,17 @@ void CalibrationEquations::drop_vanishing() {
     if (carries_moments()) start_.stiffness.bending[b] = 0.0;
   }
   kept_ = std::move(stay);
+}
+
+bool CalibrationEquations::hollow() const {
+  std::vector<Index> kept_minus_lost(static_cast<std::size_t>(input_.particles.size()), 0);
+  for (Index b = 0; b < input_.bonds.size(); ++b) {
+    const Index vote = stiffness_.axial[b] > 0.0 ? 1 : -1;
+    for (const Index i : {input_.bonds.first[b], input_.bonds.second[b]})
+      kept_minus_lost[i] += vote;
+  }
+  return std::any_of(particle_of_.begin(), particle_of_.end(),
+                     [&](Index i) { return kept_minus_lost[i] < 0; });
 }
 
 }  // namespace perilink

@@ -97,7 +97,6 @@ class CalibrationEquations {
   Variable axial_variable(Index bond) const;
   Variable couple_variable(Index bond, Index end) const;
   void change(const Variable& variable, double value);
-  void fill_row_of_joint(const ForceRows& form, const Variable& variable, double* row) const;
   void fill_row(const ForceRows& form, const Variable& variable, double* row) const;
   PointEquations make_equations(const ForceRows& form) const;
   void set_right_sides(PointEquations& equations) const;
@@ -126,7 +125,6 @@ class CalibrationEquations {
   std::vector<Index> free_bonds_;
   std::vector<Index> kept_;               // the free bonds that were not dropped
   std::vector<Floor> floor_;              // per bond
-  std::vector<std::uint8_t> at_joint_;    // per particle, of bodies with a joint
   std::vector<std::uint8_t> on_surface_;  // per particle: at a facet
   std::vector<double> modulus_;           // 1/2 sum k xi^2 of each particle at the start
   std::vector<double> length_;            // mean xi of each particle

@@ -12,8 +12,6 @@
 
 namespace perilink {
 
-struct Joint;
-
 /// What is calibrated.
 struct CalibrationInput {
   const Particles& particles;            ///< solid ones
@@ -27,9 +25,6 @@ struct CalibrationInput {
   /// The box that the particles fill with one lattice; where the material is the same all over,
   /// bonds that lie alike are then made alike.
   std::optional<LatticeBox> box = std::nullopt;
-  /// Where materials meet in parallel planes, and bonds carry no moments: their balance is then
-  /// that of strains that differ from side to side. It has to outlive this.
-  const Joint* joint = nullptr;
 };
 
 /// What was reached. Forces out of balance are those on a particle at a uniform strain of one,

@@ -8,7 +8,6 @@
 #include "base/timer.hpp"
 #include "calibration/calibration.hpp"
 #include "calibration/calibration_cost.hpp"
-#include "calibration/joint.hpp"
 #include "network/bond_strength.hpp"
 #include "network/lattice_families.hpp"
 
@@ -59,8 +58,6 @@ class Correction {
   std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
   void scale_to(const std::vector<double>& wanted);
   std::vector<std::uint8_t> free_bonds(const LatticeFamilies& families) const;
-  std::optional<Joint> find_own_joint() const;
-  void take_joint_moduli(const Joint& joint);
 
   const Body& body_;
   const NetworkInput& input_;
@@ -162,30 +159,6 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
   return free;
 }
 
-/// Bonds that carry moments are in balance in uniform strains at joints too: rotations jump there.
-std::optional<Joint> Correction::find_own_joint() const {
-  if (micropolar() || input_.materials.size() < 2) return std::nullopt;
-  std::vector<LameConstants> constants;
-  for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
-  return find_joint(network_.facets, network_.particles, constants, body_.lattice.spacing);
-}
-
-/// Bonds begin with the modulus of the materials along them, in series, in place of the mean of
-/// those of their ends.
-void Correction::take_joint_moduli(const Joint& joint) {
-  const auto modulus = [&](Index i) {
-    const LameConstants& own = joint.materials[material(i)];
-    return own.lambda + 2.0 * own.mu;
-  };
-  for (Index b = 0; b < network_.bonds.size(); ++b) {
-    const Index i = network_.bonds.first[b], j = network_.bonds.second[b];
-    const double from = joint.height(network_.particles.position(i));
-    const double to = joint.height(network_.particles.position(j));
-    if (modulus(i) == modulus(j) && !joint.crosses(from, to)) continue;  // to the last digit
-    network_.stiffness[b] *= 2.0 * joint.modulus_between(from, to) / (modulus(i) + modulus(j));
-  }
-}
-
 void Correction::energy() {
   std::vector<double> wanted = wanted_moduli(nullptr);
   if (on_lattice()) {
@@ -218,25 +191,13 @@ void Correction::calibrate() {
   }
   const LatticeFamilies* family = families ? &*families : nullptr;
   CalibrationInput calibration{network_.particles, network_.bonds, {}, {}};
-  const std::optional<Joint> joint = find_own_joint();
-  if (joint) {
-    calibration.joint = &*joint;
-    keep_elements(network_, bonds_at_joint_to_keep(*joint, network_.particles, network_.bonds));
-    take_joint_moduli(*joint);
-  }
   if (family) {
     calibration.free = free_bonds(*family);
     calibration.box = lattice_box(body_);
   }
   std::vector<double> bulk = network_.stiffness;
   std::vector<double> bulk_bending = network_.bending;
-  std::vector<double> wanted = wanted_moduli(family);
-  if (joint) {
-    const std::vector<double> present = moduli_of_particles(network_, network_.stiffness);
-    const auto at = particles_at_joint(*joint, network_.particles, network_.bonds);
-    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = at[i] ? present[i] : wanted[i];
-  }
-  scale_to(wanted);
+  scale_to(wanted_moduli(family));
   for (std::size_t b = 0; b < calibration.free.size(); ++b) {
     if (calibration.free[b]) continue;
     network_.stiffness[b] = bulk[b];  // exactly

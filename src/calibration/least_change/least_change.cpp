@@ -244,11 +244,6 @@ LeastChange least_change(const PointEquations& equations, const LeastChangeOptio
   if (are(11, 10, true)) return solve<11, 10, true>(equations, options, kept);
   if (are(18, 13, false)) return solve<18, 13, false>(equations, options, kept);
   if (are(19, 13, true)) return solve<19, 13, true>(equations, options, kept);
-  // Forces of bodies with a joint.
-  if (are(6, 6, false)) return solve<6, 6, false>(equations, options, kept);
-  if (are(7, 6, true)) return solve<7, 6, true>(equations, options, kept);
-  if (are(18, 18, false)) return solve<18, 18, false>(equations, options, kept);
-  if (are(19, 18, true)) return solve<19, 18, true>(equations, options, kept);
   throw std::invalid_argument(std::to_string(equations.rows) + " equations per point, " +
                               std::to_string(equations.odd) + " of them odd, are not built in");
 }
