@@ -165,8 +165,8 @@ Parted parted_body(const Body& body, const NetworkInput& input, const SolidMater
   }
   Parted parted{{}, face.sides, uniaxial_modulus(lame_constants(input, material), own.lattice.dim)};
   const auto part = [&](const Vector3& normal) {
-    auto bonds = layer_bonds(offsets, stiffness.axial, stiffness.bending, own.lattice.cell_volume,
-                             normal);
+    auto bonds =
+        layer_bonds(offsets, stiffness.axial, stiffness.bending, own.lattice.cell_volume, normal);
     if (bonds) parted.directions.push_back(std::move(*bonds));
   };
   const std::optional<Vector3> normal =

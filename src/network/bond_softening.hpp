@@ -38,9 +38,9 @@ MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
 
 /// A face whose bonds soften while those on either side of it do not.
 struct FaceShape {
-  std::optional<Vector3> normal;     ///< unit vector; nothing: the face is not plane
-  std::array<double, 2> sides{1, 1}; ///< moduli behind it and where the normal points, over that
-                                     ///< of the bonds that cross it [-]
+  std::optional<Vector3> normal;  ///< unit vector; nothing: the face is not plane
+  /// Moduli behind it and where the normal points, over that of the bonds that cross it [-].
+  std::array<double, 2> sides{1, 1};
 };
 
 /// The same of bonds that cross a face; beta is that of face_strength().

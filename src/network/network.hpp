@@ -36,8 +36,8 @@ struct MaterialStrength {
 
 /// What crosses a weak interface.
 struct InterfaceBonds {
-  Index count = 0;    ///< of bonds
-  double area = 0.0;  ///< of the face [length^2]
+  Index count = 0;    ///< bonds
+  double area = 0.0;  ///< area of the face [length^2]
   MaterialStrength strength = {};
 };
 
@@ -116,7 +116,7 @@ struct Network {
   /// are taken out.
   std::vector<Index> cut_elements;
   std::vector<Index> cut_by_crack;         ///< bonds that each pre-crack took out
-  std::vector<InterfaceBonds> interfaces;  ///< of each weak interface
+  std::vector<InterfaceBonds> interfaces;  ///< bonds of each weak interface
 
   /// Ordinary finite elements where the body has no bonds. Particles are their vertices; their
   /// edges are the last bonds of the solid, without stiffness: they connect, and carry nothing.

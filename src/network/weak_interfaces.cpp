@@ -63,11 +63,11 @@ void add(const Axes& other, Axes& axes) {
 
 /// What the bonds that cross a face make of it.
 struct Face {
-  double area = 0.0;                 ///< [length^2]
-  double fracture_sum = 0.0;         ///< sum of k xi^2 over the area [force/length]
-  std::optional<Vector3> normal;     ///< nothing: it is not plane
-  std::array<double, 2> moduli{};    ///< mean E behind it and where the normal points
-  SolidMaterial material;            ///< mean constants of both sides, with the law of the face
+  double area = 0.0;               ///< [length^2]
+  double fracture_sum = 0.0;       ///< sum of k xi^2 over the area [force/length]
+  std::optional<Vector3> normal;   ///< nothing: it is not plane
+  std::array<double, 2> moduli{};  ///< mean E behind it and where the normal points
+  SolidMaterial material;          ///< mean constants of both sides, with the law of the face
 };
 
 /// Mean constants of the materials at the ends of the bonds.
@@ -146,9 +146,8 @@ Face measure(const NetworkInput& input, const Network& network, std::span<const 
 MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Face& face) {
   const double mean = face.material.youngs_modulus;
   const FaceShape shape{face.normal, {face.moduli[0] / mean, face.moduli[1] / mean}};
-  return bonds_of_face(
-      body, input, shape, face.material,
-      lattice_critical_stretch(face.material.fracture_energy, face.fracture_sum));
+  return bonds_of_face(body, input, shape, face.material,
+                       lattice_critical_stretch(face.material.fracture_energy, face.fracture_sum));
 }
 
 }  // namespace

@@ -59,8 +59,8 @@ struct FaceBody {
     const double at = 0.5 * side + 0.1;
     WeakInterface face{{}, {{{at, -1, 0}, {at, side + 1, 0}}}, fracture_energy, {}};
     if (tested.dim == 3) {
-      face.face.points = {{at, -1, -1}, {at, side + 1, -1}, {at, side + 1, side + 1},
-                          {at, -1, side + 1}};
+      face.face.points = {
+          {at, -1, -1}, {at, side + 1, -1}, {at, side + 1, side + 1}, {at, -1, side + 1}};
     }
     input.interfaces = {face};
   }
@@ -111,12 +111,11 @@ TEST_P(FacesOfBodies, HaveTheirStrength) {
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, FacesOfBodies,
-    testing::Values(
-        FaceCase{"square", Pattern::rectangular, BondModel::bond_based, 2},
-        FaceCase{"square_micropolar", Pattern::rectangular, BondModel::micropolar, 2},
-        FaceCase{"hexagonal", Pattern::hexagonal, BondModel::bond_based, 2},
-        FaceCase{"mesh", Pattern::irregular, BondModel::bond_based, 2},
-        FaceCase{"cubic", Pattern::cubic, BondModel::bond_based, 3}),
+    testing::Values(FaceCase{"square", Pattern::rectangular, BondModel::bond_based, 2},
+                    FaceCase{"square_micropolar", Pattern::rectangular, BondModel::micropolar, 2},
+                    FaceCase{"hexagonal", Pattern::hexagonal, BondModel::bond_based, 2},
+                    FaceCase{"mesh", Pattern::irregular, BondModel::bond_based, 2},
+                    FaceCase{"cubic", Pattern::cubic, BondModel::bond_based, 3}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(WeakInterfaces, CostNothingWhereThereAreNone) {

@@ -9,12 +9,12 @@
 #include "io/case/sections/case_bond_dynamics.hpp"
 #include "io/case/sections/case_elements.hpp"
 #include "io/case/sections/case_gauges.hpp"
-#include "io/case/sections/laws/case_interfaces.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/case/sections/case_stages.hpp"
+#include "io/case/sections/laws/case_interfaces.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "io/text/toml_writer.hpp"
 

@@ -15,7 +15,7 @@ constexpr std::array<double, 2> even = {1.0, 1.0};
 
 /// A square lattice of spacing one whose nearest neighbours have the stiffness 2 and the diagonal
 /// ones 1, with a thickness of one.
-const std::vector<Vector3> offsets = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0},  {0, -1, 0},
+const std::vector<Vector3> offsets = {{1, 0, 0}, {-1, 0, 0},  {0, 1, 0},  {0, -1, 0},
                                       {1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}};
 const std::vector<double> stiffness = {2, 2, 2, 2, 1, 1, 1, 1};
 
