@@ -63,26 +63,59 @@ void add(const Axes& other, Axes& axes) {
 
 /// What the bonds that cross a face make of it.
 struct Face {
-  double area = 0.0;               ///< [length^2]
-  double fracture_sum = 0.0;       ///< sum of k xi^2 over the area [force/length]
-  std::optional<Vector3> normal;   ///< nothing: it is not plane
+  double area = 0.0;          ///< [length^2]
+  double fracture_sum = 0.0;  ///< sum of k xi^2 over the area [force/length]
+  Vector3 axis{};             ///< mean normal
+  bool plane = false;
   std::array<double, 2> moduli{};  ///< mean E behind it and where the normal points
   SolidMaterial material;          ///< mean constants of both sides, with the law of the face
 };
 
-/// Mean constants of the materials at the ends of the bonds.
+/// Parts of the materials that fill the face itself. Where two meet in it, the particles of one lie
+/// on their facets, so that the bonds across are calibrated for the stress of the other.
+std::vector<double> parts_of_materials(const Body& body, const NetworkInput& input,
+                                       const Network& network, std::span<const Index> crossing) {
+  std::vector<double> ends(input.materials.size(), 0.0), gap = ends;
+  std::vector<std::uint8_t> beside(static_cast<std::size_t>(network.particles.size()), 0);
+  const std::vector<Index>& material = network.particles.material;
+  for (const Index e : crossing) {
+    for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
+      ends[material[i]] += 0.5 / static_cast<double>(crossing.size());
+      beside[i] = 1;
+    }
+  }
+  if (input.draft || body.lattice.surface != Surface::calibrated) return ends;
+  double sum = 0.0;
+  for (Index f = 0; f < network.facets.size(); ++f) {
+    const Index inside = network.facets.inside[f], outside = network.facets.outside[f];
+    if (network.facets.on_surface(f) || inside == outside) continue;
+    for (const Index i : network.facets.corners.row(f)) {
+      if (beside[i] == 0) continue;
+      gap[material[i] == inside ? outside : inside] += 1.0;
+      sum += 1.0;
+    }
+  }
+  if (sum == 0.0) return ends;
+  for (double& part : gap) part /= sum;
+  return gap;
+}
+
+/// Constants of what fills the face, and moduli beside it.
 void mix(const NetworkInput& input, const Network& network, std::span<const Index> crossing,
-         const Vector3& normal, Face& face) {
+         std::span<const double> parts, Face& face) {
   const double part = 1.0 / static_cast<double>(crossing.size());
   for (const Index e : crossing) {
-    const bool along = cosine_between(normal, direction_of(network, e)) > 0.0;
-    const auto own = [&](Index i) { return input.materials[network.particles.material[i]]; };
-    const SolidMaterial from = own(network.bonds.first[e]), to = own(network.bonds.second[e]);
-    face.moduli[along ? 0 : 1] += part * from.youngs_modulus;
-    face.moduli[along ? 1 : 0] += part * to.youngs_modulus;
-    face.material.poissons_ratio += 0.5 * part * (from.poissons_ratio + to.poissons_ratio);
+    const bool along = cosine_between(face.axis, direction_of(network, e)) > 0.0;
+    const auto modulus = [&](Index i) {
+      return input.materials[network.particles.material[i]].youngs_modulus;
+    };
+    face.moduli[along ? 0 : 1] += part * modulus(network.bonds.first[e]);
+    face.moduli[along ? 1 : 0] += part * modulus(network.bonds.second[e]);
   }
-  face.material.youngs_modulus = 0.5 * (face.moduli[0] + face.moduli[1]);
+  for (std::size_t m = 0; m < parts.size(); ++m) {
+    face.material.youngs_modulus += parts[m] * input.materials[m].youngs_modulus;
+    face.material.poissons_ratio += parts[m] * input.materials[m].poissons_ratio;
+  }
 }
 
 /// Axes at each particle with crossing bonds, those of particles around it along such bonds added.
@@ -108,44 +141,43 @@ std::map<Index, Axes> axes_of_face(const Network& network, std::span<const Index
 /// A uniform dilatation of one brings a stress of dim lambda + 2 mu, which bonds carry across the
 /// face by k xi: that settles the area that they carry. The normal where a bond crosses is the axis
 /// along which the bonds at its ends lie most.
-Face measure(const NetworkInput& input, const Network& network, std::span<const Index> crossing) {
+Face measure(const Body& body, const NetworkInput& input, const Network& network,
+             std::span<const Index> crossing) {
   const int dim = network.dim();
-  std::vector<LameConstants> constants;
-  for (const SolidMaterial& m : input.materials) constants.push_back(lame_constants(input, m));
+  const std::vector<double> parts = parts_of_materials(body, input, network, crossing);
+  double stress = 0.0;
+  for (std::size_t m = 0; m < parts.size(); ++m) {
+    const LameConstants own = lame_constants(input, input.materials[m]);
+    stress += parts[m] * (dim * own.lambda + 2.0 * own.mu);
+  }
   const std::map<Index, Axes> axes = axes_of_face(network, crossing);
   Axes mean{};
   for (const auto& own : axes) add(own.second, mean);
   Face face;
-  const Vector3 normal = principal_direction(mean, dim);
+  face.axis = principal_direction(mean, dim);
   double along = 0.0;  // the area seen along the normal
   for (const Index e : crossing) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
     Axes both = axes.at(i);
     add(axes.at(j), both);
-    double stress = 0.0;
-    for (const Index end : {i, j}) {
-      const LameConstants& own = constants[network.particles.material[end]];
-      stress += 0.5 * (dim * own.lambda + 2.0 * own.mu);
-    }
     const Vector3 n = direction_of(network, e);
     const double length = network.bonds.lengths[e];
     const double area = network.stiffness[e] * length / stress;
     face.area += area * std::abs(cosine_between(n, principal_direction(both, dim)));
-    along += area * std::abs(cosine_between(n, normal));
+    along += area * std::abs(cosine_between(n, face.axis));
     face.fracture_sum += network.stiffness[e] * length * length;
   }
-  if (along > plane * face.area) {
-    face.normal = normal;
-    face.area = along;
-  }
+  face.plane = along > plane * face.area;
+  if (face.plane) face.area = along;
   face.fracture_sum /= face.area;
-  mix(input, network, crossing, normal, face);
+  mix(input, network, crossing, parts, face);
   return face;
 }
 
 MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Face& face) {
-  const double mean = face.material.youngs_modulus;
-  const FaceShape shape{face.normal, {face.moduli[0] / mean, face.moduli[1] / mean}};
+  const double own = face.material.youngs_modulus;
+  FaceShape shape{std::nullopt, {face.moduli[0] / own, face.moduli[1] / own}};
+  if (face.plane) shape.normal = face.axis;
   return bonds_of_face(body, input, shape, face.material,
                        lattice_critical_stretch(face.material.fracture_energy, face.fracture_sum));
 }
@@ -159,7 +191,7 @@ void weaken_interfaces(const Body& body, const NetworkInput& input, Network& net
     InterfaceBonds& own = network.interfaces.emplace_back();
     own.count = static_cast<Index>(crossing.size());
     if (crossing.empty()) continue;
-    Face face = measure(input, network, crossing);
+    Face face = measure(body, input, network, crossing);
     face.material.fracture_energy = section.fracture_energy;
     face.material.softening = section.softening;
     own.area = face.area;
