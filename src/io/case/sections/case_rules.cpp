@@ -168,6 +168,15 @@ void check_references(const CaseFile& input, const std::set<std::string>& names,
   }
 }
 
+void check_between(const CaseFile& input, const std::set<std::string>& names) {
+  for (std::size_t i = 0; i < input.interfaces.size(); ++i) {
+    for (const std::string& region : input.interfaces[i].between) {
+      check_reference(input, names, item_key("interfaces", i, "between"), region,
+                      Reserved::refused);
+    }
+  }
+}
+
 /// A material fills space; a region that is a line or a point holds none. The lattices of bonds
 /// are fitted to boxes.
 void check_shape(const CaseFile& input, const std::string& key, const std::string& name) {
@@ -329,12 +338,7 @@ void check_rules(const CaseFile& input) {
     }
   }
   check_rebar(input);
-  for (std::size_t i = 0; i < input.interfaces.size(); ++i) {
-    for (const std::string& region : input.interfaces[i].between) {
-      check_reference(input, names, item_key("interfaces", i, "between"), region,
-                      Reserved::refused);
-    }
-  }
+  check_between(input, names);
   check_interfaces(input);
   if (input.elements) {
     for (const std::string& region : input.elements->regions) {

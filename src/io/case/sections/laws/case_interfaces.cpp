@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "io/case/sections/case_kinds.hpp"
+#include "io/case/case_words.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 
 namespace perilink {
@@ -29,11 +29,11 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
     table.refuse(key, fmt::format("has {}", section.points.size()),
                  dim == 2 ? "a line needs two points or more" : "a plane needs three corners");
   }
-  section.softening = read_softening(table);
-  if (section.softening.shape.kind == Softening::concrete) {
+  if (table.choice<Softening>("softening") == Softening::concrete) {
     table.refuse("softening", "is \"concrete\", which crushes: a face does not",
                  "take \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
   }
+  section.softening = read_softening(table);
   if (!has_stretches(section.softening)) {
     section.fracture_energy = table.need("fracture_energy", table.positive("fracture_energy"),
                                          "the energy that the face takes per area");
