@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "material/strength/bond_cell.hpp"
+#include "material/strength/face_chain.hpp"
 #include "network/lattice_families.hpp"
 
 namespace perilink {
@@ -56,6 +59,20 @@ struct Pulled {
   }
 };
 
+/// The bonds about a plane face, one list for each direction that is tried.
+struct Parted {
+  std::vector<std::vector<LayerBond>> directions;
+  std::array<double, 2> sides;
+  double modulus;
+
+  /// face_strength() over the modulus, the mean over the directions.
+  double strength(const BondLaw& law) const {
+    double sum = 0.0;
+    for (const auto& bonds : directions) sum += face_strength(bonds, sides, law);
+    return sum / (modulus * static_cast<double>(directions.size()));
+  }
+};
+
 /// Stiffness of the bonds to the neighbours of a lattice particle of one material.
 FamilyStiffness bulk_stiffness(const Body& body, const NetworkInput& input,
                                std::span<const Vector3> offsets) {
@@ -75,6 +92,12 @@ FamilyStiffness bulk_stiffness(const Body& body, const NetworkInput& input,
 /// With so many neighbours a lattice is as good as a continuum, and to pull it bond by bond takes
 /// the square of their number.
 constexpr std::size_t many_neighbors = 1000;
+
+/// Horizon over spacing of the lattice that stands for a cloud beside a face.
+constexpr double usual_ratio = 3.0;
+
+/// Cosine of two degrees.
+constexpr double nearly_along = 0.9994;
 
 /// Lattices are pulled along the axes, along which bodies lie and are loaded.
 Pulled pulled_cell(const Body& body, const NetworkInput& input, const SolidMaterial& material) {
@@ -97,6 +120,64 @@ Pulled pulled_cell(const Body& body, const NetworkInput& input, const SolidMater
                 lattice.dim};
   for (int axis = 0; axis < lattice.dim; ++axis) pulled.directions.emplace_back()[axis] = 1.0;
   return pulled;
+}
+
+/// A lattice with as many neighbours as clouds usually have, in place of that of a cloud.
+Body even_body(const Body& body, double horizon) {
+  Body even;
+  Lattice& lattice = even.lattice;
+  lattice = body.lattice;
+  lattice.pattern = lattice.dim == 2 ? Pattern::rectangular : Pattern::cubic;
+  lattice.surface = Surface::calibrated;
+  lattice.spacing = horizon / usual_ratio;
+  lattice.step = {lattice.spacing, lattice.spacing, lattice.dim == 2 ? 0.0 : lattice.spacing};
+  lattice.cell_volume =
+      body.lattice.cell_volume * std::pow(lattice.spacing / body.lattice.spacing, lattice.dim);
+  return even;
+}
+
+/// The direction of a bond that a normal is nearly along; faces of lattices lie across bonds.
+std::optional<Vector3> snapped(std::span<const Vector3> offsets, const Vector3& normal) {
+  for (const auto& [x, y, z] : offsets) {
+    const double length = std::hypot(x, y, z);
+    const double cosine = (x * normal[0] + y * normal[1] + z * normal[2]) / length;
+    if (cosine > nearly_along) return Vector3{x / length, y / length, z / length};
+  }
+  return std::nullopt;
+}
+
+/// Faces that lie along no layers are tried along all axes.
+Parted parted_body(const Body& body, const NetworkInput& input, const SolidMaterial& material,
+                   const FaceShape& face) {
+  std::vector<Vector3> offsets;
+  if (body.lattice.pattern != Pattern::irregular) {
+    offsets = bulk_family(body.lattice, input.horizon).offsets;
+  }
+  const bool cloud = offsets.empty() || offsets.size() > many_neighbors;
+  const Body even = cloud ? even_body(body, input.horizon) : Body{};
+  const Body& own = cloud ? even : body;
+  if (cloud) offsets = bulk_family(own.lattice, input.horizon).offsets;
+  NetworkInput alone = input;
+  alone.materials = {material};
+  FamilyStiffness stiffness = bulk_stiffness(own, alone, offsets);
+  for (std::size_t k = 0; k < stiffness.bending.size(); ++k) {
+    stiffness.bending[k] /= stiffness.axial[k];
+  }
+  Parted parted{{}, face.sides, uniaxial_modulus(lame_constants(input, material), own.lattice.dim)};
+  const auto part = [&](const Vector3& normal) {
+    auto bonds =
+        layer_bonds(offsets, stiffness.axial, stiffness.bending, own.lattice.cell_volume, normal);
+    if (bonds) parted.directions.push_back(std::move(*bonds));
+  };
+  const std::optional<Vector3> normal =
+      face.normal && !cloud ? snapped(offsets, *face.normal) : std::nullopt;
+  if (normal) part(*normal);
+  for (int axis = 0; axis < own.lattice.dim && parted.directions.empty(); ++axis) {
+    Vector3 along{};
+    along[axis] = 1.0;
+    part(along);
+  }
+  return parted;
 }
 
 bool softens(const SolidMaterial& material) {
@@ -124,19 +205,19 @@ SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
   return mean;
 }
 
-/// Tensile strength over the product of modulus and s_0.
-double strength_factor(const Pulled& pulled, const SofteningShape& shape, double energy) {
-  return pulled.strength(saw_tooth_of(SofteningCurve(shape, energy), fine_ripple));
-}
+/// Tensile strength over the product of modulus and s_0, and of laws with teeth in compression the
+/// compressive one.
+using StrengthFactor = std::function<double(const BondLaw&, bool compressed)>;
 
 /// Finds the energy 2 G_s / s_0^2 of bonds with the wanted strength.
 /// \param unit_energy  where beta = 1
-double find_energy(const Pulled& pulled, const SofteningShape& shape, double unit_energy) {
+double find_energy(const StrengthFactor& factor_of, const SofteningShape& shape,
+                   double unit_energy) {
   double factor = 1.0;
   for (int round = 0; round < most_rounds; ++round) {
     const double energy = unit_energy * factor * factor;
     if (!(energy > 1.0)) throw TooStrong(no_index, energy);
-    const double next = strength_factor(pulled, shape, energy);
+    const double next = factor_of(saw_tooth_of(SofteningCurve(shape, energy), fine_ripple), false);
     const bool same = std::abs(next - factor) < same_factor * next;
     factor = next;
     if (same) break;
@@ -160,6 +241,41 @@ BondLaw law_of(const SofteningMaterial& softening, double energy, double ripple)
                       !softening.shear_softens);
 }
 
+/// \param modulus  by which the factor counts [force/length^2]
+MaterialBonds bonds_by(const StrengthFactor& factor_of, double modulus,
+                       const SolidMaterial& material, double brittle_stretch) {
+  const SofteningMaterial& softening = material.softening;
+  BondLaw law = BondLaw::brittle();
+  MaterialStrength strength;
+  double energy = 1.0, first = brittle_stretch, end = 1.0, factor = 0.0;
+  if (softens(material)) {
+    if (softening.stretches[0] > 0.0) {
+      first = softening.stretches[0];
+      energy = softening_energy(softening.shape, softening.stretches[1] / first);
+    } else {
+      const double unit = softening.tensile_strength / (modulus * brittle_stretch);
+      energy = find_energy(factor_of, softening.shape, 1.0 / (unit * unit));
+      first = brittle_stretch / std::sqrt(energy);
+    }
+    law = law_of(softening, energy, ripple_of(softening.error));
+    end = SofteningCurve(softening.shape, energy).end();
+    const BondLaw fine = law_of(softening, energy, fine_ripple);
+    factor = factor_of(fine, false);
+    if (fine.crushes()) strength.compressive_strength = factor_of(fine, true) * modulus * first;
+  } else {
+    factor = factor_of(law, false);
+  }
+  strength.tensile_strength = factor * modulus * first;
+  strength.fracture_energy =
+      material.fracture_energy * energy * std::pow(first / brittle_stretch, 2);
+  strength.process_zone =
+      material.youngs_modulus * strength.fracture_energy / std::pow(strength.tensile_strength, 2);
+  strength.first_stretch = first;
+  strength.last_stretch = first * end;
+  strength.teeth = count_teeth(law);
+  return {material.softening.closes ? law.closing() : law, strength};
+}
+
 }  // namespace
 
 TooStrong::TooStrong(Index number, double energy)
@@ -171,38 +287,17 @@ MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
                                 const SolidMaterial& material, double brittle_stretch) {
   const Pulled pulled = pulled_cell(body, input, material);
   const double modulus = uniaxial_modulus(lame_constants(input, material), pulled.dim);
-  const SofteningMaterial& softening = material.softening;
-  BondLaw law = BondLaw::brittle();
-  MaterialStrength strength;
-  double energy = 1.0, first = brittle_stretch, end = 1.0, factor = 0.0;
-  if (softens(material)) {
-    if (softening.stretches[0] > 0.0) {
-      first = softening.stretches[0];
-      energy = softening_energy(softening.shape, softening.stretches[1] / first);
-    } else {
-      const double unit = softening.tensile_strength / (modulus * brittle_stretch);
-      energy = find_energy(pulled, softening.shape, 1.0 / (unit * unit));
-      first = brittle_stretch / std::sqrt(energy);
-    }
-    law = law_of(softening, energy, ripple_of(softening.error));
-    end = SofteningCurve(softening.shape, energy).end();
-    const BondLaw fine = law_of(softening, energy, fine_ripple);
-    factor = fine.crushes() ? pulled.strength(fine, false) : pulled.strength(fine);
-    if (fine.crushes()) {
-      strength.compressive_strength = pulled.strength(fine, true) * modulus * first;
-    }
-  } else {
-    factor = pulled.strength(law);
-  }
-  strength.tensile_strength = factor * modulus * first;
-  strength.fracture_energy =
-      material.fracture_energy * energy * std::pow(first / brittle_stretch, 2);
-  strength.process_zone =
-      material.youngs_modulus * strength.fracture_energy / std::pow(strength.tensile_strength, 2);
-  strength.first_stretch = first;
-  strength.last_stretch = first * end;
-  strength.teeth = count_teeth(law);
-  return {material.softening.closes ? law.closing() : law, strength};
+  const auto factor_of = [&](const BondLaw& law, bool compressed) {
+    return law.crushes() ? pulled.strength(law, compressed) : pulled.strength(law);
+  };
+  return bonds_by(factor_of, modulus, material, brittle_stretch);
+}
+
+MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const FaceShape& face,
+                            const SolidMaterial& material, double brittle_stretch) {
+  const Parted parted = parted_body(body, input, material, face);
+  const auto factor_of = [&](const BondLaw& law, bool) { return parted.strength(law); };
+  return bonds_by(factor_of, parted.modulus, material, brittle_stretch);
 }
 
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <stdexcept>
 
 #include "discretization/lattices/lattice.hpp"
@@ -33,6 +35,19 @@ struct MaterialBonds {
 /// \throws TooStrong where s_c does not exceed s_0
 MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
                                 const SolidMaterial& material, double brittle_stretch);
+
+/// A face whose bonds soften while those on either side of it do not.
+struct FaceShape {
+  std::optional<Vector3> normal;  ///< unit vector; nothing: the face is not plane
+  /// Moduli behind it and where the normal points, over that of the bonds that cross it [-].
+  std::array<double, 2> sides{1, 1};
+};
+
+/// The same of bonds that cross a face; beta is that of face_strength().
+/// \param material  their mean constants with the law of the face; no concrete
+/// \throws TooStrong
+MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const FaceShape& face,
+                            const SolidMaterial& material, double brittle_stretch);
 
 /// Gives bonds and ties between materials that soften their laws, in place of the brittle one and
 /// its critical stretch, and the network its strengths (a draft also those of brittle ones). Two

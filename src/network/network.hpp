@@ -34,6 +34,13 @@ struct MaterialStrength {
   Index teeth = 0;                    ///< events until a bond is broken
 };
 
+/// What crosses a weak interface.
+struct InterfaceBonds {
+  Index count = 0;    ///< bonds
+  double area = 0.0;  ///< area of the face [length^2]
+  MaterialStrength strength = {};
+};
+
 /// What segments of reinforcing bars are beside elements, in the order of these: bar after bar,
 /// from the beginning of each to its end.
 struct Bars {
@@ -108,7 +115,8 @@ struct Network {
   /// Bonds that pre-cracks have broken and that close where they are compressed, ascending; others
   /// are taken out.
   std::vector<Index> cut_elements;
-  std::vector<Index> cut_by_crack;  ///< bonds that each pre-crack took out
+  std::vector<Index> cut_by_crack;         ///< bonds that each pre-crack took out
+  std::vector<InterfaceBonds> interfaces;  ///< bonds of each weak interface
 
   /// Ordinary finite elements where the body has no bonds. Particles are their vertices; their
   /// edges are the last bonds of the solid, without stiffness: they connect, and carry nothing.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -61,6 +62,16 @@ struct BarMaterial {
   bool shifts = false;
 };
 
+/// A face whose bonds break by an energy of their own.
+struct WeakInterface {
+  /// Per particle: on which side it lies, 1 or 2; 0: neither. Bonds with an end on either side
+  /// cross the face. Empty: those do that cross the line or plane.
+  std::vector<std::uint8_t> side;
+  Crack face;
+  double fracture_energy = 0.0;  ///< [force/length]
+  SofteningMaterial softening = {};
+};
+
 /// What makes a network out of the particles of a body.
 struct NetworkInput {
   Problem problem = Problem::plane_stress;
@@ -77,6 +88,7 @@ struct NetworkInput {
                            ///< Empty: every pair within the horizon is bonded
   /// There before the analysis begins; bonds and ties do not cross them.
   std::vector<Crack> cracks;
+  std::vector<WeakInterface> interfaces;  ///< later ones count where several have a bond
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< per bar
   CalibrationObserver on_search;           ///< told of the calibration of bonds; may be empty

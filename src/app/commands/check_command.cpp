@@ -30,8 +30,10 @@ std::string time_text(double seconds) {
 
 /// Whether bonds give way by more than one event.
 bool softens(const Network& network) {
-  return std::any_of(network.strengths.begin(), network.strengths.end(),
-                     [](const MaterialStrength& strength) { return strength.teeth > 1; });
+  const auto many = [](const MaterialStrength& strength) { return strength.teeth > 1; };
+  return std::any_of(network.strengths.begin(), network.strengths.end(), many) ||
+         std::any_of(network.interfaces.begin(), network.interfaces.end(),
+                     [&](const InterfaceBonds& face) { return many(face.strength); });
 }
 
 /// The whole run as far as the case tells its length.
@@ -100,6 +102,15 @@ void print_strengths(const std::vector<MaterialStrength>& strengths) {
   }
 }
 
+void print_interfaces(const std::vector<InterfaceBonds>& interfaces) {
+  for (std::size_t k = 0; k < interfaces.size(); ++k) {
+    const auto& [count, area, strength] = interfaces[k];
+    fmt::print("#   interface {}        {} bonds cross {:.5g} of area, tensile strength {:.5g}{}\n",
+               k + 1, count, area, strength.tensile_strength,
+               strength.teeth > 1 ? "" : " by the horizon");
+  }
+}
+
 void print_elements(const Model& model) {
   if (model.elements) {
     fmt::print("#   linear elements    {}\n", model.elements->cells.size());
@@ -117,6 +128,7 @@ void print_elements(const Model& model) {
   for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
     fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
   }
+  print_interfaces(network.interfaces);
   print_breakable(network, model.crack_cost);
   print_strengths(network.strengths);
 }

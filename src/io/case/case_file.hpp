@@ -144,6 +144,15 @@ struct CrackSection {
   std::vector<Vector3> points;
 };
 
+/// [[interfaces]]: bonds that cross a face between two regions, or a line or plane, break by an
+/// energy of their own. Exactly one of between and points.
+struct InterfaceSection {
+  std::vector<std::string> between;  ///< two regions; what lies in both belongs to the second
+  std::vector<Vector3> points;       ///< as CrackSection::points
+  double fracture_energy = 0.0;      ///< [force/length]
+  SofteningMaterial softening;
+};
+
 /// How bars are laid into a box: along an axis, `cover` from its faces; beside one face, or as
 /// stirrups around the axis.
 struct BarLayout {
@@ -275,6 +284,7 @@ struct CaseFile {
   std::vector<SymmetrySection> symmetry;
   std::vector<SpringSection> springs;
   std::vector<CrackSection> cracks;
+  std::vector<InterfaceSection> interfaces;
   std::vector<RebarSection> rebar;
   std::vector<GaugeSection> gauges;
   std::optional<ElementsSection> elements;

@@ -146,6 +146,13 @@ const Without cracks = {
     {lattice, no_lattice_table, another_model},
     {elements, "is \"linear_elements\", but the case has [[cracks]], which cut bonds",
      "delete one of the two, or leave the crack out of the mesh", "body.method"}};
+const Without interfaces = {
+    {shell, "is given, but bonds of a shell have one strength all over", flat_instead},
+    {particles, no_particle_table, another_model},
+    {lattice, no_lattice_table, another_model},
+    {elements, "is \"linear_elements\", but the case has [[interfaces]], which bonds cross",
+     "delete one of the two", "body.method"},
+    {elastic, {}, {}}};
 const Without rebar = {
     {shell, "is given, but bars are not tied to shells", flat_instead},
     {particles, no_particle_table, another_model},
@@ -301,6 +308,22 @@ const std::vector<KeySchema> crack_keys = {
       {shell, "is given, but cracks of a shell are lines on its sheet",
        "give the `points` of a line: [[0, 1], [2, 1]]"}}}};
 
+const std::vector<KeySchema> interface_keys = {
+    "between",
+    {"points",
+     {{space, "is given, but the body has 3 dimensions", "give the `corners` of a plane polygon"}}},
+    {"corners",
+     {{plane, "is given, but the body has 2 dimensions",
+       "give the `points` of a line: [[0, 1], [2, 1]]"}}},
+    "fracture_energy",
+    "tensile_strength",
+    "softening",
+    "softening_error",
+    "softening_stretches",
+    "closing",
+    "knee_stress_ratio",
+    "knee_opening_ratio"};
+
 }  // namespace
 
 const std::vector<TableSchema>& case_schema() {
@@ -318,6 +341,7 @@ const std::vector<TableSchema>& case_schema() {
       {"symmetry", true, {"axis", "at", "region"}, symmetry},
       {"springs", true, {"region", "stiffness", "total"}, springs},
       {"cracks", true, crack_keys, cracks},
+      {"interfaces", true, interface_keys, interfaces},
       {"rebar", true, rebar_keys, rebar},
       {"elements",
        false,

@@ -17,6 +17,7 @@
 #include "network/builder/shell_bonds.hpp"
 #include "network/surface_correction.hpp"
 #include "network/unknowns.hpp"
+#include "network/weak_interfaces.hpp"
 
 namespace perilink {
 namespace {
@@ -172,6 +173,7 @@ Network build_network(const Body& body, const NetworkInput& input) {
   add_bars(
       body, input, [&](Index material) { return constants.tie(material); }, network);
   soften_bonds(body, input, network);
+  weaken_interfaces(body, input, network);
   for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);

@@ -43,6 +43,10 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
     costs.push_back(snaps ? crack_cost(body, network, material) : 1.0);
     material.fracture_energy /= costs.back();
   }
+  for (WeakInterface& face : network.interfaces) {
+    if (face.softening.shape.kind != Softening::brittle) continue;
+    face.fracture_energy /= crack_cost(body, network, network.materials.front());
+  }
   return costs;
 }
 

@@ -12,7 +12,7 @@ namespace perilink {
 
 /// Where the path of the events is to dissipate the fracture energy (critical_stretch =
 /// "dissipated"), bonds may release only a part of it: divides the fracture energies of the
-/// network's materials by what a crack costs.
+/// network's materials, and those of its brittle interfaces, by what a crack costs.
 /// \return crack_cost() of each material [-]; empty with the other rules
 std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
                                       NetworkInput& network);

@@ -16,6 +16,7 @@
 #include "app/model/body/shell_rules.hpp"
 #include "app/model/body/solid_boxes.hpp"
 #include "app/model/body/strength_notes.hpp"
+#include "app/model/body/weak_faces.hpp"
 #include "app/model/conditions/boundary_conditions.hpp"
 #include "app/model/gauges.hpp"
 #include "app/results/calibration_text.hpp"
@@ -170,6 +171,7 @@ void refuse_impossible_cracks(const CaseFile& input, int dim) {
 }
 
 void refuse_cracks_without_bonds(const CaseFile& input, const Network& network) {
+  refuse_interfaces_without_bonds(input, network);
   for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
     if (network.cut_by_crack[k] > 0) continue;
     throw InputError(input.where(crack_key(k, dimension_of(input.body))),
@@ -241,6 +243,7 @@ Network build_case_network(const CaseFile& input, const Body& body, const Networ
   try {
     return build_network(body, network);
   } catch (const TooStrong& error) {
+    refuse_strong_interface(input, network, error);
     const double strength = network.materials[error.material].softening.tensile_strength;
     throw InputError(
         input.where(item_key("materials", error.material, "tensile_strength")),
@@ -289,6 +292,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   model.entry_of_bar = bars.sections;
   NetworkInput network = network_input(input, model.problem, model.horizon, bars);
   network.on_search = options.on_search;
+  network.interfaces = weak_interfaces(input, body);
   network.draft = options.draft;
   refuse_poissons_ratios(input, body, network);
   if (network.shell) refuse_impossible_shell(input, body, network);

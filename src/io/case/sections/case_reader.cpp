@@ -14,6 +14,7 @@
 #include "io/case/sections/case_sections.hpp"
 #include "io/case/sections/case_stages.hpp"
 #include "io/case/sections/case_unused.hpp"
+#include "io/case/sections/laws/case_interfaces.hpp"
 #include "io/text/input_text.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -159,6 +160,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   const int axes = axes_of(input.body);
   input.springs = document.list("springs", about(read_springs, axes));
   input.cracks = document.list("cracks", about(read_crack, dim));
+  input.interfaces = document.list("interfaces", about(read_interface, dim));
   input.rebar = document.list("rebar", about(read_rebar, dim));
   input.gauges = document.list("gauges", about(read_gauge, input.body));
   input.elements = read_elements(document.table("elements"));

@@ -20,6 +20,7 @@
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/case_sections.hpp"
+#include "io/case/sections/laws/case_interfaces.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -164,6 +165,15 @@ void check_references(const CaseFile& input, const std::set<std::string>& names,
   for (std::size_t i = 0; i < sections.size(); ++i) {
     check_reference(input, names, item_key(table, i, "region"), sections[i].region,
                     Reserved::allowed);
+  }
+}
+
+void check_between(const CaseFile& input, const std::set<std::string>& names) {
+  for (std::size_t i = 0; i < input.interfaces.size(); ++i) {
+    for (const std::string& region : input.interfaces[i].between) {
+      check_reference(input, names, item_key("interfaces", i, "between"), region,
+                      Reserved::refused);
+    }
   }
 }
 
@@ -328,6 +338,8 @@ void check_rules(const CaseFile& input) {
     }
   }
   check_rebar(input);
+  check_between(input, names);
+  check_interfaces(input);
   if (input.elements) {
     for (const std::string& region : input.elements->regions) {
       check_reference(input, names, "elements.regions", region, Reserved::allowed);

@@ -14,6 +14,7 @@
 #include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/case/sections/case_stages.hpp"
+#include "io/case/sections/laws/case_interfaces.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "io/text/toml_writer.hpp"
 
@@ -189,6 +190,7 @@ std::string write_case(const CaseFile& input) {
   write_loading(out, input, axes_of(input.body));
   write_more_loading(out, input);
   for (const CrackSection& crack : input.cracks) write_crack(out, crack, dim);
+  for (const InterfaceSection& face : input.interfaces) write_interface(out, face, dim);
   for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);
   write_gauges(out, input);
   if (input.elements) write_elements(out, *input.elements);

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "io/case/case_file.hpp"
+#include "network/bond_softening.hpp"
+#include "network/network.hpp"
+#include "network/network_input.hpp"
+
+namespace perilink {
+
+/// [[interfaces]] of a case on the particles of its body; none of elastic analyses, in which
+/// nothing breaks.
+/// \throws InputError  for lines and planes that are none
+std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& body);
+
+/// \throws InputError
+void refuse_interfaces_without_bonds(const CaseFile& input, const Network& network);
+
+/// Where the strength that is too large is that of an interface. \throws InputError
+void refuse_strong_interface(const CaseFile& input, const NetworkInput& network,
+                             const TooStrong& error);
+
+}  // namespace perilink

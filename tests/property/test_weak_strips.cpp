@@ -1,0 +1,61 @@
+// Strips that are pulled across a weak interface bear its strength and take its fracture energy,
+// and nothing else in them breaks.
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <vector>
+
+#include "support/weak_strips.hpp"
+#include "support/whole_run.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+struct StripCase {
+  std::string name;
+  WeakStrip strip;
+};
+
+std::ostream& operator<<(std::ostream& out, const StripCase& strip) { return out << strip.name; }
+
+class WeakStrips : public testing::TestWithParam<StripCase> {};
+
+TEST_P(WeakStrips, BearTheStrengthAndTakeTheFractureEnergyOfTheirInterface) {
+  const WeakStrip& strip = GetParam().strip;
+  const WholeRun run(weak_strip_case(strip));
+  const double force = strip.tensile_strength * strip.area();
+  const double energy = strip.fracture_energy * strip.area();
+  const auto told = [&](const char* key) { return run.summary.json.at(key).get<double>(); };
+  EXPECT_NEAR(told("peak_load"), force, 0.03 * force);
+  EXPECT_NEAR(told("dissipated_energy"), energy, 0.03 * energy);
+  EXPECT_LT(told("energy_error"), 1e-9);
+}
+
+std::vector<StripCase> strips() {
+  std::vector<StripCase> result;
+  for (const char* curve : {"linear", "bilinear", "exponential"}) {
+    for (const char* model : {"bond_based", "micropolar"}) {
+      for (const char* pattern : {"rectangular", "hexagonal"}) {
+        result.push_back(
+            {fmt::format("{}_{}_{}", model, pattern, curve), {false, model, pattern, curve}});
+      }
+    }
+  }
+  WeakStrip bar{true, "bond_based", "cubic", "bilinear"};
+  bar.length = 60.0;
+  bar.width = 30.0;
+  bar.spacing = 6.0;
+  result.push_back({"bond_based_cubic_bilinear", bar});
+  bar.model = "micropolar";
+  result.push_back({"micropolar_cubic_bilinear", bar});
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Curves, WeakStrips, testing::ValuesIn(strips()),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace perilink
