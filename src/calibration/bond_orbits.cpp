@@ -46,7 +46,7 @@ class Symmetry {
 Symmetry::Symmetry(const LatticeBox& box, const Particles& particles, const Bonds& bonds)
     : box_(box), steps_(static_cast<std::size_t>(particles.size())) {
   for (Index i = 0; i < particles.size(); ++i) {
-    for (int a = 0; a < 3; ++a) {
+    for (int a = 0; a < particles.dim; ++a) {
       const double place = (particles.position(i)[a] - box.lower[a]) / box.step[a];
       steps_[i][a] = static_cast<Index>(std::lround(place));
     }
@@ -110,13 +110,13 @@ Key Symmetry::place(Index particle) const {
 std::optional<LatticeBox> lattice_box(const Body& body) {
   const Particles& particles = body.particles;
   const Pattern pattern = body.lattice.pattern;
-  if ((pattern != Pattern::cubic && pattern != Pattern::face_centred) || particles.size() == 0) {
-    return std::nullopt;
-  }
+  const bool in_space = pattern == Pattern::cubic || pattern == Pattern::face_centred;
+  if ((!in_space && pattern != Pattern::rectangular) || particles.size() == 0) return std::nullopt;
+  const Vector3& step = body.lattice.step;
   LatticeBox box;
-  box.step = body.lattice.step;
-  double volume = 1.0, filled = 0.0;
-  for (int a = 0; a < 3; ++a) {
+  box.step = in_space ? step : Vector3{step[0], step[1], 1.0};
+  double volume = in_space ? 1.0 : body.lattice.cell_volume / (step[0] * step[1]), filled = 0.0;
+  for (int a = 0; a < particles.dim; ++a) {
     double lower = particles.position(0)[a], upper = lower;
     for (Index i = 0; i < particles.size(); ++i) {
       lower = std::min(lower, particles.position(i)[a]);
@@ -127,6 +127,8 @@ std::optional<LatticeBox> lattice_box(const Body& body) {
     volume *= upper - lower;
   }
   for (const double v : particles.volumes) filled += v;
+  // Other boxes in the plane are solved by one factor in a few iterations.
+  if (!in_space && std::min(box.count[0], box.count[1]) > 1) return std::nullopt;
   // Less than half a cell may be missing; round-off is far below.
   if (std::abs(filled - volume) > 0.1 * body.lattice.cell_volume) return std::nullopt;
   return box;

@@ -19,14 +19,15 @@
 
 namespace perilink {
 
-/// A body in space: a box filled with one lattice.
+/// A box filled with one lattice.
 struct LatticeBox {
   Vector3 lower{};               ///< [length]
   Vector3 step{};                ///< one step of the lattice along each axis [length]
-  std::array<Index, 3> count{};  ///< steps along each axis
+  std::array<Index, 3> count{};  ///< steps along each axis; third in the plane: none
 };
 
-/// The box that a body fills, none where it is something else.
+/// The box in space, or the strip of one row of cells in the plane, that a body fills; none where
+/// it is something else.
 std::optional<LatticeBox> lattice_box(const Body& body);
 
 /// Classes of bonds that lie alike.

@@ -72,7 +72,10 @@ TEST_F(HostileResults, ALastRowThatIsCutOffIsLeftOutWithAWord) {
 
 TEST_F(HostileResults, DamagedSummariesAreRefusedWithWhatToDo) {
   make_result();
-  for (const char* text : {"", "{\"title\": \"cut o", "[]", "{\"title\": 1}"}) {
+  for (const char* text :
+       {"", "{\"title\": \"cut o", "[]", "{}", "{\"status\": \"completed\", \"title\": 1}",
+        "{\"status\": \"completed\", \"peak_load\": \"much\"}",
+        "{\"status\": \"completed\", \"first_peak_load\": {}}"}) {
     write_text(work() / "r/summary.json", text);
     for (const auto& words : {std::vector<std::string>{"plot", "r"}, {"compare", "r", "r"}}) {
       const ProcessEnd end = run(words);

@@ -18,6 +18,34 @@ bool axes_hold_all_energy(const StepRecord& record) {
 
 double compliance(const CurvePoint& point) { return point.displacement / point.load; }
 
+using Window = std::span<const CurvePoint>;  // successive rows; neighbours share one
+
+/// About `events` of each; none of a path without events.
+std::vector<Window> windows_of(Window path, std::size_t events) {
+  std::vector<Window> windows;
+  if (path.size() < 2) return windows;
+  const std::size_t all = path.size() - 1, count = std::max<std::size_t>(1, all / events);
+  for (std::size_t w = 0; w < count; ++w) {
+    const std::size_t begin = w * all / count, end = (w + 1) * all / count;
+    windows.push_back(path.subspan(begin, end - begin + 1));
+  }
+  return windows;
+}
+
+/// The point of the envelope for a window, none where the compliance grows by round-off only.
+std::optional<CurvePoint> smooth_point(Window rows) {
+  double growth = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+    const double softer = std::max(0.0, compliance(rows[k + 1]) - compliance(rows[k]));
+    growth += softer;
+    squares += rows[k].load * rows[k + 1].load * softer;
+  }
+  const double before = compliance(rows.front()), after = compliance(rows.back());
+  if (!(growth > round_off * after)) return std::nullopt;
+  const double load = std::copysign(std::sqrt(squares / growth), rows.front().load);
+  return CurvePoint{load * std::sqrt(before * after), load};
+}
+
 }  // namespace
 
 std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
@@ -43,21 +71,8 @@ std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
 
 std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::size_t window) {
   std::vector<CurvePoint> curve;
-  if (path.size() < 2) return curve;
-  const std::size_t events = path.size() - 1;
-  const std::size_t windows = std::max<std::size_t>(1, events / window);
-  for (std::size_t w = 0; w < windows; ++w) {
-    const std::size_t begin = w * events / windows, end = (w + 1) * events / windows;
-    double growth = 0.0, squares = 0.0;
-    for (std::size_t k = begin; k < end; ++k) {
-      const double softer = std::max(0.0, compliance(path[k + 1]) - compliance(path[k]));
-      growth += softer;
-      squares += path[k].load * path[k + 1].load * softer;
-    }
-    const double before = compliance(path[begin]), after = compliance(path[end]);
-    if (!(growth > round_off * after)) continue;
-    const double load = std::copysign(std::sqrt(squares / growth), path[begin].load);
-    curve.push_back({load * std::sqrt(before * after), load});
+  for (const Window rows : windows_of(path, window)) {
+    if (const auto point = smooth_point(rows)) curve.push_back(*point);
   }
   return curve;
 }
@@ -75,8 +90,16 @@ std::optional<double> smoothed_peak(std::span<const CurvePoint> path) {
   const std::size_t window = envelope_window(path.size());
   if (path.size() <= 2 * window) return std::nullopt;
   PeakWatch peaks;
-  for (const CurvePoint& point : smooth_envelope(path, window)) peaks.add(point);
-  return peaks.highest().load;
+  double hidden = 0.0;  // largest |load| of windows without a point
+  for (const Window events : windows_of(path, window)) {
+    if (const auto point = smooth_point(events)) {
+      peaks.add(*point);
+      continue;
+    }
+    for (const CurvePoint& row : events) hidden = std::max(hidden, std::abs(row.load));
+  }
+  const double highest = peaks.highest().load;
+  return hidden > std::abs(highest) ? std::nullopt : std::optional(highest);
 }
 
 std::optional<Dip> find_dip(std::span<const CurvePoint> path) {

@@ -34,8 +34,10 @@ std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::s
 /// Number of events per window that leaves about 120 points, at least 10.
 std::size_t envelope_window(std::size_t events);
 
-/// Largest load of the envelope, with its sign [force]; none of fewer than two windows. Where the
-/// load climbed again after the body gave way only the events before count.
+/// Largest load of the envelope, with its sign [force]; none of fewer than two windows, and none
+/// where a window without a point holds a larger load (on weak springs the body's own compliance is
+/// round-off of theirs). Where the load climbed again after the body gave way only the events
+/// before count.
 std::optional<double> smoothed_peak(std::span<const CurvePoint> path);
 
 /// A load that fell and climbed beyond its peak again.

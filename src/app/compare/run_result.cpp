@@ -53,6 +53,12 @@ void read_summary(const fs::path& directory, RunResult& result) {
     result.notes.push_back(
         fmt::format("{} ({}); the rows so far are compared", result.status, text("reason")));
   }
+  if (const auto doubts = json->find("doubts"); doubts != json->end()) {
+    for (const auto& doubt : *doubts) {
+      if (doubt.is_string())
+        result.notes.push_back("doubt: " + printable(doubt.get<std::string>()));
+    }
+  }
   for (const auto& [name, value] : json->items()) {
     const std::string key = printable(name);
     if (value.is_number()) result.summary.emplace_back(key, value.get<double>());

@@ -73,6 +73,12 @@ std::optional<nlohmann::ordered_json> read_summary_file(const fs::path& director
   if (text.empty()) refuse(directory, "is empty");
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(text, nullptr, false);
   if (!json.is_object()) refuse(directory, "is not the JSON of a summary");
+  if (!json.contains("status")) refuse(directory, "lacks the \"status\" of every summary");
+  for (const std::string_view quantity : words_of(Quantity{})) {
+    const auto value = json.find(quantity);
+    if (value == json.end() || value->is_number() || value->is_null()) continue;
+    refuse(directory, fmt::format("\"{}\" is no number", quantity));
+  }
   return json;
 }
 

@@ -31,7 +31,7 @@ void write_summary_file(const std::filesystem::path& directory,
                         const nlohmann::ordered_json& summary);
 
 /// Reads the file back; nothing where there is none.
-/// \throws FileError where it is no JSON object, or a text of it is none
+/// \throws FileError where it is no JSON object, has no status, or a Quantity of it is no number
 std::optional<nlohmann::ordered_json> read_summary_file(const std::filesystem::path& directory);
 
 /// A text of a summary, printable; empty where it has none of this name.

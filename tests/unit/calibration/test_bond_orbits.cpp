@@ -49,7 +49,13 @@ TEST(LatticeBox, IsNotFoundInOtherBodies) {
   corner.solid.push_back({{0, 0, 0}, {3, 6, 4}});
   corner.material.push_back(0);
   EXPECT_FALSE(lattice_box(make_body(corner)));
-  EXPECT_FALSE(lattice_box(make_body(box(Pattern::rectangular, {4, 4, 0}))));
+  for (const Vector3 plane : {Vector3{4, 4, 0}, Vector3{40, 2, 0}}) {
+    EXPECT_FALSE(lattice_box(make_body(box(Pattern::rectangular, plane))));
+  }
+  LatticeInput bent = box(Pattern::rectangular, {6, 1, 0});
+  bent.solid.push_back({{0, 1, 0}, {1, 2, 0}});
+  bent.material.push_back(0);
+  EXPECT_FALSE(lattice_box(make_body(bent)));
   // A hole of one cell.
   LatticeInput hole = box(Pattern::cubic, {5, 5, 2});
   hole.solid.push_back({{0, 0, 2}, {5, 2, 3}});
@@ -59,6 +65,20 @@ TEST(LatticeBox, IsNotFoundInOtherBodies) {
   hole.solid.push_back({{0, 0, 3}, {5, 5, 5}});
   hole.material.assign(hole.solid.size(), 0);
   EXPECT_FALSE(lattice_box(make_body(hole)));
+}
+
+TEST(LatticeBox, IsFoundInStripsOfOneRowOfCells) {
+  const auto lying = lattice_box(make_body(box(Pattern::rectangular, {30, 1, 0})));
+  ASSERT_TRUE(lying);
+  EXPECT_EQ(lying->count, (std::array<Index, 3>{30, 1, 0}));
+  LatticeInput standing = box(Pattern::rectangular, {1, 30, 0});
+  standing.thickness = 7.0;
+  ASSERT_TRUE(lattice_box(make_body(standing)));
+  // Bonds lie alike whatever the length: mirrored in both middle lines, depths 0 to 9 are places.
+  for (const double length : {40.0, 400.0}) {
+    const Bonded strip = make_bonded(Pattern::rectangular, {length, 1, 0}, 3.1);
+    EXPECT_EQ(strip.orbits.representatives.size(), 10u);
+  }
 }
 
 using Point = std::array<long, 3>;

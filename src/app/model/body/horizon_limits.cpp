@@ -13,9 +13,8 @@
 namespace perilink {
 namespace {
 
-/// A horizon means nothing beyond this many diagonals of the body, and this many spacings: in
-/// bodies of a few particles a usual horizon reaches farther than the body.
-constexpr double most_diagonals = 2.0;
+/// A horizon means nothing beyond the diagonal of the body, and this many spacings: in bodies of a
+/// few particles a usual horizon reaches farther than the body.
 constexpr double least_ratio_refused = 20.0;
 
 /// What a run holds for a bond, its factor not counted: about what `perilink check` estimates.
@@ -102,8 +101,7 @@ void refuse_impossible_horizon(const CaseFile& input, const HorizonReach& reach)
                      "use two to four spacings");
   }
   const double diagonal = diagonal_of(reach);
-  if (reach.horizon > most_diagonals * diagonal &&
-      reach.horizon > least_ratio_refused * reach.spacing) {
+  if (reach.horizon > diagonal && reach.horizon > least_ratio_refused * reach.spacing) {
     throw InputError(
         where,
         fmt::format("makes the horizon {:.6g}, {:.4g} spacings, but the body's diagonal is "

@@ -56,6 +56,15 @@ TEST(HorizonLimits, CountNoNeighboursBesideSlenderBodies) {
   EXPECT_THAT(answer(reach), HasSubstr("would have 484 neighbours"));
 }
 
+/// All bonds of 10 000 particles with each other took 7.7 GB.
+TEST(HorizonLimits, RefuseHorizonsLongerThanTheBody) {
+  const Box square{{0, 0, 0}, {100, 100, 0}};
+  EXPECT_THAT(answer(reach_of(square, 2, 142, 1)), HasSubstr("the body's diagonal is 141.421"));
+  HorizonReach whole = reach_of(square, 2, 141, 1);
+  whole.memory = 1e99;
+  EXPECT_EQ(answer(whole), "accepted");
+}
+
 TEST(HorizonLimits, RefuseHorizonsFarBeyondTheBody) {
   // The body has 5 by 9 particles on 40 by 80: a diagonal of 89.
   for (const double ratio : {21.0, 200.0, 2e9, 1e12, 1e48}) {
