@@ -52,7 +52,13 @@ class SingleEventEngine : public EventEngine {
   /// Tells the search the next limits of an element after its event.
   void set_limits(Index element);
 
-  bool is_noise(const BreakSearch::Hit& hit) const;
+  struct Extension {
+    double value;      ///< [length]
+    double round_off;  ///< that the motions of the two ends leave in it [length]
+  };
+  Extension extension_of(Index element) const;
+  bool is_within(double noise, const BreakSearch::Hit& hit) const;
+  void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) const;
   std::vector<Index> elements_above(double ratio, std::span<const double> motion);
 
   const Network& network_;
