@@ -120,7 +120,7 @@ TEST(SingleEventEngine, TellsNoEventOfWhatOnlyMoves) {
 
 /// What is only compressed has no event either, and this is an answer.
 TEST(SingleEventEngine, TellsThatNothingIsInTension) {
-  AnalysisBody body = make_chains(1, 3, true, 1.0, 0.1);
+  AnalysisBody body = make_chains(2, 3, true, 1.0, 0.1);
   for (double& motion : body.unknowns.prescribed) motion = -motion;
   SingleEventEngine engine(body, {});
   EXPECT_LT(engine.displacement()[body.network.width()], 0.0);
