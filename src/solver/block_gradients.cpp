@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "solver/not_positive_definite.hpp"
@@ -10,63 +11,61 @@
 namespace perilink {
 namespace {
 
-/// One number for each of the right sides.
-using Row = std::array<double, block_width>;
+/// What r'z of a right side falls to where it is solved for exactly, as in bodies of few unknowns:
+/// steps from there on would divide by nothing.
+constexpr double all_gone = 1e-40;
 
-Row dots(std::span<const double> a, std::span<const double> b) {
-  Row sums{};
+BlockRow dots(std::span<const double> a, std::span<const double> b) {
+  BlockRow sums{};
   for (std::size_t begin = 0; begin < a.size(); begin += block_width) {
     for (int c = 0; c < block_width; ++c) sums[c] += a[begin + c] * b[begin + c];
   }
   return sums;
 }
 
-/// How far each right side has got.
-struct Progress {
-  std::array<EnergyGains, block_width> gains;
-  Row energy{}, error{};
-
-  void add(int c, double gain) {
-    gains[c].add(gain);
-    energy[c] += gain;
+/// The largest error of those that go on, as it counts.
+double largest_error(const std::array<EnergyGains, block_width>& gains, const BlockRow& sizes,
+                     const std::array<bool, block_width>& goes_on) {
+  double largest = 0.0;
+  for (int c = 0; c < block_width; ++c) {
+    if (goes_on[c]) largest = std::max(largest, gains[c].error() / std::sqrt(sizes[c]));
   }
-  /// The largest error over the root of the energy.
-  double largest_error(const Row& first) {
-    double largest = 0.0;
-    for (int c = 0; c < block_width; ++c) {
-      error[c] = first[c] > 0.0 ? gains[c].error() : 0.0;
-      if (error[c] > 0.0) largest = std::max(largest, error[c] / std::sqrt(energy[c]));
-    }
-    return largest;
-  }
-};
+  return largest;
+}
 
 }  // namespace
 
 GradientsReport block_conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
                                           std::span<double> right, std::span<double> solution,
-                                          double enough, int most_iterations) {
+                                          const BlockRow& sizes, double enough,
+                                          int most_iterations) {
   const std::size_t size = right.size();
   std::vector<double> z(size), q(size);
   precondition(right, z);
   std::vector<double> p = z;
   std::fill(solution.begin(), solution.end(), 0.0);
-  Row rz = dots(right, z);
-  const Row first = rz;
-  Progress progress;
+  BlockRow rz = dots(right, z);
+  const BlockRow first = rz;
+  std::array<EnergyGains, block_width> gains;
+  std::array<bool, block_width> goes_on{};
+  const auto stop_where_all_is_gone = [&] {
+    // Written so that what is not a number goes on, up to the limit.
+    for (int c = 0; c < block_width; ++c) goes_on[c] = !(rz[c] <= all_gone * first[c]);
+    return std::ranges::none_of(goes_on, std::identity());
+  };
   GradientsReport report;
-  report.converged = std::none_of(first.begin(), first.end(), [](double s) { return s > 0.0; });
+  report.converged = stop_where_all_is_gone();
   while (!report.converged && report.iterations < most_iterations) {
     product(p, q);
-    const Row curvature = dots(p, q);
-    Row step{};
+    const BlockRow curvature = dots(p, q);
+    BlockRow step{}, share{};
     for (int c = 0; c < block_width; ++c) {
-      if (!(rz[c] > 0.0)) continue;
+      if (!goes_on[c]) continue;
       if (!(curvature[c] > 0.0)) {
         throw NotPositiveDefinite("the stiffness is not positive definite");
       }
       step[c] = rz[c] / curvature[c];
-      progress.add(c, step[c] * rz[c]);
+      gains[c].add(step[c] * rz[c]);
     }
     for (std::size_t begin = 0; begin < size; begin += block_width) {
       for (int c = 0; c < block_width; ++c) {
@@ -75,17 +74,17 @@ GradientsReport block_conjugate_gradients(const LinearMap& product, const Linear
       }
     }
     ++report.iterations;
-    report.error = progress.largest_error(first);
+    report.error = largest_error(gains, sizes, goes_on);
     report.converged = report.error <= enough;
     if (report.converged) break;
     precondition(right, z);
-    const Row next = dots(right, z);
-    Row share{};
-    for (int c = 0; c < block_width; ++c) share[c] = rz[c] > 0.0 ? next[c] / rz[c] : 0.0;
+    const BlockRow next = dots(right, z);
+    for (int c = 0; c < block_width; ++c) share[c] = goes_on[c] ? next[c] / rz[c] : 0.0;
     for (std::size_t begin = 0; begin < size; begin += block_width) {
       for (int c = 0; c < block_width; ++c) p[begin + c] = z[begin + c] + share[c] * p[begin + c];
     }
     rz = next;
+    report.converged = stop_where_all_is_gone();
   }
   return report;
 }

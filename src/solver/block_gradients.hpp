@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -8,15 +9,21 @@
 
 namespace perilink {
 
+/// One number for each of the vectors of a block.
+using BlockRow = std::array<double, block_width>;
+
 /// conjugate_gradients() of many right sides side by side, from zero: each goes its own way, and
 /// products and preconditioner are applied to all of them at once. Ends where the last one has got
 /// there. Vectors have shape (n, block_width).
 /// \param right  used up
-/// \return iterations, and the largest error of all, over the root of the energy of its solution
+/// \param sizes  energies that errors count by: each ends where the root of the energy that is
+///               missing is no larger than `enough` times the root of its own
+/// \return iterations, and the largest error of all, as it counts
 /// \throws NotPositiveDefinite where A is not
 GradientsReport block_conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
                                           std::span<double> right, std::span<double> solution,
-                                          double enough, int most_iterations);
+                                          const BlockRow& sizes, double enough,
+                                          int most_iterations);
 
 /// blocks <- blocks shares: columns, block_width of them in each block of shape (n, block_width),
 /// go over to combinations of them, which may be fewer.

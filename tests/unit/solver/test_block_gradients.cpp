@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -34,6 +35,16 @@ const LinearMap identity = [](std::span<const double> x, std::span<double> resul
   std::copy(x.begin(), x.end(), result.begin());
 };
 
+/// x'A x of every column.
+BlockRow energies_of(const MatrixXd& matrix, const Rows& columns) {
+  BlockRow energies{};
+  for (int c = 0; c < block_width; ++c) {
+    const Eigen::VectorXd column = columns.col(c);
+    energies[c] = column.dot(matrix * column);
+  }
+  return energies;
+}
+
 TEST(BlockGradients, SolveEveryRightSideToItsOwnTolerance) {
   constexpr int size = 60;
   const MatrixXd matrix = matrix_of(size, 0.1);
@@ -44,7 +55,7 @@ TEST(BlockGradients, SolveEveryRightSideToItsOwnTolerance) {
   solution.setOnes();  // no guess
   const GradientsReport report = block_conjugate_gradients(
       product_with(matrix), identity, {right.data(), std::size_t(right.size())},
-      {solution.data(), std::size_t(solution.size())}, 1e-9, 1000);
+      {solution.data(), std::size_t(solution.size())}, energies_of(matrix, exact), 1e-9, 1000);
   EXPECT_TRUE(report.converged);
   EXPECT_GT(report.iterations, 12);
   EXPECT_LE(report.error, 1e-9);
@@ -57,20 +68,65 @@ TEST(BlockGradients, SolveEveryRightSideToItsOwnTolerance) {
   EXPECT_EQ(solution.col(5).cwiseAbs().maxCoeff(), 0.0);
 }
 
+TEST(BlockGradients, CountErrorsByTheSizesThatTheyAreGiven) {
+  constexpr int size = 60;
+  const MatrixXd matrix = matrix_of(size, 0.1);
+  const Rows exact = Rows::Random(size, block_width);
+  BlockRow sizes = energies_of(matrix, exact);
+  for (double& energy : sizes) energy *= 1e-8;
+  Rows right = matrix * exact, solution(size, block_width);
+  const GradientsReport report = block_conjugate_gradients(
+      product_with(matrix), identity, {right.data(), std::size_t(right.size())},
+      {solution.data(), std::size_t(solution.size())}, sizes, 1e-6, 1000);
+  EXPECT_TRUE(report.converged);
+  const BlockRow missing = energies_of(matrix, exact - solution);
+  for (int c = 0; c < block_width; ++c) EXPECT_LE(std::sqrt(missing[c] / sizes[c]), 1e-6) << c;
+}
+
+/// Fewer steps than tell how they go on, and then none to take.
+TEST(BlockGradients, EndWhereNothingIsMissing) {
+  constexpr int size = 5;
+  const MatrixXd matrix = 2.0 * MatrixXd::Identity(size, size);
+  const Rows exact = Rows::Ones(size, block_width);
+  Rows right = matrix * exact, solution(size, block_width);
+  const GradientsReport report = block_conjugate_gradients(
+      product_with(matrix), identity, {right.data(), std::size_t(right.size())},
+      {solution.data(), std::size_t(solution.size())}, energies_of(matrix, exact), 1e-9, 100);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.iterations, 1);
+  EXPECT_EQ((exact - solution).cwiseAbs().maxCoeff(), 0.0);
+}
+
+/// What is not a number is not solved for, either.
+TEST(BlockGradients, DoNotTakeWhatIsNoNumberForSolved) {
+  constexpr int size = 5;
+  const MatrixXd matrix = MatrixXd::Identity(size, size);
+  Rows right = Rows::Constant(size, block_width, std::numeric_limits<double>::quiet_NaN());
+  Rows solution(size, block_width);
+  BlockRow sizes;
+  sizes.fill(1.0);
+  EXPECT_THROW(block_conjugate_gradients(
+                   product_with(matrix), identity, {right.data(), std::size_t(right.size())},
+                   {solution.data(), std::size_t(solution.size())}, sizes, 1e-9, 100),
+               NotPositiveDefinite);
+}
+
 TEST(BlockGradients, SayWhereTheyDoNotGetThere) {
   const MatrixXd matrix = matrix_of(60, 1e-3);
   Rows right = Rows::Random(60, block_width), solution(60, block_width);
   const std::span<double> r(right.data(), std::size_t(right.size()));
   const std::span<double> x(solution.data(), std::size_t(solution.size()));
+  const BlockRow sizes = energies_of(matrix, matrix.inverse() * right);
   const GradientsReport report =
-      block_conjugate_gradients(product_with(matrix), identity, r, x, 1e-12, 14);
+      block_conjugate_gradients(product_with(matrix), identity, r, x, sizes, 1e-12, 14);
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.iterations, 14);
   EXPECT_GT(report.error, 1e-12);
   const MatrixXd indefinite = matrix_of(60, -1.0);
   right = Rows::Random(60, block_width);
-  EXPECT_THROW(block_conjugate_gradients(product_with(indefinite), identity, r, x, 1e-12, 500),
-               NotPositiveDefinite);
+  EXPECT_THROW(
+      block_conjugate_gradients(product_with(indefinite), identity, r, x, sizes, 1e-12, 500),
+      NotPositiveDefinite);
 }
 
 TEST(BlockGradients, AddsACombination) {

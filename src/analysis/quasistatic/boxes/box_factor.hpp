@@ -31,6 +31,9 @@ class BoxFactor final : public Factor {
   /// Unknowns that are likely to be asked for next, the likeliest first: taken into the window
   /// along with those that are asked for and not in it.
   void expect(std::vector<Index> unknowns) { expected_ = std::move(unknowns); }
+  /// Columns at hand have followed too many changes: all are solved for again when they are asked
+  /// for.
+  void forget();
 
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
   void refactorize(const SparseMatrix& matrix) override;
@@ -46,7 +49,6 @@ class BoxFactor final : public Factor {
   Index columns_solved() const { return columns_solved_; }
 
  private:
-  void forget();
   void keep_latest();
   void make_solver();
   void take_in(std::span<const Index> unknowns);

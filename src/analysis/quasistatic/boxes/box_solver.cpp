@@ -19,6 +19,10 @@ namespace {
 
 constexpr int most_iterations = 20000;
 
+/// An element holds a small part of the energy: solutions in which events are looked for are finer
+/// by this.
+constexpr double finer = 1e-3;
+
 /// Particles along the edge of a box. Where the body is large, larger ones keep the coarse factor
 /// small; solutions that are many pay for one that is larger.
 double edge_of_box(const Network& network, const BoxSolverOptions& options) {
@@ -39,6 +43,25 @@ SolverError not_there(int iterations, double error, double tolerance) {
       "asked for: parts of the body are held together by very little, or the tolerance is below "
       "what round-off allows; take solver = \"direct\"",
       iterations, error, tolerance));
+}
+
+/// Energies of right sides where every particle gives way by itself, while all others stand still.
+/// \param blocks  inverse ones of the particles
+BlockRow local_energies(std::span<const double> blocks, int width, std::span<const double> right) {
+  BlockRow energies{};
+  const double* block = blocks.data();
+  const std::size_t size = static_cast<std::size_t>(width) * block_width;
+  for (std::size_t begin = 0; begin < right.size(); begin += size, block += width * width) {
+    for (int a = 0; a < width; ++a) {
+      for (int b = 0; b < width; ++b) {
+        const double* first = right.data() + begin + a * block_width;
+        const double* second = right.data() + begin + b * block_width;
+        const double entry = block[a * width + b];
+        for (int k = 0; k < block_width; ++k) energies[k] += entry * first[k] * second[k];
+      }
+    }
+  }
+  return energies;
 }
 
 }  // namespace
@@ -143,12 +166,13 @@ void BoxSolver::multiply(std::span<const double> q, std::span<double> result) {
 void BoxSolver::solve(std::span<const double> right, std::span<double> solution) {
   const std::vector<double> wanted(right.begin(), right.end());
   std::fill(solution.begin(), solution.end(), 0.0);
-  const GradientsReport report = search(wanted, solution, options_.tolerance,
-                                        options_.blocks ? 0.0 : energy_, most_iterations);
+  const double tolerance = options_.tolerance * (options_.blocks ? finer : 1.0);
+  const GradientsReport report =
+      search(wanted, solution, tolerance, options_.blocks ? 0.0 : energy_, most_iterations);
   iterations_ += report.iterations;
   energy_ = options_.blocks ? report.energy : std::max(energy_, report.energy);
   error_ = energy_ > 0.0 ? report.error / std::sqrt(energy_) : 0.0;
-  if (!report.converged) throw not_there(report.iterations, error_, options_.tolerance);
+  if (!report.converged) throw not_there(report.iterations, error_, tolerance);
 }
 
 void BoxSolver::precondition_block(std::span<const double> residuals, std::span<double> results) {
@@ -186,10 +210,11 @@ void BoxSolver::multiply_block(std::span<const double> motions, std::span<double
 
 GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution) {
   coarse_block_.resize(coarse_.size() * block_width);
+  const BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
   const GradientsReport report = block_conjugate_gradients(
       [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
       [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
-      solution, options_.tolerance, most_iterations);
+      solution, sizes, options_.tolerance, most_iterations);
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, options_.tolerance);
   return report;

@@ -41,7 +41,9 @@ class BoxSolver {
   void solve(std::span<const double> right, std::span<double> solution);
 
   /// Many right sides from zero, each to the tolerance by itself; shape (particles, width,
-  /// block_width), zero where something is held.
+  /// block_width), zero where something is held. Errors count by the energy of a right side where
+  /// all but the particles that it acts on stand still: elements see differences between particles,
+  /// which are small beside motions of the whole body.
   /// \param right  used up
   /// \return iterations, and the largest error as the tolerance counts
   /// \throws SolverError as solve()

@@ -64,8 +64,10 @@ auto Equilibrium::extension_at(const BondEnds& bond) const -> Extension {
   add(displacement_, load_factor, result.growing);
   if (constant_) add(constant_->displacement, 1.0, result.constant);
   result.now = load_factor * result.growing + result.constant;
-  const double more = boxes_ != nullptr ? std::abs(load_factor) * noise() : 0.0;
-  if (std::abs(result.now) <= round_off * size + more) result.now = 0.0;
+  if (boxes_ != nullptr) {  // errors of parts that move far are everywhere
+    size += std::abs(load_factor) * largest_motion_ + (constant_ ? constant_->largest_motion : 0.0);
+  }
+  if (std::abs(result.now) <= round_off * size) result.now = 0.0;
   result.side = result.now != 0.0 ? result.now : direction_ * result.growing;
   return result;
 }

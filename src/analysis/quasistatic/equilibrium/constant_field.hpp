@@ -53,7 +53,8 @@ struct ConstantField {
   std::vector<std::size_t> driven_slots;  ///< whose motion is prescribed to stay or grow
   std::vector<Index> driven_elements;     ///< that end there
   double load_norm = 0.0;
-  bool rests = true;  ///< there are no constant loads, and nothing moves
+  double largest_motion = 0.0;  ///< by `displacement`, where conjugate gradients leave errors
+  bool rests = true;            ///< there are no constant loads, and nothing moves
 };
 
 }  // namespace perilink

@@ -55,6 +55,7 @@ void Equilibrium::refresh_constant() {
 void Equilibrium::scatter_constant() {
   ConstantField& field = *constant_;
   field.displacement = field.unknowns.expand(field.solution);
+  if (boxes_ != nullptr) field.largest_motion = largest_of(field.displacement);
 }
 
 void Equilibrium::polish_constant() {
@@ -108,7 +109,7 @@ void Equilibrium::check_constant(Balance& balance) {
     return field.load_norm > 0.0 ? norm(residual) / field.load_norm : 0.0;
   };
   double residual = measure();
-  if (!(residual <= options_.residual_tolerance)) {
+  if (!(residual <= (boxes_ == nullptr ? options_.residual_tolerance : fine_residual))) {
     polish_constant();
     residual = measure();
   }

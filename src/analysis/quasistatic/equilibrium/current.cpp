@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 
@@ -7,6 +8,14 @@
 /// What the events of an equilibrium keep current: displacements, columns of boxes.
 
 namespace perilink {
+namespace {
+
+/// Error of displacements that have followed events, over all of them and in the norm of energy,
+/// beyond which the window begins anew: an element holds a small part of the energy, and load
+/// factors are to be right to 1e-9.
+constexpr double most_drift = 1e-11;
+
+}  // namespace
 
 /// Under forces alone an event needs the displacements of elements that can fail, and no others:
 /// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
@@ -90,16 +99,39 @@ void Equilibrium::keep_all_current() {
   partial_ = false;
 }
 
-void Equilibrium::find_largest_motion() {
-  if (boxes_ == nullptr && !network_.carries_moments()) return;
+double Equilibrium::largest_of(std::span<const double> displacement) const {
   const auto width = static_cast<std::size_t>(network_.width());
   const auto dim = static_cast<std::size_t>(network_.dim());
-  largest_motion_ = 0.0;
-  for (std::size_t begin = 0; begin < displacement_.size(); begin += width) {
+  double largest = 0.0;
+  for (std::size_t begin = 0; begin < displacement.size(); begin += width) {
     for (std::size_t slot = begin; slot < begin + dim; ++slot) {
-      largest_motion_ = std::max(largest_motion_, std::abs(displacement_[slot]));
+      largest = std::max(largest, std::abs(displacement[slot]));
     }
   }
+  return largest;
+}
+
+void Equilibrium::find_largest_motion() {
+  if (boxes_ == nullptr && !network_.carries_moments()) return;
+  largest_motion_ = largest_of(displacement_);
+}
+
+/// Takes away what errors of columns have left in the displacements. Where that is much, the
+/// columns do not serve any more: with every event that moves the same particles further apart
+/// their errors grow.
+/// \param size      norm of the residual over that of the load
+/// \param residual  the same per unknown, used up
+/// \return norm of what is left, over that of the load
+double Equilibrium::refine_followed(double size, std::vector<double>& residual) {
+  if (size <= fine_residual) return size;
+  const std::vector<double> missing = residual;
+  refine(residual);  // which is then the correction
+  const double error = std::inner_product(missing.begin(), missing.end(), residual.begin(), 0.0);
+  const double left = measure_residual(residual);
+  // Written so that an energy that is not a number is too much.
+  if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) boxes_->forget();
+  if (!(size <= options_.residual_tolerance)) look_closer_ = true;
+  return left;
 }
 
 std::vector<Index> Equilibrium::unknowns_of(Index element) const {

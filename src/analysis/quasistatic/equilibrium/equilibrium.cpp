@@ -22,10 +22,6 @@ constexpr double hopeless_residual = 1e-3;
 /// factor leaves as much: doubles have the digits.
 constexpr double most_to_refine = 10.0;
 
-/// Columns by conjugate gradients leave more than a factor does, which a step of refinement takes
-/// away before it grows.
-constexpr double fine_residual = 1e-13;
-
 /// A driven body whose work is less than this share of the sum of the sizes of its terms has lost
 /// seven of sixteen digits in that sum.
 constexpr double cancelled_work = 1e-7;
@@ -335,10 +331,7 @@ Balance Equilibrium::check() {
   if (stale_) refresh();
   std::vector<double> residual;
   double size = measure_residual(residual);
-  if (boxes_ != nullptr && size > fine_residual) {
-    refine(residual);
-    size = measure_residual(residual);
-  }
+  if (boxes_ != nullptr) size = refine_followed(size, residual);
   // Written so that a residual that is not a number is not within any tolerance.
   if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
   if (size <= std::max(options_.residual_tolerance, residual_floor_)) {

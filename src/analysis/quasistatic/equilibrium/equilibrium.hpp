@@ -148,8 +148,11 @@ class Equilibrium {
   const Factor& factor() const { return *factor_; }
   /// Smaller differences of displacements may be none, also between particles that do not move: the
   /// rest of the body leaves its errors there [length]. Of trusses by a factor zero.
-  double noise() const {
-    return largest_motion_ * (boxes_ == nullptr ? 1e-12 : options_.boxes.tolerance);
+  double noise() const { return 1e-12 * largest_motion_; }
+
+  /// The same after events, whose errors the next check() takes away.
+  double noise_of_events() const {
+    return boxes_ == nullptr ? noise() : options_.boxes.tolerance * largest_motion_;
   }
 
   /// Whether an event of the element costs no solution by conjugate gradients.
@@ -182,6 +185,9 @@ class Equilibrium {
 
  private:
   using Deformations = std::array<double, Removal::capacity>;
+  /// Columns by conjugate gradients leave more than a factor does: a larger residual is taken away
+  /// before it grows.
+  static constexpr double fine_residual = 1e-13;
   static double norm(std::span<const double> values);
   void refresh_constant();
   void polish_constant();
@@ -206,6 +212,8 @@ class Equilibrium {
   void refine(std::vector<double>& residual);
   void scatter_solution();
   void find_largest_motion();
+  double largest_of(std::span<const double> displacement) const;
+  double refine_followed(double size, std::vector<double>& residual);
   void scatter_current();
   double work_of_forces() const;
   LoadWork sum_work();
