@@ -65,7 +65,7 @@ auto SingleEventEngine::extension_of(Index element) const -> Extension {
 }
 
 /// Nothing in tension is an answer where other elements are strained by far more than the one that
-/// round-off names. On springs that are too weak the whole body moves, and strains are lost in that.
+/// round-off names. On springs that are too weak the whole body moves, and strains are lost in it.
 void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) const {
   constexpr double far_more = 1e3;
   for (Index e = 0; e < network_.num_elements(); ++e) {
