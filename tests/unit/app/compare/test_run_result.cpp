@@ -108,13 +108,15 @@ TEST_F(RunResults, WithoutAHorizonTheLongestBrokenBondStandsForIt) {
   EXPECT_EQ(read().horizon, 6.0) << "three spacings";
 }
 
-TEST_F(RunResults, AnInterruptedRunIsReadWithItsReason) {
+TEST_F(RunResults, AnInterruptedRunIsReadWithItsReasonAndDoubts) {
   write("history.csv", history);
-  write("summary.json", R"({"status": "interrupted", "reason": "a signal came"})");
+  write("summary.json", R"({"status": "interrupted", "reason": "a signal came",
+                            "doubts": ["the peak is borne by what is crushed"]})");
   const RunResult result = read();
-  ASSERT_EQ(result.notes.size(), 2u);
+  ASSERT_EQ(result.notes.size(), 3u);
   EXPECT_THAT(result.notes[0], HasSubstr("interrupted (a signal came)"));
-  EXPECT_THAT(result.notes[1], HasSubstr("no field file"));
+  EXPECT_EQ(result.notes[1], "doubt: the peak is borne by what is crushed");
+  EXPECT_THAT(result.notes[2], HasSubstr("no field file"));
 }
 
 TEST_F(RunResults, WhatIsNoResultIsRefused) {
