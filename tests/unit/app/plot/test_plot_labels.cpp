@@ -9,7 +9,8 @@ namespace {
 
 TEST(PlotLabels, ComeFromTheSummary) {
   const test::TemporaryDirectory directory;
-  test::write_text(directory / "summary.json", R"({"title": "Beam", "units": "kip,  in "})");
+  test::write_text(directory / "summary.json",
+                   R"({"status": "completed", "title": "Beam", "units": "kip,  in "})");
   const PlotLabels labels = read_labels(directory / "");
   EXPECT_EQ(labels.title, "Beam");
   EXPECT_EQ(labels.force, "kip");
@@ -20,7 +21,8 @@ TEST(PlotLabels, ComeFromTheSummary) {
 
 TEST(PlotLabels, KnowAThirdUnitThatOfTime) {
   const test::TemporaryDirectory directory;
-  test::write_text(directory / "summary.json", R"({"title": "Beam", "units": "N, mm, s"})");
+  test::write_text(directory / "summary.json",
+                   R"({"status": "completed", "title": "Beam", "units": "N, mm, s"})");
   const PlotLabels labels = read_labels(directory / "");
   EXPECT_EQ(labels.force, "N");
   EXPECT_EQ(labels.length, "mm");
@@ -38,7 +40,7 @@ TEST(PlotLabels, WithoutASummaryTheTitleIsThatOfTheDirectory) {
 TEST(PlotLabels, SteerNoTerminal) {
   const test::TemporaryDirectory directory;
   test::write_text(directory / "summary.json",
-                   R"({"title": "\u001b[2JBeam", "units": "N,\u0007mm"})");
+                   R"({"status": "completed", "title": "\u001b[2JBeam", "units": "N,\u0007mm"})");
   const PlotLabels labels = read_labels(directory / "");
   EXPECT_EQ(labels.title, "\\x1b[2JBeam");
   EXPECT_EQ(labels.length, "\\x07mm");

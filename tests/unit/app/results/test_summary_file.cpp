@@ -45,17 +45,18 @@ TEST(SummaryFile, MayBeMissing) {
 TEST(SummaryFile, DamagedOnesAreRefusedWithWhatToDo) {
   const test::TemporaryDirectory work;
   for (const std::string text :
-       {"", " ", "{", "[1]", "null", "{\"a\": 1e400}", "{\"a\": nan}", "{\"a\": 1}}"}) {
+       {"", " ", "{", "[1]", "null", "{\"a\": 1e400}", "{\"a\": nan}", "{\"a\": 1}}", "{}",
+        "{\"status\": \"completed\", \"peak_load\": \"much\"}"}) {
     test::write_text(work / "summary.json", text);
     try {
       read_summary_file(work.path());
       ADD_FAILURE() << "accepted " << text;
     } catch (const FileError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("summary.json: is "));
+      EXPECT_THAT(error.what(), HasSubstr("summary.json: "));
       EXPECT_THAT(error.what(), HasSubstr("delete it"));
     }
   }
-  test::write_text(work / "summary.json", "{\"title\": 5}");
+  test::write_text(work / "summary.json", "{\"status\": \"failed\", \"title\": 5}");
   EXPECT_THROW(summary_text(*read_summary_file(work.path()), "title", work.path()), FileError);
 }
 
