@@ -5,7 +5,9 @@ add_library(perilink_options INTERFACE)
 add_library(perilink::options ALIAS perilink_options)
 target_link_libraries(perilink_options INTERFACE OpenMP::OpenMP_CXX)
 target_compile_options(perilink_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
+  # In files that are compiled as one, helpers of others would count as shadowed by local names.
+  $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,-Wshadow=local,-Wshadow>
   -Wno-restrict  # GCC 12 sees overlaps in std::string operator+ that are not there (PR 105651)
   $<$<BOOL:${PERILINK_WERROR}>:-Werror>
   # The same source gives the same rounding whatever the optimisation decides to fuse: a*b+c is

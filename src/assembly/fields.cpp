@@ -5,16 +5,10 @@
 
 #include "assembly/internal_force.hpp"
 #include "network/frame.hpp"
+#include "network/vector_at.hpp"
 
 namespace perilink {
 namespace {
-
-template <int Dim>
-Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double> values,
-                                                          Index number) {
-  return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(values.data() +
-                                                         static_cast<std::size_t>(number) * Dim);
-}
 
 template <int Dim>
 void fill_principal_strains(const Network& network, const Csr& families, Secants secants,

@@ -8,18 +8,13 @@
 
 #include "assembly/cell_terms.hpp"
 #include "assembly/lower_triangle.hpp"
+#include "network/vector_at.hpp"
 
 namespace perilink {
 namespace {
 
 template <int Dim>
 using Tensor = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
-
-template <int Dim>
-Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double> values, Index i) {
-  return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(values.data() +
-                                                         static_cast<std::size_t>(i) * Dim);
-}
 
 template <int Dim>
 Tensor<Dim> strain_of(const LinearElements& elements, Index number,

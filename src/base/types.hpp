@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,8 @@ using Index = std::int32_t;
 
 /// Marks "no such particle, bond or unknown".
 inline constexpr Index no_index = -1;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Position or displacement; two-dimensional bodies leave the third component zero.
 using Vector3 = std::array<double, 3>;

@@ -17,7 +17,7 @@ constexpr std::array<std::array<int, 3>, 4> faces_of_tetrahedron = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 /// A face as one cell sees it.
-struct Side {
+struct CellSide {
   Corners key{no_index, no_index, no_index};  // corners, ascending
   bool odd = false;                           // sorting them was an odd permutation
   Index cell = no_index;
@@ -45,19 +45,19 @@ Corners face_corners(const Simplices& cells, Index cell, int face) {
   return corners;
 }
 
-std::vector<Side> all_sides(const Simplices& cells) {
-  std::vector<Side> sides;
+std::vector<CellSide> all_sides(const Simplices& cells) {
+  std::vector<CellSide> sides;
   sides.reserve(cells.vertices.size());
   for (Index cell = 0; cell < cells.size(); ++cell) {
     for (int face = 0; face <= cells.dim; ++face) {
-      Side side;
+      CellSide side;
       side.key = face_corners(cells, cell, face);
       side.odd = sort_corners(side.key, cells.dim);
       side.cell = cell;
       sides.push_back(side);
     }
   }
-  std::sort(sides.begin(), sides.end(), [&cells](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [&cells](const CellSide& a, const CellSide& b) {
     if (a.key != b.key) return a.key < b.key;
     const Index material_a = cells.material[a.cell], material_b = cells.material[b.cell];
     return material_a != material_b ? material_a < material_b : a.cell < b.cell;
@@ -65,7 +65,7 @@ std::vector<Side> all_sides(const Simplices& cells) {
   return sides;
 }
 
-std::string place_of(const Side& side, int dim, std::span<const double> positions) {
+std::string place_of(const CellSide& side, int dim, std::span<const double> positions) {
   Vector3 centre{};
   for (int corner = 0; corner < dim; ++corner) {
     const Vector3 x = point_of(positions, dim, side.key[corner]);
@@ -85,13 +85,13 @@ Vector3 point_of(std::span<const double> positions, int dim, Index i) {
 }
 
 CellFaces find_faces(const Simplices& cells, std::span<const double> positions) {
-  const std::vector<Side> sides = all_sides(cells);
+  const std::vector<CellSide> sides = all_sides(cells);
   const char* const name = cells.dim == 2 ? "edge" : "triangle";
   CellFaces faces;
   faces.dim = cells.dim;
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].key == sides[begin].key) ++end;
-    const Side& first = sides[begin];
+    const CellSide& first = sides[begin];
     if (end - begin > 2) {
       throw std::invalid_argument(
           fmt::format("the {} at {} belongs to {} cells, but a body has one on either side of it",

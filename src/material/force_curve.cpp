@@ -9,7 +9,7 @@ namespace {
 
 /// A curve that falls to zero ends where its force has fallen to this part of its largest one; what
 /// is left of its area goes with the last tooth.
-constexpr double negligible_force = 0.02;
+constexpr double negligible_end = 0.02;
 
 /// Rise of secants that is round-off.
 constexpr double round_off = 1e-12;
@@ -36,9 +36,9 @@ double end_of(const ForceCurve& curve) {
   double largest = 0.0;
   for (const auto& point : curve.points) largest = std::max(largest, point[1]);
   const auto& last = curve.points.back();
-  if (stays(curve) || last[1] >= negligible_force * largest) return last[0];
+  if (stays(curve) || last[1] >= negligible_end * largest) return last[0];
   const auto& before = curve.points[curve.points.size() - 2];
-  const double fall = std::max(before[1] - negligible_force * largest, 0.0);
+  const double fall = std::max(before[1] - negligible_end * largest, 0.0);
   return before[0] + (last[0] - before[0]) * fall / (before[1] - last[1]);
 }
 

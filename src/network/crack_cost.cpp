@@ -13,38 +13,39 @@ namespace {
 /// bending.
 constexpr std::array<double, 4> lame_ratios = {0.0, 0.5, 6.0 / 7.0, 1.0};
 
-struct Row {
+struct CostRow {
   double size;  ///< neighbours of a lattice particle; of clouds horizon over spacing
   std::array<double, 4> cost;
 };
 
 // Means of strips: verification/studies/toughness. Bonds of cubic lattices with three spacings: the
 // mean of a front without end, 1.080, and of one between free faces, 1.036.
-constexpr Row rectangular[] = {
+constexpr CostRow rectangular[] = {
     {8, {1.643, 1.887, 2.031, 2.099}},  {12, {1.172, 1.325, 1.663, 1.731}},
     {20, {1.089, 1.142, 1.235, 1.299}}, {24, {1.094, 1.128, 1.190, 1.218}},
     {28, {1.044, 1.074, 1.122, 1.166}}, {36, {1.023, 1.054, 1.100, 1.145}},
     {44, {1.042, 1.099, 1.076, 1.121}}, {48, {1.035, 1.075, 1.057, 1.118}}};
-constexpr Row hexagonal[] = {{12, {1.300, 1.379, 1.526, 1.619}}, {18, {1.131, 1.187, 1.252, 1.308}},
-                             {30, {1.072, 1.095, 1.137, 1.148}}, {36, {1.044, 1.064, 1.116, 1.100}},
-                             {42, {1.034, 1.051, 1.106, 1.139}}, {54, {1.050, 1.041, 1.076, 1.111}},
-                             {60, {1.043, 1.044, 1.053, 1.081}}};
-constexpr Row cubic[] = {{18, {1.008, 1.140, 1.354, 1.451}},
-                         {32, {1.000, 1.047, 1.313, 1.377}},
-                         {56, {0.944, 0.987, 1.106, 1.178}},
-                         {122, {0.999, 0.996, 1.031, 1.058}}};
-constexpr Row face_centred[] = {{18, {1.086, 1.216, 1.396, 1.668}},
-                                {42, {1.069, 1.084, 1.131, 1.166}},
-                                {54, {1.043, 1.060, 1.096, 1.109}},
-                                {78, {0.994, 1.029, 1.062, 1.079}},
-                                {176, {1.024, 1.015, 1.025, 1.001}}};
-constexpr Row plane_cloud[] = {{2.5, {1.116, 1.165, 1.249, 1.297}},
-                               {3.0, {1.082, 1.109, 1.144, 1.156}}};
+constexpr CostRow hexagonal[] = {
+    {12, {1.300, 1.379, 1.526, 1.619}}, {18, {1.131, 1.187, 1.252, 1.308}},
+    {30, {1.072, 1.095, 1.137, 1.148}}, {36, {1.044, 1.064, 1.116, 1.100}},
+    {42, {1.034, 1.051, 1.106, 1.139}}, {54, {1.050, 1.041, 1.076, 1.111}},
+    {60, {1.043, 1.044, 1.053, 1.081}}};
+constexpr CostRow cubic[] = {{18, {1.008, 1.140, 1.354, 1.451}},
+                             {32, {1.000, 1.047, 1.313, 1.377}},
+                             {56, {0.944, 0.987, 1.106, 1.178}},
+                             {122, {0.999, 0.996, 1.031, 1.058}}};
+constexpr CostRow face_centred[] = {{18, {1.086, 1.216, 1.396, 1.668}},
+                                    {42, {1.069, 1.084, 1.131, 1.166}},
+                                    {54, {1.043, 1.060, 1.096, 1.109}},
+                                    {78, {0.994, 1.029, 1.062, 1.079}},
+                                    {176, {1.024, 1.015, 1.025, 1.001}}};
+constexpr CostRow plane_cloud[] = {{2.5, {1.116, 1.165, 1.249, 1.297}},
+                                   {3.0, {1.082, 1.109, 1.144, 1.156}}};
 // Measured between free faces without bending, 0.93, times 1.02 as for cubic lattices; bonds with
 // bending were not measured.
-constexpr Row space_cloud[] = {{3.0, {0.95, 0.95, 0.95, 0.95}}};
+constexpr CostRow space_cloud[] = {{3.0, {0.95, 0.95, 0.95, 0.95}}};
 
-std::span<const Row> rows_of(Pattern pattern, int dim) {
+std::span<const CostRow> rows_of(Pattern pattern, int dim) {
   switch (pattern) {
     case Pattern::rectangular: return rectangular;
     case Pattern::hexagonal: return hexagonal;
@@ -52,16 +53,16 @@ std::span<const Row> rows_of(Pattern pattern, int dim) {
     case Pattern::face_centred: return face_centred;
     case Pattern::irregular: break;
   }
-  return dim == 2 ? std::span<const Row>(plane_cloud) : std::span<const Row>(space_cloud);
+  return dim == 2 ? std::span<const CostRow>(plane_cloud) : std::span<const CostRow>(space_cloud);
 }
 
 /// Below the table the first row; beyond it the excess falls as one over the number of neighbours,
 /// which goes with the size to the given power.
-double cost_in(std::span<const Row> rows, double size, double power, std::size_t column) {
+double cost_in(std::span<const CostRow> rows, double size, double power, std::size_t column) {
   const auto above =
-      std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.size >= size; });
+      std::find_if(rows.begin(), rows.end(), [&](const CostRow& row) { return row.size >= size; });
   if (above == rows.begin()) return above->cost[column];
-  const Row& below = *(above - 1);
+  const CostRow& below = *(above - 1);
   const double low = below.cost[column];
   if (above == rows.end()) return 1.0 + (low - 1.0) * std::pow(below.size / size, power);
   const double part = (size - below.size) / (above->size - below.size);
@@ -73,7 +74,7 @@ double cost_in(std::span<const Row> rows, double size, double power, std::size_t
 double crack_cost(const Body& body, const NetworkInput& input, const SolidMaterial& material) {
   const Lattice& lattice = body.lattice;
   const bool cloud = lattice.pattern == Pattern::irregular;
-  const std::span<const Row> rows = rows_of(lattice.pattern, lattice.dim);
+  const std::span<const CostRow> rows = rows_of(lattice.pattern, lattice.dim);
   const double size = cloud
                           ? input.horizon / lattice.spacing
                           : static_cast<double>(bulk_family(lattice, input.horizon).offsets.size());

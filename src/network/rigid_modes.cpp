@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-using Row = Eigen::Matrix<double, 6, 1>;
+using ModeRow = Eigen::Matrix<double, 6, 1>;
 using Gram = Eigen::Matrix<double, 6, 6>;
 
 /// Smallest squared sine between rigid-body modes that counts as independent: a lever of 1e-6 of
@@ -71,8 +71,8 @@ class RigidModes {
     return static_cast<std::size_t>(particle) * width_ + component;
   }
 
-  Row row(Index particle, int component) const {
-    Row modes = Row::Zero();
+  ModeRow row(Index particle, int component) const {
+    ModeRow modes = ModeRow::Zero();
     if (component >= particles_.dim) {
       modes[particles_.dim == 2 ? 5 : component] = 1.0;
       return modes;
@@ -106,7 +106,7 @@ class RigidModes {
 };
 
 int rank(const Gram& gram) {
-  const Row eigenvalues =
+  const ModeRow eigenvalues =
       Eigen::SelfAdjointEigenSolver<Gram>(gram, Eigen::EigenvaluesOnly).eigenvalues();
   const double least = rank_tolerance * gram.trace();
   return static_cast<int>((eigenvalues.array() > least).count());
@@ -120,7 +120,7 @@ struct ModeProducts {
                const std::vector<std::uint8_t>& is_held) {
     for (const Index i : members) {
       for (int a = 0; a < modes.components(i); ++a) {
-        const Row row = modes.row(i, a);
+        const ModeRow row = modes.row(i, a);
         all += row * row.transpose();
         if (is_held[modes.slot(i, a)]) held += row * row.transpose();
       }
@@ -131,19 +131,19 @@ struct ModeProducts {
 /// Orthonormal rows that the held unknowns span.
 class HeldSpan {
  public:
-  Row residual(Row row) const {
-    for (const Row& direction : basis_) row -= direction.dot(row) * direction;
+  ModeRow residual(ModeRow row) const {
+    for (const ModeRow& direction : basis_) row -= direction.dot(row) * direction;
     return row;
   }
-  void add(const Row& row) {
-    const Row rest = residual(residual(row));  // twice: orthogonal to round-off
+  void add(const ModeRow& row) {
+    const ModeRow rest = residual(residual(row));  // twice: orthogonal to round-off
     if (rest.squaredNorm() > rank_tolerance * row.squaredNorm()) {
       basis_.push_back(rest.normalized());
     }
   }
 
  private:
-  std::vector<Row> basis_;
+  std::vector<ModeRow> basis_;
 };
 
 /// Particles none of whose elements can break.
@@ -206,7 +206,7 @@ std::vector<std::vector<double>> free_motions(const Network& network, const Frag
   const Eigen::SelfAdjointEigenSolver<Gram> solver(products.held);
   std::vector<std::vector<double>> motions;
   for (int m = 0; m < 6; ++m) {
-    const Row mode = solver.eigenvectors().col(m);
+    const ModeRow mode = solver.eigenvectors().col(m);
     if (solver.eigenvalues()[m] > rank_tolerance * products.held.trace()) continue;
     const double moved = mode.dot(products.all * mode);
     if (!(moved > rank_tolerance * products.all.trace())) continue;

@@ -36,7 +36,7 @@ std::string beam(bool space, const std::string& bar, const std::string& rest) {
 }
 
 const std::string straight = "from = [20, 43]\nto = [180, 43]\n";
-const std::string pulled = "[[displacements]]\nregion = \"right\"\nx = 0.02\n";
+const std::string pulled_right = "[[displacements]]\nregion = \"right\"\nx = 0.02\n";
 const std::string elastic = "[analysis]\ntype = \"elastic\"\n";
 
 double told(const WholeRun& run, const char* key) { return run.summary.json.at(key).get<double>(); }
@@ -97,7 +97,7 @@ TEST(BarRuns, BarsYieldInStages) {
 /// A straight bar is free to turn about itself, whichever way it lies.
 TEST(BarRuns, StraightBarsBendInSpace) {
   const auto energy = [](const std::string& bar) {
-    const WholeRun run(beam(true, bar, pulled + elastic));
+    const WholeRun run(beam(true, bar, pulled_right + elastic));
     EXPECT_EQ(run.summary.json.at("status"), "completed") << run.summary.json.at("reason");
     EXPECT_LT(told(run, "largest_residual"), 1e-10);
     return told(run, "strain_energy");
@@ -113,10 +113,10 @@ TEST(BarRuns, StraightBarsBendInSpace) {
 /// Anchors stand still while particles move in time: what is written goes by where they belong.
 TEST(BarRuns, RelaxationTellsWhatElasticityDoes) {
   for (const std::string bond : {"", "bond = \"linear\"\nbond_stiffness = 50\n"}) {
-    const WholeRun still(beam(false, straight + bond, pulled + elastic));
+    const WholeRun still(beam(false, straight + bond, pulled_right + elastic));
     const WholeRun moved(beam(false, straight + bond,
-                              pulled + "[analysis]\ntype = \"relaxation\"\n"
-                                       "tolerance = 1e-8\nload_factors = [1.0]\n"));
+                              pulled_right + "[analysis]\ntype = \"relaxation\"\n"
+                                             "tolerance = 1e-8\nload_factors = [1.0]\n"));
     ASSERT_EQ(moved.summary.json.at("status"), "completed") << moved.summary.json.at("reason");
     const auto energy = [](const WholeRun& run) {
       const VtuGrid grid = run.fields(run.series().size() - 1);
@@ -138,7 +138,7 @@ TEST(BarRuns, RelaxationTellsWhatElasticityDoes) {
 /// end where its line begins.
 TEST(BarRuns, ClosedBarsHaveNoEnds) {
   const WholeRun run(beam(false, "points = [[55, 25], [145, 25], [145, 75], [55, 75], [55, 25]]\n",
-                          pulled + elastic));
+                          pulled_right + elastic));
   const std::vector<double> stresses = of_segments(run.fields(0), "bond_stress");
   // The rectangle, of sides of 9 and 5 segments, is its own mirror image about y = 50.
   ASSERT_EQ(stresses.size(), 28u);
@@ -159,7 +159,7 @@ TEST(BarRuns, BondsThatEndSlipBefore) {
                             straight + fmt::format("bond = \"curve\"\nbond_curve = [[0.001, 0.3], "
                                                    "[1, {}]]\n",
                                                    last),
-                            pulled + "[stop]\ndisplacement = 0.01\n"));
+                            pulled_right + "[stop]\ndisplacement = 0.01\n"));
     return told(run, "yield_events");
   };
   const double ends = yields("0"), stays = yields("0.001");

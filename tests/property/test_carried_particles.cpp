@@ -127,7 +127,7 @@ class CarriedParticles : public testing::TestWithParam<CarriedCase> {
 };
 
 /// 1e-10: round-off (1e-16) times a condition number of some 1e5.
-constexpr double round_off = 1e-10;
+constexpr double carried_round_off = 1e-10;
 
 TEST_P(CarriedParticles, EventsAreThoseOfTheConstrainedBody) {
   for (const FactorRoute route :
@@ -139,7 +139,7 @@ TEST_P(CarriedParticles, EventsAreThoseOfTheConstrainedBody) {
     for (int k = 0; k < 25; ++k) {
       const Eigen::VectorXd expected = dense_answer(engine->secants());
       const std::vector<double> displacement(expected.begin(), expected.end());
-      EXPECT_LT(difference(engine->displacement(), expected), round_off) << k;
+      EXPECT_LT(difference(engine->displacement(), expected), carried_round_off) << k;
       Index first = no_index;
       double largest = 0.0;
       for (Index e = 0; e < body_.network.num_elements(); ++e) {
@@ -152,11 +152,11 @@ TEST_P(CarriedParticles, EventsAreThoseOfTheConstrainedBody) {
       }
       const Event event = engine->next_event();
       ASSERT_EQ(event.element, first) << k;
-      EXPECT_NEAR(event.load_factor * largest, 1.0, round_off);
+      EXPECT_NEAR(event.load_factor * largest, 1.0, carried_round_off);
       ASSERT_FALSE(engine->apply(event).mechanism);
       ++teeth[first];
     }
-    EXPECT_LT(engine->check_equilibrium().residual, round_off);
+    EXPECT_LT(engine->check_equilibrium().residual, carried_round_off);
   }
 }
 
@@ -168,13 +168,14 @@ TEST_P(CarriedParticles, WorkIsStoredOrDissipated) {
         const double stored = row.load_factor * row.load_factor *
                               stored_energy(state.network, state.secants, state.displacement);
         largest = std::max(largest, row.external_work);
-        EXPECT_NEAR(row.external_work, stored + row.dissipated_energy, 10.0 * round_off * largest)
+        EXPECT_NEAR(row.external_work, stored + row.dissipated_energy,
+                    10.0 * carried_round_off * largest)
             << "row " << row.step;
       },
       150);
   const DamageResult result = run(body_, {}, recorder);
   EXPECT_GT(recorder.rows.size(), 60U);
-  EXPECT_LT(result.energy_error, 10.0 * round_off);
+  EXPECT_LT(result.energy_error, 10.0 * carried_round_off);
 }
 
 /// From the twentieth row on both particles are free: displacements and events are then those of
@@ -194,31 +195,32 @@ TEST_P(CarriedParticles, MayBecomeFreeDuringARun) {
         largest = std::max(largest, row.external_work);
         const double missing = row.external_work - stored - row.dissipated_energy;
         if (row.step <= 20) {
-          EXPECT_NEAR(missing, 0.0, 10.0 * round_off * largest) << "row " << row.step;
+          EXPECT_NEAR(missing, 0.0, 10.0 * carried_round_off * largest) << "row " << row.step;
           return;
         }
         EXPECT_LT(difference(state.displacement, dense_displacement(free, state.secants)),
-                  round_off)
+                  carried_round_off)
             << "row " << row.step;
         if (row.step == 21) freed = missing;
-        EXPECT_NEAR(missing, freed, 10.0 * round_off * largest) << "row " << row.step;
+        EXPECT_NEAR(missing, freed, 10.0 * carried_round_off * largest) << "row " << row.step;
       },
       60);
   const DamageResult result = run(body_, options, recorder);
   ASSERT_EQ(recorder.rows.size(), 60U);
   EXPECT_GT(freed, 1e-6 * largest);
-  EXPECT_NEAR(result.last.freed_energy, freed, 10.0 * round_off * largest);
-  EXPECT_LT(result.energy_error, 10.0 * round_off);
+  EXPECT_NEAR(result.last.freed_energy, freed, 10.0 * carried_round_off * largest);
+  EXPECT_LT(result.energy_error, 10.0 * carried_round_off);
 }
 
 TEST_P(CarriedParticles, MoveAsTheirCarriersDo) {
   const ElasticResult result = run_elastic_analysis(body_);
-  EXPECT_LT(difference(result.displacement, dense_answer(intact(body_.network))), round_off);
+  EXPECT_LT(difference(result.displacement, dense_answer(intact(body_.network))),
+            carried_round_off);
   for (int a = 0; a < body_.network.width(); ++a) {
     EXPECT_EQ(result.displacement[slot(body_, pair_.particle, a)],
               result.displacement[slot(body_, pair_.carriers[0], a)]);
   }
-  EXPECT_LT(result.residual, round_off);
+  EXPECT_LT(result.residual, carried_round_off);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, CarriedParticles,

@@ -209,7 +209,7 @@ TEST_P(CarriedFeatures, AreThoseOfFreeParticles) {
 const std::pair<std::string, std::string> no_stop = {"[stop]\nbroken_bonds = 120\n", ""};
 const std::pair<std::string, std::string> pushed = {"force = [0, -100]",
                                                     "force = [0, -100]\nstage = \"push\""};
-const std::string weight = R"([[loads]]
+const std::string carried_weight = R"([[loads]]
 region = "beam"
 body_force = [0, -0.001]
 stage = "weight"
@@ -232,12 +232,12 @@ broken_bonds = 80
 INSTANTIATE_TEST_SUITE_P(
     Beams, CarriedFeatures,
     testing::Values(
-        Feature{"stages", {no_stop, pushed}, weight},
+        Feature{"stages", {no_stop, pushed}, carried_weight},
         Feature{"driven_stages",
                 {no_stop,
                  {"[[loads]]\nregion = \"load\"\nforce = [0, -100]",
                   "[[displacements]]\nregion = \"load\"\ny = -0.1\nstage = \"push\""}},
-                weight},
+                carried_weight},
         Feature{"softening",
                 {{"fracture_energy = 0.1\n", "fracture_energy = 0.1\ntensile_strength = 4\n"},
                  {"broken_bonds = 120", "load_fraction = 0.9"}},

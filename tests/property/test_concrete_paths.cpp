@@ -14,7 +14,7 @@ namespace {
 using namespace test;
 
 /// Sums over some hundred events of a body that comes apart.
-constexpr double tolerance = 1e-8;
+constexpr double concrete_tolerance = 1e-8;
 constexpr int rows = 250;
 
 /// Teeth on a branch that make the path one of that branch too.
@@ -97,7 +97,7 @@ TEST_P(ConcretePath, EventsAreWhereTheLawHasThemAndTakeTheEnergyOfTheirTeeth) {
   Recorder recorder(
       [&](const StepRecord& row, StateSource& source) {
         const StepState state = source.state();
-        EXPECT_NEAR(row.released_energy, released, tolerance * released) << row.step;
+        EXPECT_NEAR(row.released_energy, released, concrete_tolerance * released) << row.step;
         for (Index e = 0; e < body_.network.num_elements(); ++e) {
           const double stretch =
               row.load_factor * extension(e, state.displacement) / body_.network.bonds.lengths[e];
@@ -112,11 +112,12 @@ TEST_P(ConcretePath, EventsAreWhereTheLawHasThemAndTakeTheEnergyOfTheirTeeth) {
           EXPECT_EQ(state.secants[e], whole ? 1.0 : secant);
         }
         const Eigen::VectorXd expected = dense_displacement(body_, state.secants);
-        EXPECT_LT(difference(state.displacement, expected), tolerance) << row.step;
+        EXPECT_LT(difference(state.displacement, expected), concrete_tolerance) << row.step;
         const double stored = row.load_factor * row.load_factor *
                               stored_energy(state.network, state.secants, state.displacement);
         largest_work = std::max(largest_work, row.external_work);
-        EXPECT_NEAR(row.external_work, stored + row.dissipated_energy, tolerance * largest_work);
+        EXPECT_NEAR(row.external_work, stored + row.dissipated_energy,
+                    concrete_tolerance * largest_work);
         if (row.element != no_index) released += pass(row.element, state, row.load_factor);
       },
       rows);
@@ -143,11 +144,12 @@ TEST_P(ConcretePath, IsTheSameByAllRoutes) {
   ASSERT_EQ(fresh.size(), updated.size());
   for (std::size_t k = 0; k < fresh.size(); ++k) {
     ASSERT_EQ(fresh[k].element, updated[k].element) << k;
-    EXPECT_NEAR(fresh[k].load_factor, updated[k].load_factor, tolerance * fresh[k].load_factor);
+    EXPECT_NEAR(fresh[k].load_factor, updated[k].load_factor,
+                concrete_tolerance * fresh[k].load_factor);
   }
 }
 
-std::vector<ConcreteCase> cases() {
+std::vector<ConcreteCase> concrete_cases() {
   const LatticeCase plane{"hexagonal", Pattern::hexagonal, Surface::none};
   const LatticeCase square{"rectangular", Pattern::rectangular, Surface::none};
   const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
@@ -160,7 +162,7 @@ std::vector<ConcreteCase> cases() {
           {"space_compressed", cubic, 3, -1.0, true}};
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, ConcretePath, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Bodies, ConcretePath, testing::ValuesIn(concrete_cases()),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

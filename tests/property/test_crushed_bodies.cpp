@@ -15,18 +15,19 @@ namespace {
 
 using namespace test;
 
-constexpr double youngs_modulus = 30000.0, height = 50.0;
+constexpr double block_modulus = 30000.0, height = 50.0;
 
 /// A block of 100 by 50 held at its left side.
 /// \param material  lines of its material
-std::string block(const std::string& body, const std::string& material, const std::string& loads) {
+std::string crushed_block(const std::string& body, const std::string& material,
+                          const std::string& loads) {
   return body +
          "pattern = \"rectangular\"\nspacing = 10\n"
          "[[regions]]\nname = \"block\"\nx = [0, 100]\ny = [0, 50]\n"
          "[[regions]]\nname = \"left\"\nx = [0, 0]\ny = [0, 50]\n"
          "[[regions]]\nname = \"right\"\nx = [100, 100]\ny = [0, 50]\n"
          "[[regions]]\nname = \"corner\"\nx = [0, 0]\ny = [0, 0]\n" +
-         fmt::format("[[materials]]\nregion = \"block\"\nyoungs_modulus = {}\n", youngs_modulus) +
+         fmt::format("[[materials]]\nregion = \"block\"\nyoungs_modulus = {}\n", block_modulus) +
          "fracture_energy = 0.1\ntensile_strength = 3\nsoftening_error = 0.1\n" + material +
          "[[supports]]\nregion = \"left\"\nfix = [\"x\"]\n"
          "[[supports]]\nregion = \"corner\"\nfix = [\"y\"]\n" +
@@ -34,13 +35,13 @@ std::string block(const std::string& body, const std::string& material, const st
 }
 
 TEST(CrushedBodies, EndBeforeStrainsAreLarge) {
-  const WholeRun run(block("[body]\nproblem = \"plane_stress\"\nhorizon_ratio = 3\n",
-                           "softening = \"bilinear\"\n",
-                           "[[displacements]]\nregion = \"right\"\nx = -0.1\n"));
+  const WholeRun run(crushed_block("[body]\nproblem = \"plane_stress\"\nhorizon_ratio = 3\n",
+                                   "softening = \"bilinear\"\n",
+                                   "[[displacements]]\nregion = \"right\"\nx = -0.1\n"));
   const auto& told = run.summary.json;
   EXPECT_EQ(told.at("status"), "nothing_breaks");
   EXPECT_THAT(told.at("reason").get<std::string>(), testing::HasSubstr("shorter than small"));
-  EXPECT_LT(std::abs(told.at("peak_load").get<double>()), 0.1 * youngs_modulus * height);
+  EXPECT_LT(std::abs(told.at("peak_load").get<double>()), 0.1 * block_modulus * height);
   EXPECT_LT(std::abs(told.at("peak_displacement").get<double>()), 0.1 * 100.0);
   EXPECT_LT(told.at("energy_error").get<double>(), 1e-9);
   EXPECT_THAT(told.at("doubts").dump(), testing::HasSubstr("is no strength of the body"));
@@ -49,11 +50,11 @@ TEST(CrushedBodies, EndBeforeStrainsAreLarge) {
 /// Loads that are asked for are borne, and their peak is in doubt.
 TEST(CrushedBodies, AskedForByStepsAreInDoubt) {
   const auto doubts = [](const std::string& load_factors) {
-    const WholeRun run(block("[body]\nproblem = \"plane_stress\"\nhorizon_ratio = 3\n",
-                             "softening = \"bilinear\"\n",
-                             "[[displacements]]\nregion = \"right\"\nx = -0.1\n"
-                             "[analysis]\ncontrol = \"steps\"\nload_factors = " +
-                                 load_factors + "\n"));
+    const WholeRun run(crushed_block("[body]\nproblem = \"plane_stress\"\nhorizon_ratio = 3\n",
+                                     "softening = \"bilinear\"\n",
+                                     "[[displacements]]\nregion = \"right\"\nx = -0.1\n"
+                                     "[analysis]\ncontrol = \"steps\"\nload_factors = " +
+                                         load_factors + "\n"));
     EXPECT_EQ(run.summary.json.at("status"), "completed");
     return run.summary.json.at("doubts").dump();
   };
@@ -63,8 +64,8 @@ TEST(CrushedBodies, AskedForByStepsAreInDoubt) {
 
 /// The load that a stage goes to is reached where nothing fails on the way.
 TEST(CrushedBodies, AStageEndsAtItsLoadInDoubt) {
-  const std::string held = block("[body]\nproblem = \"plane_stress\"\nhorizon_ratio = 3\n",
-                                 "softening = \"bilinear\"\n", "");
+  const std::string held = crushed_block("[body]\nproblem = \"plane_stress\"\nhorizon_ratio = 3\n",
+                                         "softening = \"bilinear\"\n", "");
   const WholeRun run(held.substr(0, held.find("[[supports]]")) +
                      "[[displacements]]\nregion = \"surface\"\nx = \"-0.01 * x\"\n"
                      "y = \"-0.01 * y\"\nstage = \"press\"\n"
@@ -78,7 +79,7 @@ TEST(CrushedBodies, AStageEndsAtItsLoadInDoubt) {
 /// grows the other opens, and more of the load comes upon the first; where it falls the other is
 /// closed, and the same. So the first one fails where it is.
 TEST(CrushedBodies, BondsThatBearNoLoadFactorNearByFailAtTheirOwn) {
-  const WholeRun run(block(
+  const WholeRun run(crushed_block(
       "[body]\nproblem = \"plane_strain\"\nmodel = \"micropolar\"\nhorizon_ratio = 2\n",
       "poissons_ratio = 0.18\nsoftening = \"linear\"\n[[cracks]]\npoints = [[52, -1], [52, 20]]\n",
       "[[loads]]\nregion = \"block\"\nforce = [0, -50]\nstage = \"weight\"\n"

@@ -23,15 +23,16 @@ using namespace test;
 
 /// The error in the norm of energy is below 1e-12; that of displacements may be larger by the
 /// square root of the condition number, 1e3 for the bodies here.
-constexpr double tolerance = 1e-12, closeness = 1e-9;
+constexpr double force_tolerance = 1e-12, closeness = 1e-9;
 
 void expect_equal_answers(const LoadedNetwork& body) {
   const ElasticResult direct = run_elastic_analysis(body, {.solver = LinearSolver::direct});
   const ElasticResult found = run_elastic_analysis(
-      body, {.solver = LinearSolver::iterative, .boxes = {.tolerance = tolerance, .edge = 4}});
+      body,
+      {.solver = LinearSolver::iterative, .boxes = {.tolerance = force_tolerance, .edge = 4}});
   EXPECT_EQ(direct.boxes, 0);
   EXPECT_GT(found.boxes, 2);
-  EXPECT_LT(found.error, tolerance);
+  EXPECT_LT(found.error, force_tolerance);
   double largest = 0.0, difference = 0.0;
   for (std::size_t k = 0; k < direct.displacement.size(); ++k) {
     if (static_cast<int>(k) % body.unknowns.width >= body.network.dim()) continue;
@@ -73,29 +74,29 @@ TEST_P(Solvers, Agree) {
   expect_equal_answers(build_model(parse_case(text, (directory / "case.toml").string())));
 }
 
-const std::string pulled = "[[displacements]]\nregion = \"cap\"\ny = 1.0\n";
-const std::string weight =
+const std::string pulled_cap = "[[displacements]]\nregion = \"cap\"\ny = 1.0\n";
+const std::string own_weight =
     "[[loads]]\nregion = \"block\"\nbody_force = [1, 0.5]\n"
     "[[springs]]\nregion = \"cap\"\ntotal = [50, 200]\n";
 const std::string in_space =
     "[[loads]]\nregion = \"cap\"\nforce = [30, 100, 10]\n"
     "[[cracks]]\ncorners = [[-1, 4.4, -1], [5, 4.4, -1], [5, 4.4, 10], [-1, 4.4, 10]]\n";
-const std::string cracked = "[[cracks]]\npoints = [[-1, 4.4], [5, 4.4]]\n" + pulled;
+const std::string cracked = "[[cracks]]\npoints = [[-1, 4.4], [5, 4.4]]\n" + pulled_cap;
 const std::string reinforced =
     "[[rebar]]\nfrom = [1, 1]\nto = [8, 8]\narea = 0.1\nyoungs_modulus = 1e5\n"
     "bond = \"concrete\"\n" +
-    weight;
+    own_weight;
 
 INSTANTIATE_TEST_SUITE_P(
     Blocks, Solvers,
     testing::Values(SolverCase{"square_cracked", "spacing = 0.5\n", false, cracked},
-                    SolverCase{"square_of_two", "spacing = 0.5\n", false, weight},
+                    SolverCase{"square_of_two", "spacing = 0.5\n", false, own_weight},
                     SolverCase{"reinforced", "spacing = 0.5\n", false, reinforced},
                     SolverCase{"micropolar", "spacing = 0.5\nmodel = \"micropolar\"\n", false,
                                cracked, "poissons_ratio = 0.2\n"},
-                    SolverCase{"cloud", "mesh = \"box.msh\"\n", false, weight},
+                    SolverCase{"cloud", "mesh = \"box.msh\"\n", false, own_weight},
                     SolverCase{"glued", "mesh = \"box.msh\"\n", false,
-                               weight + "[elements]\nglued = [\"cap\"]\n"},
+                               own_weight + "[elements]\nglued = [\"cap\"]\n"},
                     SolverCase{"cubic", "spacing = 1\n", true, in_space},
                     SolverCase{"tetrahedra", "mesh = \"box.msh\"\n", true, in_space},
                     SolverCase{"micropolar_cubic", "spacing = 1\nmodel = \"micropolar\"\n", true,

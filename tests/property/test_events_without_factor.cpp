@@ -13,7 +13,7 @@ namespace {
 using namespace test;
 
 /// Load factors that agree to this are the same; ties of the search are narrower.
-constexpr double closeness = 1e-9;
+constexpr double factor_closeness = 1e-9;
 
 struct Outcome {
   DamageResult result;
@@ -41,8 +41,8 @@ void expect_the_same(const Outcome& found, const Outcome& expected, double share
     const StepRecord& row = found.rows[k];
     const StepRecord& other = expected.rows[k];
     ASSERT_EQ(row.element, other.element) << k;
-    ASSERT_NEAR(row.load_factor, other.load_factor, closeness * other.load_factor) << k;
-    ASSERT_NEAR(row.dissipated_energy, other.dissipated_energy, closeness * work) << k;
+    ASSERT_NEAR(row.load_factor, other.load_factor, factor_closeness * other.load_factor) << k;
+    ASSERT_NEAR(row.dissipated_energy, other.dissipated_energy, factor_closeness * work) << k;
   }
 }
 

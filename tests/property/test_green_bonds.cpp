@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 
 /// Round-off of sums over the bonds of a particle, relative to the stiffest one.
-constexpr double round_off = 1e-12;
+constexpr double green_round_off = 1e-12;
 
 class GreenBonds : public testing::TestWithParam<LatticeCase> {
  protected:
@@ -78,8 +78,9 @@ TEST_P(GreenBonds, TurningCostsNothing) {
     displacement[slot + 1] = x[0] - x[1] - 0.2;
     if (dim == 3) displacement[slot + 2] = 0.1;
   }
-  for (const double f : forces(displacement)) EXPECT_NEAR(f, 0.0, round_off * scale_);
-  EXPECT_NEAR(energy(displacement), 0.0, round_off * round_off * scale_ * network_.num_elements());
+  for (const double f : forces(displacement)) EXPECT_NEAR(f, 0.0, green_round_off * scale_);
+  EXPECT_NEAR(energy(displacement), 0.0,
+              green_round_off * green_round_off * scale_ * network_.num_elements());
 }
 
 TEST_P(GreenBonds, ForcesAndMomentsBalance) {
@@ -102,8 +103,8 @@ TEST_P(GreenBonds, ForcesAndMomentsBalance) {
   const double largest = std::abs(*std::max_element(
       force.begin(), force.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(sum[k], 0.0, round_off * largest * network_.particles.size());
-    EXPECT_NEAR(moment[k], 0.0, round_off * largest * network_.particles.size());
+    EXPECT_NEAR(sum[k], 0.0, green_round_off * largest * network_.particles.size());
+    EXPECT_NEAR(moment[k], 0.0, green_round_off * largest * network_.particles.size());
   }
 }
 

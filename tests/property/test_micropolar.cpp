@@ -21,9 +21,9 @@ namespace {
 using namespace test;
 
 /// Round-off of a sum over the bonds of a particle, relative to the stiffest one.
-constexpr double round_off = 1e-12;
+constexpr double turning_round_off = 1e-12;
 
-double largest(const std::vector<double>& values) {
+double largest_of(const std::vector<double>& values) {
   double result = 0.0;
   for (const double value : values) result = std::max(result, std::abs(value));
   return result;
@@ -109,7 +109,7 @@ class MicropolarLattice : public testing::TestWithParam<LatticeCase> {
     constants.bars = {{{0.03, 0.45 * end[1], 0.4 * end[2]}, {end[0], 0.55 * end[1], 0.5 * end[2]}}};
     constants.bar_materials = {{200.0, 0.001, 0.5, true}};
     network_ = build_network(make_body(input), constants);
-    scale_ = largest(network_.stiffness);
+    scale_ = largest_of(network_.stiffness);
   }
 
   Network network_;
@@ -124,8 +124,9 @@ TEST_P(MicropolarLattice, RigidMotionsTakeNoForceAndNoEnergy) {
     std::vector<double> motion = linear_motion(network_, spin);
     for (std::size_t slot = 0; slot < motion.size(); slot += network_.width()) motion[slot] += 0.7;
     const InternalForce result = internal_force(network_, intact, motion);
-    EXPECT_LT(largest(result.forces), round_off * scale_);
-    EXPECT_LT(result.energy, round_off * round_off * scale_ * network_.num_elements());
+    EXPECT_LT(largest_of(result.forces), turning_round_off * scale_);
+    EXPECT_LT(result.energy,
+              turning_round_off * turning_round_off * scale_ * network_.num_elements());
   }
 }
 
@@ -161,8 +162,8 @@ TEST_P(MicropolarLattice, ForcesAndMomentsOfTheElementsAreInBalance) {
   Loads internal;
   internal.forces = internal_force(network_, secants, random_vector(num_slots(network_), 4)).forces;
   const LoadResultant sum = load_resultant(network_, internal);
-  EXPECT_LT(largest(sum.force), round_off * sum.scale);
-  EXPECT_LT(largest(sum.moment), round_off * sum.scale);
+  EXPECT_LT(largest_of(sum.force), turning_round_off * sum.scale);
+  EXPECT_LT(largest_of(sum.moment), turning_round_off * sum.scale);
 }
 
 TEST_P(MicropolarLattice, StiffnessIsTheSumOfTheElementVectors) {
@@ -181,7 +182,8 @@ TEST_P(MicropolarLattice, StiffnessIsTheSumOfTheElementVectors) {
       }
     }
   }
-  EXPECT_LT((sum - dense(network_, secants, unknowns)).cwiseAbs().maxCoeff(), round_off * scale_);
+  EXPECT_LT((sum - dense(network_, secants, unknowns)).cwiseAbs().maxCoeff(),
+            turning_round_off * scale_);
 }
 
 TEST_P(MicropolarLattice, PrescribedPartsAddToTheDeformation) {
@@ -224,7 +226,7 @@ TEST_P(MicropolarLattice, OnlyRigidMotionsAreFree) {
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(network_, intact, all_free(network_)))
           .eigenvalues();
   const int modes = network_.dim() == 2 ? 3 : 6;
-  EXPECT_LT(eigenvalues[modes - 1], round_off * scale_);
+  EXPECT_LT(eigenvalues[modes - 1], turning_round_off * scale_);
   EXPECT_GT(eigenvalues[modes], 1e-6 * scale_);
   std::vector<std::uint8_t> held(num_slots(network_), 0);
   const auto fragments = find_fragments(network_, held);
@@ -377,7 +379,7 @@ TEST(MicropolarCloud, BreaksByTheStrainAlone) {
     }
     EXPECT_GT(found.size(), 0.3 * network.num_elements());
     for (std::size_t k = 0; k < found.size(); ++k) {
-      EXPECT_NEAR(found[k], expected[k], round_off * expected.front());
+      EXPECT_NEAR(found[k], expected[k], turning_round_off * expected.front());
     }
   }
 }

@@ -56,7 +56,7 @@ load_fraction = 0.3
 )";
 }
 
-class Recorder final : public StepObserver {
+class CrackRecorder final : public StepObserver {
  public:
   void on_step(const StepRecord& record, StateSource&) override { rows.push_back(record); }
   std::vector<StepRecord> rows;
@@ -69,7 +69,7 @@ TEST_P(PulledPlate, BreaksAcrossTheHoleOnly) {
       parse_case(pulled_plate(GetParam()), PERILINK_SOURCE_DIR "/meshes/plate.toml");
   const Model model = build_model(input);
   ASSERT_LT(model.network.calibration->smallest_weight, 0.1);
-  Recorder recorder;
+  CrackRecorder recorder;
   const DamageResult result = run_damage_analysis(model, damage_options(input, 1), recorder);
   const auto peak =
       std::max_element(recorder.rows.begin(), recorder.rows.end(),

@@ -10,10 +10,10 @@ namespace {
 using namespace test;
 
 /// Balance over the largest work: energies are sums over some hundred events.
-constexpr double tolerance = 1e-9;
+constexpr double staged_tolerance = 1e-9;
 
 /// A row with what the elements themselves say about it.
-struct Look {
+struct StagedLook {
   StepRecord row;
   double stored = 0.0;
   double worst = 0.0;  ///< largest stretch over its limit
@@ -62,7 +62,7 @@ class StagedPath : public testing::TestWithParam<BlockCase> {
   }
 
   void look(const StepRecord& row, const StepState& state, const std::vector<double>& factors) {
-    Look look{row, stored_energy(state.network, state.secants, state.displacement)};
+    StagedLook look{row, stored_energy(state.network, state.secants, state.displacement)};
     for (Index e = 0; e < state.network.num_elements(); ++e) {
       if (state.secants[e] < 1.0 || !state.network.has_limit(e)) continue;
       const double limit = state.network.critical_stretch[e] * state.network.law(e).tooth(0).limit;
@@ -99,12 +99,13 @@ class StagedPath : public testing::TestWithParam<BlockCase> {
 
   void expect_balance() const {
     double largest = 0.0;
-    for (const Look& look : looks_) {
+    for (const StagedLook& look : looks_) {
       const StepRecord& row = look.row;
       largest = std::max(largest, std::abs(row.external_work));
-      EXPECT_NEAR(row.external_work, look.stored + row.dissipated_energy, tolerance * largest)
+      EXPECT_NEAR(row.external_work, look.stored + row.dissipated_energy,
+                  staged_tolerance * largest)
           << "row " << row.step;
-      EXPECT_NEAR(row.strain_energy, look.stored, tolerance * largest) << "row " << row.step;
+      EXPECT_NEAR(row.strain_energy, look.stored, staged_tolerance * largest) << "row " << row.step;
       EXPECT_LT(look.error, 1e-8) << "row " << row.step;
       EXPECT_LT(look.wrong_side, 1e-10) << "row " << row.step;
       // On the way to a load factor that every element bears bonds may close beyond a limit.
@@ -112,11 +113,11 @@ class StagedPath : public testing::TestWithParam<BlockCase> {
         EXPECT_LT(look.worst, 1.0 + 1e-8) << "row " << row.step;
       }
     }
-    EXPECT_LT(result_.energy_error, tolerance) << result_.reason;
+    EXPECT_LT(result_.energy_error, staged_tolerance) << result_.reason;
   }
 
   AnalysisBody body_;
-  std::vector<Look> looks_;
+  std::vector<StagedLook> looks_;
   DamageResult result_;
 };
 
@@ -133,7 +134,7 @@ TEST_P(StagedPath, UnloadsAndComesBackToTheSameEvent) {
   go(in_stages({{0, constant, {}}, {1, {}, some}, {1, 0.0, {}}, {1, {}, {}}}), 1500);
   expect_balance();
   StepRecord stopped, again;
-  for (const Look& look : looks_) {
+  for (const StagedLook& look : looks_) {
     if (look.row.stage == 2 && look.row.side_change == 0) stopped = look.row;
     const bool fails = look.row.side_change == 0;
     if (look.row.stage == 4 && fails && again.step == 0) again = look.row;
@@ -142,7 +143,7 @@ TEST_P(StagedPath, UnloadsAndComesBackToTheSameEvent) {
   EXPECT_EQ(again.element, stopped.element);
   EXPECT_NEAR(again.load_factor, stopped.load_factor, 1e-9 * std::abs(stopped.load_factor));
   EXPECT_EQ(again.broken_bonds, stopped.broken_bonds);
-  EXPECT_NEAR(again.external_work, stopped.external_work, tolerance * stopped.external_work);
+  EXPECT_NEAR(again.external_work, stopped.external_work, staged_tolerance * stopped.external_work);
 }
 
 /// Nothing fails where the load turns round, and what damaged bonds do depends on the load alone.
@@ -155,17 +156,17 @@ TEST_P(StagedPath, TurnsRoundAndComesBackToTheSameEvent) {
   expect_balance();
   StepRecord stopped, turned, again;
   Index changes = 0;
-  for (const Look& look : looks_) {
+  for (const StagedLook& look : looks_) {
     if (look.row.stage == 2 && look.row.side_change == 0) stopped = look.row;
     if (look.row.stage == 3) turned = look.row;
     changes += look.row.stage == 3 && look.row.side_change == 1;
     if (look.row.stage == 4 && look.row.side_change == 0 && again.step == 0) again = look.row;
   }
   EXPECT_NEAR(turned.dissipated_energy, stopped.dissipated_energy,
-              tolerance * stopped.external_work);
+              staged_tolerance * stopped.external_work);
   EXPECT_EQ(changes > 0, GetParam().closing);
   EXPECT_NEAR(again.load_factor, stopped.load_factor, 1e-9 * std::abs(stopped.load_factor));
-  EXPECT_NEAR(again.external_work, stopped.external_work, tolerance * stopped.external_work);
+  EXPECT_NEAR(again.external_work, stopped.external_work, staged_tolerance * stopped.external_work);
 }
 
 TEST_P(StagedPath, AnAvalancheUnderConstantLoadsBalances) {
@@ -200,7 +201,7 @@ TEST_P(StagedPath, TwoStagesOfOneLoadAreOne) {
   }
 }
 
-std::vector<BlockCase> cases() {
+std::vector<BlockCase> staged_cases() {
   const LatticeCase hexagonal{"hexagonal", Pattern::hexagonal, Surface::none};
   const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
   std::vector<BlockCase> result;
@@ -218,7 +219,7 @@ std::vector<BlockCase> cases() {
   return result;
 }
 
-INSTANTIATE_TEST_SUITE_P(Blocks, StagedPath, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Blocks, StagedPath, testing::ValuesIn(staged_cases()),
                          [](const auto& block) { return to_string(block.param); });
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr double youngs_modulus = 30000.0, arm = 22.5, length = 120.0, fracture_energy = 0.1;
+constexpr double arm_modulus = 30000.0, arm = 22.5, length = 120.0, fracture_energy = 0.1;
 
 /// Two arms with a crack between them to x = 50, driven apart at x = 0. The glue has the strength
 /// 12, the arms would break at twice that and at ten times the energy.
@@ -39,7 +39,7 @@ std::string cantilever_case(const std::string& model) {
       "fracture_energy = {1}\ntensile_strength = 24\n{2}"
       "[[materials]]\nregions = [\"lower pad\", \"upper pad\"]\nyoungs_modulus = {0}\n"
       "fracture_energy = \"infinite\"\n{2}",
-      youngs_modulus, 10.0 * fracture_energy, ratio);
+      arm_modulus, 10.0 * fracture_energy, ratio);
   text += fmt::format(
       "[[interfaces]]\nbetween = [\"lower\", \"upper\"]\nfracture_energy = {}\n"
       "tensile_strength = 12\nsoftening = \"linear\"\n"
@@ -70,7 +70,7 @@ TEST_P(WeakCantilevers, OpenAlongTheInterfaceAtTheLoadOfBeamTheory) {
   const double limit = network.interfaces.at(0).strength.first_stretch;
   // G = 12 P^2 L^2 / (E h^3) and the opening 8 P L^3 / (E h^3), L the length of the crack with what
   // the roots of the arms turn added: without L, P^2 = 8 (G E h^3 / 12)^(3/2) / (E h^3 opening).
-  const double stiffness = youngs_modulus * std::pow(arm, 3);
+  const double stiffness = arm_modulus * std::pow(arm, 3);
   const double scale = 8.0 * std::pow(fracture_energy * stiffness / 12.0, 1.5) / stiffness;
   double sum = 0.0;
   int count = 0;

@@ -14,14 +14,14 @@ namespace {
 
 using namespace test;
 
-struct StripCase {
+struct NamedStrip {
   std::string name;
   WeakStrip strip;
 };
 
-std::ostream& operator<<(std::ostream& out, const StripCase& strip) { return out << strip.name; }
+std::ostream& operator<<(std::ostream& out, const NamedStrip& strip) { return out << strip.name; }
 
-class WeakStrips : public testing::TestWithParam<StripCase> {};
+class WeakStrips : public testing::TestWithParam<NamedStrip> {};
 
 TEST_P(WeakStrips, BearTheStrengthAndTakeTheFractureEnergyOfTheirInterface) {
   const WeakStrip& strip = GetParam().strip;
@@ -34,8 +34,8 @@ TEST_P(WeakStrips, BearTheStrengthAndTakeTheFractureEnergyOfTheirInterface) {
   EXPECT_LT(told("energy_error"), 1e-9);
 }
 
-std::vector<StripCase> strips() {
-  std::vector<StripCase> result;
+std::vector<NamedStrip> weak_strips() {
+  std::vector<NamedStrip> result;
   for (const char* curve : {"linear", "bilinear", "exponential"}) {
     for (const char* model : {"bond_based", "micropolar"}) {
       for (const char* pattern : {"rectangular", "hexagonal"}) {
@@ -54,7 +54,7 @@ std::vector<StripCase> strips() {
   return result;
 }
 
-INSTANTIATE_TEST_SUITE_P(Curves, WeakStrips, testing::ValuesIn(strips()),
+INSTANTIATE_TEST_SUITE_P(Curves, WeakStrips, testing::ValuesIn(weak_strips()),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

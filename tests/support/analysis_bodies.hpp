@@ -22,6 +22,16 @@ namespace perilink::test {
 /// All that an analysis needs.
 using AnalysisBody = LoadedNetwork;
 
+/// Routes by which the factor of a matrix can follow a bond that breaks.
+inline constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
+                                         FactorRoute::refactorize};
+
+inline EquilibriumOptions with_route(FactorRoute route) {
+  EquilibriumOptions options;
+  options.route = route;
+  return options;
+}
+
 inline std::vector<double> intact(const Network& network) {
   return std::vector<double>(static_cast<std::size_t>(network.num_elements()), 1.0);
 }

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <string>
 
 #include "base/error.hpp"
 #include "io/case/case_file.hpp"
+#include "support/replaced.hpp"
 
 /// \file
 /// Cases that the tests of the reader start from.
@@ -184,13 +183,6 @@ time_step = 0.001
 [output]
 fields_times = [0.5, 4]
 )";
-
-/// The text with the first occurrence of `from` replaced.
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 /// What the reader says of a case: its refusal, or "accepted".
 inline std::string message_of(const std::string& text) {

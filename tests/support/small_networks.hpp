@@ -20,6 +20,11 @@ struct LatticeCase {
   Surface surface;
 };
 
+inline const LatticeCase rectangular{"rectangular", Pattern::rectangular, Surface::none};
+inline const LatticeCase hexagonal{"hexagonal", Pattern::hexagonal, Surface::none};
+inline const LatticeCase hexagonal_ghost{"hexagonal_ghost", Pattern::hexagonal, Surface::ghost};
+inline const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
+
 inline std::ostream& operator<<(std::ostream& out, const LatticeCase& lattice_case) {
   return out << lattice_case.name;
 }

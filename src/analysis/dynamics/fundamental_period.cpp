@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int most_iterations = 2000;
-constexpr double round_off = 1e-16;  ///< relative, in forces; very slender bodies multiply it
+constexpr int most_period_steps = 2000;
+constexpr double force_round_off = 1e-16;  ///< relative, in forces; very slender bodies multiply it
 /// Energy that the residual could still set free, over that of the vibration: a tenth of the error
 /// of the square of the frequency, or more.
 constexpr double tolerance = 1e-8;
@@ -151,7 +151,7 @@ double Vibration::settle() {
   VectorXd force = force_of(start);
   append({std::move(start), std::move(force)});
   Direction last;
-  for (int k = 0; k < most_iterations && !basis_.empty(); ++k) {
+  for (int k = 0; k < most_period_steps && !basis_.empty(); ++k) {
     const Direction& now = basis_.front();
     const double square = now.u.dot(now.force);
     if (!(square > least_stiffness * fastest_)) {
@@ -160,7 +160,7 @@ double Vibration::settle() {
     const VectorXd residual = now.force - square * mass_.cwiseProduct(now.u);
     VectorXd step = inverse_.times(residual);
     make_orthogonal(step, free_);
-    const double noise = round_off * fastest_ / square;
+    const double noise = force_round_off * fastest_ / square;
     const double left = residual.dot(step);  // below zero it is round-off and says nothing
     if (left >= 0.0 && left <= std::max(tolerance, noise * noise) * square) {
       force_of(now.u);  // the energy is a sum of squares, which round-off hardly touches
@@ -173,7 +173,7 @@ double Vibration::settle() {
   }
   throw SolverError(
       fmt::format("the fundamental period is not settled after {} iterations; give it in the case",
-                  most_iterations));
+                  most_period_steps));
 }
 
 }  // namespace

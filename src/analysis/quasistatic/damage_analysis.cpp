@@ -15,7 +15,7 @@ namespace {
 
 /// A row whose energies are this far from balance, over the work, is none: the solver has lost the
 /// body, and what it would write were noise.
-constexpr double lost_balance = 1e-2;
+constexpr double lost_row = 1e-2;
 
 }  // namespace
 
@@ -188,7 +188,7 @@ void EventRun::record(double load_factor, const LoadWork& work, Index element) {
     const double kept = stored + row_.dissipated_energy + energy_.freed();
     const double error = std::abs(row_.external_work - kept) / whole;
     result_.energy_error = std::max(result_.energy_error, error);
-    if (!(error <= lost_balance)) {
+    if (!(error <= lost_row)) {
       row_ = last;
       throw SolverError(
           fmt::format("work and energies of row {} are out of balance by {:.2g} of the work: the "

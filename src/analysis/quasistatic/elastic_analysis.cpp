@@ -19,7 +19,7 @@ namespace perilink {
 namespace {
 
 /// Further from balance than this, over the work, an answer is none: so much of it is round-off.
-constexpr double lost_balance = 1e-2;
+constexpr double lost_solution = 1e-2;
 
 /// Energies below this part of the sum of the sizes of loads times displacements are round-off
 /// squared: the body moves as a whole, without stress.
@@ -82,7 +82,7 @@ double work_of(const ElasticResult& result, const Network* network, const Unknow
 
 void refuse_lost_balance(const ElasticResult& result) {
   const double error = std::abs(result.work - result.strain_energy);
-  if (error <= lost_balance * std::abs(result.work)) return;
+  if (error <= lost_solution * std::abs(result.work)) return;
   throw SolverError(fmt::format(
       "work and energy are out of balance by {:.2g} of the work: the body, or what holds it, is so "
       "compliant that the equilibrium is lost in round-off{}",

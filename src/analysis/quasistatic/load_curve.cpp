@@ -6,14 +6,15 @@ namespace perilink {
 namespace {
 
 /// Relative; histories hold all digits, but solutions only those that their residual leaves.
-constexpr double round_off = 1e-9;
+constexpr double factor_round_off = 1e-9;
 
 Index events_before(const StepRecord& record) { return record.broken_bonds + record.yield_events; }
 
 /// Whether load and displacement take up all energy, as under forces or driven displacements alone.
 bool axes_hold_all_energy(const StepRecord& record) {
   const double stored = 2.0 * record.strain_energy;
-  return std::abs(record.load * record.displacement - stored) <= round_off * std::abs(stored);
+  return std::abs(record.load * record.displacement - stored) <=
+         factor_round_off * std::abs(stored);
 }
 
 double compliance(const CurvePoint& point) { return point.displacement / point.load; }
@@ -41,7 +42,7 @@ std::optional<CurvePoint> smooth_point(Window rows) {
     squares += rows[k].load * rows[k + 1].load * softer;
   }
   const double before = compliance(rows.front()), after = compliance(rows.back());
-  if (!(growth > round_off * after)) return std::nullopt;
+  if (!(growth > factor_round_off * after)) return std::nullopt;
   const double load = std::copysign(std::sqrt(squares / growth), rows.front().load);
   return CurvePoint{load * std::sqrt(before * after), load};
 }
@@ -55,7 +56,7 @@ std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
   for (std::size_t k = 0; k < records.size(); ++k) {
     const StepRecord& record = records[k];
     highest = std::max(highest, std::abs(record.load));
-    const bool resists = std::abs(record.load) > round_off * highest;
+    const bool resists = std::abs(record.load) > factor_round_off * highest;
     if (record.stage > 0) return {};
     if (k > 0 && events_before(record) != events_before(records[k - 1]) + 1) return {};
     if (!resists && k + 1 == records.size()) break;

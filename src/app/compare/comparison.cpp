@@ -14,7 +14,7 @@
 namespace perilink {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Units of what is compared; all empty where they are not known or not the same.
 struct Units {
@@ -45,10 +45,10 @@ struct Pair {
                        [&](const ComparedQuantity& q) { return q.name == name; });
   }
   void add(std::string name, std::string unit, double of_a, double of_b) {
-    found.quantities.push_back({std::move(name), std::move(unit), of_a, of_b, nan});
+    found.quantities.push_back({std::move(name), std::move(unit), of_a, of_b, no_value});
   }
   void add_between(std::string name, std::string unit, double value) {
-    found.quantities.push_back({std::move(name), std::move(unit), nan, nan, value});
+    found.quantities.push_back({std::move(name), std::move(unit), no_value, no_value, value});
   }
 };
 
@@ -68,7 +68,7 @@ double initial_stiffness(const RunResult& result) {
   }
   if (squares > 0.0) return products / squares;
   const StepRecord& first = result.records.front();
-  return first.displacement != 0.0 ? first.load / first.displacement : nan;
+  return first.displacement != 0.0 ? first.load / first.displacement : no_value;
 }
 
 void compare_curves(Pair& pair) {
@@ -101,7 +101,7 @@ void compare_energies(Pair& pair) {
 
 void compare_cracks(Pair& pair) {
   const double tolerance = std::max(pair.a.horizon, pair.b.horizon);
-  CrackOverlap cracks{nan, nan, nan, nan, nan};
+  CrackOverlap cracks{no_value, no_value, no_value, no_value, no_value};
   if (pair.a.body && pair.b.body && pair.a.body->dim != pair.b.body->dim) {
     pair.found.notes.emplace_back("one body is plane and one is not: cracks are not compared");
   } else if (pair.a.body && pair.b.body && tolerance > 0.0) {
@@ -170,7 +170,7 @@ double ComparedQuantity::difference_percent() const {
   if (a == b) return 0.0;
   // What is left of a run that came apart is round-off, to which nothing compares.
   constexpr double round_off = 1e-9;
-  return std::abs(a) <= round_off * std::abs(b) ? nan : 100.0 * (b - a) / std::abs(a);
+  return std::abs(a) <= round_off * std::abs(b) ? no_value : 100.0 * (b - a) / std::abs(a);
 }
 
 Comparison compare_results(const RunResult& a, const RunResult& b) {

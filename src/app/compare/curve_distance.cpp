@@ -7,7 +7,7 @@
 namespace perilink {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_distance = std::numeric_limits<double>::quiet_NaN();
 
 /// Points per path in the mean over its arc length: their spacing is far below a line's width.
 constexpr int samples = 1000;
@@ -114,7 +114,7 @@ std::vector<CurvePoint> displacement_reading(std::span<const CurvePoint> path) {
 }
 
 double load_distance(std::span<const CurvePoint> a, std::span<const CurvePoint> b, double range) {
-  if (a.size() < 2 || b.size() < 2 || !(range > 0.0)) return nan;
+  if (a.size() < 2 || b.size() < 2 || !(range > 0.0)) return no_distance;
   Walker in_a(a), in_b(b);
   double difference = 0.0, reference = 0.0;
   for (double low = 0.0; low < range;) {
@@ -127,7 +127,7 @@ double load_distance(std::span<const CurvePoint> a, std::span<const CurvePoint> 
     reference += square_integral(high - low, a_low, a_high);
     low = high;
   }
-  return reference > 0.0 ? std::sqrt(difference / reference) : nan;
+  return reference > 0.0 ? std::sqrt(difference / reference) : no_distance;
 }
 
 double work_until(std::span<const CurvePoint> reading, double range) {
@@ -143,7 +143,7 @@ double work_until(std::span<const CurvePoint> reading, double range) {
 }
 
 double path_distance(std::span<const CurvePoint> a, std::span<const CurvePoint> b) {
-  if (a.size() < 2 || b.size() < 2) return nan;
+  if (a.size() < 2 || b.size() < 2) return no_distance;
   CurvePoint largest;
   for (const std::span<const CurvePoint> path : {a, b}) {
     for (const CurvePoint& p : path) {
@@ -151,7 +151,7 @@ double path_distance(std::span<const CurvePoint> a, std::span<const CurvePoint> 
       largest.load = std::max(largest.load, std::abs(p.load));
     }
   }
-  if (!(largest.displacement > 0.0) || !(largest.load > 0.0)) return nan;
+  if (!(largest.displacement > 0.0) || !(largest.load > 0.0)) return no_distance;
   const std::vector<CurvePoint> scaled_a = scaled(a, largest), scaled_b = scaled(b, largest);
   return 0.5 * (mean_distance(scaled_a, scaled_b) + mean_distance(scaled_b, scaled_a));
 }

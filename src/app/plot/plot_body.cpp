@@ -120,7 +120,6 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
 
 double automatic_scale(const PlotBody& body) {
   constexpr double share_of_size = 0.08;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector3 low{infinity, infinity, infinity};
   Vector3 high{-infinity, -infinity, -infinity};
   double largest = 0.0;

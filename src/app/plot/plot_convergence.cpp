@@ -14,23 +14,23 @@ namespace {
 
 constexpr double frame_left = 92.0;
 constexpr double frame_right = 640.0;
-constexpr double frame_top = 62.0;
+constexpr double convergence_top = 62.0;
 constexpr double figure_height = 560.0;
 constexpr double frame_bottom = figure_height - 72.0;
 constexpr double legend_left = frame_right + 24.0;
-constexpr double legend_row = 22.0;
+constexpr double convergence_row = 22.0;
 constexpr double letter_width = 7.0;  ///< about the width of a letter in the legend
 
 /// Colours that the colour-blind tell apart (Okabe & Ito 2008), without yellow, which is too pale.
-constexpr std::array<const char*, 7> colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                               "#56b4e9", "#e69f00", "#000000"};
+constexpr std::array<const char*, 7> line_colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                    "#56b4e9", "#e69f00", "#000000"};
 
-std::string color_of(std::size_t line) { return colors[line % colors.size()]; }
+std::string color_of(std::size_t line) { return line_colors[line % line_colors.size()]; }
 
 /// After all colours lines are dashed.
 std::string stroke_of(std::size_t line) {
   return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"{}", color_of(line),
-                     line / colors.size() % 2 == 1 ? " stroke-dasharray=\"6 4\"" : "");
+                     line / line_colors.size() % 2 == 1 ? " stroke-dasharray=\"6 4\"" : "");
 }
 
 void draw_mark(Svg& svg, std::size_t line, SvgPoint at) {
@@ -67,7 +67,6 @@ struct Axes {
 };
 
 Axes axes_of(const ConvergencePlot& plot) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   ConvergenceLine::Point low{infinity, infinity}, high{0.0, 0.0};
   for (const ConvergenceLine& line : plot.lines) {
     for (const ConvergenceLine::Point& point : line.points) {
@@ -80,7 +79,7 @@ Axes axes_of(const ConvergencePlot& plot) {
   axes.empty = !(high.cost > 0.0);
   if (axes.empty) low = high = {1.0, 1.0};
   axes.x = make_log_axis(low.cost, high.cost, frame_left, frame_right);
-  axes.y = make_log_axis(low.error, high.error, frame_bottom, frame_top);
+  axes.y = make_log_axis(low.error, high.error, frame_bottom, convergence_top);
   return axes;
 }
 
@@ -101,8 +100,8 @@ std::string legend_text(const ConvergenceLine& line) {
 }
 
 void draw_legend(Svg& svg, const ConvergencePlot& plot) {
-  double y = frame_top + 10.0;
-  for (std::size_t k = 0; k < plot.lines.size(); ++k, y += legend_row) {
+  double y = convergence_top + 10.0;
+  for (std::size_t k = 0; k < plot.lines.size(); ++k, y += convergence_row) {
     SvgPath sample;
     sample.move_to({legend_left, y});
     sample.line_to({legend_left + 28, y});
@@ -119,14 +118,15 @@ void draw_triangles(Svg& svg, const Axes& axes, const std::vector<SlopeTriangle>
   constexpr double width = 70.0;  // [px]
   constexpr double foot = 18.0;   // distance of the lowest corner above the axis [px]
   const double pixels_x = (frame_right - frame_left) / std::log(axes.x.high / axes.x.low);
-  const double pixels_y = (frame_bottom - frame_top) / std::log(axes.y.high / axes.y.low);
+  const double pixels_y = (frame_bottom - convergence_top) / std::log(axes.y.high / axes.y.low);
   const auto fall = [&](const SlopeTriangle& triangle) {
     return -triangle.slope * width / pixels_x * pixels_y;
   };
   double deepest = 0.0;
   for (const SlopeTriangle& triangle : triangles) deepest = std::max(deepest, fall(triangle));
   // Where errors hardly fall at all a triangle of this slope would leave the frame.
-  const double scale = std::min(1.0, 0.5 * (frame_bottom - frame_top) / std::max(deepest, 1.0));
+  const double scale =
+      std::min(1.0, 0.5 * (frame_bottom - convergence_top) / std::max(deepest, 1.0));
   const SvgPoint corner{frame_left + 16.0, frame_bottom - foot - scale * deepest};
   for (const SlopeTriangle& triangle : triangles) {
     const SvgPoint end{corner.x + scale * width, corner.y + scale * fall(triangle)};
@@ -145,9 +145,9 @@ Svg draw_convergence(const ConvergencePlot& plot) {
   for (const ConvergenceLine& line : plot.lines) {
     longest = std::max(longest, legend_text(line).size());
   }
-  const double legend_height = legend_row * static_cast<double>(plot.lines.size());
+  const double legend_height = convergence_row * static_cast<double>(plot.lines.size());
   Svg svg(legend_left + 48.0 + letter_width * static_cast<double>(longest),
-          std::max(figure_height, frame_top + legend_height + 20.0));
+          std::max(figure_height, convergence_top + legend_height + 20.0));
   svg.text({frame_left, 32}, plot.title, "start",
            "font-size=\"18\" font-weight=\"bold\" fill=\"#222\"");
   const Axes axes = axes_of(plot);

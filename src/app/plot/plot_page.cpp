@@ -37,15 +37,15 @@ void draw_headings(Svg& svg, const BodyPage& page, const std::string& title,
 }
 
 void draw_color_bar(Svg& svg, const BodyPage& page, const ColorBar& colors) {
-  constexpr int shades = 50;
+  constexpr int steps = 50;
   const double height = std::clamp(page.bottom - page.top, 120.0, 260.0);
   const double x = page.right + 24.0;
   const double y = page.top + std::max(0.0, (page.bottom - page.top - height) / 2);
-  for (int k = 0; k < shades; ++k) {
-    const double step = height / shades;
+  for (int k = 0; k < steps; ++k) {
+    const double step = height / steps;
     // Half a pixel of overlap, or viewers show hairlines between the shades.
     svg.rect({x, y + height - (k + 1) * step}, 14.0, step + (k > 0 ? 0.5 : 0.0),
-             fmt::format("fill=\"{}\"", damage_color((k + 0.5) / shades)));
+             fmt::format("fill=\"{}\"", damage_color((k + 0.5) / steps)));
   }
   svg.rect({x, y}, 14.0, height, "fill=\"none\" stroke=\"#444\" stroke-width=\"0.8\"");
   const Ticks ticks = nice_ticks(colors.low, colors.high, height > 160.0 ? 6 : 3);
@@ -101,7 +101,6 @@ void draw_key(Svg& svg, const BodyPage& page, const std::vector<KeyEntry>& key) 
 }  // namespace
 
 BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   double low[2] = {infinity, infinity};
   double high[2] = {-infinity, -infinity};
   for (Index i = 0; i < body.size(); ++i) {

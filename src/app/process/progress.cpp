@@ -12,7 +12,7 @@ namespace {
 
 constexpr double terminal_interval = 0.1;  // [s]
 constexpr double log_interval = 10.0;      // [s]
-constexpr int bar_width = 24;
+constexpr int bar_letters = 24;
 
 /// Nobody may be there to read it: no reason for a run to end.
 void show(const std::string& text) {
@@ -58,8 +58,8 @@ void ProgressBar::draw(const std::string& state, std::optional<double> done) {
   }
   std::string bar;
   if (done) {
-    const int full = static_cast<int>(*done * bar_width);
-    bar = "[" + std::string(full, '#') + std::string(bar_width - full, '.') + "] ";
+    const int full = static_cast<int>(*done * bar_letters);
+    bar = "[" + std::string(full, '#') + std::string(bar_letters - full, '.') + "] ";
   }
   draw_line(bar + state + left);
   drawn_ = true;

@@ -9,6 +9,12 @@
 #include "assembly/internal_force.hpp"
 
 namespace perilink {
+namespace {
+
+/// Part of the forces on a place that equilibrium leaves undecided.
+constexpr double undecided = 1e-9;
+
+}  // namespace
 
 ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options) {
   ElasticAnswer answer;
@@ -44,10 +50,15 @@ std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Sec
   load_particles(model.network, internal.forces);
   for (const DrivenPlace& place : model.driven_places) {
     PlaceForce& at = places.emplace_back(PlaceForce{place.name, std::vector<double>(dim, 0.0)});
+    double sum = 0.0;
     for (const std::size_t slot : place.slots) {
       if (slot % width >= dim) continue;  // a moment
       const double reaction = internal.forces[slot] - model.loads.forces[slot];
       at.force[slot % width] += load_factor * reaction;
+      sum += std::abs(load_factor * reaction);
+    }
+    for (double& force : at.force) {
+      if (std::abs(force) <= undecided * sum) force = 0.0;
     }
   }
   return places;

@@ -12,7 +12,7 @@ namespace {
 
 /// Pivots below this part of the largest: the bonds do not resist every strain. Those of a quarter
 /// of a family, at a corner, are above 1e-3.
-constexpr double smallest_pivot = 1e-7;
+constexpr double smallest_strain_pivot = 1e-7;
 
 /// Number of components of a symmetric tensor.
 template <int Dim>
@@ -99,7 +99,7 @@ SymmetricTensor strain_in(const Network& network, const Csr& families, Secants s
   }
   const Eigen::LDLT<decltype(virial.intact)> factor(virial.intact);
   const auto pivots = factor.vectorD();
-  if (!(pivots.minCoeff() > smallest_pivot * pivots.maxCoeff())) return {};
+  if (!(pivots.minCoeff() > smallest_strain_pivot * pivots.maxCoeff())) return {};
   const typename Virial<Dim>::Tensor strain = factor.solve(virial.present);
   SymmetricTensor result{};
   for (int k = 0; k < Dim; ++k) result[k] = strain[k];

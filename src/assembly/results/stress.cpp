@@ -13,7 +13,7 @@ namespace {
 /// Pivots of the normal equations, scaled to bonds of length one, below this fraction of the
 /// largest mean that the neighbours do not settle the polynomial: those of regular families are
 /// above 1e-3.
-constexpr double smallest_pivot = 1e-7;
+constexpr double smallest_stress_pivot = 1e-7;
 
 /// Solid particles of the same material that are bonded to a particle, and theirs; ascending.
 std::vector<Index> neighbors_of(const StressInput& input, Index particle) {
@@ -78,7 +78,7 @@ bool fit_gradient(const Network& network, std::span<const double> motion, Index 
   }
   const Eigen::LDLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
   const auto pivots = factor.vectorD();
-  if (!(pivots.minCoeff() > smallest_pivot * pivots.maxCoeff())) return false;
+  if (!(pivots.minCoeff() > smallest_stress_pivot * pivots.maxCoeff())) return false;
   gradient = factor.solve(right).template topRows<Dim>().transpose() / size;
   return true;
 }

@@ -40,7 +40,7 @@ constexpr double factor_floor = 1e-13;
 /// A new factor costs about as much as this many iterations.
 constexpr int stale_iterations = 10;
 /// Where the equations contradict each other more do not help.
-constexpr int most_iterations = 400;
+constexpr int most_tied_iterations = 400;
 
 }  // namespace
 
@@ -157,7 +157,7 @@ int TiedNormalEquations::solve(const Vector& residual, double reduction, Vector&
   double rz = r.dot(z);
   const double target = reduction * r.norm();
   int count = 0;
-  for (; count < most_iterations && r.norm() > target; ++count) {
+  for (; count < most_tied_iterations && r.norm() > target; ++count) {
     multiply(transposed_, p, stretch);
     stretch.array() *= map(mobility).array();
     multiply(tied_.matrix, stretch, q);

@@ -7,10 +7,10 @@ namespace perilink {
 namespace {
 
 /// The grid of a conforming lattice: cells with their materials and points with their particles.
-class Grid {
+class CellGrid {
  public:
-  Grid(const LatticeInput& input, const Lattice& lattice, const Box& bounds,
-       const Particles& particles)
+  CellGrid(const LatticeInput& input, const Lattice& lattice, const Box& bounds,
+           const Particles& particles)
       : dim_(lattice.dim),
         steps_(count_steps(lattice, bounds)),
         points_(lattice, bounds, particles) {
@@ -61,7 +61,7 @@ class Grid {
 
 Facets grid_facets(const LatticeInput& input, const Lattice& lattice, const Outline& outline,
                    const Particles& particles) {
-  const Grid grid(input, lattice, outline.bounds, particles);
+  const CellGrid grid(input, lattice, outline.bounds, particles);
   Facets facets;
   facets.dim = lattice.dim;
   for (int axis = 0; axis < lattice.dim; ++axis) {

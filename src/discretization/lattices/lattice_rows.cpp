@@ -13,7 +13,7 @@ namespace {
 using std::numbers::sqrt2;
 using std::numbers::sqrt3;
 using Step = std::array<int, 3>;
-using Basis = std::array<Vector3, 3>;
+using RowBasis = std::array<Vector3, 3>;
 using RowKey = std::pair<int, int>;  ///< second and third lattice coordinate
 
 /// Rows end with empty slots, up to a multiple of this: what is left of a loop in vectors would run
@@ -25,7 +25,7 @@ Vector3 turned(const Vector3& v, double angle) {
           v[0] * std::sin(angle) + v[1] * std::cos(angle), v[2]};
 }
 
-Vector3 combine(const Basis& basis, const std::array<double, 3>& factor) {
+Vector3 combine(const RowBasis& basis, const std::array<double, 3>& factor) {
   Vector3 sum{};
   for (int n = 0; n < 3; ++n) {
     for (int axis = 0; axis < 3; ++axis) sum[axis] += factor[n] * basis[n][axis];
@@ -33,16 +33,16 @@ Vector3 combine(const Basis& basis, const std::array<double, 3>& factor) {
   return sum;
 }
 
-Vector3 combine(const Basis& basis, const Step& step) {
+Vector3 combine(const RowBasis& basis, const Step& step) {
   return combine(basis, std::array<double, 3>{1.0 * step[0], 1.0 * step[1], 1.0 * step[2]});
 }
 
 /// Rows of the reciprocal lattice: coordinates of a vector in the basis.
-Basis inverse(const Basis& m) {
+RowBasis inverse(const RowBasis& m) {
   const auto cross = [](const Vector3& a, const Vector3& b) {
     return Vector3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   };
-  Basis rows{cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
+  RowBasis rows{cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
   double volume = 0.0;
   for (int axis = 0; axis < 3; ++axis) volume += m[0][axis] * rows[0][axis];
   for (Vector3& row : rows) {
@@ -51,7 +51,7 @@ Basis inverse(const Basis& m) {
   return rows;
 }
 
-OwnBond own_bond(const Basis& basis, const Step& step) {
+OwnBond own_bond(const RowBasis& basis, const Step& step) {
   OwnBond bond{step, combine(basis, step), 0.0};
   bond.length = std::hypot(bond.direction[0], bond.direction[1], bond.direction[2]);
   for (double& entry : bond.direction) entry /= bond.length;
@@ -60,7 +60,7 @@ OwnBond own_bond(const Basis& basis, const Step& step) {
 
 struct Pattern3 {
   int dim = 2;
-  Basis basis{};
+  RowBasis basis{};
   std::vector<Step> own;
 };
 
@@ -110,7 +110,7 @@ class RowBuilder {
 
   /// Lattice coordinates of the box's corners bound those of its points.
   std::array<std::array<int, 2>, 3> coordinate_range() const {
-    const Basis rows = inverse(pattern_.basis);
+    const RowBasis rows = inverse(pattern_.basis);
     std::array<std::array<int, 2>, 3> range{};
     for (int n = 0; n < pattern_.dim; ++n) {
       double low = 0.0, high = 0.0;

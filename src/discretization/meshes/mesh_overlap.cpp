@@ -13,7 +13,7 @@ namespace {
 
 /// Cells may reach into each other by this part of the smaller one's longest edge. Meshes are
 /// written with 16 digits, those of single precision with 7.
-constexpr double touching = 1e-6;
+constexpr double contact = 1e-6;
 
 /// Axes across two edges that are parallel to this sine have no direction.
 constexpr double parallel = 1e-9;
@@ -68,7 +68,7 @@ bool separated_across_edges(const Cell& a, const Cell& b, double tolerance) {
 /// Two convex bodies are apart exactly where an axis normal to a side of one, or in space to an
 /// edge of each, separates them (Gottschalk, Lin & Manocha 1996).
 bool overlap(const Cell& a, const Cell& b) {
-  const double tolerance = touching * std::min(a.size, b.size);
+  const double tolerance = contact * std::min(a.size, b.size);
   if (separated_by_side(a, a, b, tolerance) || separated_by_side(b, a, b, tolerance)) return false;
   return a.count == 3 || !separated_across_edges(a, b, tolerance);
 }

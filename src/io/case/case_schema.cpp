@@ -40,14 +40,15 @@ bool has_key(const TableSchema& schema, const std::string& key) {
 }
 
 /// What is checked against what, for messages.
-struct Document {
+struct SchemaDocument {
   const std::string& path;
   const std::vector<TableSchema>& schema;
   std::string_view name;
 };
 
 /// A key that another table has was probably written below the wrong header.
-std::string suggest_key(const Document& document, const TableSchema& here, const std::string& key) {
+std::string suggest_key(const SchemaDocument& document, const TableSchema& here,
+                        const std::string& key) {
   std::string homes;
   for (const TableSchema& other : document.schema) {
     if (!has_key(other, key)) continue;
@@ -59,7 +60,7 @@ std::string suggest_key(const Document& document, const TableSchema& here, const
   return homes.empty() ? allowed : fmt::format("`{}` belongs to {}. {}", key, homes, allowed);
 }
 
-void check_keys(const Document& document, const TableSchema& schema, const TomlValue& table,
+void check_keys(const SchemaDocument& document, const TableSchema& schema, const TomlValue& table,
                 const std::string& table_path) {
   if (table.kind != TomlValue::Kind::table) {
     throw InputError({document.path, table.line, table_path},
@@ -75,7 +76,8 @@ void check_keys(const Document& document, const TableSchema& schema, const TomlV
   }
 }
 
-void check_table(const Document& document, const TableSchema& schema, const TomlValue& value) {
+void check_table(const SchemaDocument& document, const TableSchema& schema,
+                 const TomlValue& value) {
   const std::string name(schema.name);
   if (!schema.list) {
     if (value.kind == TomlValue::Kind::array) {
@@ -109,7 +111,7 @@ bool NotFor::holds(Kinds kind) const {
 
 void check_against_schema(const TomlValue& document, const std::string& path,
                           const std::vector<TableSchema>& schema, std::string_view document_name) {
-  const Document checked{path, schema, document_name};
+  const SchemaDocument checked{path, schema, document_name};
   std::vector<std::string_view> tables;
   for (const TableSchema& table : schema) {
     if (!table.name.empty()) tables.push_back(table.name);

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int most_repeats = 1000;
-constexpr int most_columns = 100000;
+constexpr int most_study_columns = 100000;
 
 /// `error` may be one table or a list of them.
 std::vector<TableSchema> study_schema(bool several_errors) {
@@ -97,7 +97,7 @@ void read_refinement(const CaseTable& table, VarySection& vary, const StudyFile&
   const std::string key(*given);
   vary.where = {study.path, table.value(key)->line, "vary." + key};
   if (vary.refinement == Refinement::columns) {
-    for (const int value : distinct(table, key, *table.integers(key, 2, most_columns))) {
+    for (const int value : distinct(table, key, *table.integers(key, 2, most_study_columns))) {
       vary.values.push_back(body_key(key, value));
     }
   } else if (vary.refinement == Refinement::mesh) {

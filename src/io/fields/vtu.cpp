@@ -105,9 +105,9 @@ void save(const std::string& path, const pugi::xml_document& document) {
 // ---------------------------------------------------------------------------------- reading
 
 /// Tells which file is wrong whatever the fault in it.
-class Reader {
+class VtuReader {
  public:
-  Reader(const std::string& path, const char* type) : path_(path) {
+  VtuReader(const std::string& path, const char* type) : path_(path) {
     const std::string text = read_regular_file(path);
     const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
     if (!result) fail(std::string("is not XML: ") + result.description());
@@ -165,7 +165,7 @@ class Reader {
   pugi::xml_node file_;
 };
 
-void read_cells(const Reader& reader, pugi::xml_node cells, VtuGrid& grid) {
+void read_cells(const VtuReader& reader, pugi::xml_node cells, VtuGrid& grid) {
   const auto array = [&](const char* name) {
     return cells.find_child_by_attribute("DataArray", "Name", name);
   };
@@ -226,7 +226,7 @@ void write_vtu(const std::string& path, const VtuGrid& grid) {
 }
 
 VtuGrid read_vtu(const std::string& path) {
-  const Reader reader(path, "UnstructuredGrid");
+  const VtuReader reader(path, "UnstructuredGrid");
   if (reader.file().attribute("compressor").as_string() != std::string("vtkZLibDataCompressor") ||
       reader.file().attribute("header_type").as_string() != std::string("UInt64")) {
     reader.fail("is not compressed by zlib with 64-bit headers, as this program writes");
@@ -258,7 +258,7 @@ void write_pvd(const std::string& path, const std::vector<PvdEntry>& entries) {
 }
 
 std::vector<PvdEntry> read_pvd(const std::string& path) {
-  const Reader reader(path, "Collection");
+  const VtuReader reader(path, "Collection");
   std::vector<PvdEntry> entries;
   for (pugi::xml_node node : reader.file().child("Collection").children("DataSet")) {
     std::string file = node.attribute("file").as_string();

@@ -334,7 +334,7 @@ std::string key_of(const fs::path& path) {
 }
 
 /// A geometry with all that gmsh reads for it.
-class Reader {
+class ScriptReader {
  public:
   void read(const fs::path& path, bool included, const SourceLocation& by) {
     if (!seen_.insert({key_of(path), included}).second) return;
@@ -386,7 +386,7 @@ std::vector<std::string> check_gmsh_script(const std::string& text, const std::s
 }
 
 void refuse_unsafe_geometry(const std::string& path) {
-  Reader reader;
+  ScriptReader reader;
   refuse_odd_name(path, {path, 0, ""});
   reader.read(path, false, {});
   if (const std::string options = path + ".opt"; fs::exists(options)) {

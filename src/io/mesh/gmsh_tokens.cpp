@@ -11,7 +11,7 @@ namespace perilink {
 namespace {
 
 /// gmsh ends longer texts by itself and reads on in their midst.
-constexpr std::size_t longest_text = 1000;
+constexpr std::size_t longest_token = 1000;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool begins_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -94,8 +94,8 @@ class Lexer {
     const std::size_t end = script_.find(quote, at_ + 1);
     if (end == std::string::npos) refuse("has a text without an end");
     const std::string_view text = std::string_view(script_).substr(at_ + 1, end - at_ - 1);
-    if (text.size() > longest_text) {
-      refuse(fmt::format("has a text of {} characters; gmsh reads {}", text.size(), longest_text));
+    if (text.size() > longest_token) {
+      refuse(fmt::format("has a text of {} characters; gmsh reads {}", text.size(), longest_token));
     }
     tokens_.push_back({GmshToken::Kind::text, std::string(text), line_});
     take(end - at_ + 1);

@@ -9,11 +9,11 @@
 namespace perilink {
 namespace {
 
-using Strain = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using CellStrain = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using Stiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 /// Bonds whose ratios differ by less are alike by symmetry and pass their teeth together.
-constexpr double alike = 1e-9;
+constexpr double alike_in_cell = 1e-9;
 
 /// A cell this much softer than the intact one has failed.
 constexpr double failed = 1e-3;
@@ -23,16 +23,16 @@ constexpr double failed = 1e-3;
 constexpr int plane_directions = 60, polar_directions = 16, directions_around = 5;
 
 /// Bonds in tension, as the search of damage analyses has it.
-constexpr double least_tension = 1e-12;
+constexpr double least_cell_tension = 1e-12;
 
 /// A symmetric tensor as the vector of its components, the shear ones times the square root of two,
 /// so that products of tensors are products of vectors.
-Strain vector_of(const Vector3& a, const Vector3& b, int dim) {
+CellStrain vector_of(const Vector3& a, const Vector3& b, int dim) {
   const double half = std::sqrt(0.5);
   if (dim == 2) {
     return Eigen::Vector3d(a[0] * b[0], a[1] * b[1], half * (a[0] * b[1] + a[1] * b[0]));
   }
-  Strain result(6);
+  CellStrain result(6);
   result << a[0] * b[0], a[1] * b[1], a[2] * b[2], half * (a[1] * b[2] + a[2] * b[1]),
       half * (a[2] * b[0] + a[0] * b[2]), half * (a[0] * b[1] + a[1] * b[0]);
   return result;
@@ -45,13 +45,13 @@ class Cell {
       : bonds_(bonds), across_(across), pull_(vector_of(pull, pull, dim)) {
     const auto size = pull_.size();
     for (const CellBond& bond : bonds) {
-      const Strain axial = vector_of(bond.direction, bond.direction, dim);
+      const CellStrain axial = vector_of(bond.direction, bond.direction, dim);
       // The square of the strain times the direction.
       Stiffness square = Stiffness::Zero(size, size);
       for (int a = 0; a < dim && bond.shear_ratio > 0.0; ++a) {
         Vector3 axis{};
         axis[a] = 1.0;
-        const Strain row = vector_of(axis, bond.direction, dim);
+        const CellStrain row = vector_of(axis, bond.direction, dim);
         square += row * row.transpose();
       }
       axial_.push_back(axial);
@@ -89,7 +89,7 @@ class Cell {
   double stretch(std::size_t bond) const {
     const double axial = axial_[bond].dot(strain_);
     const double square = strain_.dot(square_[bond] * strain_);
-    return axial > 0.0 && axial * axial > least_tension * square ? std::sqrt(square) : 0.0;
+    return axial > 0.0 && axial * axial > least_cell_tension * square ? std::sqrt(square) : 0.0;
   }
   /// Axial stretch per unit of stress.
   double axial_stretch(std::size_t bond) const { return axial_[bond].dot(strain_); }
@@ -103,8 +103,8 @@ class Cell {
  private:
   std::span<const CellBond> bonds_;
   Across across_;
-  Strain pull_, strain_;
-  std::vector<Strain> axial_;
+  CellStrain pull_, strain_;
+  std::vector<CellStrain> axial_;
   std::vector<Stiffness> square_;
   std::vector<double> secants_;
   std::vector<double> lost_axial_;  ///< part of the axial stiffness that went before the rest
@@ -214,7 +214,8 @@ double cell_strength(std::span<const CellBond> bonds, int dim, const Vector3& pu
     if (!(largest > 0.0)) break;
     strength = std::max(strength, 1.0 / largest);
     for (std::size_t b = 0; b < bonds.size(); ++b) {
-      if (ratio[b] >= (1.0 - alike) * largest) cell.set_secant(b, law.tooth(++tooth[b]).secant);
+      if (ratio[b] >= (1.0 - alike_in_cell) * largest)
+        cell.set_secant(b, law.tooth(++tooth[b]).secant);
     }
   }
   return strength * cell.intact_softness();
@@ -233,7 +234,7 @@ std::vector<CellPoint> cell_path(std::span<const CellBond> bonds, int dim, const
     if (!(largest > 0.0)) break;
     path.push_back({cell.softness() / largest, 1.0 / largest});
     for (std::size_t b = 0; b < bonds.size(); ++b) {
-      if (ratio[b] >= (1.0 - alike) * largest) states.pass(cell, b, sign);
+      if (ratio[b] >= (1.0 - alike_in_cell) * largest) states.pass(cell, b, sign);
     }
   }
   return path;

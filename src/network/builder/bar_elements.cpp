@@ -14,8 +14,6 @@
 namespace perilink {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Ties are not stiffer than those of this length, in spacings.
 constexpr double shortest_tie = 0.1;
 

@@ -22,8 +22,6 @@
 namespace perilink {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 void check_input(const Body& body, const NetworkInput& input) {
   if (body.particles.dim != dimension_of(input.problem)) {
     throw std::invalid_argument("a " + std::to_string(body.particles.dim) +

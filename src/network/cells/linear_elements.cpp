@@ -5,14 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "network/vector_at.hpp"
+
 namespace perilink {
 namespace {
-
-template <int Dim>
-Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double> values, Index i) {
-  return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(values.data() +
-                                                         static_cast<std::size_t>(i) * Dim);
-}
 
 /// With x = x_0 + J xi the gradients of the last Dim shape functions xi are the rows of J^-1, and
 /// all sum to zero.

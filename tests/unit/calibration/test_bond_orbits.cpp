@@ -12,7 +12,7 @@
 namespace perilink {
 namespace {
 
-LatticeInput box(Pattern pattern, Vector3 size) {
+LatticeInput orbit_box(Pattern pattern, Vector3 size) {
   LatticeInput input;
   input.pattern = pattern;
   input.spacing = pattern == Pattern::face_centred ? std::sqrt(2.0) : 1.0;  // steps of one
@@ -30,7 +30,7 @@ struct Bonded {
 
 Bonded make_bonded(Pattern pattern, Vector3 size, double horizon) {
   Bonded result;
-  result.body = make_body(box(pattern, size));
+  result.body = make_body(orbit_box(pattern, size));
   result.bonds = make_bonds(result.body.particles, horizon);
   const std::vector<std::uint8_t> free(static_cast<std::size_t>(result.bonds.size()), 1);
   result.orbits = find_orbits(*lattice_box(result.body), result.body.particles, result.bonds, free);
@@ -38,26 +38,26 @@ Bonded make_bonded(Pattern pattern, Vector3 size, double horizon) {
 }
 
 TEST(LatticeBox, IsFoundWhereALatticeInSpaceFillsIt) {
-  const auto found = lattice_box(make_body(box(Pattern::cubic, {4, 5, 6})));
+  const auto found = lattice_box(make_body(orbit_box(Pattern::cubic, {4, 5, 6})));
   ASSERT_TRUE(found);
   EXPECT_EQ(found->count, (std::array<Index, 3>{4, 5, 6}));
-  EXPECT_TRUE(lattice_box(make_body(box(Pattern::face_centred, {4, 4, 6}))));
+  EXPECT_TRUE(lattice_box(make_body(orbit_box(Pattern::face_centred, {4, 4, 6}))));
 }
 
 TEST(LatticeBox, IsNotFoundInOtherBodies) {
-  LatticeInput corner = box(Pattern::cubic, {6, 3, 4});
+  LatticeInput corner = orbit_box(Pattern::cubic, {6, 3, 4});
   corner.solid.push_back({{0, 0, 0}, {3, 6, 4}});
   corner.material.push_back(0);
   EXPECT_FALSE(lattice_box(make_body(corner)));
   for (const Vector3 plane : {Vector3{4, 4, 0}, Vector3{40, 2, 0}}) {
-    EXPECT_FALSE(lattice_box(make_body(box(Pattern::rectangular, plane))));
+    EXPECT_FALSE(lattice_box(make_body(orbit_box(Pattern::rectangular, plane))));
   }
-  LatticeInput bent = box(Pattern::rectangular, {6, 1, 0});
+  LatticeInput bent = orbit_box(Pattern::rectangular, {6, 1, 0});
   bent.solid.push_back({{0, 1, 0}, {1, 2, 0}});
   bent.material.push_back(0);
   EXPECT_FALSE(lattice_box(make_body(bent)));
   // A hole of one cell.
-  LatticeInput hole = box(Pattern::cubic, {5, 5, 2});
+  LatticeInput hole = orbit_box(Pattern::cubic, {5, 5, 2});
   hole.solid.push_back({{0, 0, 2}, {5, 2, 3}});
   hole.solid.push_back({{0, 3, 2}, {5, 5, 3}});
   hole.solid.push_back({{0, 2, 2}, {2, 3, 3}});
@@ -68,10 +68,10 @@ TEST(LatticeBox, IsNotFoundInOtherBodies) {
 }
 
 TEST(LatticeBox, IsFoundInStripsOfOneRowOfCells) {
-  const auto lying = lattice_box(make_body(box(Pattern::rectangular, {30, 1, 0})));
+  const auto lying = lattice_box(make_body(orbit_box(Pattern::rectangular, {30, 1, 0})));
   ASSERT_TRUE(lying);
   EXPECT_EQ(lying->count, (std::array<Index, 3>{30, 1, 0}));
-  LatticeInput standing = box(Pattern::rectangular, {1, 30, 0});
+  LatticeInput standing = orbit_box(Pattern::rectangular, {1, 30, 0});
   standing.thickness = 7.0;
   ASSERT_TRUE(lattice_box(make_body(standing)));
   // Bonds lie alike whatever the length: mirrored in both middle lines, depths 0 to 9 are places.
@@ -134,11 +134,11 @@ TEST_P(EveryPattern, EachKindOfPlaceHasOneRepresentative) {
 }
 
 TEST_P(EveryPattern, LongBoxesAreAllAlike) {
-  const Bonded box = make_bonded(GetParam(), {14, 14, 14}, 2.0);
+  const Bonded orbit_box = make_bonded(GetParam(), {14, 14, 14}, 2.0);
   for (const Vector3 size : {Vector3{16, 16, 16}, Vector3{14, 18, 16}}) {
     const Bonded longer = make_bonded(GetParam(), size, 2.0);
-    EXPECT_EQ(longer.orbits.representatives.size(), box.orbits.representatives.size());
-    EXPECT_EQ(longer.orbits.num_views, box.orbits.num_views);
+    EXPECT_EQ(longer.orbits.representatives.size(), orbit_box.orbits.representatives.size());
+    EXPECT_EQ(longer.orbits.num_views, orbit_box.orbits.num_views);
   }
 }
 
@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(BondOrbits, EveryPattern,
 
 /// Only what is free gets a class; what is out of reach of the keys none at all.
 TEST(BondOrbits, LeavesOtherBondsOut) {
-  const Body body = make_body(box(Pattern::cubic, {6, 6, 6}));
+  const Body body = make_body(orbit_box(Pattern::cubic, {6, 6, 6}));
   const Bonds bonds = make_bonds(body.particles, 2.0);
   std::vector<std::uint8_t> free(static_cast<std::size_t>(bonds.size()), 0);
   free[0] = 1;
@@ -187,7 +187,7 @@ TEST(BondOrbits, LeavesOtherBondsOut) {
   EXPECT_EQ(orbits.representatives.size(), 2);
   EXPECT_NE(orbits.views[0][0], no_index);
   EXPECT_EQ(orbits.views[1][0], no_index);
-  const Body rod = make_body(box(Pattern::cubic, {1, 1, 30}));
+  const Body rod = make_body(orbit_box(Pattern::cubic, {1, 1, 30}));
   const Bonds far = make_bonds(rod.particles, 21.0);
   free.assign(static_cast<std::size_t>(far.size()), 1);
   EXPECT_TRUE(find_orbits(*lattice_box(rod), rod.particles, far, free).representatives.empty());

@@ -13,13 +13,13 @@ namespace {
 
 /// Quarter of a ring, coarse, with unequal steps: the work of its boundary on Killing tensors of
 /// the third degree is not zero with equal shares.
-struct Ring {
+struct FacetRing {
   Simplices cells;
   std::vector<double> positions;
 };
 
-Ring quarter_ring() {
-  Ring ring;
+FacetRing quarter_ring() {
+  FacetRing ring;
   const double angles[] = {0.0, 0.2, 0.5, 0.7, 1.1, 1.3, std::acos(0.0)};
   for (const double angle : angles) {
     for (const double radius : {1.0, 1.4, 2.0}) {
@@ -54,7 +54,7 @@ double cubic_work(const Facets& facets, const std::vector<double>& positions) {
 }
 
 TEST(FacetShares, BalanceTheWorkOnKillingTensors) {
-  const Ring ring = quarter_ring();
+  const FacetRing ring = quarter_ring();
   Facets facets = facets_of(ring.cells, ring.positions, 1.0);
   const std::vector<Index> parts(ring.positions.size() / 2, 0);
   EXPECT_GT(std::abs(cubic_work(facets, ring.positions)), 1e-3);

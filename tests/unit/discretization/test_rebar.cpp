@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-Particles square(Surface surface = Surface::none) {
+Particles rebar_square(Surface surface = Surface::none) {
   LatticeInput input;
   input.pattern = Pattern::rectangular;
   input.surface = surface;
@@ -21,7 +21,7 @@ Particles square(Surface surface = Surface::none) {
 }
 
 TEST(Rebar, DividesABarAndTiesItsNodes) {
-  Particles particles = square();
+  Particles particles = rebar_square();
   const Index before = particles.size();
   const RebarMesh mesh =
       add_rebar(particles, {{{0.05, 0.55, 0.0}, {0.95, 0.55, 0.0}}}, 0.1, 0.2, 0.01);
@@ -45,7 +45,7 @@ TEST(Rebar, DividesABarAndTiesItsNodes) {
 }
 
 TEST(Rebar, ANodeOnAParticleIsThatParticle) {
-  Particles particles = square();
+  Particles particles = rebar_square();
   const Index before = particles.size();
   const RebarMesh mesh =
       add_rebar(particles, {{{0.0, 0.5, 0.0}, {1.0, 0.5 + 1e-8, 0.0}}}, 0.1, 0.2, 0.01);
@@ -56,7 +56,7 @@ TEST(Rebar, ANodeOnAParticleIsThatParticle) {
 }
 
 TEST(Rebar, CrossingBarsShareTheirNode) {
-  Particles particles = square();
+  Particles particles = rebar_square();
   const Index before = particles.size();
   const std::vector<RebarLine> bars = {{{0.05, 0.55, 0.0}, {0.95, 0.55, 0.0}},
                                        {{0.55, 0.05, 0.0}, {0.55, 0.95, 0.0}}};
@@ -70,7 +70,7 @@ TEST(Rebar, CrossingBarsShareTheirNode) {
 }
 
 TEST(Rebar, IsNotTiedToGhosts) {
-  Particles particles = square(Surface::ghost);
+  Particles particles = rebar_square(Surface::ghost);
   const RebarMesh mesh =
       add_rebar(particles, {{{0.0, 0.57, 0.0}, {1.0, 0.57, 0.0}}}, 0.1, 0.2, 0.01);
   for (const Index solid : mesh.ties.first) {
@@ -79,7 +79,7 @@ TEST(Rebar, IsNotTiedToGhosts) {
 }
 
 TEST(Rebar, AnchoredBarsHaveNodesOfTheirOwn) {
-  Particles particles = square();
+  Particles particles = rebar_square();
   const Index before = particles.size();
   RebarLine bar{{0.0, 0.5, 0.0}, {0.5, 0.0, 0.0}, {{0.5, 0.5, 0.0}}};
   bar.anchored = true;
@@ -101,7 +101,7 @@ TEST(Rebar, AnchoredBarsHaveNodesOfTheirOwn) {
 }
 
 TEST(Rebar, AStirrupEndsAtItsFirstNode) {
-  Particles particles = square();
+  Particles particles = rebar_square();
   const Index before = particles.size();
   RebarLine bar{
       {0.2, 0.2, 0.0}, {0.2, 0.2, 0.0}, {{0.8, 0.2, 0.0}, {0.8, 0.8, 0.0}, {0.2, 0.8, 0.0}}};
@@ -119,7 +119,7 @@ TEST(Rebar, AStirrupEndsAtItsFirstNode) {
 }
 
 TEST(Rebar, RefusesABarWithoutLength) {
-  Particles particles = square();
+  Particles particles = rebar_square();
   EXPECT_THROW(add_rebar(particles, {{{0.5, 0.5, 0.0}, {0.5, 0.5, 0.0}}}, 0.1, 0.2, 0.01),
                std::invalid_argument);
 }

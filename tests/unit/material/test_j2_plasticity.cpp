@@ -8,20 +8,20 @@ namespace perilink {
 namespace {
 
 // Nikravesh & Gerstle 2018, Table 1 [MPa]; softening to zero at twice the ultimate strain.
-constexpr YieldCurve concrete{22.98, 27.58, 0.003, 0.006};
+constexpr YieldCurve yielding_concrete{22.98, 27.58, 0.003, 0.006};
 constexpr double e = 25e3, nu = 0.2;
 
 TEST(J2Plasticity, YieldStressHardensThenSoftens) {
-  EXPECT_EQ(yield_stress(concrete, 0.0), 22.98);
-  EXPECT_NEAR(yield_stress(concrete, 0.0015), 0.5 * (22.98 + 27.58), 1e-12);
-  EXPECT_NEAR(yield_stress(concrete, 0.003), 27.58, 1e-12);
-  EXPECT_NEAR(yield_stress(concrete, 0.0045), 0.5 * 27.58, 1e-12);
-  EXPECT_EQ(yield_stress(concrete, 0.01), 0.0);
+  EXPECT_EQ(yield_stress(yielding_concrete, 0.0), 22.98);
+  EXPECT_NEAR(yield_stress(yielding_concrete, 0.0015), 0.5 * (22.98 + 27.58), 1e-12);
+  EXPECT_NEAR(yield_stress(yielding_concrete, 0.003), 27.58, 1e-12);
+  EXPECT_NEAR(yield_stress(yielding_concrete, 0.0045), 0.5 * 27.58, 1e-12);
+  EXPECT_EQ(yield_stress(yielding_concrete, 0.01), 0.0);
 }
 
 TEST(J2Plasticity, FailureStrainDissipatesTheEnergyInTheBand) {
   // Triangle of height f_u: width f_u (e_f - e_u) / 2 = G.
-  const double strain = failure_strain(concrete, 0.05, 10.0);
+  const double strain = failure_strain(yielding_concrete, 0.05, 10.0);
   EXPECT_NEAR(10.0 * 27.58 * (strain - 0.003) / 2.0, 0.05, 1e-15);
 }
 
@@ -33,8 +33,8 @@ TEST(J2Plasticity, MisesStressOfSimpleStates) {
 
 TEST(J2Plasticity, StaysElasticBelowYield) {
   PlasticState state;
-  const SymmetricTensor stress =
-      return_stress(Problem::plane_stress, e, nu, concrete, {-1e-4, 0.2e-4, 0, 0, 0, 0}, state);
+  const SymmetricTensor stress = return_stress(Problem::plane_stress, e, nu, yielding_concrete,
+                                               {-1e-4, 0.2e-4, 0, 0, 0, 0}, state);
   EXPECT_NEAR(stress[0], -2.5, 1e-12);
   EXPECT_NEAR(stress[1], 0.0, 1e-12);
   EXPECT_EQ(state.equivalent_strain, 0.0);
@@ -50,11 +50,13 @@ TEST(J2Plasticity, EndsOnTheYieldSurfaceByAssociatedFlow) {
           SymmetricTensor{1e-4, -3e-4, 0, 1e-3, 0, 0},
           SymmetricTensor{5e-3, -1e-3, 0, 3e-3, 0, 0}}) {
       PlasticState state;
-      const SymmetricTensor stress = return_stress(problem, e, nu, concrete, strain, state);
+      const SymmetricTensor stress =
+          return_stress(problem, e, nu, yielding_concrete, strain, state);
       const SymmetricTensor& plastic = state.strain;
       ASSERT_GT(state.equivalent_strain, 0.0);
       // Round-off and the last bit of the bisection.
-      EXPECT_NEAR(mises_stress(stress), yield_stress(concrete, state.equivalent_strain), 1e-9);
+      EXPECT_NEAR(mises_stress(stress), yield_stress(yielding_concrete, state.equivalent_strain),
+                  1e-9);
       EXPECT_NEAR(plastic[0] + plastic[1] + plastic[2], 0.0, 1e-17);
       const double mean = (stress[0] + stress[1] + stress[2]) / 3.0;
       const double factor = 1.5 * state.equivalent_strain / mises_stress(stress);
@@ -79,8 +81,8 @@ TEST(J2Plasticity, UniaxialCompressionFollowsTheYieldCurve) {
     double lateral = -nu * axial, moved = lateral + 1e-5;
     const auto side_stress = [&](double side) {
       PlasticState trial = state;
-      return return_stress(Problem::plane_stress, e, nu, concrete, {axial, side, 0, 0, 0, 0},
-                           trial)[1];
+      return return_stress(Problem::plane_stress, e, nu, yielding_concrete,
+                           {axial, side, 0, 0, 0, 0}, trial)[1];
     };
     for (int k = 0; k < 60; ++k) {
       const double a = side_stress(lateral), b = side_stress(moved);
@@ -89,10 +91,10 @@ TEST(J2Plasticity, UniaxialCompressionFollowsTheYieldCurve) {
       lateral = moved;
       moved = next;
     }
-    const SymmetricTensor stress =
-        return_stress(Problem::plane_stress, e, nu, concrete, {axial, moved, 0, 0, 0, 0}, state);
+    const SymmetricTensor stress = return_stress(Problem::plane_stress, e, nu, yielding_concrete,
+                                                 {axial, moved, 0, 0, 0, 0}, state);
     if (state.equivalent_strain == 0.0) continue;
-    EXPECT_NEAR(-stress[0], yield_stress(concrete, state.equivalent_strain), 1e-6) << step;
+    EXPECT_NEAR(-stress[0], yield_stress(yielding_concrete, state.equivalent_strain), 1e-6) << step;
     // Uniaxial: the equivalent plastic strain is the axial one.
     EXPECT_NEAR(-state.strain[0], state.equivalent_strain, 1e-9) << step;
   }
@@ -101,8 +103,8 @@ TEST(J2Plasticity, UniaxialCompressionFollowsTheYieldCurve) {
 
 TEST(J2Plasticity, NothingIsLeftBeyondFailure) {
   PlasticState state;
-  const SymmetricTensor stress =
-      return_stress(Problem::plane_strain, e, nu, concrete, {-0.03, 0.03, 0, 0, 0, 0}, state);
+  const SymmetricTensor stress = return_stress(Problem::plane_strain, e, nu, yielding_concrete,
+                                               {-0.03, 0.03, 0, 0, 0, 0}, state);
   EXPECT_NEAR(mises_stress(stress), 0.0, 1e-9);
 }
 

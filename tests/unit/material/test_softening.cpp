@@ -60,7 +60,7 @@ std::vector<Tooth> teeth_of(const BondLaw& law) {
   return teeth;
 }
 
-double dissipated(const BondLaw& law, int tooth) {
+double dissipated_by_tooth(const BondLaw& law, int tooth) {
   const Tooth now = law.tooth(tooth);
   return 0.5 * now.limit * now.limit * (now.secant - law.tooth(tooth + 1).secant);
 }
@@ -138,7 +138,7 @@ TEST(Teeth, DissipateTheEnergyOfTheCurveInSum) {
       const BondLaw law = saw_tooth_of(curve, ripple);
       double sum = 0.0;
       for (std::size_t k = 0; k < teeth_of(law).size(); ++k) {
-        sum += dissipated(law, static_cast<int>(k));
+        sum += dissipated_by_tooth(law, static_cast<int>(k));
       }
       // Round-off of a few hundred terms.
       EXPECT_NEAR(2.0 * sum, each.energy, 1e-12 * each.energy) << each << ", ripple " << ripple;
@@ -155,7 +155,7 @@ TEST(Teeth, DissipateTheEnergyOfTheCurveOneByOne) {
       const std::vector<Tooth> teeth = teeth_of(law);
       double sum = 0.0;
       for (std::size_t k = 1; k < teeth.size(); ++k) {
-        sum += dissipated(law, static_cast<int>(k) - 1);
+        sum += dissipated_by_tooth(law, static_cast<int>(k) - 1);
         const double x = meeting_point(curve, teeth[k].secant);
         EXPECT_NEAR(sum, curve.area(x) - 0.5 * teeth[k].secant * x * x, 1e-11 * each.energy)
             << each << ", ripple " << ripple << ", tooth " << k;
@@ -230,7 +230,7 @@ TEST(SofteningCurves, OfConcreteArePlateaus) {
       const BondLaw law = saw_tooth_of(curve, ripple);
       double sum = 0.0;
       for (int k = 0; law.tooth(k).secant > 0.0; ++k) {
-        sum += dissipated(law, k);
+        sum += dissipated_by_tooth(law, k);
         const Tooth now = law.tooth(k), next = law.tooth(k + 1);
         EXPECT_LE(now.limit, end * (1.0 + 1e-12));
         EXPECT_LT(now.secant * now.limit, 1.0 + ripple * (1.0 + 1e-6));

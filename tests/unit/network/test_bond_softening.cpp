@@ -17,7 +17,6 @@ namespace {
 
 using namespace test;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double round_off = 1e-12;
 
 /// The strength factor is sought to 1e-4 of itself.

@@ -18,7 +18,7 @@ namespace {
 using namespace test;
 
 /// Round-off of sums over a few thousand bonds.
-constexpr double round_off = 1e-12;
+constexpr double strength_round_off = 1e-12;
 
 bool has_facet(const Network& network, Index particle) {
   const std::vector<Index>& corners = network.facets.corners.values;
@@ -67,7 +67,7 @@ TEST(BondStrength, OfACloudReleasesTheFractureEnergy) {
   ASSERT_GT(inner.volume, 0.0);
   const double energy = 0.5 * std::pow(network.critical_stretch[0], 2) * 2.0 / std::numbers::pi *
                         inner.axial / inner.volume;
-  EXPECT_NEAR(energy, 0.02, round_off * 0.02);
+  EXPECT_NEAR(energy, 0.02, strength_round_off * 0.02);
   for (const double stretch : network.critical_stretch) {
     EXPECT_EQ(stretch, network.critical_stretch[0]);
   }
@@ -78,13 +78,13 @@ TEST(BondStrength, OfACloudDoesNotDependOnTheCalibratedStiffness) {
   const NetworkInput input = micropolar_cloud_input(14);
   const Network network = build_network(make_cloud(1, 14), input);
   const Sums inner = sums_of(network, 0, 0);
-  EXPECT_NEAR(inner.bending, inner.axial, round_off * inner.axial);
+  EXPECT_NEAR(inner.bending, inner.axial, strength_round_off * inner.axial);
   const auto of_unit_length = [&](Index e) {
     return network.bending_ratio[e] * std::pow(network.bonds.lengths[e], 2);
   };
   double least = INFINITY, largest = 0.0;  // what the ratio would be without
   for (Index e = 0; e < network.num_elements(); ++e) {
-    EXPECT_NEAR(of_unit_length(e), of_unit_length(0), round_off * of_unit_length(0));
+    EXPECT_NEAR(of_unit_length(e), of_unit_length(0), strength_round_off * of_unit_length(0));
     const double own = network.bending[e] / network.stiffness[e] / network.bending_ratio[e];
     least = std::min(least, own);
     largest = std::max(largest, own);
@@ -111,7 +111,8 @@ TEST(BondStrength, OfPairsOfMaterialsIsThatOfBothTogether) {
     const double energy =
         0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy);
     const double sum = 2.0 / std::numbers::pi * both.axial / both.volume;
-    EXPECT_NEAR(0.5 * std::pow(network.critical_stretch[e], 2) * sum, energy, round_off * energy);
+    EXPECT_NEAR(0.5 * std::pow(network.critical_stretch[e], 2) * sum, energy,
+                strength_round_off * energy);
   }
   for (const int bonds : found) EXPECT_GT(bonds, 0);
 }
@@ -125,16 +126,17 @@ TEST(BondStrength, WithoutAnInsideStaysThatOfTheInfiniteBody) {
   const double of_unit_length = 12.0 * moduli.bending_modulus / moduli.micromodulus;
   for (Index e = 0; e < network.num_elements(); ++e) {
     const double square = std::pow(network.bonds.lengths[e], 2);
-    EXPECT_NEAR(network.bending_ratio[e] * square, of_unit_length, round_off * of_unit_length);
+    EXPECT_NEAR(network.bending_ratio[e] * square, of_unit_length,
+                strength_round_off * of_unit_length);
     EXPECT_EQ(network.critical_stretch[e], network.critical_stretch[0]);
   }
 }
 
-class LatticeStrength : public testing::TestWithParam<Pattern> {};
+class StrengthOfLattice : public testing::TestWithParam<Pattern> {};
 
 /// Near the surface bonds break like those inside with the same vector, and those break as they
 /// are.
-TEST_P(LatticeStrength, IsThatOfTheInside) {
+TEST_P(StrengthOfLattice, IsThatOfTheInside) {
   const bool plane = is_plane(GetParam());
   const LatticeInput of_body = body_input({"", GetParam(), Surface::calibrated}, plane ? 14 : 10);
   const Body body = make_body(of_body);
@@ -147,7 +149,7 @@ TEST_P(LatticeStrength, IsThatOfTheInside) {
     const Index k = families.find(network.bonds.direction(e), network.bonds.lengths[e]);
     if (k == no_index) continue;
     const double ratio = inside.bending[k] / inside.axial[k];
-    EXPECT_NEAR(network.bending_ratio[e], ratio, round_off * ratio);
+    EXPECT_NEAR(network.bending_ratio[e], ratio, strength_round_off * ratio);
     changed += std::abs(network.bending[e] / network.stiffness[e] - ratio) > 0.01 * ratio;
     if (network.stiffness[e] == inside.axial[k] && network.bending[e] == inside.bending[k]) {
       EXPECT_EQ(network.bending_ratio[e], ratio);
@@ -156,7 +158,7 @@ TEST_P(LatticeStrength, IsThatOfTheInside) {
   EXPECT_GT(changed, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(BondStrength, LatticeStrength,
+INSTANTIATE_TEST_SUITE_P(BondStrength, StrengthOfLattice,
                          testing::Values(Pattern::rectangular, Pattern::hexagonal, Pattern::cubic));
 
 TEST(BondStrength, TrussesHaveNoBendingRatio) {

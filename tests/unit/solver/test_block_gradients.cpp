@@ -17,21 +17,21 @@ using Eigen::MatrixXd;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, block_width, Eigen::RowMajor>;
 
 /// Positive definite where `shift` is positive.
-MatrixXd matrix_of(int size, double shift) {
+MatrixXd block_matrix(int size, double shift) {
   std::mt19937 random(5);  // fixed: the same matrix in every run
   std::normal_distribution<double> entry;
   const MatrixXd any = MatrixXd::NullaryExpr(size, size, [&] { return entry(random); });
   return any * any.transpose() / size + shift * MatrixXd::Identity(size, size);
 }
 
-LinearMap product_with(const MatrixXd& matrix) {
+LinearMap block_product(const MatrixXd& matrix) {
   return [&matrix](std::span<const double> x, std::span<double> result) {
     Eigen::Map<Rows>(result.data(), matrix.rows(), block_width) =
         matrix * Eigen::Map<const Rows>(x.data(), matrix.rows(), block_width);
   };
 }
 
-const LinearMap identity = [](std::span<const double> x, std::span<double> result) {
+const LinearMap block_identity = [](std::span<const double> x, std::span<double> result) {
   std::copy(x.begin(), x.end(), result.begin());
 };
 
@@ -47,14 +47,14 @@ BlockRow energies_of(const MatrixXd& matrix, const Rows& columns) {
 
 TEST(BlockGradients, SolveEveryRightSideToItsOwnTolerance) {
   constexpr int size = 60;
-  const MatrixXd matrix = matrix_of(size, 0.1);
+  const MatrixXd matrix = block_matrix(size, 0.1);
   Rows exact = Rows::Random(size, block_width);
   exact.col(3) *= 1e-8;  // small beside the others
   exact.col(5).setZero();
   Rows right = matrix * exact, solution(size, block_width);
   solution.setOnes();  // no guess
   const GradientsReport report = block_conjugate_gradients(
-      product_with(matrix), identity, {right.data(), std::size_t(right.size())},
+      block_product(matrix), block_identity, {right.data(), std::size_t(right.size())},
       {solution.data(), std::size_t(solution.size())}, energies_of(matrix, exact), 1e-9, 1000);
   EXPECT_TRUE(report.converged);
   EXPECT_GT(report.iterations, 12);
@@ -70,13 +70,13 @@ TEST(BlockGradients, SolveEveryRightSideToItsOwnTolerance) {
 
 TEST(BlockGradients, CountErrorsByTheSizesThatTheyAreGiven) {
   constexpr int size = 60;
-  const MatrixXd matrix = matrix_of(size, 0.1);
+  const MatrixXd matrix = block_matrix(size, 0.1);
   const Rows exact = Rows::Random(size, block_width);
   BlockRow sizes = energies_of(matrix, exact);
   for (double& energy : sizes) energy *= 1e-8;
   Rows right = matrix * exact, solution(size, block_width);
   const GradientsReport report = block_conjugate_gradients(
-      product_with(matrix), identity, {right.data(), std::size_t(right.size())},
+      block_product(matrix), block_identity, {right.data(), std::size_t(right.size())},
       {solution.data(), std::size_t(solution.size())}, sizes, 1e-6, 1000);
   EXPECT_TRUE(report.converged);
   const BlockRow missing = energies_of(matrix, exact - solution);
@@ -90,7 +90,7 @@ TEST(BlockGradients, EndWhereNothingIsMissing) {
   const Rows exact = Rows::Ones(size, block_width);
   Rows right = matrix * exact, solution(size, block_width);
   const GradientsReport report = block_conjugate_gradients(
-      product_with(matrix), identity, {right.data(), std::size_t(right.size())},
+      block_product(matrix), block_identity, {right.data(), std::size_t(right.size())},
       {solution.data(), std::size_t(solution.size())}, energies_of(matrix, exact), 1e-9, 100);
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.iterations, 1);
@@ -106,26 +106,26 @@ TEST(BlockGradients, DoNotTakeWhatIsNoNumberForSolved) {
   BlockRow sizes;
   sizes.fill(1.0);
   EXPECT_THROW(block_conjugate_gradients(
-                   product_with(matrix), identity, {right.data(), std::size_t(right.size())},
+                   block_product(matrix), block_identity, {right.data(), std::size_t(right.size())},
                    {solution.data(), std::size_t(solution.size())}, sizes, 1e-9, 100),
                NotPositiveDefinite);
 }
 
 TEST(BlockGradients, SayWhereTheyDoNotGetThere) {
-  const MatrixXd matrix = matrix_of(60, 1e-3);
+  const MatrixXd matrix = block_matrix(60, 1e-3);
   Rows right = Rows::Random(60, block_width), solution(60, block_width);
   const std::span<double> r(right.data(), std::size_t(right.size()));
   const std::span<double> x(solution.data(), std::size_t(solution.size()));
   const BlockRow sizes = energies_of(matrix, matrix.inverse() * right);
   const GradientsReport report =
-      block_conjugate_gradients(product_with(matrix), identity, r, x, sizes, 1e-12, 14);
+      block_conjugate_gradients(block_product(matrix), block_identity, r, x, sizes, 1e-12, 14);
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.iterations, 14);
   EXPECT_GT(report.error, 1e-12);
-  const MatrixXd indefinite = matrix_of(60, -1.0);
+  const MatrixXd indefinite = block_matrix(60, -1.0);
   right = Rows::Random(60, block_width);
   EXPECT_THROW(
-      block_conjugate_gradients(product_with(indefinite), identity, r, x, sizes, 1e-12, 500),
+      block_conjugate_gradients(block_product(indefinite), block_identity, r, x, sizes, 1e-12, 500),
       NotPositiveDefinite);
 }
 

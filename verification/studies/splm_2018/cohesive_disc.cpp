@@ -12,14 +12,14 @@
 namespace perilink::verification {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Number = Eigen::Index;
 
 /// Nodes of a quarter, (cells + 1)^2, row after row from the horizontal diameter to the platen:
 /// the unit square drawn onto the quarter disc, with a node at the end of the platen.
 struct Quarter {
-  Index side = 0;  ///< nodes along a side
+  Number side = 0;  ///< nodes along a side
   std::vector<double> x, y;
 
   Quarter(const CohesiveDisc& disc, int cells) : side(cells + 1) {
@@ -38,13 +38,13 @@ struct Quarter {
       }
     }
   }
-  Index node(Index i, Index j) const { return j * side + i; }
+  Number node(Number i, Number j) const { return j * side + i; }
 };
 
 using Element = Eigen::Matrix<double, 8, 8>;
 
 /// Two Gauss points per direction.
-Element element_stiffness(const Quarter& mesh, const std::array<Index, 4>& nodes,
+Element element_stiffness(const Quarter& mesh, const std::array<Number, 4>& nodes,
                           const Eigen::Matrix3d& moduli, double thickness) {
   constexpr std::array<double, 4> corner_x = {-1.0, 1.0, 1.0, -1.0};
   constexpr std::array<double, 4> corner_y = {-1.0, -1.0, 1.0, 1.0};
@@ -76,10 +76,10 @@ Eigen::SparseMatrix<double> assemble(const CohesiveDisc& disc, const Quarter& me
   Eigen::Matrix3d moduli;
   moduli << scale, nu * scale, 0.0, nu * scale, scale, 0.0, 0.0, 0.0, 0.5 * (1.0 - nu) * scale;
   std::vector<Eigen::Triplet<double>> entries;
-  for (Index j = 0; j + 1 < mesh.side; ++j) {
-    for (Index i = 0; i + 1 < mesh.side; ++i) {
-      const std::array<Index, 4> nodes = {mesh.node(i, j), mesh.node(i + 1, j),
-                                          mesh.node(i + 1, j + 1), mesh.node(i, j + 1)};
+  for (Number j = 0; j + 1 < mesh.side; ++j) {
+    for (Number i = 0; i + 1 < mesh.side; ++i) {
+      const std::array<Number, 4> nodes = {mesh.node(i, j), mesh.node(i + 1, j),
+                                           mesh.node(i + 1, j + 1), mesh.node(i, j + 1)};
       const Element element = element_stiffness(mesh, nodes, moduli, disc.thickness);
       for (int a = 0; a < 8; ++a) {
         for (int b = 0; b < 8; ++b) {
@@ -88,7 +88,7 @@ Eigen::SparseMatrix<double> assemble(const CohesiveDisc& disc, const Quarter& me
       }
     }
   }
-  const Index size = 2 * mesh.side * mesh.side;
+  const Number size = 2 * mesh.side * mesh.side;
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -101,21 +101,21 @@ MatrixXd condense(const CohesiveDisc& disc, const Quarter& mesh) {
   constexpr int held = -1, inner = -2;
   std::vector<int> kind(matrix.rows(), inner);
   const auto last = static_cast<int>(mesh.side);
-  for (Index i = 0; i < mesh.side; ++i) {
+  for (Number i = 0; i < mesh.side; ++i) {
     kind[2 * mesh.node(i, 0) + 1] = held;
     kind[2 * mesh.node(0, i)] = static_cast<int>(i);
-    const Index top = mesh.node(i, mesh.side - 1);
+    const Number top = mesh.node(i, mesh.side - 1);
     if (mesh.x[top] <= disc.half_platen * (1.0 + 1e-12)) kind[2 * top + 1] = last;
   }
-  std::vector<Index> number(matrix.rows(), 0);
-  Index count = 0;
-  for (Index k = 0; k < matrix.rows(); ++k) {
+  std::vector<Number> number(matrix.rows(), 0);
+  Number count = 0;
+  for (Number k = 0; k < matrix.rows(); ++k) {
     if (kind[k] == inner) number[k] = count++;
   }
   std::vector<Eigen::Triplet<double>> entries;
   MatrixXd coupling = MatrixXd::Zero(count, last + 1);
   MatrixXd own = MatrixXd::Zero(last + 1, last + 1);
-  for (Index column = 0; column < matrix.cols(); ++column) {
+  for (Number column = 0; column < matrix.cols(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it) {
       const int row_kind = kind[it.row()], column_kind = kind[column];
       if (row_kind == held || column_kind == held) continue;
@@ -154,10 +154,10 @@ class Crack {
  public:
   Crack(const CohesiveDisc& disc, const Quarter& mesh)
       : law_(disc.law), stiffness_(condense(disc, mesh)) {
-    const Index nodes = mesh.side;
+    const Number nodes = mesh.side;
     half_ = VectorXd::Zero(nodes);
     area_ = VectorXd::Zero(nodes);
-    for (Index i = 0; i + 1 < nodes; ++i) {
+    for (Number i = 0; i + 1 < nodes; ++i) {
       const double length = mesh.y[mesh.node(0, i + 1)] - mesh.y[mesh.node(0, i)];
       area_[i] += 0.5 * disc.thickness * length;
       area_[i + 1] += 0.5 * disc.thickness * length;
@@ -172,24 +172,24 @@ class Crack {
     constexpr double smallest = 1e-15;  // round-off; openings are about a micrometre [m]
     for (int iteration = 0; iteration < most; ++iteration) {
       const VectorXd pull = pulls(platen);
-      std::vector<Index> active;
-      for (Index i = 0; i < half_.size(); ++i) {
+      std::vector<Number> active;
+      for (Number i = 0; i < half_.size(); ++i) {
         open_[i] = open_[i] || pull[i] > law_.strength * area_[i];
         if (open_[i]) active.push_back(i);
       }
       if (active.empty()) return true;
-      const auto size = static_cast<Index>(active.size());
+      const auto size = static_cast<Number>(active.size());
       MatrixXd tangent(size, size);
       VectorXd rest(size);
-      for (Index a = 0; a < size; ++a) {
+      for (Number a = 0; a < size; ++a) {
         const Traction here = traction(law_, 2.0 * half_[active[a]]);
         rest[a] = pull[active[a]] - here.stress * area_[active[a]];
-        for (Index b = 0; b < size; ++b) tangent(a, b) = stiffness_(active[a], active[b]);
+        for (Number b = 0; b < size; ++b) tangent(a, b) = stiffness_(active[a], active[b]);
         tangent(a, a) += 2.0 * here.slope * area_[active[a]];
       }
       const VectorXd step = tangent.partialPivLu().solve(rest);
-      for (Index a = 0; a < size; ++a) {
-        const Index i = active[a];
+      for (Number a = 0; a < size; ++a) {
+        const Number i = active[a];
         half_[i] = std::max(0.0, half_[i] + step[a]);
         open_[i] = half_[i] > 0.0;
       }
@@ -200,7 +200,7 @@ class Crack {
 
   /// Both quarters under a platen.
   double force(double platen) const {
-    const Index last = half_.size();
+    const Number last = half_.size();
     return 2.0 *
            std::abs(stiffness_.row(last).head(last).dot(half_) + stiffness_(last, last) * platen);
   }
@@ -209,7 +209,7 @@ class Crack {
   double error(double platen) const {
     const VectorXd pull = pulls(platen);
     double largest = 0.0;
-    for (Index i = 0; i < half_.size(); ++i) {
+    for (Number i = 0; i < half_.size(); ++i) {
       if (!open_[i]) continue;
       const double difference = pull[i] / area_[i] - traction(law_, 2.0 * half_[i]).stress;
       largest = std::max(largest, std::abs(difference) / law_.strength);
@@ -218,7 +218,7 @@ class Crack {
   }
   /// Displacement of the platen at which the diameter first has the strength.
   double first_displacement() const {
-    const Index last = half_.size();
+    const Number last = half_.size();
     const VectorXd stress = -stiffness_.col(last).head(last).cwiseQuotient(area_);
     return -law_.strength / -stress.minCoeff();
   }
@@ -226,7 +226,7 @@ class Crack {
  private:
   /// Tension of the diameter times the area of each node.
   VectorXd pulls(double platen) const {
-    const Index last = half_.size();
+    const Number last = half_.size();
     return -(stiffness_.topLeftCorner(last, last) * half_ +
              stiffness_.col(last).head(last) * platen);
   }

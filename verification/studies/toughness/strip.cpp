@@ -14,8 +14,6 @@
 namespace perilink::verification {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Whole coordinates of a lattice point, in half steps.
 using Point = std::array<int, 3>;
 

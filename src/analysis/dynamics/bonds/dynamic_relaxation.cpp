@@ -13,7 +13,6 @@
 namespace perilink {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Index iterations_between_checks = 200;
 /// A residual that has grown so much since the first one will not shrink any more.
 constexpr double largest_growth = 1e12;

@@ -17,7 +17,7 @@
 namespace perilink {
 namespace {
 
-constexpr int most_iterations = 20000;
+constexpr int most_box_iterations = 20000;
 
 /// An element holds a small part of the energy: solutions in which events are looked for are finer
 /// by this.
@@ -168,7 +168,7 @@ void BoxSolver::solve(std::span<const double> right, std::span<double> solution)
   std::fill(solution.begin(), solution.end(), 0.0);
   const double tolerance = options_.tolerance * (options_.blocks ? finer : 1.0);
   const GradientsReport report =
-      search(wanted, solution, tolerance, options_.blocks ? 0.0 : energy_, most_iterations);
+      search(wanted, solution, tolerance, options_.blocks ? 0.0 : energy_, most_box_iterations);
   iterations_ += report.iterations;
   energy_ = options_.blocks ? report.energy : std::max(energy_, report.energy);
   error_ = energy_ > 0.0 ? report.error / std::sqrt(energy_) : 0.0;
@@ -214,7 +214,7 @@ GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double
   const GradientsReport report = block_conjugate_gradients(
       [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
       [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
-      solution, sizes, options_.tolerance, most_iterations);
+      solution, sizes, options_.tolerance, most_box_iterations);
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, options_.tolerance);
   return report;

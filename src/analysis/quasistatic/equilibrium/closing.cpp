@@ -18,7 +18,7 @@ namespace {
 constexpr int rounds_together = 10, most_rounds = 1000;
 
 /// Extensions that are so small beside the motion of the ends are round-off and have no sign.
-constexpr double round_off = 1e-11;
+constexpr double closing_round_off = 1e-11;
 
 /// An opening bond with a smaller pivot held the last load path.
 constexpr double no_pivot = 1e-12;
@@ -67,7 +67,7 @@ auto Equilibrium::extension_at(const BondEnds& bond) const -> Extension {
   if (boxes_ != nullptr) {  // errors of parts that move far are everywhere
     size += std::abs(load_factor) * largest_motion_ + (constant_ ? constant_->largest_motion : 0.0);
   }
-  if (std::abs(result.now) <= round_off * size) result.now = 0.0;
+  if (std::abs(result.now) <= closing_round_off * size) result.now = 0.0;
   result.side = result.now != 0.0 ? result.now : direction_ * result.growing;
   return result;
 }

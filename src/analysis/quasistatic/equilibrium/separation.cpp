@@ -13,7 +13,7 @@
 namespace perilink {
 namespace {
 
-constexpr double round_off = std::numeric_limits<double>::epsilon();
+constexpr double machine_precision = std::numeric_limits<double>::epsilon();
 
 /// An energy that is not this many times what errors leave cannot be told from none.
 constexpr double clearly_there = 100.0;
@@ -85,7 +85,7 @@ Equilibrium::Refined Equilibrium::refine_finely(std::span<const double> load, Fi
   long double largest = 0.0;
   for (const long double u : motion.particles) largest = std::max(largest, std::abs(u));
   // Directions of bonds are rounded: a rigid motion stretches them by as much.
-  const double noise = round_off * static_cast<double>(largest);
+  const double noise = machine_precision * static_cast<double>(largest);
   result.error += stiffness_sum_ * noise * noise;
   return result;
 }
@@ -180,7 +180,7 @@ Balance Equilibrium::polish() {
   force_work_ = work_of_forces();
   factor_error_ = refined.factor_error;
   Balance result;
-  result.residual = std::max(refined.residual / load_norm_, round_off);
+  result.residual = std::max(refined.residual / load_norm_, machine_precision);
   result.stored_energy = static_cast<double>(fine_.energy);
   resists_ = 2.0 * result.stored_energy > clearly_there * refined.error;
   supports_alone_ = fine_.support_energy > 0.5L * fine_.energy;

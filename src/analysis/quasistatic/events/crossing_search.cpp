@@ -12,17 +12,15 @@
 namespace perilink {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A bond that bends counts as stretched from this axial stretch on, over its limit, as round-off
 /// must not decide where symmetry keeps its length.
-constexpr double least_tension = 1e-6;
+constexpr double least_stretch = 1e-6;
 
 /// The part of the motion of its ends that is nothing but round-off in an extension.
-constexpr double round_off = 1e-12;
+constexpr double motion_round_off = 1e-12;
 
 /// Fewer blocks than this are searched faster by one thread.
-constexpr Index smallest_parallel_search = 100;
+constexpr Index fewest_parallel_crossings = 100;
 
 /// The parts of the stretch over its limit whose squares add up, the axial one first.
 template <int Dim, bool Turns>
@@ -48,7 +46,7 @@ CrossingSearch::Query::Query(std::span<const double> present, std::span<const do
       largest(asks_for_largest) {
   double most = 0.0;
   for (const double value : added) most = std::max(most, std::abs(value));
-  noise = 6.0 * round_off * most;  // two ends, three components
+  noise = 6.0 * motion_round_off * most;  // two ends, three components
 }
 
 /// Whether what is asked for may lie at the low end of the interval.
@@ -126,7 +124,7 @@ bool CrossingSearch::is_noise(const Element& element, const double* motion, doub
     const double ends = std::abs(motion[element.first + a]) + std::abs(motion[element.second + a]);
     size += std::abs(element.n[a]) * ends;
   }
-  return std::abs(extension) <= round_off * size;
+  return std::abs(extension) <= motion_round_off * size;
 }
 
 template <int Dim, bool Turns, class Sink>
@@ -161,7 +159,7 @@ void CrossingSearch::visit(const Element& element, const Query& query, Sink&& si
   // Where the element is stretched, if it fails in tension alone.
   double from = -infinity, to = infinity;
   if (!element.both) {
-    const double least = Turns ? least_tension : 0.0;
+    const double least = Turns ? least_stretch : 0.0;
     if (stretching > 0.0) {
       from = (least - stretch) / stretching;
     } else if (stretching < 0.0) {
@@ -190,7 +188,7 @@ void CrossingSearch::visit(std::size_t place, const Query& query, Sink&& sink) c
 auto CrossingSearch::find(const Query& query, int threads) -> Found {
   const Index blocks = static_cast<Index>(blocks_.size());
 #pragma omp parallel for schedule(static) \
-    num_threads(threads) if (threads > 1 && blocks > smallest_parallel_search)
+    num_threads(threads) if (threads > 1 && blocks > fewest_parallel_crossings)
   for (Index b = 0; b < blocks; ++b) {
     Found found;
     const std::size_t begin = static_cast<std::size_t>(b) * search_block_size;

@@ -72,7 +72,6 @@ class CrossingSearch {
 
   /// What is found in a block of elements, or in all.
   struct Found {
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
     double low = infinity;      ///< least low end of the intervals that are asked for ...
     double early = infinity;    ///< ... less the margin
     double needed = -infinity;  ///< below this d an element fails, whatever comes ...

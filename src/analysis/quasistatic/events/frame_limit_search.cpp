@@ -11,7 +11,7 @@ namespace perilink {
 namespace {
 
 /// Fewer blocks than this are searched faster by one thread.
-constexpr Index smallest_parallel_search = 100;
+constexpr Index fewest_parallel_frames = 100;
 
 /// A bond counts as stretched when the square of its axial stretch is at least this share of that
 /// of its equivalent stretch. Where symmetry keeps its length, round-off must not decide.
@@ -112,7 +112,7 @@ FrameLimitSearch::Hit FrameLimitSearch::find_in(const double* u, double toleranc
     return largest_or_nan(largest, zero_times_all);
   };
   Hit hit = find_first_largest(elements_, block_largest_, (1.0 - tolerance) * (1.0 - tolerance),
-                               threads, smallest_parallel_search, largest_in, value_at);
+                               threads, fewest_parallel_frames, largest_in, value_at);
   hit.ratio = std::sqrt(hit.ratio);
   return hit;
 }

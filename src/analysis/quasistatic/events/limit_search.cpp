@@ -10,7 +10,7 @@ namespace perilink {
 namespace {
 
 /// Fewer blocks than this are searched faster by one thread.
-constexpr Index smallest_parallel_search = 400;
+constexpr Index fewest_parallel_bonds = 400;
 
 constexpr const char* no_crushing =
     "elements that only stretch have no teeth in compression of their own";
@@ -81,7 +81,7 @@ template <int Dim, Sense sense>
 LimitSearch::Hit LimitSearch::find_in(Group& group, const double* u, double tolerance,
                                       int threads) {
   return find_first_largest(
-      group.elements, group.block_largest, 1.0 - tolerance, threads, smallest_parallel_search,
+      group.elements, group.block_largest, 1.0 - tolerance, threads, fewest_parallel_bonds,
       [&](Index begin, Index end) { return largest_between<Dim, sense>(group, u, begin, end); },
       [&](Index place) { return ratio_at<Dim, sense>(group, u, place); });
 }

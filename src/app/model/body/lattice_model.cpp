@@ -18,7 +18,7 @@
 namespace perilink {
 namespace {
 
-constexpr double most_particles = 3e7;
+constexpr double most_lattice_particles = 3e7;
 /// Largest distance of the lattice point from the body [spacings].
 constexpr double farthest_offset = 1e6;
 
@@ -35,10 +35,10 @@ void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
                                  fmt::join(cut.origin.begin(), cut.origin.begin() + dim, ", ")),
                      "give a lattice point near the body, or a larger spacing");
   }
-  if (count <= most_particles) return;
+  if (count <= most_lattice_particles) return;
   throw InputError(
       input.where("body.spacing"), fmt::format("gives about {:.1e} particles", count),
-      fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_particles));
+      fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_lattice_particles));
 }
 
 /// Counts what holes take: one that is smaller than it looks between particles, or lies beside

@@ -15,7 +15,7 @@
 namespace perilink {
 namespace {
 
-constexpr double region_tolerance = 1e-6;  ///< [spacings]
+constexpr double cut_tolerance = 1e-6;  ///< [spacings]
 
 std::vector<const Region*> regions_named(const CaseFile& input,
                                          const std::vector<std::string>& names) {
@@ -39,7 +39,7 @@ std::vector<Index> cells_with_material(const MeshInput& mesh) {
 
 LatticeShape::LatticeShape(const CaseFile& input)
     : input_(input),
-      tolerance_(region_tolerance * *input.body.spacing),
+      tolerance_(cut_tolerance * *input.body.spacing),
       solid_(regions_named(input, input.materials.front().regions)),
       holes_(regions_named(input, input.materials.front().holes)) {
   if (input.body.mesh) read_mesh();

@@ -29,7 +29,7 @@ struct Watcher {
 
 /// Thousand steps of one with ten rows, energies from `energy`.
 template <class Energy>
-ExplicitResult run(Watcher& watcher, Energy energy, int rows = 10) {
+ExplicitResult run_rows(Watcher& watcher, Energy energy, int rows = 10) {
   ExplicitOptions options;
   options.duration = 1000.0;
   options.ramp = 500.0;
@@ -56,7 +56,7 @@ EnergyBalance balanced(Index step) {
 /// Where the step cannot be the reason it is not named as one.
 TEST(ExplicitLoop, TellsWhyAMotionMayHaveGrown) {
   Watcher watcher;
-  const ExplicitResult result = run(watcher, [](Index step) {
+  const ExplicitResult result = run_rows(watcher, [](Index step) {
     EnergyBalance energy;
     energy.kinetic = 1.0 * step;
     energy.external_work = 1.0;
@@ -70,7 +70,7 @@ TEST(ExplicitLoop, TellsWhyAMotionMayHaveGrown) {
 
 TEST(ExplicitLoop, RowsAreEvenAndTheLastStepIsOne) {
   Watcher watcher;
-  const ExplicitResult result = run(watcher, balanced);
+  const ExplicitResult result = run_rows(watcher, balanced);
   EXPECT_EQ(watcher.rows,
             (std::vector<Index>{0, 100, 200, 300, 400, 500, 600, 700, 800, 900, 1000}));
   EXPECT_EQ(watcher.ends, 1);
@@ -84,7 +84,7 @@ TEST(ExplicitLoop, RowsAreEvenAndTheLastStepIsOne) {
 
 TEST(ExplicitLoop, LargestSurplusIsOverTheWork) {
   Watcher watcher;
-  const ExplicitResult result = run(watcher, [](Index step) {
+  const ExplicitResult result = run_rows(watcher, [](Index step) {
     EnergyBalance energy = balanced(step);
     energy.stored += step == 500 ? 4.0 : 1.0;  // two thousandths and less of the work at the end
     return energy;
@@ -95,7 +95,7 @@ TEST(ExplicitLoop, LargestSurplusIsOverTheWork) {
 TEST(ExplicitLoop, EnergyOutOfNothingEndsTheRun) {
   for (const double kinetic : {1e6, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
     Watcher watcher;
-    const ExplicitResult result = run(
+    const ExplicitResult result = run_rows(
         watcher,
         [&](Index step) {
           EnergyBalance energy = balanced(step);
@@ -118,7 +118,7 @@ TEST(ExplicitLoop, EnergyOutOfNothingEndsTheRun) {
 TEST(ExplicitLoop, StopsBetweenRowsWhenAsked) {
   Watcher watcher;
   watcher.stop_at = 150;
-  const ExplicitResult result = run(watcher, balanced, 1);
+  const ExplicitResult result = run_rows(watcher, balanced, 1);
   EXPECT_EQ(result.ending, Ending::interrupted);
   EXPECT_EQ(watcher.rows, (std::vector<Index>{0, 200}));
   EXPECT_EQ(watcher.ends, 1);
@@ -127,7 +127,7 @@ TEST(ExplicitLoop, StopsBetweenRowsWhenAsked) {
 TEST(ExplicitLoop, WhatObserversThrowEndsTheRunWithWhatWasFound) {
   Watcher watcher;
   watcher.throws_at = 200;
-  const ExplicitResult result = run(watcher, balanced);
+  const ExplicitResult result = run_rows(watcher, balanced);
   EXPECT_EQ(result.ending, Ending::failed);
   EXPECT_EQ(result.reason, "a full disk");
   EXPECT_EQ(watcher.rows, (std::vector<Index>{0, 100}));

@@ -15,12 +15,6 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-const LatticeCase rectangular{"rectangular", Pattern::rectangular, Surface::none};
-const LatticeCase hexagonal{"hexagonal", Pattern::hexagonal, Surface::none};
-const LatticeCase hexagonal_ghost{"hexagonal_ghost", Pattern::hexagonal, Surface::ghost};
-const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
-
 DamageOptions by_steps(std::vector<double> load_factors) {
   DamageOptions options;
   options.load_factors = std::move(load_factors);

@@ -45,9 +45,7 @@ TEST_P(ElasticBlock, ThreadsDoNotChangeTheResult) {
   EXPECT_EQ(one.residual, two.residual);
 }
 
-const LatticeCase rectangular{"rectangular", Pattern::rectangular, Surface::none};
 const LatticeCase ghost{"hexagonal_ghost", Pattern::hexagonal, Surface::ghost};
-const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
 
 INSTANTIATE_TEST_SUITE_P(Elastic, ElasticBlock,
                          testing::Values(BlockCase{rectangular, false, false},

@@ -12,8 +12,6 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Two rows of bonds in series from the held left end to x = 5, all of stiffness 2 and limit 0.01,
 /// under their weight to the right (1 per particle at load factor 1), then pulled at the end by P
 /// each: the first bonds carry 5 w + P.

@@ -9,7 +9,8 @@ namespace perilink {
 namespace {
 
 /// A square of side 10 in cells, or a cube, cracked where `is_cracked` says so at their centres.
-CrackPattern block(int dim, double spacing, const std::function<bool(double, double)>& is_cracked) {
+CrackPattern cracked_block(int dim, double spacing,
+                           const std::function<bool(double, double)>& is_cracked) {
   CrackPattern pattern;
   pattern.dim = dim;
   const int cells = static_cast<int>(std::lround(10.0 / spacing));
@@ -31,7 +32,8 @@ bool column(double x, double low) { return x > low && x < low + 1.0; }
 
 TEST(CrackOverlap, ACrackCoversItself) {
   for (const int dim : {2, 3}) {
-    const CrackPattern body = block(dim, 1.0, [](double x, double) { return column(x, 3.0); });
+    const CrackPattern body =
+        cracked_block(dim, 1.0, [](double x, double) { return column(x, 3.0); });
     const CrackOverlap found = crack_overlap(body, body, 3.0);
     EXPECT_EQ(found.volume_a, dim == 2 ? 10.0 : 100.0);
     EXPECT_EQ(found.volume_b, found.volume_a);
@@ -42,17 +44,17 @@ TEST(CrackOverlap, ACrackCoversItself) {
 }
 
 TEST(CrackOverlap, ParallelCracksAreNearWithinTheTolerance) {
-  const CrackPattern a = block(2, 1.0, [](double x, double) { return column(x, 3.0); });
-  const CrackPattern b = block(2, 1.0, [](double x, double) { return column(x, 5.0); });
+  const CrackPattern a = cracked_block(2, 1.0, [](double x, double) { return column(x, 3.0); });
+  const CrackPattern b = cracked_block(2, 1.0, [](double x, double) { return column(x, 5.0); });
   EXPECT_EQ(crack_overlap(a, b, 2.5).near_a, 1.0);
   EXPECT_EQ(crack_overlap(a, b, 1.5).near_a, 0.0);
   EXPECT_EQ(crack_overlap(a, b, 2.5).overlap, 0.0);
 }
 
 TEST(CrackOverlap, AShortCrackCoversHalfOfALongOne) {
-  const CrackPattern whole = block(2, 1.0, [](double x, double) { return column(x, 3.0); });
+  const CrackPattern whole = cracked_block(2, 1.0, [](double x, double) { return column(x, 3.0); });
   const CrackPattern half =
-      block(2, 1.0, [](double x, double y) { return column(x, 3.0) && y < 5.0; });
+      cracked_block(2, 1.0, [](double x, double y) { return column(x, 3.0) && y < 5.0; });
   const CrackOverlap found = crack_overlap(whole, half, 1.5);
   EXPECT_EQ(found.near_a, 0.6) << "one cell beyond the tip is near it";
   EXPECT_EQ(found.near_b, 1.0);
@@ -61,15 +63,17 @@ TEST(CrackOverlap, AShortCrackCoversHalfOfALongOne) {
 
 TEST(CrackOverlap, SpacingsMayDiffer) {
   const auto band = [](double x, double) { return x > 2.0 && x < 4.0; };
-  const CrackOverlap found = crack_overlap(block(2, 1.0, band), block(2, 0.5, band), 3.0);
+  const CrackOverlap found =
+      crack_overlap(cracked_block(2, 1.0, band), cracked_block(2, 0.5, band), 3.0);
   EXPECT_EQ(found.volume_a, 20.0);
   EXPECT_EQ(found.volume_b, 20.0);
   EXPECT_EQ(found.overlap, 1.0);
 }
 
 TEST(CrackOverlap, WithoutCracksThereAreNoShares) {
-  const CrackPattern intact = block(2, 1.0, [](double, double) { return false; });
-  const CrackPattern cracked = block(2, 1.0, [](double x, double) { return column(x, 3.0); });
+  const CrackPattern intact = cracked_block(2, 1.0, [](double, double) { return false; });
+  const CrackPattern cracked =
+      cracked_block(2, 1.0, [](double x, double) { return column(x, 3.0); });
   const CrackOverlap none = crack_overlap(intact, intact, 3.0);
   EXPECT_EQ(none.volume_a, 0.0);
   EXPECT_TRUE(std::isnan(none.near_a) && std::isnan(none.near_b) && std::isnan(none.overlap));

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-RunResult result_of(const std::string& name, const std::string& title, int rows) {
+RunResult drawn_result(const std::string& name, const std::string& title, int rows) {
   RunResult result;
   result.name = name;
   result.labels = {title, "kN", "m"};
@@ -39,7 +39,8 @@ int count(const std::string& text, const std::string& part) {
 
 TEST(PlotComparison, DrawsBothCurvesWithTheirNames) {
   const std::string svg =
-      draw_comparison(result_of("coarse", "Beam <1>", 30), result_of("fine", "Beam <2>", 30)).str();
+      draw_comparison(drawn_result("coarse", "Beam <1>", 30), drawn_result("fine", "Beam <2>", 30))
+          .str();
   pugi::xml_document document;
   EXPECT_TRUE(document.load_string(svg.c_str()));
   EXPECT_THAT(svg, HasSubstr("coarse and fine"));
@@ -54,7 +55,7 @@ TEST(PlotComparison, DrawsBothCurvesWithTheirNames) {
 
 TEST(PlotComparison, ATitleOfBothIsTheHeading) {
   const std::string svg =
-      draw_comparison(result_of("coarse", "Beam", 30), result_of("fine", "Beam", 30)).str();
+      draw_comparison(drawn_result("coarse", "Beam", 30), drawn_result("fine", "Beam", 30)).str();
   EXPECT_EQ(count(svg, "Beam"), 1);
   EXPECT_THAT(svg, HasSubstr("coarse, peak"));
 }
@@ -62,26 +63,26 @@ TEST(PlotComparison, ATitleOfBothIsTheHeading) {
 TEST(PlotComparison, LongTitlesGiveWay) {
   const std::string title(200, 'x');
   const std::string svg =
-      draw_comparison(result_of("coarse", title, 30), result_of("fine", "Beam", 30)).str();
+      draw_comparison(drawn_result("coarse", title, 30), drawn_result("fine", "Beam", 30)).str();
   EXPECT_EQ(count(svg, title), 0);
   EXPECT_THAT(svg, HasSubstr("coarse, peak"));
 }
 
 TEST(PlotComparison, ManyRowsHaveAnEnvelope) {
   const std::string svg =
-      draw_comparison(result_of("coarse", "a", 300), result_of("fine", "b", 30)).str();
+      draw_comparison(drawn_result("coarse", "a", 300), drawn_result("fine", "b", 30)).str();
   EXPECT_EQ(count(svg, "stroke-opacity=\"0.35\""), 1);
-  RunResult over_time = result_of("dynamic", "c", 300);
+  RunResult over_time = drawn_result("dynamic", "c", 300);
   for (StepRecord& record : over_time.records) record.broken_bonds /= 4;
-  EXPECT_EQ(count(draw_comparison(over_time, result_of("fine", "b", 30)).str(),
+  EXPECT_EQ(count(draw_comparison(over_time, drawn_result("fine", "b", 30)).str(),
                   "stroke-opacity=\"0.35\""),
             0);
 }
 
 TEST(PlotComparison, AxesHaveNoUnitsWhereTheResultsDiffer) {
-  RunResult other = result_of("fine", "b", 30);
+  RunResult other = drawn_result("fine", "b", 30);
   other.units = "N, mm";
-  const std::string svg = draw_comparison(result_of("coarse", "a", 30), other).str();
+  const std::string svg = draw_comparison(drawn_result("coarse", "a", 30), other).str();
   EXPECT_THAT(svg, HasSubstr(">displacement<"));
   EXPECT_THAT(svg, HasSubstr(">load<"));
 }

@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-StepRecord row(Index stage, double displacement, double load) {
+StepRecord staged_row(Index stage, double displacement, double load) {
   StepRecord record;
   record.stage = stage;
   record.displacement = displacement;
@@ -17,8 +17,8 @@ StepRecord row(Index stage, double displacement, double load) {
   return record;
 }
 
-const std::vector<StepRecord> rows = {row(1, 1.0, 5.0), row(2, 2.0, 8.0), row(2, 3.0, 4.0),
-                                      row(3, 0.5, 0.0)};
+const std::vector<StepRecord> rows = {staged_row(1, 1.0, 5.0), staged_row(2, 2.0, 8.0),
+                                      staged_row(2, 3.0, 4.0), staged_row(3, 0.5, 0.0)};
 
 PlotLabels labels() {
   PlotLabels result{"Beam", "N", "mm"};
@@ -40,7 +40,7 @@ TEST(PlotStages, GoOnWhereTheirLoadsWere) {
 }
 
 TEST(PlotStages, HistoriesWithoutThemHaveNone) {
-  EXPECT_TRUE(paths_of_stages(std::vector<StepRecord>{row(0, 1.0, 5.0)}, labels()).empty());
+  EXPECT_TRUE(paths_of_stages(std::vector<StepRecord>{staged_row(0, 1.0, 5.0)}, labels()).empty());
 }
 
 TEST(PlotStages, ThePictureNamesThemInTheirColours) {

@@ -9,6 +9,7 @@
 #include "analysis/dynamics/fundamental_period.hpp"
 #include "base/error.hpp"
 #include "solver/factor_routes.hpp"
+#include "support/replaced.hpp"
 #include "support/whole_run.hpp"
 
 namespace perilink {
@@ -52,10 +53,6 @@ rows = 40
 [output]
 fields_times = [4]
 )";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
 
 class BondRunTest : public testing::Test {
  protected:

@@ -126,5 +126,53 @@ TEST(PlaceForces, OfLoadsAreTheirForcesAtTheLoadFactor) {
   EXPECT_EQ(places[1].force, (std::vector<double>{0.0, -6.0}));
 }
 
+/// Round-off across the pull is shown as zero.
+TEST(PlaceForces, OfDrivenPlacesHaveNoRoundOffAcrossThePull) {
+  const Model model = build_model(parse_case(R"(
+[body]
+spacing = 1
+horizon_ratio = 3
+[[regions]]
+name = "block"
+x = [0, 10]
+y = [0, 20]
+[[regions]]
+name = "lower"
+x = [0, 10]
+y = [0, 0]
+[[regions]]
+name = "upper"
+x = [0, 10]
+y = [20, 20]
+[[materials]]
+region = "block"
+youngs_modulus = 3
+fracture_energy = 1
+[[supports]]
+region = "lower"
+fix = ["x"]
+[[displacements]]
+region = "lower"
+y = -0.7
+[[displacements]]
+region = "upper"
+x = 0
+y = 0.3
+[analysis]
+type = "elastic"
+)",
+                                             ""));
+  const ElasticAnswer answer = solve_elastic(model, {});
+  const std::vector<PlaceForce> places = place_forces(
+      model, 1.0, std::vector<double>(static_cast<std::size_t>(model.network.num_elements()), 1.0),
+      answer.solution.displacement);
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_EQ(places[0].force[0], 0.0);
+  EXPECT_EQ(places[1].force[0], 0.0);
+  EXPECT_GT(places[1].force[1], 0.1);
+  // The residual of the equilibrium bounds it.
+  EXPECT_NEAR(places[0].force[1], -places[1].force[1], 1e-9 * places[1].force[1]);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -11,7 +11,7 @@
 namespace perilink {
 namespace {
 
-Particles block(Pattern pattern) {
+Particles particles_of(Pattern pattern) {
   LatticeInput input;
   input.pattern = pattern;
   input.spacing = 0.25;
@@ -38,10 +38,10 @@ Vector3 turned(const Vector3& x) {  // translation and the rotation (0.1, -0.2, 
           0.5 + 0.1 * x[1] + 0.2 * x[0]};
 }
 
-class RigidMotion : public testing::TestWithParam<Pattern> {};
+class RigidMotionKept : public testing::TestWithParam<Pattern> {};
 
-TEST_P(RigidMotion, IsTakenOutWhole) {
-  const Particles particles = block(GetParam());
+TEST_P(RigidMotionKept, IsTakenOutWhole) {
+  const Particles particles = particles_of(GetParam());
   std::vector<double> values = field(particles, [&](Vector3 x) {
     // In the plane only the rotation about the third axis is rigid.
     return particles.dim == 3 ? turned(x) : Vector3{1.0 - 0.3 * x[1], -2.0 + 0.3 * x[0], 0.0};
@@ -51,8 +51,8 @@ TEST_P(RigidMotion, IsTakenOutWhole) {
     EXPECT_NEAR(value, 0.0, 1e-14);  // round-off of numbers of size 3
 }
 
-TEST_P(RigidMotion, LeavesTheRestAlone) {
-  const Particles particles = block(GetParam());
+TEST_P(RigidMotionKept, LeavesTheRestAlone) {
+  const Particles particles = particles_of(GetParam());
   // A uniform stretch about the centroid has no translation, and no moment by symmetry.
   const Vector3 centre = {0.8, 0.3, 0.35};
   const std::vector<double> stretch = field(particles, [&](Vector3 x) {
@@ -63,8 +63,8 @@ TEST_P(RigidMotion, LeavesTheRestAlone) {
   for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(values[k], stretch[k], 1e-14);
 }
 
-TEST_P(RigidMotion, DoesNotCountAsErrorWhereItIsRemoved) {
-  const Particles particles = block(GetParam());
+TEST_P(RigidMotionKept, DoesNotCountAsErrorWhereItIsRemoved) {
+  const Particles particles = particles_of(GetParam());
   const auto exact = field(particles, [](Vector3 x) { return Vector3{x[0] * x[0], x[1], x[2]}; });
   std::vector<double> moved = exact;
   const auto turn = field(particles, [](Vector3 x) { return Vector3{1.0 - x[1], x[0], 0.0}; });
@@ -73,7 +73,7 @@ TEST_P(RigidMotion, DoesNotCountAsErrorWhereItIsRemoved) {
   EXPECT_LT(relative_l2_error(particles, moved, exact, true), 1e-14);
 }
 
-INSTANTIATE_TEST_SUITE_P(Patterns, RigidMotion,
+INSTANTIATE_TEST_SUITE_P(Patterns, RigidMotionKept,
                          testing::Values(Pattern::rectangular, Pattern::hexagonal, Pattern::cubic),
                          [](const auto& test) {
                            return std::to_string(static_cast<int>(test.param));

@@ -13,9 +13,9 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-struct Sample {
+struct Shown {
   StudyFile study = parse_study(
       "case = \"a.toml\"\n[vary]\nspacing = [0.2, 0.1]\n[[error]]\ndisplacement = [\"x\", \"y\"]\n"
       "[[error]]\nname = \"energy\"\nquantity = \"strain_energy\"\nreference = 4\n",
@@ -23,7 +23,7 @@ struct Sample {
   std::vector<StudySeries> series = {{"none, horizon ratio 2", {}}, {"ghost", {}}};
   std::vector<StudyMember> members;
 
-  Sample() {
+  Shown() {
     StudyMember good;
     good.refinement = body_key("spacing", 0.2);
     good.method = "bonds";
@@ -35,7 +35,7 @@ struct Sample {
     good.unknowns = 10;
     good.values = {0.125, 5.0};
     good.errors = {0.125, 0.25};
-    good.orders = {none, 1.5};
+    good.orders = {no_value, 1.5};
     good.note = "the load climbed again";
     good.seconds = {0.5, 0.25, 0.25, 2.0, 0.125, 3.0};
     StudyMember bad;
@@ -47,7 +47,7 @@ struct Sample {
 };
 
 TEST(StudyTable, HasAColumnForEveryErrorAndNoneForTheClock) {
-  const Sample sample;
+  const Shown sample;
   EXPECT_EQ(study_table(sample.study, sample.series, sample.members),
             "combination,spacing,method,surface,mean_spacing,horizon,particles,bonds,unknowns,"
             "displacement_error,displacement_order,energy,energy_error,energy_order,failure,note\n"
@@ -57,7 +57,7 @@ TEST(StudyTable, HasAColumnForEveryErrorAndNoneForTheClock) {
 }
 
 TEST(StudyTable, TimingHasTheRowsThatRan) {
-  const Sample sample;
+  const Shown sample;
   EXPECT_EQ(study_timing(sample.study, sample.series, sample.members),
             "combination,spacing,unknowns,set_up,calibration,assembly,factorization,"
             "solve,analysis,total\n"
@@ -65,7 +65,7 @@ TEST(StudyTable, TimingHasTheRowsThatRan) {
 }
 
 TEST(StudyTable, TheReportSaysWhatFailedAndWhy) {
-  const Sample sample;
+  const Shown sample;
   const std::string report = study_report(sample.study, sample.series, sample.members);
   EXPECT_THAT(report, HasSubstr("none, horizon ratio 2\n"));
   EXPECT_THAT(report, HasSubstr("1.250e-01      -"));

@@ -43,7 +43,7 @@ struct Notched {
 };
 
 /// Every seventh variable at a bound, the others with parts from 0.1 to 1.
-std::vector<double> some_active(const PointEquations& equations) {
+std::vector<double> active_everywhere(const PointEquations& equations) {
   std::mt19937 random(3);
   std::vector<double> active;
   for (Index v = 0; v < equations.num_variables(); ++v) {
@@ -76,7 +76,7 @@ TEST(BoxSpace, HoldsTensorsOnWhichPairForcesDoNoWork) {
   }
   for (const bool weighted : {false, true}) {
     const std::vector<double> active =
-        weighted ? some_active(equations)
+        weighted ? active_everywhere(equations)
                  : std::vector<double>(static_cast<std::size_t>(equations.num_variables()), 1.0);
     const BoxSpace space(equations, active, std::vector<double>(equations.right.size(), diagonal));
     EXPECT_LT(space.num_fields(), equations.num_points() * 10 / 2);
@@ -94,7 +94,7 @@ TEST(BoxSpace, LeavesNoSoftResidual) {
   const Notched body(12);
   const PointEquations& equations = body.equations;
   const std::vector<double> ones(static_cast<std::size_t>(equations.num_variables()), 1.0);
-  const std::vector<double> active = some_active(equations);
+  const std::vector<double> active = active_everywhere(equations);
   constexpr double shift = 1e-6;
   const std::vector<double> diagonal(equations.right.size(), shift);
   BoxSpace space(equations, ones, diagonal);

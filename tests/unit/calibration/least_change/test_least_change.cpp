@@ -8,7 +8,9 @@
 namespace perilink {
 namespace {
 
-double uniform(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0 - 0.5; }
+double random_number(std::mt19937& random) {
+  return static_cast<double>(random()) / 4294967296.0 - 0.5;
+}
 
 /// A ring of points, each tied to the next ones; right sides from weights near one.
 PointEquations ring(Index points, int rows, int odd, std::vector<double>& weights,
@@ -29,9 +31,9 @@ PointEquations ring(Index points, int rows, int odd, std::vector<double>& weight
       equations.second.push_back((p + k) % points);
       equations.lower.push_back(0.1);
       equations.upper.push_back(100.0);
-      weights.push_back(1.0 + 0.3 * uniform(random));
+      weights.push_back(1.0 + 0.3 * random_number(random));
       for (int r = 0; r < rows; ++r) {
-        const double a = uniform(random);
+        const double a = random_number(random);
         equations.coefficients.push_back(a);
         equations.right[static_cast<std::size_t>(p) * rows + r] += a * weights.back();
         equations.right[static_cast<std::size_t>((p + k) % points) * rows + r] +=

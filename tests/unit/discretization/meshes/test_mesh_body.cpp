@@ -42,7 +42,7 @@ double sum(const std::vector<double>& values) {
 }
 
 /// Two triangles over the diagonal of the unit square; the first runs clockwise.
-Mesh square() {
+Mesh square_mesh() {
   Mesh mesh;
   mesh.positions = {0, 0, 1, 0, 1, 1, 0, 1};
   mesh.cells = {0, 2, 1, 0, 2, 3};
@@ -50,7 +50,7 @@ Mesh square() {
 }
 
 TEST(MeshBody, SharesVolumesAsLinearShapeFunctionsDo) {
-  const Body body = make_mesh_body(square(), std::vector<Index>{0, 0}, 3.0);
+  const Body body = make_mesh_body(square_mesh(), std::vector<Index>{0, 0}, 3.0);
   // A third of triangles of area 1/2 and thickness 3.
   EXPECT_THAT(body.particles.volumes,
               ElementsAre(DoubleEq(1.0), DoubleEq(0.5), DoubleEq(1.0), DoubleEq(0.5)));
@@ -62,7 +62,7 @@ TEST(MeshBody, SharesVolumesAsLinearShapeFunctionsDo) {
 }
 
 TEST(MeshBody, DropsPointsThatNoCellUses) {
-  Mesh mesh = square();
+  Mesh mesh = square_mesh();
   mesh.positions.insert(mesh.positions.begin(), {7, 7});
   for (Index& corner : mesh.cells) ++corner;
   const Body body = make_mesh_body(mesh, std::vector<Index>{0, 0}, 1.0);
@@ -151,7 +151,7 @@ TEST_P(MeshBodyIn, FacesBetweenMaterialsPointFromTheLowerToTheHigher) {
 INSTANTIATE_TEST_SUITE_P(TwoAndThreeDimensions, MeshBodyIn, ::testing::Values(2, 3));
 
 TEST(MeshBody, LeavesOutCellsWithoutMaterial) {
-  const Mesh mesh = square();
+  const Mesh mesh = square_mesh();
   const Body body = make_mesh_body(mesh, std::vector<Index>{no_index, 2}, 1.0);
   EXPECT_EQ(body.particles.size(), 3);
   EXPECT_EQ(body.cells.size(), 1);
@@ -161,7 +161,7 @@ TEST(MeshBody, LeavesOutCellsWithoutMaterial) {
 }
 
 TEST(MeshBody, LaterMaterialsCountAndGroupsAndBoxesMix) {
-  Mesh mesh = square();
+  Mesh mesh = square_mesh();
   mesh.groups = {{"all", 2, {0, 1}, {0, 1, 2, 3}}};
   std::vector<Region> regions(2);
   regions[0].group = "all";
@@ -174,7 +174,7 @@ TEST(MeshBody, LaterMaterialsCountAndGroupsAndBoxesMix) {
 }
 
 TEST(MeshBody, GroupsHoldParticlesAndFacetsOfTheSurface) {
-  Mesh mesh = square();
+  Mesh mesh = square_mesh();
   mesh.facets = {1, 0, 0, 2};  // the lower edge and the diagonal
   mesh.groups = {{"corner", 0, {}, {2}},
                  {"lower", 1, {0}, {0, 1}},
@@ -200,26 +200,26 @@ TEST(MeshBody, GroupsHoldParticlesAndFacetsOfTheSurface) {
 }
 
 TEST(MeshBody, RefusesFlatCells) {
-  Mesh mesh = square();
+  Mesh mesh = square_mesh();
   mesh.positions[4] = 0.5;
   mesh.positions[5] = 0.0;
   EXPECT_THAT(refusal(mesh), HasSubstr("is flat: it has no area"));
 }
 
 TEST(MeshBody, RefusesFacesOfThreeCells) {
-  Mesh mesh = square();
+  Mesh mesh = square_mesh();
   mesh.positions.insert(mesh.positions.end(), {-1, 5});
   mesh.cells.insert(mesh.cells.end(), {0, 2, 4});
   EXPECT_THAT(refusal(mesh), HasSubstr("the edge at (0.5, 0.5) belongs to 3 cells"));
 }
 
 TEST(MeshBody, RefusesFoldsAndCellsTwice) {
-  Mesh mesh = square();
+  Mesh mesh = square_mesh();
   // The second triangle lies on the same side of the diagonal as the first.
   mesh.positions[6] = 0.9;
   mesh.positions[7] = 0.1;
   EXPECT_THAT(refusal(mesh), HasSubstr("overlap"));
-  mesh = square();
+  mesh = square_mesh();
   mesh.cells.insert(mesh.cells.end(), {3, 2, 0});
   EXPECT_THAT(refusal(mesh), HasSubstr("belongs to 3 cells"));
   mesh.cells = {0, 2, 1, 2, 1, 0};
@@ -227,12 +227,12 @@ TEST(MeshBody, RefusesFoldsAndCellsTwice) {
 }
 
 TEST(MeshBody, RefusesPartsThatOnlyTouch) {
-  Mesh twice = square();  // the diagonal's ends once for each triangle
+  Mesh twice = square_mesh();  // the diagonal's ends once for each triangle
   twice.positions.insert(twice.positions.end(), {0, 0, 1, 1});
   twice.cells = {0, 2, 1, 4, 5, 3};
   EXPECT_THAT(refusal(twice), HasSubstr("are not joined"));
 
-  Mesh hanging = square();  // the middle of the diagonal belongs to the cells on one side only
+  Mesh hanging = square_mesh();  // the middle of the diagonal belongs to the cells on one side only
   hanging.positions.insert(hanging.positions.end(), {0.5, 0.5});
   hanging.cells = {0, 1, 2, 0, 4, 3, 4, 2, 3};
   EXPECT_THAT(refusal(hanging), HasSubstr("the vertex at (0.5, 0.5) lies on the side of a cell"));
@@ -246,7 +246,7 @@ TEST(MeshBody, RefusesPartsThatOnlyTouch) {
 }
 
 TEST(MeshBody, RefusesElementsOfGroupsThatAreNoSideOfACell) {
-  Mesh mesh = square();
+  Mesh mesh = square_mesh();
   mesh.facets = {1, 3};
   mesh.groups = {{"other diagonal", 1, {0}, {1, 3}}};
   EXPECT_THAT(refusal(mesh), HasSubstr("group \"other diagonal\""));

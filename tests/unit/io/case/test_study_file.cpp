@@ -8,21 +8,21 @@ namespace perilink {
 namespace {
 
 const std::string vary = "[vary]\nspacing = [0.2, 0.1, 0.05]\n";
-const std::string energy = "[error]\nquantity = \"strain_energy\"\nreference = 2.5\n";
+const std::string energy_error = "[error]\nquantity = \"strain_energy\"\nreference = 2.5\n";
 
 StudyFile parse(const std::string& text) { return parse_study(text, "studies/a.toml"); }
 
-StudyFile valid() { return parse("case = \"b.toml\"\n" + vary + energy); }
+StudyFile valid() { return parse("case = \"b.toml\"\n" + vary + energy_error); }
 
-struct Refusal {
+struct StudyRefusal {
   const char* name;
   std::string text;
   std::string key;
   std::string says;
 };
-void PrintTo(const Refusal& refusal, std::ostream* stream) { *stream << refusal.name; }
+void PrintTo(const StudyRefusal& refusal, std::ostream* stream) { *stream << refusal.name; }
 
-class StudyRefusals : public testing::TestWithParam<Refusal> {};
+class StudyRefusals : public testing::TestWithParam<StudyRefusal> {};
 
 TEST_P(StudyRefusals, NameTheKeyAndTheFault) {
   try {
@@ -39,60 +39,65 @@ const std::string head = "case = \"b.toml\"\n";
 INSTANTIATE_TEST_SUITE_P(
     Keys, StudyRefusals,
     testing::Values(
-        Refusal{"noCase", vary + energy, "case", "is missing"},
-        Refusal{"noVary", head + energy, "", "no [vary]"},
-        Refusal{"noError", head + vary, "", "no [error]"},
-        Refusal{"unknownKey", head + "[vary]\nspacings = [1, 2]\n" + energy, "vary.spacings",
-                "did you mean `spacing`?"},
-        Refusal{"unknownTable", head + vary + energy + "[loads]\nspacing = 1\n", "loads",
-                "a study has no such table"},
-        Refusal{"noRefinement", head + "[vary]\nhorizon_ratio = [2, 3]\n" + energy, "vary",
-                "has none of"},
-        Refusal{"twoRefinements", head + vary + "columns = [2, 3]\n" + energy, "vary.columns",
-                "beside `spacing`"},
-        Refusal{"oneValue", head + "[vary]\nspacing = [0.1]\n" + energy, "vary.spacing",
-                "holds one value"},
-        Refusal{"twice", head + "[vary]\nspacing = [0.1, 0.2, 0.1]\n" + energy, "vary.spacing",
-                "holds 0.1 twice"},
-        Refusal{"negative", head + "[vary]\nspacing = [0.1, -0.2]\n" + energy, "vary.spacing",
-                "greater than zero"},
-        Refusal{"smallRatio", head + vary + "horizon_ratio = [0.5, 2]\n" + energy,
-                "vary.horizon_ratio", "less than 1"},
-        Refusal{"emptyList", head + vary + "surface = []\n" + energy, "vary.surface", "is empty"},
-        Refusal{"misspeltSurface", head + vary + "surface = [\"gost\"]\n" + energy, "vary.surface",
-                "did you mean `ghost`?"},
-        Refusal{"misspeltMethod", head + vary + "method = [\"linear\"]\n" + energy, "vary.method",
-                "none of the choices"},
-        Refusal{"aCase", head + "[body]\nspacing = 0.1\n", "body", "perilink run"},
-        Refusal{"noMeasure", head + vary + "[error]\nreference = 1\n", "error", "has none of"},
-        Refusal{"twoMeasures", head + vary + energy + "gauge = \"mouth\"\n", "error.quantity",
-                "beside `gauge`"},
-        Refusal{"noReference", head + vary + "[error]\nquantity = \"peak_load\"\n",
-                "error.reference", "is missing"},
-        Refusal{"zeroReference", head + vary + "[error]\nquantity = \"peak_load\"\nreference = 0\n",
-                "error.reference", "is zero"},
-        Refusal{"unknownQuantity", head + vary + "[error]\nquantity = \"load\"\nreference = 1\n",
-                "error.quantity", "none of the choices"},
-        Refusal{"extrapolationOfTwo",
-                head + "[vary]\nspacing = [0.2, 0.1]\n[error]\nquantity = \"peak_load\"\n" +
-                    "reference = \"extrapolated\"\n",
-                "error.reference", "needs three"},
-        Refusal{"oneFormula", head + vary + "[error]\ndisplacement = [\"x\"]\n",
-                "error.displacement", "has 1 formulas"},
-        Refusal{"emptyFormula", head + vary + "[error]\ndisplacement = [\"x\", \"\"]\n",
-                "error.displacement", "nothing at character 1"},
-        Refusal{"badFormula", head + vary + "[error]\ndisplacement = [\"x\", \"sinus(y)\"]\n",
-                "error.displacement", "\"sinus(y)\""},
-        Refusal{"fieldWithReference",
-                head + vary + "[error]\ndisplacement = [\"x\", \"y\"]\nreference = 1\n",
-                "error.reference", "is the reference itself"},
-        Refusal{"rigidMotionOfANumber", head + vary + energy + "rigid_motion = \"removed\"\n",
-                "error.rigid_motion", "only a displacement field"},
-        Refusal{"equalNames",
-                head + vary + "[" + energy.substr(0, 7) + "]" + energy.substr(7) + "[" +
-                    energy.substr(0, 7) + "]" + energy.substr(7),
-                "error[2].name", "the name of another error"},
-        Refusal{"noRepeats", "repeats = 0\n" + head + vary + energy, "repeats", "from 1"}),
+        StudyRefusal{"noCase", vary + energy_error, "case", "is missing"},
+        StudyRefusal{"noVary", head + energy_error, "", "no [vary]"},
+        StudyRefusal{"noError", head + vary, "", "no [error]"},
+        StudyRefusal{"unknownKey", head + "[vary]\nspacings = [1, 2]\n" + energy_error,
+                     "vary.spacings", "did you mean `spacing`?"},
+        StudyRefusal{"unknownTable", head + vary + energy_error + "[loads]\nspacing = 1\n", "loads",
+                     "a study has no such table"},
+        StudyRefusal{"noRefinement", head + "[vary]\nhorizon_ratio = [2, 3]\n" + energy_error,
+                     "vary", "has none of"},
+        StudyRefusal{"twoRefinements", head + vary + "columns = [2, 3]\n" + energy_error,
+                     "vary.columns", "beside `spacing`"},
+        StudyRefusal{"oneValue", head + "[vary]\nspacing = [0.1]\n" + energy_error, "vary.spacing",
+                     "holds one value"},
+        StudyRefusal{"twice", head + "[vary]\nspacing = [0.1, 0.2, 0.1]\n" + energy_error,
+                     "vary.spacing", "holds 0.1 twice"},
+        StudyRefusal{"negative", head + "[vary]\nspacing = [0.1, -0.2]\n" + energy_error,
+                     "vary.spacing", "greater than zero"},
+        StudyRefusal{"smallRatio", head + vary + "horizon_ratio = [0.5, 2]\n" + energy_error,
+                     "vary.horizon_ratio", "less than 1"},
+        StudyRefusal{"emptyList", head + vary + "surface = []\n" + energy_error, "vary.surface",
+                     "is empty"},
+        StudyRefusal{"misspeltSurface", head + vary + "surface = [\"gost\"]\n" + energy_error,
+                     "vary.surface", "did you mean `ghost`?"},
+        StudyRefusal{"misspeltMethod", head + vary + "method = [\"linear\"]\n" + energy_error,
+                     "vary.method", "none of the choices"},
+        StudyRefusal{"aCase", head + "[body]\nspacing = 0.1\n", "body", "perilink run"},
+        StudyRefusal{"noMeasure", head + vary + "[error]\nreference = 1\n", "error", "has none of"},
+        StudyRefusal{"twoMeasures", head + vary + energy_error + "gauge = \"mouth\"\n",
+                     "error.quantity", "beside `gauge`"},
+        StudyRefusal{"noReference", head + vary + "[error]\nquantity = \"peak_load\"\n",
+                     "error.reference", "is missing"},
+        StudyRefusal{"zeroReference",
+                     head + vary + "[error]\nquantity = \"peak_load\"\nreference = 0\n",
+                     "error.reference", "is zero"},
+        StudyRefusal{"unknownQuantity",
+                     head + vary + "[error]\nquantity = \"load\"\nreference = 1\n",
+                     "error.quantity", "none of the choices"},
+        StudyRefusal{"extrapolationOfTwo",
+                     head + "[vary]\nspacing = [0.2, 0.1]\n[error]\nquantity = \"peak_load\"\n" +
+                         "reference = \"extrapolated\"\n",
+                     "error.reference", "needs three"},
+        StudyRefusal{"oneFormula", head + vary + "[error]\ndisplacement = [\"x\"]\n",
+                     "error.displacement", "has 1 formulas"},
+        StudyRefusal{"emptyFormula", head + vary + "[error]\ndisplacement = [\"x\", \"\"]\n",
+                     "error.displacement", "nothing at character 1"},
+        StudyRefusal{"badFormula", head + vary + "[error]\ndisplacement = [\"x\", \"sinus(y)\"]\n",
+                     "error.displacement", "\"sinus(y)\""},
+        StudyRefusal{"fieldWithReference",
+                     head + vary + "[error]\ndisplacement = [\"x\", \"y\"]\nreference = 1\n",
+                     "error.reference", "is the reference itself"},
+        StudyRefusal{"rigidMotionOfANumber",
+                     head + vary + energy_error + "rigid_motion = \"removed\"\n",
+                     "error.rigid_motion", "only a displacement field"},
+        StudyRefusal{"equalNames",
+                     head + vary + "[" + energy_error.substr(0, 7) + "]" + energy_error.substr(7) +
+                         "[" + energy_error.substr(0, 7) + "]" + energy_error.substr(7),
+                     "error[2].name", "the name of another error"},
+        StudyRefusal{"noRepeats", "repeats = 0\n" + head + vary + energy_error, "repeats",
+                     "from 1"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(StudyFile, ReadsEveryKey) {

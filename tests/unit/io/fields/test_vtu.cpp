@@ -8,13 +8,10 @@
 
 #include "base/error.hpp"
 #include "io/fields/vtu.hpp"
+#include "support/replaced.hpp"
 
 namespace perilink {
 namespace {
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
 
 /// Three particles, one line; enough points to need several compressed blocks when `copies` is
 /// large.

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "support/gmsh_texts.hpp"
+#include "support/replaced.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink {
@@ -20,19 +21,13 @@ using test::tetrahedra_mesh;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string message_of(const std::string& bytes, int dim = 2) {
+std::string gmsh_message(const std::string& bytes, int dim = 2) {
   try {
     parse_gmsh(bytes, "body.msh", dim);
   } catch (const InputError& error) {
     return error.what();
   }
   return "accepted";
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 /// The same mesh as gmsh's binary file: ints of four bytes, counts and tags of eight.
@@ -184,7 +179,7 @@ TEST(GmshFile, PassesOverCommentsResultsAndWindowsLineEnds) {
                      "$NodeData\n1\n\"T\"\n$EndNodeData\n";
   std::string windows;
   for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
-  EXPECT_EQ(message_of(text), "accepted");
+  EXPECT_EQ(gmsh_message(text), "accepted");
   EXPECT_EQ(parse_gmsh(windows, "m", 2).groups[3].name, "plate");
 }
 
@@ -208,7 +203,7 @@ void PrintTo(const Fault& fault, std::ostream* stream) { *stream << fault.name; 
 class GmshFileFault : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(GmshFileFault, IsRefusedWithFileAndReason) {
-  const std::string message = message_of(replaced(square_mesh, GetParam().from, GetParam().to));
+  const std::string message = gmsh_message(replaced(square_mesh, GetParam().from, GetParam().to));
   EXPECT_THAT(message, HasSubstr("body.msh"));
   EXPECT_THAT(message, HasSubstr(GetParam().message));
 }
@@ -260,25 +255,25 @@ TEST(GmshFile, RefusesEveryTruncation) {
   for (const std::string& whole : {std::string(square_mesh), BinaryWriter(square_mesh).write()}) {
     const std::size_t end = whole.rfind("$EndElements");
     for (std::size_t size = 0; size < end + 12; ++size) {
-      EXPECT_NE(message_of(whole.substr(0, size)), "accepted") << size;
+      EXPECT_NE(gmsh_message(whole.substr(0, size)), "accepted") << size;
     }
   }
 }
 
 TEST(GmshFile, RefusesTheWrongDimension) {
-  EXPECT_THAT(message_of(square_mesh, 3), HasSubstr("no tetrahedra"));
-  EXPECT_THAT(message_of(tetrahedra_mesh, 2), HasSubstr("problem = \"three_dimensional\""));
+  EXPECT_THAT(gmsh_message(square_mesh, 3), HasSubstr("no tetrahedra"));
+  EXPECT_THAT(gmsh_message(tetrahedra_mesh, 2), HasSubstr("problem = \"three_dimensional\""));
 }
 
 TEST(GmshFile, RefusesMeshesWithoutNodesOrElements) {
-  EXPECT_THAT(message_of("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"), HasSubstr("holds no mesh"));
-  EXPECT_THAT(message_of(""), HasSubstr("is empty"));
+  EXPECT_THAT(gmsh_message("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"), HasSubstr("holds no mesh"));
+  EXPECT_THAT(gmsh_message(""), HasSubstr("is empty"));
 }
 
 TEST(GmshFile, RefusesTheOtherOrderOfBytes) {
   std::string bytes = BinaryWriter(square_mesh).write();
   std::swap(bytes[bytes.find("4.1 1 8\n") + 8], bytes[bytes.find("4.1 1 8\n") + 11]);
-  EXPECT_THAT(message_of(bytes), HasSubstr("another order of bytes"));
+  EXPECT_THAT(gmsh_message(bytes), HasSubstr("another order of bytes"));
 }
 
 TEST(GmshFile, ReadsFromDiskAndNamesWhatItCannotRead) {

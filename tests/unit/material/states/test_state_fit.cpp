@@ -12,7 +12,7 @@
 namespace perilink {
 namespace {
 
-constexpr double youngs_modulus = 25.0, spacing = 0.1;
+constexpr double state_modulus = 25.0, spacing = 0.1;
 
 std::vector<FamilyBond> hexagonal_family(double angle) {
   std::vector<FamilyBond> family;
@@ -57,10 +57,9 @@ TEST(StateFit, OfHexagonalFamiliesAreTheClosedForms) {
   const double thickness = 0.3, volume = 0.5 * std::numbers::sqrt3 * thickness * spacing * spacing;
   for (const Problem problem : {Problem::plane_stress, Problem::plane_strain}) {
     for (const double ratio : {-0.3, 0.0, 0.2, 0.45}) {
-      const StateModuli exact =
-          hexagonal_moduli(problem, youngs_modulus, ratio, spacing, thickness);
+      const StateModuli exact = hexagonal_moduli(problem, state_modulus, ratio, spacing, thickness);
       const ParticleFit fit =
-          fit_particle_moduli(problem, youngs_modulus, ratio, hexagonal_family(0.3), volume);
+          fit_particle_moduli(problem, state_modulus, ratio, hexagonal_family(0.3), volume);
       EXPECT_EQ(fit.kind, FitKind::exact);
       EXPECT_NEAR(fit.moduli.own, exact.own, 1e-13 * exact.own);
       EXPECT_NEAR(fit.moduli.state * spacing, exact.sum, 1e-13 * exact.own);
@@ -73,8 +72,8 @@ TEST(StateFit, OfHexagonalFamiliesAreTheClosedForms) {
 TEST(StateFit, OfFaceCentredFamiliesAreTheClosedForms) {
   const double volume = std::pow(spacing, 3) / std::numbers::sqrt2;
   for (const double ratio : {0.0, 0.2, 0.4}) {
-    const StateModuli exact = face_centred_moduli(youngs_modulus, ratio, spacing);
-    const ParticleFit fit = fit_particle_moduli(Problem::three_dimensional, youngs_modulus, ratio,
+    const StateModuli exact = face_centred_moduli(state_modulus, ratio, spacing);
+    const ParticleFit fit = fit_particle_moduli(Problem::three_dimensional, state_modulus, ratio,
                                                 face_centred_family(), volume);
     EXPECT_EQ(fit.kind, FitKind::exact);
     EXPECT_NEAR(fit.moduli.own, exact.own, 1e-12 * exact.own);
@@ -88,7 +87,7 @@ TEST(StateFit, OfFaceCentredFamiliesAreTheClosedForms) {
 double residual_of(const ParticleModuli& moduli, std::span<const FamilyBond> family, double volume,
                    Problem problem, double ratio) {
   const int dim = dimension_of(problem);
-  const HookeConstants hooke = hooke_constants(problem, youngs_modulus, ratio);
+  const HookeConstants hooke = hooke_constants(problem, state_modulus, ratio);
   double difference = 0.0, size = 0.0;
   for (int i = 0; i < dim; ++i) {
     for (int j = 0; j < dim; ++j) {
@@ -122,7 +121,7 @@ TEST(StateFit, OfScatteredFamiliesIsTheNearest) {
     int fitted = 0;
     for (unsigned seed = 0; seed < 20; ++seed) {
       const auto family = random_family(dim, seed);
-      const ParticleFit fit = fit_particle_moduli(problem, youngs_modulus, 0.2, family, volume);
+      const ParticleFit fit = fit_particle_moduli(problem, state_modulus, 0.2, family, volume);
       const auto residual = [&](const ParticleModuli& moduli) {
         return residual_of(moduli, family, volume, problem, 0.2);
       };
@@ -150,12 +149,11 @@ TEST(StateFit, ReportsFamiliesThatLeaveAStrainFree) {
   // All neighbours in one line: a sheared family does not notice.
   const std::vector<FamilyBond> line = {{{1.0, 0.0, 0.0}, spacing, false},
                                         {{-1.0, 0.0, 0.0}, spacing, false}};
-  const ParticleFit fit =
-      fit_particle_moduli(Problem::plane_stress, youngs_modulus, 0.2, line, 0.1);
+  const ParticleFit fit = fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, line, 0.1);
   EXPECT_EQ(fit.kind, FitKind::singular);
   EXPECT_GT(fit.moduli.own, 0.0);
   EXPECT_EQ(fit.moduli.state, 0.0);
-  EXPECT_EQ(fit_particle_moduli(Problem::plane_stress, youngs_modulus, 0.2, {}, 0.1).kind,
+  EXPECT_EQ(fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, {}, 0.1).kind,
             FitKind::singular);
 }
 
@@ -169,7 +167,7 @@ TEST(StateFit, ReportsSeveralSolutions) {
     family.push_back(bond);
   }
   const ParticleFit fit =
-      fit_particle_moduli(Problem::plane_stress, youngs_modulus, 0.2, family, 0.01);
+      fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, family, 0.01);
   EXPECT_EQ(fit.kind, FitKind::many);
   EXPECT_EQ(fit.moduli.far, 0.0);
   EXPECT_LT(fit.residual, 1e-13) << "without the one too many they are exact";
@@ -184,12 +182,12 @@ TEST(StateFit, OfSquareFamiliesIsExact) {
   }
   const double volume = spacing * spacing;
   const ParticleFit fit =
-      fit_particle_moduli(Problem::plane_stress, youngs_modulus, 0.2, family, volume);
+      fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, family, volume);
   EXPECT_EQ(fit.kind, FitKind::exact);
   // C11 - C12 = 2 C66 needs a + c = a / sqrt(2), and C11 - C12 = a h / V is E / (1 + nu).
   EXPECT_NEAR(fit.moduli.own + fit.moduli.far, fit.moduli.own / std::numbers::sqrt2,
               1e-12 * fit.moduli.own);
-  EXPECT_NEAR(fit.moduli.own * spacing / volume, youngs_modulus / 1.2, 1e-12 * youngs_modulus);
+  EXPECT_NEAR(fit.moduli.own * spacing / volume, state_modulus / 1.2, 1e-12 * state_modulus);
 }
 
 TEST(StateFit, OfBondsThatAreAllFarIsThatOfNearOnes) {
@@ -198,7 +196,7 @@ TEST(StateFit, OfBondsThatAreAllFarIsThatOfNearOnes) {
   for (FamilyBond& bond : near) bond.far = false;
   for (FamilyBond& bond : far) bond.far = true;
   const auto fit = [&](const std::vector<FamilyBond>& family) {
-    return fit_particle_moduli(Problem::three_dimensional, youngs_modulus, 0.2, family, volume);
+    return fit_particle_moduli(Problem::three_dimensional, state_modulus, 0.2, family, volume);
   };
   EXPECT_EQ(fit(far).kind, FitKind::least);
   EXPECT_EQ(fit(far).moduli.own, fit(near).moduli.own);
@@ -211,7 +209,7 @@ TEST(StateFit, TakesNoConstantsOfNegativeEnergy) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const auto family = random_family(2, seed);
     const ParticleFit fit =
-        fit_particle_moduli(Problem::plane_stress, youngs_modulus, -0.95, family, 0.01);
+        fit_particle_moduli(Problem::plane_stress, state_modulus, -0.95, family, 0.01);
     double reach = 0.0;
     for (const FamilyBond& bond : family) {
       const double own = fit.moduli.own + (bond.far ? fit.moduli.far : 0.0);

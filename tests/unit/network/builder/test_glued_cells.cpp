@@ -15,8 +15,8 @@ namespace perilink {
 namespace {
 
 /// A square of six by six cells; those right of the middle are ordinary elements.
-struct Halves {
-  explicit Halves(BondModel model = BondModel::bond_based) {
+struct GluedHalves {
+  explicit GluedHalves(BondModel model = BondModel::bond_based) {
     const Mesh mesh = test::box_mesh(2, 6);
     const std::vector<Index> material(static_cast<std::size_t>(mesh.num_cells()), 0);
     std::vector<std::uint8_t> glued;
@@ -41,7 +41,7 @@ struct Halves {
 };
 
 TEST(GluedCells, BondsAreThoseOfTheirPartAlone) {
-  const Halves halves;
+  const GluedHalves halves;
   const BondedPart part = bonded_part(halves.body, 1.0);
   EXPECT_EQ(part.body.particles.size(), 4 * 7);
   EXPECT_TRUE(std::is_sorted(part.whole_of.begin(), part.whole_of.end()));
@@ -72,7 +72,7 @@ TEST(GluedCells, BondsAreThoseOfTheirPartAlone) {
 /// Forces are the derivatives of the energy, and stiffness that of the forces.
 TEST(GluedCells, ForcesAndStiffnessBelongToTheEnergy) {
   for (const BondModel model : {BondModel::bond_based, BondModel::micropolar}) {
-    const Halves halves(model);
+    const GluedHalves halves(model);
     const Network& network = halves.network;
     const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
     const auto size = static_cast<std::size_t>(network.particles.size() * network.width());

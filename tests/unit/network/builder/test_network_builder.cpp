@@ -15,8 +15,6 @@ namespace {
 
 using namespace test;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A rectangular body whose right half is a second, stiffer and tougher material.
 LatticeInput two_materials(Surface surface) {
   LatticeInput input = body_input({"", Pattern::rectangular, surface}, 8);

@@ -9,8 +9,8 @@
 namespace perilink {
 namespace {
 
-constexpr int most_iterations = 30;  // a few are needed
-constexpr double round_off = 1e-14;  ///< where the returns end, relative to the yield stress
+constexpr int most_returns = 30;           // a few are needed
+constexpr double yield_round_off = 1e-14;  ///< where the returns end, relative to the yield stress
 
 /// The yield curve and its slope without branches: hardening up to a strain, then softening.
 struct Curve {
@@ -117,7 +117,7 @@ struct Surface {
       const double grow = 1.0 / (1.0 + bulk * g), turn = 1.0 / (1.0 + 2.0 * mu * g);
       const double a = means[i] * means[i] * grow * grow, b = square * turn * turn;
       mises = std::sqrt(a + b);
-      slope = -(bulk * a * grow + 2.0 * mu * b * turn) / std::max(mises, least * round_off);
+      slope = -(bulk * a * grow + 2.0 * mu * b * turn) / std::max(mises, least * yield_round_off);
       strain = equivalent[i] + 2.0 / 3.0 * g * mises;
       growth = 2.0 / 3.0 * (mises + g * slope);
     } else {
@@ -171,10 +171,11 @@ double improve(const Surface<Flat> surface, Index size, double* multiplier) {
 template <bool Flat>
 void bisect(const Surface<Flat>& surface, Index size, double* multiplier) {
   for (Index i = 0; i < size; ++i) {
-    if (surface.excess(i, 0.0) <= 0.0 || surface.error(i, multiplier[i]) <= round_off) continue;
+    if (surface.excess(i, 0.0) <= 0.0 || surface.error(i, multiplier[i]) <= yield_round_off)
+      continue;
     double low = 0.0, high = Flat ? 1.0 / surface.mu : 1.0;
     while (surface.excess(i, high) > 0.0 && high < 1e12 / surface.mu) high *= 2.0;
-    for (int k = 0; k < 4 * most_iterations; ++k) {
+    for (int k = 0; k < 4 * most_returns; ++k) {
       const double middle = 0.5 * (low + high);
       (surface.excess(i, middle) > 0.0 ? low : high) = middle;
     }
@@ -224,7 +225,7 @@ void settle(const ExplicitModel& model, const Scratch& trial, Index r, ExplicitS
     equivalent[i] += grown;
     yield[i] = curve.stress(equivalent[i]);
     // The returned stress may be above the surface by round-off.
-    look_at[i] = yield[i] * (1.0 + 10.0 * round_off);
+    look_at[i] = yield[i] * (1.0 + 10.0 * yield_round_off);
     if constexpr (!Flat) locked[i] = e * strain[2][i];
   }
 }
@@ -265,10 +266,10 @@ bool flow_row(const ExplicitModel& model, ExplicitState& state, Index r) {
   double* multiplier = trial.multiplier.data();
   double worst = improve(surface, row.size, multiplier);
   if (worst == 0.0) return false;
-  for (int k = 0; k < most_iterations && worst > round_off; ++k) {
+  for (int k = 0; k < most_returns && worst > yield_round_off; ++k) {
     worst = improve(surface, row.size, multiplier);
   }
-  if (!(worst <= round_off)) bisect(surface, row.size, multiplier);
+  if (!(worst <= yield_round_off)) bisect(surface, row.size, multiplier);
   settle<Flat>(model, trial, r, state);
   state.flow.change[r] = project_strains(model, state, r);
   return true;

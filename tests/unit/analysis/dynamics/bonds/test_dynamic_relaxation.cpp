@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-class Recorder final : public BondRunObserver {
+class StepRecorder final : public BondRunObserver {
  public:
   void on_row(const ExplicitRecord& record, const BondRunState&) override {
     rows.push_back(record);
@@ -26,13 +26,13 @@ class Recorder final : public BondRunObserver {
   std::vector<ExplicitRecord> rows;
 };
 
-struct Outcome {
+struct Relaxed {
   RelaxationResult result;
-  Recorder recorder;
+  StepRecorder recorder;
 };
 
-Outcome relax(const AnalysisBody& body, const RelaxationOptions& options) {
-  Outcome outcome;
+Relaxed relax(const AnalysisBody& body, const RelaxationOptions& options) {
+  Relaxed outcome;
   outcome.result = run_dynamic_relaxation(body, options, outcome.recorder);
   return outcome;
 }
@@ -48,7 +48,7 @@ TEST_P(RelaxedBlocks, RestInStaticEquilibrium) {
   const AnalysisBody body = unbreakable(make_block(GetParam()));
   RelaxationOptions options;
   options.tolerance = 1e-8;
-  const Outcome outcome = relax(body, options);
+  const Relaxed outcome = relax(body, options);
   ASSERT_EQ(outcome.result.ending, Ending::completed) << outcome.result.reason;
   EXPECT_LE(outcome.result.residual, options.tolerance);
   EXPECT_LE(outcome.result.error, options.tolerance);
@@ -68,7 +68,7 @@ TEST_P(RelaxedBlocks, ThreadsChangeNothing) {
   const AnalysisBody body = make_block(GetParam());
   RelaxationOptions options;
   options.most_iterations = 100;
-  const Outcome one = relax(body, options);
+  const Relaxed one = relax(body, options);
   options.threads = 2;
   EXPECT_EQ(relax(body, options).result.displacement, one.result.displacement);
 }
@@ -89,7 +89,7 @@ TEST(DynamicRelaxation, LoadStepsStartWhereTheyEnd) {
   const AnalysisBody body = make_chains(6, 2, true, 10.0, INFINITY);
   RelaxationOptions options;
   options.load_factors = {0.25, 0.5, 1.0};
-  const Outcome outcome = relax(body, options);
+  const Relaxed outcome = relax(body, options);
   ASSERT_EQ(outcome.recorder.rows.size(), 3U);
   EXPECT_EQ(outcome.recorder.rows[2].step, outcome.recorder.rows[0].step + 2);
   // Two rows of six springs of 10, moved by 1.
@@ -106,7 +106,7 @@ TEST(DynamicRelaxation, GreenStrainsOfAChain) {
   options.strain = Strain::green;
   options.safety = 0.5;  // the stretch stiffens bonds 2.9 times
   options.tolerance = 1e-9;
-  const Outcome outcome = relax(body, options);
+  const Relaxed outcome = relax(body, options);
   ASSERT_EQ(outcome.result.ending, Ending::completed) << outcome.result.reason;
   EXPECT_NEAR(outcome.result.last.load, 2.0 * 10.0 * 0.625 * 1.5, 1e-7);
   EXPECT_NEAR(outcome.result.last.energy.stored, 2.0 * 6.0 * 0.5 * 10.0 * 0.625 * 0.625, 1e-7);
@@ -121,7 +121,7 @@ TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   for (int k = 1; k <= 70; ++k) options.load_factors.push_back(0.001 * k);
   options.load_factors.erase(options.load_factors.begin());  // the default
   options.tolerance = 1e-8;
-  const Outcome outcome = relax(body, options);
+  const Relaxed outcome = relax(body, options);
   ASSERT_EQ(outcome.result.ending, Ending::completed) << outcome.result.reason;
   double peak = 0.0;
   for (const ExplicitRecord& row : outcome.recorder.rows) peak = std::max(peak, row.load);
@@ -137,7 +137,7 @@ TEST(DynamicRelaxation, AnIterationLimitIsNoSuccess) {
   const AnalysisBody body = make_chains(40, 2, true, 10.0, INFINITY);
   RelaxationOptions options;
   options.most_iterations = 20;
-  const Outcome outcome = relax(body, options);
+  const Relaxed outcome = relax(body, options);
   EXPECT_EQ(outcome.result.ending, Ending::failed);
   EXPECT_THAT(outcome.result.reason, testing::HasSubstr("not at rest after 20 iterations"));
   EXPECT_TRUE(outcome.recorder.rows.empty());
@@ -151,17 +151,17 @@ TEST(DynamicRelaxation, GrowingMotionIsNoticed) {
   for (double& force : loaded.loads.forces) force *= 1e4;
   RelaxationOptions options;
   options.strain = Strain::green;
-  const Outcome outcome = relax(loaded, options);
+  const Relaxed outcome = relax(loaded, options);
   EXPECT_EQ(outcome.result.ending, Ending::failed);
   EXPECT_THAT(outcome.result.reason, testing::HasSubstr("the motion grows"));
 }
 
 TEST(DynamicRelaxation, ObserversStopItAndTheirExceptionsPass) {
   const AnalysisBody body = make_chains(40, 2, true, 10.0, INFINITY);
-  Recorder stopping;
+  StepRecorder stopping;
   stopping.stops = true;
   EXPECT_EQ(run_dynamic_relaxation(body, {}, stopping).ending, Ending::interrupted);
-  Recorder breaking;
+  StepRecorder breaking;
   breaking.breaks = true;
   const RelaxationResult failed = run_dynamic_relaxation(body, {}, breaking);
   EXPECT_EQ(failed.ending, Ending::failed);

@@ -14,7 +14,7 @@ namespace {
 using namespace test;
 
 /// Round-off of sums of some hundred forces of size one, and of positions over spacings.
-constexpr double round_off = 1e-12;
+constexpr double stencil_round_off = 1e-12;
 
 double largest_of(const std::vector<double>& values) {
   double largest = 0.0;
@@ -22,9 +22,9 @@ double largest_of(const std::vector<double>& values) {
   return largest;
 }
 
-void expect_near(const std::vector<double>& found, const std::vector<double>& expected) {
+void expect_close(const std::vector<double>& found, const std::vector<double>& expected) {
   ASSERT_EQ(found.size(), expected.size());
-  const double tolerance = round_off * largest_of(expected);
+  const double tolerance = stencil_round_off * largest_of(expected);
   for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], tolerance) << k;
 }
 
@@ -50,13 +50,14 @@ TEST_P(StencilBodies, DoWhatSingleHalvesDo) {
     const BondMotion motion = random_motion(network_, seed * size_, seed);
     const ForcesOfAll found = forces_of_all(network_, *stencil, motion, 0.1);
     const ForcesOfAll expected = forces_of_all(network_, *halves, motion, 0.1);
-    expect_near(found.force, expected.force);
+    expect_close(found.force, expected.force);
     EXPECT_EQ(found.losses.broken_halves(), expected.losses.broken_halves());
     EXPECT_NEAR(found.losses.fractured, expected.losses.fractured,
-                round_off * std::abs(expected.losses.fractured));
+                stencil_round_off * std::abs(expected.losses.fractured));
     EXPECT_EQ(stencil->secants(), halves->secants());
     const double stored = halves->stored(0, count(), 0.1, motion);
-    EXPECT_NEAR(stencil->stored(0, count(), 0.1, motion), stored, round_off * std::abs(stored));
+    EXPECT_NEAR(stencil->stored(0, count(), 0.1, motion), stored,
+                stencil_round_off * std::abs(stored));
     broken += found.losses.broken_halves();
   }
   EXPECT_GT(broken, network_.num_elements() / 4);
@@ -109,7 +110,7 @@ TEST_P(StencilBodies, UnbreakableBondsHold) {
   const auto stencil = make_explicit_bonds(network_), halves = make_explicit_halves(network_);
   const BondMotion motion = random_motion(network_, 1e9, 13);
   const ForcesOfAll found = forces_of_all(network_, *stencil, motion, 0.1);
-  expect_near(found.force, forces_of_all(network_, *halves, motion, 0.1).force);
+  expect_close(found.force, forces_of_all(network_, *halves, motion, 0.1).force);
   EXPECT_EQ(found.losses.broken_halves(), 0);
 }
 
@@ -127,7 +128,7 @@ TEST(StencilBonds, WorkBesideBars) {
   const BondMotion motion = random_motion(network, 0.04, 5);
   const ForcesOfAll found = forces_of_all(network, *stencil, motion, 0.1);
   const ForcesOfAll expected = forces_of_all(network, *halves, motion, 0.1);
-  expect_near(found.force, expected.force);
+  expect_close(found.force, expected.force);
   EXPECT_EQ(found.losses.broken_halves(), expected.losses.broken_halves());
   EXPECT_GT(found.losses.broken_halves(), 0);
   EXPECT_EQ(stencil->secants(), halves->secants());

@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing_support;
 
-class Recorder final : public ExplicitObserver {
+class RowRecorder final : public ExplicitObserver {
  public:
   void on_row(const ExplicitRecord& record, const ExplicitState& /*state*/) override {
     records.push_back(record);
@@ -27,14 +27,14 @@ class Recorder final : public ExplicitObserver {
   std::vector<ExplicitRecord> records;
 };
 
-ExplicitResult run(const ExplicitModel& model, ExplicitState& state,
-                   const ExplicitOptions& options) {
-  Recorder recorder;
+ExplicitResult run_lattice(const ExplicitModel& model, ExplicitState& state,
+                           const ExplicitOptions& options) {
+  RowRecorder recorder;
   return run_explicit_analysis(model, state, options, recorder);
 }
 
 /// Velocities without any pattern, so that every mode moves.
-void shake(const ExplicitModel& model, ExplicitState& state) {
+void shake_velocities(const ExplicitModel& model, ExplicitState& state) {
   for (const Index slot : model.lattice.particle_slot) {
     state.velocity[slot] = 1e-3 * std::sin(12.9898 * slot);
     state.velocity[model.lattice.at(1, slot)] = 1e-3 * std::cos(7.31 * slot);
@@ -147,7 +147,7 @@ TEST(ExplicitAnalysis, BarSwingsWithItsOwnPeriod) {
   ExplicitOptions options;
   options.duration = (high - low) / std::sqrt(25e9 / 2323.0);  // a quarter of a period
   options.rows = 1;
-  run(model, state, options);
+  run_lattice(model, state, options);
   // It passes zero: an error of the period of 3 % would leave pi / 2 times 3 % of the amplitude.
   EXPECT_NEAR(mean_displacement(model, state, 1, 0.0, high, spacing), 0.0, 0.05e-7);
 }
@@ -161,7 +161,7 @@ TEST(ExplicitAnalysis, SlowTensionGivesModulusAndPoissonsRatio) {
     options.duration = 0.006;
     options.ramp = 0.005;
     options.reference = 1e-5;
-    const ExplicitResult result = run(model, state, options);
+    const ExplicitResult result = run_lattice(model, state, options);
     const double reach = 0.02;
     const double strain = (mean_displacement(model, state, 1, 0.0, 0.06, reach) -
                            mean_displacement(model, state, 1, 0.0, -0.06, reach)) /
@@ -182,8 +182,8 @@ TEST(ExplicitAnalysis, EnergyStaysTheSameWithoutDamping) {
     const ExplicitModel model =
         plane_model(rectangle(0.05, 0.08, 0.01, degrees), elastic_concrete());
     ExplicitState state(model);
-    shake(model, state);
-    Recorder recorder;
+    shake_velocities(model, state);
+    RowRecorder recorder;
     ExplicitOptions options;
     options.safety = 0.1;  // half-step terms of the energy fall with the square of the step
     options.duration = 1e-3;
@@ -203,7 +203,7 @@ TEST(ExplicitAnalysis, EnergyIsBalancedInSlowLoading) {
   options.duration = 0.003;
   options.ramp = 0.0024;
   options.reference = 1e-4;
-  const ExplicitResult result = run(model, state, options);
+  const ExplicitResult result = run_lattice(model, state, options);
   EXPECT_EQ(result.ending, Ending::completed);
   EXPECT_LT(result.largest_surplus, 1e-6);
 }
@@ -218,7 +218,7 @@ TEST(ExplicitAnalysis, EnergyIsBalancedWhileASpecimenTears) {
   options.duration = 0.02;
   options.ramp = 0.016;
   options.reference = 2.5e-4;
-  const ExplicitResult result = run(model, state, options);
+  const ExplicitResult result = run_lattice(model, state, options);
   EXPECT_LT(result.largest_surplus, 1e-4);
   EXPECT_GT(result.last.energy.fractured, 0.5 * result.last.energy.external_work);
   // It has come apart: almost nothing is left of the peak, which is near f_t times the section.
@@ -242,7 +242,7 @@ TEST(ExplicitAnalysis, ResultsDoNotDependOnTheNumberOfThreads) {
     options.ramp = 2e-5;
     options.reference = 1e-5;
     options.threads = threads;
-    const ExplicitResult result = run(model, state, options);
+    const ExplicitResult result = run_lattice(model, state, options);
     if (threads == 1) {
       EXPECT_GT(result.last.cracked_particles, 100);
       displacement = state.displacement;
@@ -291,16 +291,16 @@ ExplicitModel perforated(Problem problem, LatticeRules rules, const LatticeMater
   return model;
 }
 
-struct Kind {
+struct LatticeKind {
   Problem problem;
   LatticeRules rules;
   bool breakable, yields;
 };
 
-class RowByRow : public testing::TestWithParam<Kind> {};
+class RowByRow : public testing::TestWithParam<LatticeKind> {};
 
 TEST_P(RowByRow, IsTheSameToTheByteAsPassAfterPass) {
-  const Kind kind = GetParam();
+  const LatticeKind kind = GetParam();
   LatticeMaterial material = paper_concrete();
   material.breakable = kind.breakable;
   material.yields = kind.yields;
@@ -316,7 +316,7 @@ TEST_P(RowByRow, IsTheSameToTheByteAsPassAfterPass) {
   options.ramp = 0.5 * options.duration;
   options.rows = 3;
   ExplicitState wanted(model);
-  shake(model, wanted);
+  shake_velocities(model, wanted);
   step_by_passes(model, wanted, options, steps);
   const auto cracked = std::count_if(wanted.damage.begin(), wanted.damage.end(),
                                      [](double damage) { return damage > 0.0; });
@@ -328,8 +328,8 @@ TEST_P(RowByRow, IsTheSameToTheByteAsPassAfterPass) {
   for (const int threads : {1, 2, 3}) {
     options.threads = threads;
     ExplicitState state(model);
-    shake(model, state);
-    ASSERT_EQ(run(model, state, options).steps, steps);
+    shake_velocities(model, state);
+    ASSERT_EQ(run_lattice(model, state, options).steps, steps);
     EXPECT_EQ(state.displacement, wanted.displacement);
     EXPECT_EQ(state.velocity, wanted.velocity);
     EXPECT_EQ(state.rate, wanted.rate);
@@ -347,12 +347,12 @@ TEST_P(RowByRow, IsTheSameToTheByteAsPassAfterPass) {
 
 INSTANTIATE_TEST_SUITE_P(
     ExplicitAnalysis, RowByRow,
-    testing::Values(Kind{Problem::plane_stress, LatticeRules::consistent, false, false},
-                    Kind{Problem::plane_strain, LatticeRules::mean_2017, true, false},
-                    Kind{Problem::plane_stress, LatticeRules::least_2018, true, true},
-                    Kind{Problem::plane_stress, LatticeRules::consistent, true, true},
-                    Kind{Problem::three_dimensional, LatticeRules::consistent, false, false},
-                    Kind{Problem::three_dimensional, LatticeRules::consistent, true, true}));
+    testing::Values(LatticeKind{Problem::plane_stress, LatticeRules::consistent, false, false},
+                    LatticeKind{Problem::plane_strain, LatticeRules::mean_2017, true, false},
+                    LatticeKind{Problem::plane_stress, LatticeRules::least_2018, true, true},
+                    LatticeKind{Problem::plane_stress, LatticeRules::consistent, true, true},
+                    LatticeKind{Problem::three_dimensional, LatticeRules::consistent, false, false},
+                    LatticeKind{Problem::three_dimensional, LatticeRules::consistent, true, true}));
 
 TEST(ExplicitAnalysis, RefusesAStepBeyondTheCriticalOne) {
   const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 0.0), elastic_concrete());
@@ -360,10 +360,10 @@ TEST(ExplicitAnalysis, RefusesAStepBeyondTheCriticalOne) {
   ExplicitOptions options;
   options.duration = 1e-3;
   options.time_step = 1.01 * critical_time_step(model);
-  EXPECT_THROW(run(model, state, options), std::invalid_argument);
+  EXPECT_THROW(run_lattice(model, state, options), std::invalid_argument);
   options.duration = 0.0;
   options.time_step = 0.0;
-  EXPECT_THROW(run(model, state, options), std::invalid_argument);
+  EXPECT_THROW(run_lattice(model, state, options), std::invalid_argument);
 }
 
 // With equal masses the bound is that of the endless lattice, which a body of this size nearly
@@ -373,12 +373,12 @@ TEST(ExplicitAnalysis, NoticesMotionThatGrowsOutOfNothing) {
       plane_model(rectangle(0.15, 0.15, 0.01, 0.0), elastic_concrete(), LatticeRules::mean_2017);
   for (const double factor : {0.5, 0.9, 0.99, 1.02}) {
     ExplicitState state(model);
-    shake(model, state);
+    shake_velocities(model, state);
     ExplicitOptions options;
     options.time_step = factor * critical_time_step(model);
     options.duration = 4000 * options.time_step;
     options.refuse_unstable = false;
-    const ExplicitResult result = run(model, state, options);
+    const ExplicitResult result = run_lattice(model, state, options);
     EXPECT_EQ(result.ending, factor < 1.0 ? Ending::completed : Ending::failed) << factor;
     if (factor > 1.0) {
       EXPECT_NE(result.reason.find("too large"), std::string::npos) << result.reason;

@@ -10,8 +10,6 @@ namespace {
 
 using namespace test;
 
-const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
-
 TEST(BoxSolver, CountsIterationsAndTheErrorItLeaves) {
   const AnalysisBody body = make_block({cubic});
   const std::vector<double> secants = intact(body.network);

@@ -11,7 +11,7 @@ namespace perilink {
 namespace {
 
 /// A strip pulled by forces, in which only bonds of the middle can break.
-Model strip_model(const std::string& more) {
+Model current_model(const std::string& more) {
   return build_model(parse_case(std::string(R"([body]
 spacing = 2.5
 horizon_ratio = 3
@@ -91,10 +91,10 @@ void expect_current(const Model& model) {
   EXPECT_GT(apart_elsewhere, 1e-6) << "events keep no more current than they need";
 }
 
-TEST(Current, EventsKeepWhatASearchLooksAt) { expect_current(strip_model("")); }
+TEST(Current, EventsKeepWhatASearchLooksAt) { expect_current(current_model("")); }
 
 TEST(Current, EventsKeepWhatASearchLooksAtBesideElements) {
-  const Model model = strip_model("[elements]\nspacings = 4\norder = 1\n");
+  const Model model = current_model("[elements]\nspacings = 4\norder = 1\n");
   ASSERT_TRUE(model.unknowns.carries());
   expect_current(model);
 }

@@ -10,20 +10,8 @@ namespace {
 
 using namespace test;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
-                                  FactorRoute::refactorize};
-const LatticeCase rectangular{"rectangular", Pattern::rectangular, Surface::none};
-const LatticeCase hexagonal{"hexagonal", Pattern::hexagonal, Surface::none};
-
 SingleEventEngine make_engine(const AnalysisBody& body, const EquilibriumOptions& options = {}) {
   return {body, options};
-}
-
-EquilibriumOptions with_route(FactorRoute route) {
-  EquilibriumOptions options;
-  options.route = route;
-  return options;
 }
 
 double force_work(const AnalysisBody& body, const Eigen::VectorXd& u) {

@@ -9,9 +9,6 @@ namespace {
 
 using namespace test;
 
-const LatticeCase rectangular{"rectangular", Pattern::rectangular, Surface::none};
-const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
-
 Eigen::MatrixXd dense_columns(const Removal& removal, Index size) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(size, removal.rank);
   for (int m = 0; m < removal.rank; ++m) {

@@ -14,10 +14,6 @@ namespace {
 
 using namespace test;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
-                                  FactorRoute::refactorize};
-
 SingleEventEngine make_engine(const AnalysisBody& body, FactorRoute route) {
   EquilibriumOptions options;
   options.route = route;

@@ -10,16 +10,6 @@ namespace {
 
 using namespace test;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
-                                  FactorRoute::refactorize};
-
-EquilibriumOptions with_route(FactorRoute route) {
-  EquilibriumOptions options;
-  options.route = route;
-  return options;
-}
-
 /// Particle 0 at the origin with a micropolar bond (k = 1, kb = 2) to particle 1 at (0, 1) and
 /// trusses of stiffness 1 and 3 to particles 2 at (-1, 0) and 3 at (0, -1), all held.
 AnalysisBody make_joint() {

@@ -13,8 +13,6 @@ namespace {
 
 using namespace test;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Scan in steps of d for what a search finds exactly, with the stretches of a textbook's beam.
 struct Scan {
   const Network& network;

@@ -15,14 +15,14 @@ namespace {
 using namespace test;
 
 /// Round-off of one ratio, written as a sum over the axes: a few units of the last place.
-constexpr double round_off = 1e-13;
+constexpr double truss_round_off = 1e-13;
 
 const LatticeCase plane{"plane", Pattern::hexagonal, Surface::none};
 const LatticeCase space{"space", Pattern::cubic, Surface::none};
 
 /// Every bond, one by one.
-LimitSearch::Hit brute_force(const Network& network, const std::vector<double>& u,
-                             const std::vector<std::uint8_t>& removed = {}) {
+LimitSearch::Hit brute_force_of_bonds(const Network& network, const std::vector<double>& u,
+                                      const std::vector<std::uint8_t>& removed = {}) {
   LimitSearch::Hit best;
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!removed.empty() && removed[e]) continue;
@@ -40,10 +40,10 @@ TEST_P(EveryDimension, FindsTheLargestRatioAgainAndAgain) {
   LimitSearch search(network);
   for (unsigned seed = 0; seed < 50; ++seed) {
     const auto u = random_vector(network.particles.positions.size(), seed);
-    const LimitSearch::Hit expected = brute_force(network, u, removed);
+    const LimitSearch::Hit expected = brute_force_of_bonds(network, u, removed);
     const LimitSearch::Hit hit = search.find(u, tie_tolerance, 1);
     ASSERT_EQ(hit.element, expected.element) << "seed " << seed;
-    EXPECT_NEAR(hit.ratio, expected.ratio, round_off * expected.ratio);
+    EXPECT_NEAR(hit.ratio, expected.ratio, truss_round_off * expected.ratio);
     search.set_limit(hit.element, INFINITY);
     removed[hit.element] = 1;
   }
@@ -69,7 +69,7 @@ TEST_P(EveryDimension, ListsAllThatReachARatio) {
     if (ratio_of(e) < least) continue;
     ASSERT_NE(hit, hits.end());
     EXPECT_EQ(hit->element, e);
-    EXPECT_NEAR(hit->ratio, ratio_of(e), round_off * ratio_of(e));
+    EXPECT_NEAR(hit->ratio, ratio_of(e), truss_round_off * ratio_of(e));
     ++hit;
   }
   EXPECT_EQ(hit, hits.end());
@@ -198,7 +198,7 @@ TEST(LimitSearch, ThreadsDoNotChangeTheResult) {
   for (unsigned seed = 0; seed < 3; ++seed) {
     const auto u = random_vector(network.particles.positions.size(), seed);
     const LimitSearch::Hit expected = searches[0].find(u, tie_tolerance, 1);
-    EXPECT_EQ(expected.element, brute_force(network, u).element);
+    EXPECT_EQ(expected.element, brute_force_of_bonds(network, u).element);
     for (int threads = 2; threads <= 3; ++threads) {
       const LimitSearch::Hit hit = searches[threads - 1].find(u, tie_tolerance, threads);
       EXPECT_EQ(hit.element, expected.element);

@@ -17,13 +17,6 @@ std::unique_ptr<EventEngine> make_engine(const AnalysisBody& body,
   return make_event_engine(body, options);
 }
 
-constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
-                                  FactorRoute::refactorize};
-
-const LatticeCase rectangular{"rectangular", Pattern::rectangular, Surface::none};
-const LatticeCase hexagonal_ghost{"hexagonal_ghost", Pattern::hexagonal, Surface::ghost};
-const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
-
 /// The figures of make_square(): all come out to round-off.
 TEST(EventEngine, TwoEventsByHand) {
   const AnalysisBody body = make_square();

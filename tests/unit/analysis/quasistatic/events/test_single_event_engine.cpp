@@ -10,16 +10,6 @@ namespace {
 
 using namespace test;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
-                                  FactorRoute::refactorize};
-
-EquilibriumOptions with_route(FactorRoute route) {
-  EquilibriumOptions options;
-  options.route = route;
-  return options;
-}
-
 /// A spring of stiffness 1 and a bar of stiffness 2, both of unit length, in parallel between a
 /// held particle and a free one, which a spring of stiffness 1 ties to a particle moved by 1.
 AnalysisBody make_yielding_bar(double yield_strain) {

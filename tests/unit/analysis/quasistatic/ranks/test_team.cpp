@@ -54,14 +54,14 @@ TEST_P(TeamTest, FindsTheEquilibriumOfTheWholeBody) {
       serve);
 }
 
-const LatticeCase square{"square", Pattern::rectangular, Surface::none};
-const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};
+const LatticeCase square_lattice{"square", Pattern::rectangular, Surface::none};
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, TeamTest,
-    testing::Combine(testing::Values(BlockCase{square}, BlockCase{square, true}, BlockCase{cubic},
+    testing::Combine(testing::Values(BlockCase{square_lattice}, BlockCase{square_lattice, true},
+                                     BlockCase{cubic},
                                      BlockCase{.lattice = cubic, .driven = true, .bar = true},
-                                     BlockCase{.lattice = square, .micropolar = true},
+                                     BlockCase{.lattice = square_lattice, .micropolar = true},
                                      BlockCase{.lattice = cubic, .micropolar = true}),
                      testing::Values(2, 3, 5)),
     [](const auto& instance) {

@@ -11,6 +11,7 @@
 #include "app/run/quasistatic.hpp"
 #include "base/error.hpp"
 #include "support/program_cases.hpp"
+#include "support/replaced.hpp"
 
 namespace perilink {
 namespace {
@@ -31,20 +32,16 @@ TEST(LatticeModel, FractureEnergyAndCriticalOpeningSayTheSame) {
   EXPECT_NEAR(softening_of(material).critical_opening, 2e-4, 1e-16);
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 /// The strip or the bar of a lattice in an elastic analysis.
 std::string elastic(const std::string& text) {
   return text.substr(0, text.find("[analysis]")) + "[analysis]\ntype = \"elastic\"\n";
 }
 
-ElasticAnswer answer(const CaseFile& input) { return solve_elastic(build_model(input), {}); }
+ElasticAnswer elastic_answer(const CaseFile& input) {
+  return solve_elastic(build_model(input), {});
+}
 
-std::string message_of(const std::string& text) {
+std::string model_message(const std::string& text) {
   try {
     build_model(parse_case(text, ""));
   } catch (const InputError& error) {
@@ -90,7 +87,8 @@ TEST(LatticeModel, IsElasticWhateverTheMaterialSays) {
                                          "tensile_strength = 1\nfracture_energy = 1e-5\n"
                                          "external_damping = 0.2");
   // In an explicit run the spacing would be too large for this softening.
-  EXPECT_EQ(answer(parse_case(breakable, "")).row.load, answer(parse_case(strip, "")).row.load);
+  EXPECT_EQ(elastic_answer(parse_case(breakable, "")).row.load,
+            elastic_answer(parse_case(strip, "")).row.load);
 }
 
 TEST(LatticeModel, TakesTheMeanWhereTheRulesHaveNoEnergy) {
@@ -100,7 +98,7 @@ TEST(LatticeModel, TakesTheMeanWhereTheRulesHaveNoEnergy) {
   const CaseFile input = parse_case(printed, "");
   ASSERT_EQ(build_model(input).notes.size(), 1U);
   EXPECT_THAT(build_model(input).notes[0], HasSubstr("takes their mean"));
-  EXPECT_EQ(answer(input).row.load, answer(parse_case(mean, "")).row.load);
+  EXPECT_EQ(elastic_answer(input).row.load, elastic_answer(parse_case(mean, "")).row.load);
 }
 
 TEST(LatticeModel, LeavesOutWhatHangsOnABond) {
@@ -119,7 +117,7 @@ TEST(LatticeModel, LeavesOutWhatHangsOnABond) {
     std::vector<std::string> notes;
     EXPECT_LT(model.network.particles.size(),
               build_lattice(input, LatticeShape(input), notes).lattice.particles());
-    EXPECT_GT(answer(input).row.load, 0.0);
+    EXPECT_GT(elastic_answer(input).row.load, 0.0);
   }
   EXPECT_TRUE(any);
 }
@@ -155,7 +153,7 @@ TEST(LatticeModel, TakesLoadsAndGauges) {
 
 TEST(LatticeModel, SolvesBodiesInSpace) {
   const CaseFile input = parse_case(elastic(test::lattice_bar_case()), "");
-  const ElasticAnswer result = answer(input);
+  const ElasticAnswer result = elastic_answer(input);
   // 1 by 1 of modulus 100 over about 1.6 between its grips.
   EXPECT_NEAR(result.row.load, 100.0 * 0.02 / 1.6, 0.25 * 1.25);
   EXPECT_LT(result.solution.residual, 1e-12);
@@ -163,9 +161,9 @@ TEST(LatticeModel, SolvesBodiesInSpace) {
 
 TEST(LatticeModel, RefusesBodiesThatNothingHolds) {
   const std::string strip = elastic(test::lattice_strip_case());
-  EXPECT_THAT(message_of(replaced(strip, "fix = [\"x\", \"y\"]", "fix = [\"x\"]")),
+  EXPECT_THAT(model_message(replaced(strip, "fix = [\"x\", \"y\"]", "fix = [\"x\"]")),
               HasSubstr("1 of the 3 rigid-body modes of the body are free"));
-  EXPECT_THAT(message_of(replaced(strip, "x = [1.9, 2]", "x = [1.93, 1.94]")),
+  EXPECT_THAT(model_message(replaced(strip, "x = [1.9, 2]", "x = [1.93, 1.94]")),
               HasSubstr("no particle lies in the region \"right side\""));
 }
 

@@ -11,18 +11,13 @@
 #include "base/error.hpp"
 #include "support/gmsh_texts.hpp"
 #include "support/program_cases.hpp"
+#include "support/replaced.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink {
 namespace {
 
 using testing::HasSubstr;
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 const Region& region_of(const CaseFile& input, const std::string& name) {
   for (const Region& region : input.regions) {

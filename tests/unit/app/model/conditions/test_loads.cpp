@@ -34,13 +34,13 @@ TractionSection traction_on(const std::string& region, const Expression& x, cons
   return section;
 }
 
-double force(const Model& model, Index particle, int axis) {
+double force_on(const Model& model, Index particle, int axis) {
   return model.loads.forces[static_cast<std::size_t>(particle) * model.network.dim() + axis];
 }
 
-double total_force(const Model& model, int axis) {
+double force_on_all(const Model& model, int axis) {
   double sum = 0.0;
-  for (Index i = 0; i < model.network.particles.size(); ++i) sum += force(model, i, axis);
+  for (Index i = 0; i < model.network.particles.size(); ++i) sum += force_on(model, i, axis);
   return sum;
 }
 
@@ -52,8 +52,8 @@ TEST(Loads, UniformTractionsShareTheAreaEqually) {
     const std::span<const double> x = model.network.particles.position(i);
     const bool corner = x[0] == 0.0 || x[0] == 40.0;
     const double area = x[1] < 80.0 ? 0.0 : 2.0 * (corner ? 5.0 : 10.0);
-    EXPECT_NEAR(force(model, i, 0), 0.5 * area, 1e-13);
-    EXPECT_NEAR(force(model, i, 1), 3.0 * area, 1e-13);
+    EXPECT_NEAR(force_on(model, i, 0), 0.5 * area, 1e-13);
+    EXPECT_NEAR(force_on(model, i, 1), 3.0 * area, 1e-13);
   }
   EXPECT_NEAR(model.reference.value, std::hypot(0.5, 3.0) * 80.0, 1e-11);
 }
@@ -62,10 +62,10 @@ TEST(Loads, LinearTractionsHaveExactForcesAndMoments) {
   CaseFile input = strip_with_top();
   input.tractions.push_back(traction_on("top", 0.0, Expression("3 - x/10")));
   const Model model = build_model(input);
-  EXPECT_NEAR(total_force(model, 1), 2.0 * (3.0 * 40.0 - 800.0 / 10.0), 1e-11);
+  EXPECT_NEAR(force_on_all(model, 1), 2.0 * (3.0 * 40.0 - 800.0 / 10.0), 1e-11);
   double moment = 0.0;
   for (Index i = 0; i < model.network.particles.size(); ++i) {
-    moment += force(model, i, 1) * model.network.particles.position(i)[0];
+    moment += force_on(model, i, 1) * model.network.particles.position(i)[0];
   }
   EXPECT_NEAR(moment, 2.0 * (3.0 * 800.0 - 64000.0 / 30.0), 1e-9);
 }
@@ -79,12 +79,12 @@ TEST(Loads, PressurePushesInwardsAndBalancesAllAround) {
   section.pressure = 2.0;
   input.tractions.push_back(section);
   const Model above = build_model(input);
-  EXPECT_NEAR(total_force(above, 1), -2.0 * 80.0, 1e-11);
-  EXPECT_NEAR(total_force(above, 0), 0.0, 1e-13);
+  EXPECT_NEAR(force_on_all(above, 1), -2.0 * 80.0, 1e-11);
+  EXPECT_NEAR(force_on_all(above, 0), 0.0, 1e-13);
   input.tractions[0].region = "surface";
   const Model around = build_model(input);
-  EXPECT_NEAR(total_force(around, 0), 0.0, 1e-12);
-  EXPECT_NEAR(total_force(around, 1), 0.0, 1e-12);
+  EXPECT_NEAR(force_on_all(around, 0), 0.0, 1e-12);
+  EXPECT_NEAR(force_on_all(around, 1), 0.0, 1e-12);
   const double faces = 2.0 * 2.0 * 2.0 * (40.0 + 80.0);  // the sum of the sizes of their forces
   EXPECT_NEAR(around.reference.value, 0.5 * faces, 1e-10);
 }
@@ -124,7 +124,7 @@ TEST(Loads, TractionsOnAFaceInSpaceAddUp) {
   TractionSection section = traction_on("face", 0.0, Expression("x*z"));
   input.tractions.push_back(section);
   const Model model = build_model(input);
-  EXPECT_NEAR(total_force(model, 1), 0.08 * 0.08, 1e-15);  // (0.4^2 / 2)^2
+  EXPECT_NEAR(force_on_all(model, 1), 0.08 * 0.08, 1e-15);  // (0.4^2 / 2)^2
 }
 
 TEST(Loads, BodyForcesByFormulaAreValuesTimesVolumes) {
@@ -137,7 +137,8 @@ TEST(Loads, BodyForcesByFormulaAreValuesTimesVolumes) {
   const Model model = build_model(input);
   const Particles& particles = model.network.particles;
   for (Index i = 0; i < particles.size(); ++i) {
-    EXPECT_NEAR(force(model, i, 1), -0.1 * particles.position(i)[1] * particles.volumes[i], 1e-11);
+    EXPECT_NEAR(force_on(model, i, 1), -0.1 * particles.position(i)[1] * particles.volumes[i],
+                1e-11);
   }
   EXPECT_NEAR(model.reference.value, 0.1 * 3200.0 * 40.0 * 2.0, 1e-8);
 }
@@ -198,12 +199,12 @@ TEST(Loads, PointLoadsGoToTheNearestParticle) {
   CaseFile input = strip_with_top();
   input.point_loads.push_back({{20.0, 80.0, 0.0}, {1.0, -4.0, 0.0}, {}});
   const Model exact = build_model(input);
-  EXPECT_EQ(total_force(exact, 0), 1.0);
-  EXPECT_EQ(total_force(exact, 1), -4.0);
+  EXPECT_EQ(force_on_all(exact, 0), 1.0);
+  EXPECT_EQ(force_on_all(exact, 1), -4.0);
   EXPECT_DOUBLE_EQ(exact.reference.value, std::hypot(1.0, 4.0));
   for (Index i = 0; i < exact.network.particles.size(); ++i) {
     const std::span<const double> x = exact.network.particles.position(i);
-    EXPECT_EQ(force(exact, i, 1) != 0.0, x[0] == 20.0 && x[1] == 80.0);
+    EXPECT_EQ(force_on(exact, i, 1) != 0.0, x[0] == 20.0 && x[1] == 80.0);
   }
   EXPECT_TRUE(exact.notes.empty());
   input.point_loads[0].at = {23.0, 81.0, 0.0};

@@ -11,21 +11,16 @@
 #include "base/error.hpp"
 #include "solver/factor_routes.hpp"
 #include "support/program_cases.hpp"
+#include "support/replaced.hpp"
 
 namespace perilink {
 namespace {
 
 using testing::HasSubstr;
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 ExplicitCase built(const std::string& text) { return build_explicit_case(parse_case(text, "")); }
 
-std::string message_of(const std::string& text) {
+std::string lattice_message(const std::string& text) {
   try {
     built(text);
   } catch (const InputError& error) {
@@ -144,28 +139,29 @@ TEST(ExplicitCase, BuildsBodiesInSpace) {
 
 TEST(ExplicitCase, RefusesWhatOnlyTheBodyKnows) {
   const std::string strip = test::lattice_strip_case();
-  const std::string large = message_of(replaced(strip, "duration", "time_step = 0.5\nduration"));
+  const std::string large =
+      lattice_message(replaced(strip, "duration", "time_step = 0.5\nduration"));
   EXPECT_THAT(large,
               HasSubstr("analysis.time_step: is 0.5, larger than the critical time step 0.0"));
-  EXPECT_THAT(message_of(replaced(strip, "spacing = 0.1", "spacing = 0.1\noffset = [1e9, 0]")),
+  EXPECT_THAT(lattice_message(replaced(strip, "spacing = 0.1", "spacing = 0.1\noffset = [1e9, 0]")),
               HasSubstr("body.offset"));
-  EXPECT_THAT(message_of(replaced(strip, "spacing = 0.1", "spacing = 1e-5")),
+  EXPECT_THAT(lattice_message(replaced(strip, "spacing = 0.1", "spacing = 1e-5")),
               HasSubstr("particles"));
-  EXPECT_THAT(message_of(replaced(strip, "spacing = 0.1", "spacing = 9\noffset = [3, 3]")),
+  EXPECT_THAT(lattice_message(replaced(strip, "spacing = 0.1", "spacing = 9\noffset = [3, 3]")),
               HasSubstr("no lattice point lies in the body"));
-  EXPECT_THAT(message_of(replaced(strip, "x = [1.9, 2]", "x = [1.93, 1.94]")),
+  EXPECT_THAT(lattice_message(replaced(strip, "x = [1.9, 2]", "x = [1.93, 1.94]")),
               HasSubstr("no particle lies in the region \"right side\""));
-  EXPECT_THAT(message_of(replaced(strip, "x = [1.9, 2]", "x = [0.1, 2]")),
+  EXPECT_THAT(lattice_message(replaced(strip, "x = [1.9, 2]", "x = [0.1, 2]")),
               HasSubstr("sets the displacement along x of the particle at (0.1, 0) to 0.04, where "
                         "another entry sets it to 0"));
-  EXPECT_THAT(message_of(replaced(strip, "x = 0.04", "x = \"0*x\"")),
+  EXPECT_THAT(lattice_message(replaced(strip, "x = 0.04", "x = \"0*x\"")),
               HasSubstr("nothing moves the body"));
-  EXPECT_THAT(message_of(replaced(strip, "x = 0.04", "x = \"1/(x - x)\"")),
+  EXPECT_THAT(lattice_message(replaced(strip, "x = 0.04", "x = \"1/(x - x)\"")),
               HasSubstr("displacements[1].x"));
-  EXPECT_THAT(message_of(replaced(strip, "duration = 2", "duration = 1e20")),
+  EXPECT_THAT(lattice_message(replaced(strip, "duration = 2", "duration = 1e20")),
               HasSubstr("analysis.duration: takes"));
-  EXPECT_THAT(message_of(replaced(strip, "fracture_energy = \"infinite\"",
-                                  "tensile_strength = 1\nfracture_energy = 1e-5")),
+  EXPECT_THAT(lattice_message(replaced(strip, "fracture_energy = \"infinite\"",
+                                       "tensile_strength = 1\nfracture_energy = 1e-5")),
               HasSubstr("body.spacing: the spacing 0.1 is too large for the softening"));
 }
 

@@ -12,10 +12,10 @@ using testing::HasSubstr;
 
 const std::string elastic = std::string(small_case) + "[analysis]\ntype = \"elastic\"\n";
 
-std::string with(const std::string& keys) { return elastic + "[[gauges]]\n" + keys; }
+std::string with_gauge(const std::string& keys) { return elastic + "[[gauges]]\n" + keys; }
 
 TEST(CaseGauges, ReadBackFromWhatIsWritten) {
-  const std::string text = with(
+  const std::string text = with_gauge(
       "name = \"mouth\"\nbetween = [[0, 0], [1, 0]]\n"
       "[[gauges]]\nname = \"slip-2\"\nbetween = [[0, 0], [1, 0]]\naxis = \"y\"\n"
       "[[gauges]]\nname = \"tip\"\nat = [1, 2]\naxis = \"x\"\n"
@@ -35,26 +35,28 @@ TEST(CaseGauges, ReadBackFromWhatIsWritten) {
 }
 
 TEST(CaseGauges, RefuseWhatCannotBeMeasured) {
-  EXPECT_THAT(message_of(with("at = [0, 0]\naxis = \"x\"\n")), HasSubstr("heading of its column"));
+  EXPECT_THAT(message_of(with_gauge("at = [0, 0]\naxis = \"x\"\n")),
+              HasSubstr("heading of its column"));
   for (const std::string name : {"a b", "-1", "=a", ""}) {
-    EXPECT_THAT(message_of(with("name = \"" + name + "\"\nat = [0, 0]\naxis = \"x\"\n")),
+    EXPECT_THAT(message_of(with_gauge("name = \"" + name + "\"\nat = [0, 0]\naxis = \"x\"\n")),
                 HasSubstr("use letters, digits, _ and -"));
   }
-  EXPECT_THAT(message_of(with("name = \"a\"\naxis = \"x\"\n")),
+  EXPECT_THAT(message_of(with_gauge("name = \"a\"\naxis = \"x\"\n")),
               HasSubstr("none of `between`, `at` or `region`"));
-  EXPECT_THAT(message_of(with("name = \"a\"\nat = [0, 0]\n")),
+  EXPECT_THAT(message_of(with_gauge("name = \"a\"\nat = [0, 0]\n")),
               HasSubstr("none of `axis` or `stress`"));
-  EXPECT_THAT(message_of(with("name = \"a\"\nat = [0, 0]\naxis = \"z\"\n")),
+  EXPECT_THAT(message_of(with_gauge("name = \"a\"\nat = [0, 0]\naxis = \"z\"\n")),
               HasSubstr("Allowed: x, y"));
-  EXPECT_THAT(message_of(with("name = \"a\"\nat = [0, 0]\nstress = \"yx\"\n")),
+  EXPECT_THAT(message_of(with_gauge("name = \"a\"\nat = [0, 0]\nstress = \"yx\"\n")),
               HasSubstr("Allowed: xx, yy, xy"));
-  EXPECT_THAT(message_of(with("name = \"a\"\nbetween = [[0, 0]]\n")), HasSubstr("holds 1 points"));
-  EXPECT_THAT(message_of(with("name = \"a\"\nbetween = [[0, 0], [1, 1]]\nstress = \"xx\"\n")),
+  EXPECT_THAT(message_of(with_gauge("name = \"a\"\nbetween = [[0, 0]]\n")),
+              HasSubstr("holds 1 points"));
+  EXPECT_THAT(message_of(with_gauge("name = \"a\"\nbetween = [[0, 0], [1, 1]]\nstress = \"xx\"\n")),
               HasSubstr("measure a stress `at` a point"));
-  EXPECT_THAT(message_of(with("name = \"a\"\nregion = \"blok\"\naxis = \"x\"\n")),
+  EXPECT_THAT(message_of(with_gauge("name = \"a\"\nregion = \"blok\"\naxis = \"x\"\n")),
               HasSubstr("did you mean `block`?"));
   const std::string twice = "name = \"a\"\nat = [0, 0]\naxis = \"x\"\n";
-  EXPECT_THAT(message_of(with(twice + "[[gauges]]\n" + twice)),
+  EXPECT_THAT(message_of(with_gauge(twice + "[[gauges]]\n" + twice)),
               HasSubstr("gauges[2].name: is \"a\", the name of another gauge"));
   EXPECT_THAT(message_of(std::string(small_case) +
                          "[analysis]\ntype = \"relaxation\"\nstrain = \"green\"\n"

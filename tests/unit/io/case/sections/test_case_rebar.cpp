@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 const std::string steel = "youngs_modulus = 200e3\narea = 201\n";
 
-CaseFile with(const std::string& bar, const std::string& more = "") {
+CaseFile with_bar(const std::string& bar, const std::string& more = "") {
   return parse_case(small_case + ("[[rebar]]\n" + bar + steel) + more, "case.toml");
 }
 
@@ -26,7 +26,7 @@ void expect_read_back(const CaseFile& input) {
 }
 
 TEST(CaseRebar, IsPerfectlyBondedUnlessItSaysOtherwise) {
-  const CaseFile input = with("from = [0, 0]\nto = [1, 2]\n");
+  const CaseFile input = with_bar("from = [0, 0]\nto = [1, 2]\n");
   const RebarSection& bar = input.rebar.at(0);
   EXPECT_EQ(bar.bond, RebarBond::perfect);
   EXPECT_EQ(bar.points.size(), 2u);
@@ -36,7 +36,7 @@ TEST(CaseRebar, IsPerfectlyBondedUnlessItSaysOtherwise) {
 }
 
 TEST(CaseRebar, HasBendsCopiesAndABondCurve) {
-  const CaseFile input = with(
+  const CaseFile input = with_bar(
       "points = [[0, 0], [0.5, 0], [1, 1]]\ncopies = [2, 3]\nsteps = [[0, 0.1], [0.1, 0]]\n"
       "bond = \"curve\"\nbond_curve = [[0.1, 4], [1, 10], [5, 0]]\nhooks = \"both\"\n"
       "stress_strain = [[0.0025, 500], [0.05, 600]]\nrupture_strain = 0.06\n");
@@ -49,7 +49,7 @@ TEST(CaseRebar, HasBendsCopiesAndABondCurve) {
 }
 
 TEST(CaseRebar, FollowsTheModelCode) {
-  const CaseFile input = with(
+  const CaseFile input = with_bar(
       "from = [0, 0]\nto = [1, 2]\nbond = \"model_code\"\nconcrete_strength = 38e6\n"
       "rib_spacing = 8e-3\nbond_failure = \"splitting_stirrups\"\nbond_conditions = \"other\"\n"
       "megapascal = 1e6\nmillimetre = 1e-3\nbends = true\n");
@@ -62,10 +62,12 @@ TEST(CaseRebar, FollowsTheModelCode) {
 }
 
 TEST(CaseRebar, IsLaidIntoARegion) {
-  const CaseFile layer = with("inside = \"block\"\nalong = \"y\"\nface = \"+x\"\ncover = 0.1\n");
+  const CaseFile layer =
+      with_bar("inside = \"block\"\nalong = \"y\"\nface = \"+x\"\ncover = 0.1\n");
   EXPECT_EQ(layer.rebar.at(0).layout->face, 3);
   expect_read_back(layer);
-  const CaseFile stirrups = with("inside = \"block\"\nalong = \"y\"\nspacing = 0.3\ncover = 0.1\n");
+  const CaseFile stirrups =
+      with_bar("inside = \"block\"\nalong = \"y\"\nspacing = 0.3\ncover = 0.1\n");
   EXPECT_EQ(stirrups.rebar.at(0).layout->spacing, 0.3);
   expect_read_back(stirrups);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_support;
 
-ExplicitModel block(Problem problem) {
+ExplicitModel small_block(Problem problem) {
   if (problem != Problem::three_dimensional) {
     return plane_model(rectangle(0.05, 0.05, 0.01, 23.0), elastic_concrete(),
                        LatticeRules::consistent, problem);
@@ -33,7 +33,7 @@ Index row_of(const LatticeRows& lattice, Index slot) {
 TEST(LatticeParticles, StressOfInteriorParticlesIsHookesAndTheFitTheStrain) {
   for (const Problem problem :
        {Problem::plane_stress, Problem::plane_strain, Problem::three_dimensional}) {
-    const ExplicitModel model = block(problem);
+    const ExplicitModel model = small_block(problem);
     const LatticeRows& lattice = model.lattice;
     const LatticeParticles particles(model);
     ExplicitState state(model);

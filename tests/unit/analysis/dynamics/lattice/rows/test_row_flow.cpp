@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing_support;
 
-ExplicitModel block(Problem problem, double crushing_energy, bool breakable = false) {
+ExplicitModel yielding_block(Problem problem, double crushing_energy, bool breakable = false) {
   LatticeMaterial material = elastic_concrete();
   material.breakable = breakable;
   material.yields = true;
@@ -33,7 +33,7 @@ TEST_P(FlowOfRows, IsThatOfParticlesOneByOne) {
   const bool weakened = GetParam();
   for (const Problem problem : {Problem::plane_stress, Problem::plane_strain}) {
     for (const double energy : {2e3, std::numeric_limits<double>::infinity()}) {
-      const ExplicitModel model = block(problem, energy, weakened);
+      const ExplicitModel model = yielding_block(problem, energy, weakened);
       const LatticeRows& lattice = model.lattice;
       const LatticeParticles particles(model);
       const LatticeYielding yielding(model, particles);
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(All, FlowOfRows, testing::Bool(),
 // In the sum of a particle its own halves count, plastic parts as damaged as they are in tension.
 TEST(ExplicitFlowRows, SumsTakeTheParticlesOwnHalvesWithTheirWeights) {
   const ExplicitModel model =
-      block(Problem::plane_stress, std::numeric_limits<double>::infinity(), true);
+      yielding_block(Problem::plane_stress, std::numeric_limits<double>::infinity(), true);
   const LatticeRows& lattice = model.lattice;
   const LatticeParticles particles(model);
   ExplicitState state(model);
@@ -128,8 +128,8 @@ TEST(ExplicitFlowRows, SumsTakeTheParticlesOwnHalvesWithTheirWeights) {
 // Equal stresses soften steepest against what the return takes back: a yield stress that falls
 // nearly as fast as that, and one that would fall faster.
 TEST(ExplicitFlowRows, EqualStressesEndOnASteeplyFallingSurface) {
-  EXPECT_THROW(block(Problem::plane_stress, 230.0), std::invalid_argument);
-  const ExplicitModel model = block(Problem::plane_stress, 255.0);
+  EXPECT_THROW(yielding_block(Problem::plane_stress, 230.0), std::invalid_argument);
+  const ExplicitModel model = yielding_block(Problem::plane_stress, 255.0);
   const LatticeRows& lattice = model.lattice;
   const LatticeParticles particles(model);
   ExplicitState state(model);

@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_support;
 
-ExplicitModel block(Problem problem, LatticeRules rules) {
+ExplicitModel scanned_block(Problem problem, LatticeRules rules) {
   LatticeMaterial material = elastic_concrete(0.3);
   material.breakable = material.yields = true;
   material.boundary_factor = 0.7;
@@ -31,7 +31,7 @@ ExplicitModel block(Problem problem, LatticeRules rules) {
   return make_explicit_model(problem, rules, face_centred_rows(cut), material, 1.0);
 }
 
-void shake(const ExplicitModel& model, ExplicitState& state, double size) {
+void shake_and_evaluate(const ExplicitModel& model, ExplicitState& state, double size) {
   for (const Index slot : model.lattice.particle_slot) {
     for (int c = 0; c < model.lattice.dim; ++c) {
       state.displacement[model.lattice.at(c, slot)] = size * std::sin(12.9898 * slot + 78.2 * c);
@@ -70,7 +70,7 @@ void expect_due_particles(const ExplicitModel& model, Past past) {
   const LatticeParticles particles(model);
   ExplicitState state(model);
   alter(model, state, past);
-  shake(model, state, 1.2e-6);
+  shake_and_evaluate(model, state, 1.2e-6);
   DueParticles due;
   int above = 0, below = 0;
   for (std::size_t r = 0; r < model.lattice.rows.size(); ++r) {
@@ -105,7 +105,7 @@ TEST(ExplicitScan, FindsTheParticlesAboveTheirThresholds) {
         std::pair{Problem::plane_strain, LatticeRules::consistent},
         std::pair{Problem::plane_stress, LatticeRules::least_2018},
         std::pair{Problem::three_dimensional, LatticeRules::consistent}}) {
-    const ExplicitModel model = block(problem, rules);
+    const ExplicitModel model = scanned_block(problem, rules);
     for (const Past past : {Past::none, Past::flowed, Past::cracked}) {
       SCOPED_TRACE(static_cast<int>(past));
       expect_due_particles(model, past);
@@ -117,14 +117,14 @@ TEST(ExplicitScan, FindsTheParticlesAboveTheirThresholds) {
 // changed by so much.
 TEST(ExplicitScan, NothingIsDueBeforeTheSlackIsUsedUp) {
   for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
-    const ExplicitModel model = block(problem, LatticeRules::consistent);
+    const ExplicitModel model = scanned_block(problem, LatticeRules::consistent);
     const LatticeParticles particles(model);
     const auto rows = static_cast<Index>(model.lattice.rows.size());
     DueParticles due;
     int promised = 0;
     for (const double first : {2e-8, 5e-8, 1e-7}) {
       ExplicitState state(model);
-      shake(model, state, first);
+      shake_and_evaluate(model, state, first);
       std::vector<double> slack(rows);
       const std::vector<double> before = state.now.stretch;
       for (Index r = 0; r < rows; ++r) {
@@ -132,7 +132,7 @@ TEST(ExplicitScan, NothingIsDueBeforeTheSlackIsUsedUp) {
         slack[r] = state.slack[r];
       }
       for (const double factor : {-3.0, 1.5, 2.0, 4.0, 8.0}) {
-        shake(model, state, factor * first);
+        shake_and_evaluate(model, state, factor * first);
         double change = 0.0;
         for (std::size_t k = 0; k < before.size(); ++k) {
           const double part = model.lattice.present[k] * std::abs(state.now.stretch[k] - before[k]);
