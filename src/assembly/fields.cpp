@@ -4,8 +4,8 @@
 #include <array>
 
 #include "assembly/internal_force.hpp"
+#include "discretization/vector_at.hpp"
 #include "network/frame.hpp"
-#include "network/vector_at.hpp"
 
 namespace perilink {
 namespace {

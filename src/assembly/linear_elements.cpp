@@ -8,7 +8,7 @@
 
 #include "assembly/cell_terms.hpp"
 #include "assembly/lower_triangle.hpp"
-#include "network/vector_at.hpp"
+#include "discretization/vector_at.hpp"
 
 namespace perilink {
 namespace {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "homogeneous.hpp"
+#include "io/mesh/gmsh_mesher.hpp"
 
 namespace perilink::verification {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 /// free. Few directions and a ripple of 7 % for the bonds along the pull leave 3 % of the peak;
 /// elastic bonds are calibrated for the whole square, of which the stress is that of a part.
 TEST(Concrete, BearsUnderUniformStrainWhatItsLawSays) {
+  if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
   const auto points = strain_uniformly({.layout = "mesh = \"cloud.geo\"\nmesh_size = 12.7\n"
                                                   "horizon_ratio = 3\n",
                                         .error = 0.01,

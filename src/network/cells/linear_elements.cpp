@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "network/vector_at.hpp"
+#include "discretization/vector_at.hpp"
 
 namespace perilink {
 namespace {

@@ -49,8 +49,8 @@ struct BarRun {
 /// Runs a case on one thread. \param label  unique; part of the directory of its results
 BarRun run_bars(const std::string& label, const std::string& case_text);
 
-/// Puts a picture into this folder: of the last row, or of the last field file up to a displacement.
-/// \param scale  of displacements; 0: automatic
+/// Puts a picture into this folder, of the last row or the last field file up to a displacement.
+/// \param scale  factor on displacements; 0: automatic
 void draw_run(const BarRun& run, const std::string& file_name, double scale = 0.0,
               double displacement = 1e30);
 

@@ -63,7 +63,7 @@ double model_code_transfer_length(const TensionMember& member);
 /// Stress of the steel in a crack as the concrete reaches f_ctm: f_ctm (1 + n rho) / rho.
 double model_code_cracking_stress(const TensionMember& member);
 
-/// Mean strain (s - beta s_sr) / E_s with beta = 0.6, short-term loads (Eq. 7.6-5, Table 7.6-2).
+/// Mean strain (s - beta s_sr) / E_s with beta = 0.6, short-term loads (section 7.6.4.4).
 double model_code_mean_strain(const TensionMember& member, double stress);
 
 /// Mean strain between two cracks without stress in them, by small steps along the bar with a law
