@@ -13,6 +13,7 @@
 #include "io/case/case_file.hpp"
 #include "io/text/csv.hpp"
 #include "problems/block.hpp"
+#include "problems/load_at.hpp"
 #include "problems/program.hpp"
 #include "problems/result.hpp"
 
@@ -40,16 +41,6 @@ struct Run {
   std::string name, color;
   std::vector<CurvePoint> curve;  ///< envelope of the events
 };
-
-double load_at(const std::vector<CurvePoint>& curve, double displacement) {
-  for (std::size_t k = 1; k < curve.size(); ++k) {
-    const CurvePoint &a = curve[k - 1], &b = curve[k];
-    if (b.displacement < displacement) continue;
-    const double part = (displacement - a.displacement) / (b.displacement - a.displacement);
-    return a.load + part * (b.load - a.load);
-  }
-  return curve.back().load;
-}
 
 CurvePoint peak_of(const std::vector<CurvePoint>& curve) {
   return *std::max_element(curve.begin(), curve.end(),

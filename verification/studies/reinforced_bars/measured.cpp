@@ -6,6 +6,7 @@
 #include "app/plot/curve_frame.hpp"
 #include "finding.hpp"
 #include "io/text/csv.hpp"
+#include "problems/load_at.hpp"
 #include "runs.hpp"
 #include "sections.hpp"
 
@@ -25,16 +26,6 @@ std::vector<CurvePoint> rising_curve(const BarRun& run, double load_factor) {
     curve.push_back({furthest, load_factor * largest});
   }
   return curve;
-}
-
-double curve_load_at(const std::vector<CurvePoint>& curve, double displacement) {
-  for (std::size_t k = 1; k < curve.size(); ++k) {
-    const CurvePoint &a = curve[k - 1], &b = curve[k];
-    if (b.displacement < displacement) continue;
-    const double part = (displacement - a.displacement) / (b.displacement - a.displacement);
-    return a.load + part * (b.load - a.load);
-  }
-  return curve.back().load;
 }
 
 /// Strain of the bar where it is largest, in the loaded state that is nearest to a load.
@@ -85,7 +76,7 @@ Findings bend_measured_beam() {
                           steel_strain_at(run, 0.5 * row[0]), row[2], 0.0});
     }
     findings.push_back({"6", "beam of SSNL119", fmt::format("load (kN) at {:.1f} mm", row[1]),
-                        curve_load_at(computed, row[1]), 1e-3 * row[0], 0.1});
+                        load_at(computed, row[1]), 1e-3 * row[0], 0.1});
   }
   draw_curves(computed, measured);
   return findings;
