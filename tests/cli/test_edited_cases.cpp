@@ -1,6 +1,7 @@
 // What `check` and `run` refuse alike, in the same words, before anything is computed: the cases of
 // malformed/run and some with files beside them.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,12 +57,14 @@ class MeshedCase : public ::testing::Test {
                    "[[materials]]\nregion = \"all\"\nyoungs_modulus = 1\nfracture_energy = 1\n"
                    "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\"]\n"
                    "[[loads]]\nregion = \"all\"\nforce = [1, 0]\n"
-                   "[analysis]\ntype = \"elastic\"\n");
+                   "[analysis]\ntype = \"elastic\"\n" +
+                   more_);
     arguments.insert(arguments.begin() + 1, "../case.toml");
     return run_program(directory_ / "work", arguments);
   }
 
   test::TemporaryDirectory directory_;
+  std::string more_;  ///< at the end of the case
 };
 
 /// Two triangles written twice with corners of their own, shifted by a quarter of the square.
@@ -77,6 +80,49 @@ TEST_F(MeshedCase, OverlappingPartsAreRefusedWithTheirElements) {
     EXPECT_THAT(end.err, AllOf(HasSubstr("../case.toml:2: body.mesh: names ../body.msh"),
                                HasSubstr("the elements 21 and 23 overlap at ("),
                                HasSubstr("BooleanFragments or Coherence")));
+  }
+}
+
+/// A square of 8 by 8 squares of two triangles, and a bent curve across them.
+std::string square_with_curve() {
+  constexpr int count = 8;
+  std::string nodes, cells;
+  for (int k = 0; k < (count + 1) * (count + 1); ++k) {
+    nodes += fmt::format("{} {} 0\n", 0.125 * (k % (count + 1)), 0.125 * (k / (count + 1)));
+  }
+  for (int k = 0; k < count * count; ++k) {
+    const int a = k % count + k / count * (count + 1) + 1, d = a + count + 1;
+    cells += fmt::format("{} {} {} {}\n{} {} {} {}\n", 2 * k + 4, a, a + 1, d, 2 * k + 5, a + 1,
+                         d + 1, d);
+  }
+  std::string tags;
+  for (int k = 1; k <= 85; ++k) tags += fmt::format("{}\n", k);
+  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"bars\"\n2 2 \"all\"\n"
+         "$EndPhysicalNames\n$Entities\n0 1 1 0\n1 0 0 0 1 1 0 1 1 0\n1 0 0 0 1 1 0 1 2 0\n"
+         "$EndEntities\n$Nodes\n1 85 1 85\n2 1 0 85\n" +
+         tags + nodes +
+         "0.05 0.1 0\n0.4 0.1 0\n0.7 0.1 0\n0.9 0.9 0\n$EndNodes\n"
+         "$Elements\n2 131 1 131\n1 1 1 3\n1 83 82\n2 83 84\n3 84 85\n2 1 2 128\n" +
+         cells + "$EndElements\n";
+}
+
+TEST_F(MeshedCase, BarsDrawnInTheMeshAreThoseOfTheirPoints) {
+  write_text(directory_ / "body.msh", square_with_curve());
+  const std::string steel = "youngs_modulus = 50\narea = 0.1\n";
+  std::vector<std::string> fields;
+  for (const std::string place :
+       {"group = \"bars\"", "points = [[0.05, 0.1], [0.7, 0.1], [0.9, 0.9]]"}) {
+    more_ = "[[rebar]]\n" + place + "\n" + steel;
+    const auto end = run("body.msh", {"run", "--out", "out", "--force"});
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+    fields.push_back(test::read_text(directory_ / "work/out/bars_000.csv"));
+  }
+  EXPECT_EQ(fields[0], fields[1]);
+  more_ = "[[rebar]]\ngroup = \"bar\"\n" + steel;
+  for (const char* command : {"check", "run"}) {
+    const auto end = run("body.msh", {command});
+    EXPECT_EQ(end.exit_status, 2);
+    EXPECT_THAT(end.err, AllOf(HasSubstr("rebar[1].group: is \"bar\""), HasSubstr("\"bars\"")));
   }
 }
 

@@ -65,6 +65,8 @@ struct Group {
   std::string name;
   std::vector<Index> particles;  ///< ascending
   std::vector<Index> facets;     ///< those on the surface that belong to the group, ascending
+  /// Groups of lines: corners of each curve that they join up to [length].
+  std::vector<std::vector<Vector3>> curves = {};
 };
 
 /// Particles and the lattice or the mesh that they belong to.

@@ -13,7 +13,7 @@ namespace perilink {
 struct MeshGroup {
   std::string name;
   int dim = 2;                  ///< 0: its elements are points, 1 lines, 2 triangles, 3 tetrahedra
-  std::vector<Index> elements;  ///< numbers of its cells or facets; of lower dimensions none
+  std::vector<Index> elements;  ///< numbers of its cells, facets or lines; points have none
   std::vector<Index> points;    ///< corners of its elements, ascending, each once
 };
 
@@ -24,6 +24,7 @@ struct Mesh {
   std::vector<double> positions;  ///< [length], shape (points, dim)
   std::vector<Index> cells;       ///< corners, shape (cells, dim + 1)
   std::vector<Index> facets;      ///< edges or triangles of the groups, shape (facets, dim)
+  std::vector<Index> lines;       ///< ends of those of the groups in space, shape (lines, 2)
   std::vector<MeshGroup> groups;
   std::vector<std::int64_t> cell_tags;  ///< numbers of the cells in their file; empty: 1, 2, 3, ...
 

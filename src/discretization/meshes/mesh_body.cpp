@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "discretization/mesh_faces.hpp"
 #include "discretization/meshes/cell_corners.hpp"
 #include "discretization/meshes/mesh_conformity.hpp"
+#include "discretization/meshes/mesh_curves.hpp"
 #include "discretization/meshes/mesh_overlap.hpp"
 
 namespace perilink {
@@ -147,10 +149,13 @@ void refuse_overlap(const Mesh& mesh, const CellFaces& faces, const Numbering& n
 }
 
 /// Facets of the surface that a group of facets names. Those between cells are not on the surface,
-/// and those of cells that were left out are not in the body.
+/// and those of cells that were left out are not in the body. Curves for bars may lie across cells:
+/// they have points of their own, and none of their lines is a side.
 std::vector<Index> facets_of_facets(const Mesh& mesh, const MeshGroup& group,
                                     const CellFaces& faces, const Numbering& numbering) {
   std::vector<Index> found;
+  std::optional<Index> loose;
+  bool across = mesh.dim == 2;  // a curve across cells
   std::vector<Index> corners(static_cast<std::size_t>(mesh.dim));
   for (const Index element : group.elements) {
     for (int k = 0; k < mesh.dim; ++k) {
@@ -159,11 +164,17 @@ std::vector<Index> facets_of_facets(const Mesh& mesh, const MeshGroup& group,
     }
     const bool known = std::find(corners.begin(), corners.end(), no_index) == corners.end();
     const Index face = known ? find_face(faces, corners) : no_index;
-    if (face == no_index && numbering.whole) refuse_loose_facet(mesh, group, element);
-    if (face != no_index && numbering.surface_facet[face] != no_index) {
-      found.push_back(numbering.surface_facet[face]);
+    if (face == no_index) {
+      if (!loose) loose = element;
+    } else {
+      across = false;
+      if (numbering.surface_facet[face] != no_index) found.push_back(numbering.surface_facet[face]);
     }
   }
+  across = across && std::any_of(group.points.begin(), group.points.end(), [&](Index point) {
+             return numbering.particle[point] == no_index;
+           });
+  if (loose && numbering.whole && !across) refuse_loose_facet(mesh, group, *loose);
   return found;
 }
 
@@ -193,6 +204,7 @@ Group body_group(const Mesh& mesh, const MeshGroup& group, const CellFaces& face
   }
   if (group.dim == mesh.dim) result.facets = facets_of_cells(group, faces, numbering, num_cells);
   if (group.dim == mesh.dim - 1) result.facets = facets_of_facets(mesh, group, faces, numbering);
+  if (group.dim == 1) result.curves = curves_of(mesh, group);
   std::sort(result.facets.begin(), result.facets.end());
   result.facets.erase(std::unique(result.facets.begin(), result.facets.end()), result.facets.end());
   return result;

@@ -164,10 +164,11 @@ struct BarLayout {
   std::optional<double> spacing;  ///< between stirrups, about [length]
 };
 
-/// [[rebar]]: either points or a layout.
+/// [[rebar]]: points, a layout or curves of a mesh.
 struct RebarSection {
   std::vector<Vector3> points;  ///< ends and bends
   std::optional<BarLayout> layout = {};
+  std::string group = {};           ///< physical curves of the body's mesh
   std::vector<int> copies = {};     ///< along each of the steps
   std::vector<Vector3> steps = {};  ///< from copy to copy [length]
   bool across_gaps = false;         ///< it may leave the body on its way

@@ -147,7 +147,10 @@ void add_elements(const GmshSections& sections, const std::string& path, Mesh& m
     nodes.clear();
     for (const std::int64_t tag : block.nodes) nodes.push_back(table.find(tag));
     const bool is_cell = dim == mesh.dim, is_facet = dim == mesh.dim - 1;
-    std::vector<Index>* elements = is_cell ? &mesh.cells : is_facet ? &mesh.facets : nullptr;
+    std::vector<Index>* elements = is_cell    ? &mesh.cells
+                                   : is_facet ? &mesh.facets
+                                   : dim == 1 ? &mesh.lines
+                                              : nullptr;
     const std::size_t width = static_cast<std::size_t>(dim) + 1;
     const auto first = static_cast<Index>(elements != nullptr ? elements->size() / width : 0);
     if (elements != nullptr) elements->insert(elements->end(), nodes.begin(), nodes.end());

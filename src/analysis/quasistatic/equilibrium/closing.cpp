@@ -20,8 +20,9 @@ constexpr int rounds_together = 10, most_rounds = 1000;
 /// Extensions that are so small beside the motion of the ends are round-off and have no sign.
 constexpr double closing_round_off = 1e-11;
 
-/// An opening bond with a smaller pivot held the last load path.
-constexpr double no_pivot = 1e-12;
+/// Compliance of a load along bonds that have opened, over that of a bond alone, beyond which the
+/// body does not resist it.
+constexpr double no_resistance = 1e12;
 
 /// Rough rates of one core, to choose between one new factor and many changes: half of a change is
 /// a pass through the path of a bond, which is a part of the factor.
@@ -121,14 +122,19 @@ void Equilibrium::close(Index element) {
 /// \return false where nothing but the bond holds the body: then all is as it was
 bool Equilibrium::open(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
-  const double pivot = factor_->pivot(axial.x[0]);
+  double pivot = factor_->pivot(axial.x[0]);
+  const bool doubtful = !(pivot > doubtful_pivot);
+  if (doubtful) {
+    pivot = pivot_by_energy(axial.x[0], element, secants_[element]);
+    axial_[element] = 1.0;  // closed as before
+    if (pivot == 0.0) return false;
+  }
   axial_[element] = secants_[element];
-  if (pivot > doubtful_pivot) {
+  if (!doubtful) {
     factor_->downdate(axial.vectors(), axial.load_changes(), {&pivot, 1}, {});
     return true;
   }
   try {
-    if (!(pivot > no_pivot)) throw NotPositiveDefinite("a closed bond held the body last");
     factorize();
     return true;
   } catch (const NotPositiveDefinite&) {
@@ -182,7 +188,7 @@ bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
   factor_->solve(load, motion);
   double work = 0.0;
   for (std::size_t k = 0; k < load.size(); ++k) work += load[k] * motion[k];
-  return work >= 0.0 && work * no_pivot < 1.0;
+  return work >= 0.0 && work < no_resistance;
 }
 
 /// What closes holds the body while others open. \return the bonds that have changed their side;

@@ -13,6 +13,8 @@
 #include "base/error.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/meshes/cell_search.hpp"
+#include "io/case/case_schema.hpp"
+#include "io/text/toml_tree.hpp"
 
 namespace perilink {
 namespace {
@@ -119,9 +121,27 @@ void refuse_hooks_of_closed(const CaseFile& input, std::size_t k, const Points& 
                    "delete it; what holds a closed bar is its corners");
 }
 
+/// The curves of a physical group.
+std::vector<Points> drawn_bars(const CaseFile& input, std::size_t k, const Body& body) {
+  const std::string& name = input.rebar[k].group;
+  std::vector<std::string_view> names;
+  for (const Group& group : body.groups) {
+    if (group.name == name && !group.curves.empty()) return group.curves;
+    if (!group.curves.empty()) names.push_back(group.name);
+  }
+  throw InputError(
+      input.where(item_key("rebar", k, "group")),
+      fmt::format("is {}, but the mesh has no physical curves of this name", quoted(name)),
+      names.empty()
+          ? fmt::format("write Physical Curve({}) = {{...}}; in the geometry", quoted(name))
+          : suggest(name, names));
+}
+
 /// The bars of an entry without copies.
-std::vector<Points> first_bars(const CaseFile& input, std::size_t k, int dim) {
+std::vector<Points> first_bars(const CaseFile& input, std::size_t k, const Body& body) {
   const RebarSection& section = input.rebar[k];
+  const int dim = body.particles.dim;
+  if (!section.group.empty()) return drawn_bars(input, k, body);
   if (!section.layout) return {section.points};
   const Box room = room_of(input, k, dim);
   if (section.layout->spacing) {
@@ -244,11 +264,11 @@ std::optional<Vector3> first_outside(const RebarLine& bar, double step,
 
 }  // namespace
 
-LaidBars lay_bars(const CaseFile& input, int dim) {
+LaidBars lay_bars(const CaseFile& input, const Body& body) {
   LaidBars laid;
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {
     const RebarSection& section = input.rebar[k];
-    std::vector<Points> bars = first_bars(input, k, dim);
+    std::vector<Points> bars = first_bars(input, k, body);
     for (const Points& bar : bars) refuse_hooks_of_closed(input, k, bar);
     refuse_too_many(input, k,
                     std::accumulate(section.copies.begin(), section.copies.end(),

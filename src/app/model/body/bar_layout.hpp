@@ -16,8 +16,9 @@ struct LaidBars {
   std::vector<std::size_t> sections;   ///< number of the entry, per bar
 };
 
-/// \throws InputError  where the cover leaves no room
-LaidBars lay_bars(const CaseFile& input, int dim);
+/// \param body  with the groups of its mesh
+/// \throws InputError  where the cover leaves no room, or the mesh has no such curves
+LaidBars lay_bars(const CaseFile& input, const Body& body);
 
 /// Refuses bars that leave the body, through air as well, unless their entry wants them to.
 void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars& bars);

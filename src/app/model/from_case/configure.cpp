@@ -287,7 +287,7 @@ struct BondOptions {
 };
 
 void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {
-  const LaidBars bars = lay_bars(input, body.particles.dim);
+  const LaidBars bars = lay_bars(input, body);
   refuse_bars_outside(input, body, bars);
   model.entry_of_bar = bars.sections;
   NetworkInput network = network_input(input, model.problem, model.horizon, bars);

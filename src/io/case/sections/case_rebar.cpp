@@ -80,8 +80,8 @@ BarLayout read_layout(const CaseTable& table, int dim) {
 }
 
 void read_place(const CaseTable& table, int dim, RebarSection& bar) {
+  table.need_one_of({table.has("to") ? "to" : "from", "points", "inside", "group"});
   if (table.has("from") || table.has("to")) {
-    table.need_one_of({"from", "points", "inside"});
     const Vector3 from =
         table.need("from", table.vector("from", dim), "the point where the bar begins");
     const Vector3 to = table.need("to", table.vector("to", dim), "the point where the bar ends");
@@ -91,8 +91,8 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
                    "give the two ends of the bar");
     }
   } else {
-    table.need_one_of({"from", "points", "inside"});
     assign(bar.points, table.vectors("points", dim));
+    assign(bar.group, table.text("group"));
   }
   if (table.has("inside")) {
     bar.layout = read_layout(table, dim);
@@ -100,7 +100,7 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
     for (const char* key : {"along", "cover", "face", "number", "spacing"}) {
       if (table.has(key)) table.refuse(key, "is given without `inside`", "delete it");
     }
-    if (bar.points.size() < 2) {
+    if (bar.points.size() < 2 && bar.group.empty()) {
       table.refuse("points", "has fewer than two points", "give the ends of the bar and its bends");
     }
     for (std::size_t k = 1; k < bar.points.size(); ++k) {
@@ -252,6 +252,12 @@ RebarSection read_rebar(const CaseTable& table, int dim) {
 void check_rebar(const CaseFile& input) {
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {
     const RebarSection& bar = input.rebar[k];
+    if (!bar.group.empty() && !input.body.mesh) {
+      throw InputError(
+          input.where(item_key("rebar", k, "group")),
+          fmt::format("is \"{}\", but the body is no mesh that could have such a group", bar.group),
+          "give the `points` of the bar, or `mesh` in [body]");
+    }
     if (bar.bond == RebarBond::concrete) continue;
     if (input.analysis.solver == LinearSolver::iterative) {
       throw InputError(input.where("analysis.solver"),
@@ -284,6 +290,8 @@ void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
       out.write("face", (*layout.face < 3 ? "-" : "+") + std::string(axis_names[*layout.face % 3]));
       out.write("number", layout.number);
     }
+  } else if (!bar.group.empty()) {
+    out.write("group", bar.group);
   } else if (bar.points.size() == 2) {
     out.write("from", bar.points[0], dim);
     out.write("to", bar.points[1], dim);

@@ -245,6 +245,21 @@ TEST(MeshBody, RefusesPartsThatOnlyTouch) {
   EXPECT_THAT(refusal(tetrahedra), HasSubstr("the vertex at (0.1, 0.1, 0)"));
 }
 
+TEST(MeshBody, KeepsCurvesAcrossItsCells) {
+  Mesh mesh = square_mesh();
+  mesh.positions.insert(mesh.positions.end(), {0.1, 0.3, 0.9, 0.3, 0.9, 0.8});
+  mesh.facets = {4, 5, 5, 6, 0, 1};
+  mesh.groups = {{"bar", 1, {0, 1}, {4, 5, 6}}, {"foot", 1, {2}, {0, 1}}};
+  const Body body = make_mesh_body(mesh, one_material(mesh), 1.0);
+  EXPECT_THAT(body.groups[0].curves,
+              ElementsAre(ElementsAre(Vector3{0.1, 0.3}, Vector3{0.9, 0.3}, Vector3{0.9, 0.8})));
+  EXPECT_TRUE(body.groups[0].particles.empty());
+  EXPECT_TRUE(body.groups[0].facets.empty());
+  EXPECT_EQ(body.groups[1].facets.size(), 1u);
+  mesh.groups[0] = {"half a side", 1, {0, 2}, {0, 1, 4, 5}};
+  EXPECT_THAT(refusal(mesh), HasSubstr("group \"half a side\""));
+}
+
 TEST(MeshBody, RefusesElementsOfGroupsThatAreNoSideOfACell) {
   Mesh mesh = square_mesh();
   mesh.facets = {1, 3};

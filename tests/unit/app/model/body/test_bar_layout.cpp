@@ -1,9 +1,12 @@
 #include "app/model/body/bar_layout.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
+#include "base/error.hpp"
 #include "io/case/case_file.hpp"
 
 namespace perilink {
@@ -12,6 +15,8 @@ namespace {
 /// A beam of 10 by 4 by 6 with bars of one entry.
 LaidBars laid(const std::string& keys, const std::string& problem = "three_dimensional") {
   const bool space = problem == "three_dimensional";
+  Body body;
+  body.particles.dim = space ? 3 : 2;
   return lay_bars(
       parse_case("[body]\nproblem = \"" + problem +
                      "\"\nspacing = 1\nhorizon_ratio = 3\n[[regions]]\nname = \"beam\"\n"
@@ -22,7 +27,7 @@ LaidBars laid(const std::string& keys, const std::string& problem = "three_dimen
                      (space ? "[0, 1, 0]" : "[0, 1]") +
                      "\n[[rebar]]\nyoungs_modulus = 200\narea = 0.5\n" + keys,
                  "beam.toml"),
-      space ? 3 : 2);
+      body);
 }
 
 TEST(BarLayout, BarsBesideAFaceAreSpreadFromCoverToCover) {
@@ -55,6 +60,37 @@ TEST(BarLayout, CopiesMakeMeshesAndLayers) {
   EXPECT_EQ(bars.lines[2].from, (Vector3{1, 1, 5}));
   EXPECT_EQ(bars.lines[5].from, (Vector3{1, 2, 5}));
   EXPECT_EQ(bars.sections[5], 0u);
+}
+
+TEST(BarLayout, CurvesOfAMeshAreBars) {
+  Body body;
+  body.groups = {{"plate", {}, {}, {}},
+                 {"bars", {}, {}, {{{1, 0}, {2, 0}, {2, 3}}, {{0, 1}, {5, 1}}}}};
+  const auto lay = [&](const std::string& name) {
+    return lay_bars(parse_case("[body]\nmesh = \"a.msh\"\nhorizon_ratio = 3\n[[regions]]\n"
+                               "name = \"all\"\ngroup = \"plate\"\n[[materials]]\n"
+                               "region = \"all\"\nyoungs_modulus = 30\nfracture_energy = 1\n"
+                               "[[loads]]\nregion = \"all\"\nforce = [0, 1]\n[[rebar]]\n"
+                               "youngs_modulus = 200\narea = 0.5\ngroup = \"" +
+                                   name + "\"\ncopies = [2]\nsteps = [[0, 4]]\n",
+                               "beam.toml"),
+                    body);
+  };
+  const LaidBars bars = lay("bars");
+  ASSERT_EQ(bars.lines.size(), 4u);
+  EXPECT_EQ(bars.lines[0].to, (Vector3{2, 3}));
+  EXPECT_EQ(bars.lines[0].bends, (std::vector<Vector3>{{2, 0}}));
+  EXPECT_EQ(bars.lines[3].from, (Vector3{0, 5}));
+  for (const auto& [name, advice] :
+       {std::pair("bar", "did you mean \"bars\"?"), std::pair("plate", "bars")}) {
+    try {
+      lay(name);
+      FAIL() << name;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("has no physical curves of this name"));
+      EXPECT_THAT(error.what(), testing::HasSubstr(advice));
+    }
+  }
 }
 
 TEST(BarLayout, TheirSteelAndBondAreThoseOfTheEntry) {
