@@ -19,7 +19,10 @@ constexpr double smallest_parallel_factor = 2e6;
 }  // namespace
 
 InPlaceFactor::InPlaceFactor(int threads)
-    : threads_(threads), factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
+    : threads_(threads),
+      solution_threads_(threads),
+      change_threads_(threads),
+      factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
 
 InPlaceFactor::Block InPlaceFactor::block(Index supernode) const {
   const Index* super = ints(factor_->super);
@@ -162,18 +165,20 @@ void InPlaceFactor::backward_and_change_on(Index supernode, double* vector, doub
 }
 
 template <typename Function>
-void InPlaceFactor::descend(const Function& on_supernode) {
+void InPlaceFactor::descend(ThreadChoice& choice, const Function& on_supernode) {
   for (const Index s : top_) on_supernode(s, local_.data());
   const Index count = static_cast<Index>(subtrees_.size());
   if (count == 0) return;
-#pragma omp parallel num_threads(threads_)
-  {
-    double* local = local_.data() + static_cast<std::size_t>(omp_get_thread_num()) * 2 * longest_;
+  choice.run([&](int threads) {
+#pragma omp parallel num_threads(threads)
+    {
+      double* local = local_.data() + static_cast<std::size_t>(omp_get_thread_num()) * 2 * longest_;
 #pragma omp for schedule(dynamic, 1)
-    for (Index t = 0; t < count; ++t) {
-      for (Index s = subtrees_[t].second; s >= subtrees_[t].first; --s) on_supernode(s, local);
+      for (Index t = 0; t < count; ++t) {
+        for (Index s = subtrees_[t].second; s >= subtrees_[t].first; --s) on_supernode(s, local);
+      }
     }
-  }
+  });
 }
 
 /// The supernodes of the wanted unknowns and all above them, which they need.
@@ -195,7 +200,8 @@ void InPlaceFactor::solve(std::span<const double> rhs, std::span<double> solutio
     const Block b = block(s);
     for (Index j = 0; j < b.columns; ++j) vector_[b.first_column + j] /= *diagonal(s, j);
   }
-  descend([this](Index s, double* local) { backward_on(s, vector_.data(), local); });
+  descend(solution_threads_,
+          [this](Index s, double* local) { backward_on(s, vector_.data(), local); });
   for (Index k = 0; k < size_; ++k) solution[k] = vector_[position_[k]];
 }
 
@@ -299,7 +305,7 @@ std::vector<double> InPlaceFactor::columns(std::span<const SparseVector> x) {
       for (Index j = 0; j < b.columns; ++j) motion[j] = p_[b.first_column + j] / *diagonal(s, j);
     }
   }
-  descend([&](Index s, double* local) {
+  descend(solution_threads_, [&](Index s, double* local) {
     if (!is_wanted(s)) return;
     for (std::size_t c = 0; c < x.size(); ++c) backward_on(s, motions.data() + c * size_, local);
   });
@@ -322,7 +328,7 @@ void InPlaceFactor::downdate_one(const SparseVector& x, double load_change, doub
   }
   forward_path(permuted);
   start_change(-1.0);
-  descend([this](Index s, double* local) {
+  descend(change_threads_, [this](Index s, double* local) {
     if (on_path_[s]) {
       backward_and_change_on(s, vector_.data(), local);
     } else if (is_wanted(s)) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/thread_choice.hpp"
 #include "solver/cholmod_support.hpp"
 #include "solver/factor.hpp"
 
@@ -56,7 +57,7 @@ class InPlaceFactor final : public Factor {
   void backward_and_change_on(Index supernode, double* vector, double* local);
   /// Runs `on_supernode(supernode, local)` from the roots to the leaves.
   template <typename Function>
-  void descend(const Function& on_supernode);
+  void descend(ThreadChoice& choice, const Function& on_supernode);
   bool is_wanted(Index supernode) const { return wanted_.empty() || wanted_[supernode]; }
   void forward_path(const SparseVector& permuted);
   void forward_path(const SparseVector& permuted, Index start);
@@ -67,6 +68,7 @@ class InPlaceFactor final : public Factor {
   void start_change(double sign);
 
   int threads_;
+  ThreadChoice solution_threads_, change_threads_;
   CholmodSession session_;
   CholmodFactorPtr factor_;
   Index size_ = 0;

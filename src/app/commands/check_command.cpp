@@ -172,8 +172,12 @@ void print_sizes(const Model& model, bool damage = false) {
   }
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {
-    fmt::print("#   group              {}: {} particles, {} facets of the surface\n", group.name,
-               group.particles.size(), group.facets.size());
+    std::string curves;
+    if (const std::size_t count = group.curves.size(); count > 0 && group.facets.empty()) {
+      curves = fmt::format(", {} curve{}", count, count == 1 ? "" : "s");
+    }
+    fmt::print("#   group              {}: {} particles, {} facets of the surface{}\n", group.name,
+               group.particles.size(), group.facets.size(), curves);
   }
   for (const std::string& note : model.notes) fmt::print("#   note               {}\n", note);
 }

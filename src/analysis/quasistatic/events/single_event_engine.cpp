@@ -21,7 +21,10 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
 
 Event SingleEventEngine::next_event() {
   const auto find = [&] {
-    return search_->find(equilibrium_.where_elements_fail(), tie_tolerance, threads_);
+    const std::span<const double> displacement = equilibrium_.where_elements_fail();
+    BreakSearch::Hit hit;
+    threads_.run([&](int threads) { hit = search_->find(displacement, tie_tolerance, threads); });
+    return hit;
   };
   BreakSearch::Hit hit = find();
   const double noise = equilibrium_.noise();

@@ -8,6 +8,7 @@
 #include "analysis/quasistatic/events/break_search.hpp"
 #include "analysis/quasistatic/events/crushing_bonds.hpp"
 #include "analysis/quasistatic/events/event_engine.hpp"
+#include "base/thread_choice.hpp"
 
 namespace perilink {
 
@@ -62,7 +63,7 @@ class SingleEventEngine : public EventEngine {
   std::vector<Index> elements_above(double ratio, std::span<const double> motion);
 
   const Network& network_;
-  int threads_;
+  ThreadChoice threads_;
   Equilibrium equilibrium_;
   std::unique_ptr<BreakSearch> search_;
   bool closes_;                            ///< Network::has_closing()

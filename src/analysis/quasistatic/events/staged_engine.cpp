@@ -14,6 +14,7 @@ StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOption
     : SingleEventEngine(problem, options),
       problem_(problem),
       crossings_(problem.network),
+      crossing_threads_(options.threads),
       unknowns_(std::make_unique<Unknowns>(problem.unknowns)),
       gripped_at_(problem.unknowns.prescribed.size(), 0.0),
       load_factors_(problem.sets.size(), 0.0) {
@@ -119,12 +120,18 @@ std::span<const double> StagedEngine::displacement_at(double load_factor) {
 }
 
 BreakSearch::Hit StagedEngine::worst() {
-  return search_->find(displacement(), tie_tolerance, threads_);
+  const std::span<const double> now = displacement();
+  BreakSearch::Hit hit;
+  threads_.run([&](int threads) { hit = search_->find(now, tie_tolerance, threads); });
+  return hit;
 }
 
 Event StagedEngine::next_event() {
-  const CrossingSearch::Crossing last = crossings_.largest(
-      displacement(), equilibrium_.where_elements_fail(), tie_tolerance, threads_);
+  const std::span<const double> now = displacement();
+  CrossingSearch::Crossing last;
+  crossing_threads_.run([&](int threads) {
+    last = crossings_.largest(now, equilibrium_.where_elements_fail(), tie_tolerance, threads);
+  });
   if (last.element == no_index && !(last.distance > 0.0)) {
     for (const Index bond : last.conflict) {
       if (alert_of(bond) < 1.0) return {bond, load_factor_, true};
@@ -143,9 +150,11 @@ Event StagedEngine::next_event() {
 Event StagedEngine::next_event_towards(double target) {
   const BreakSearch::Hit hit = worst();
   if (hit.ratio > 1.0 + tie_tolerance) return {hit.element, load_factor_, true};
-  const CrossingSearch::Crossing next =
-      crossings_.ahead(now_, equilibrium_.where_elements_fail(), target < load_factor_ ? -1 : 1,
-                       tie_tolerance, threads_);
+  CrossingSearch::Crossing next;
+  crossing_threads_.run([&](int threads) {
+    next = crossings_.ahead(now_, equilibrium_.where_elements_fail(),
+                            target < load_factor_ ? -1 : 1, tie_tolerance, threads);
+  });
   const bool reached =
       next.element != no_index && std::abs(next.distance) <= std::abs(target - load_factor_);
   const double distance = reached ? next.distance : target - load_factor_;
