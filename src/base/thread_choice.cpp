@@ -24,7 +24,8 @@ void ThreadChoice::took(double seconds) {
     count_ = 0;
   };
   if (on_trial_) {
-    if (count_ < trial) return;
+    const bool hopeless = other >= 0.0 && mean > 2.0 * other;
+    if (count_ < trial && !hopeless) return;
     if (other < 0.0) return change(true);
     if (mean > other) {
       patience_ = std::clamp(2 * patience_, least_patience, most_patience);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <string>
 
 #include "analysis/dynamics/explicit_run.hpp"
 #include "base/memory.hpp"
+#include "base/thread_choice.hpp"
 
 namespace perilink {
 
@@ -22,12 +24,18 @@ class ExplicitLoop {
   /// Whether look() has to be called at a step.
   bool is_looked_at(Index step) const { return is_row(step) || step % steps_between_checks == 0; }
 
-  /// Calls one_step(step) for every step, each by all threads.
+  /// Calls one_step(step) for every step, each by all threads of the round.
   /// What an observer throws ends the run as failed.
   template <class OneStep>
-  ExplicitResult run(int threads, OneStep one_step) {
+  ExplicitResult run(int most_threads, OneStep one_step) {
+    ThreadChoice choice(most_threads);
+    for (Index begin = 0; begin <= steps_ && !done_; begin += steps_of_a_round) {
+      const Index end = std::min(begin + steps_of_a_round, steps_ + 1);
+      choice.run([&](int threads) {
 #pragma omp parallel num_threads(threads)
-    for (Index step = 0; step <= steps_ && !done_; ++step) one_step(step);
+        for (Index step = begin; step < end && !done_; ++step) one_step(step);
+      });
+    }
     if (!failure_.empty()) end(Ending::failed, failure_);
     return result_;
   }
@@ -65,7 +73,7 @@ class ExplicitLoop {
   }
 
  private:
-  static constexpr Index steps_between_checks = 200;
+  static constexpr Index steps_between_checks = 200, steps_of_a_round = 8;
 
   bool is_row(Index step) const { return step % between_rows_ == 0 || step == steps_; }
   void end(Ending ending, const std::string& reason);

@@ -7,11 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <latch>
 #include <vector>
 
 #include "app/process/console.hpp"
 #include "base/memory.hpp"
+#include "base/types.hpp"
 
 namespace perilink {
 namespace {
@@ -59,8 +62,21 @@ int threads_with_room(int wanted) {
 
 }  // namespace
 
+double granted_processors(const std::string& cgroups) {
+  double quota = 0.0, period = 0.0;
+  const bool limited = (std::ifstream(cgroups + "/cpu.max") >> quota >> period) ||
+                       ((std::ifstream(cgroups + "/cpu/cpu.cfs_quota_us") >> quota) &&
+                        (std::ifstream(cgroups + "/cpu/cpu.cfs_period_us") >> period));
+  return limited && quota > 0.0 && period > 0.0 ? quota / period : infinity;
+}
+
 int set_threads(int wanted) {
-  if (wanted <= 0) wanted = omp_get_max_threads();
+  if (wanted <= 0) {
+    wanted = omp_get_max_threads();
+    if (std::getenv("OMP_NUM_THREADS") == nullptr) {
+      wanted = static_cast<int>(std::min<double>(wanted, std::ceil(granted_processors())));
+    }
+  }
   const int threads = threads_that_start(threads_with_room(wanted));
   if (threads < wanted) {
     complain(

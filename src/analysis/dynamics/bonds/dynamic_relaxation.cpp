@@ -9,11 +9,16 @@
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "base/memory.hpp"
+#include "base/thread_choice.hpp"
 
 namespace perilink {
 namespace {
 
 constexpr Index iterations_between_checks = 200;
+
+/// By the same number of threads.
+constexpr int iterations_of_a_round = 8;
+
 /// A residual that has grown so much since the first one will not shrink any more.
 constexpr double largest_growth = 1e12;
 
@@ -48,7 +53,8 @@ class Relaxation {
         before_(body_.force),
         first_(body_.force),
         first_force_(body_.force),
-        rest_(body_.sums.size()) {
+        rest_(body_.sums.size()),
+        threads_(body_.blocks.threads(options.threads)) {
     for (std::size_t slot = 0; slot < body_.force.size(); ++slot) {
       // Moments become forces of like energy.
       const std::size_t own = slot - slot % body_.unknowns.width;
@@ -61,8 +67,7 @@ class Relaxation {
       start(options_.load_factors[step_]);
       iteration_ = 0;
       at_rest_ = false;
-#pragma omp parallel num_threads(body_.blocks.threads(options_.threads))
-      while (!at_rest_ && !done_) iterate();
+      while (!at_rest_ && !done_) threads_.run([&](int threads) { iterate_round(threads); });
       if (at_rest_) observe([&] { note_row(); });
     }
     if (!done_) {
@@ -88,6 +93,11 @@ class Relaxation {
       body_.motion.velocity[slot] = 0.0;
     }
     starts_ = true;
+  }
+
+  void iterate_round(int threads) {
+#pragma omp parallel num_threads(threads)
+    for (int k = 0; k < iterations_of_a_round && !at_rest_ && !done_; ++k) iterate();
   }
 
   /// Run by every thread; loops end in barriers.
@@ -253,6 +263,7 @@ class Relaxation {
   std::vector<double> first_, first_force_;  ///< where the damping began to be measured
   std::vector<double> weight_;  ///< factors of squares of forces and moments, per component
   std::vector<RestSums> rest_;  ///< per block
+  ThreadChoice threads_;
   std::size_t step_ = 0;
   Index iteration_ = 0;
   double factor_ = 0.0, first_rest_ = 0.0, fractured_ = 0.0;

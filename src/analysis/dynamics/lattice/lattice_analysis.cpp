@@ -112,7 +112,7 @@ class ExplicitRun {
   }
 
   bool is_passing(Index step) const {
-    return step >= 0 && passing_blocks_ == omp_get_num_threads() && !loop_.is_looked_at(step);
+    return passing_blocks_ == omp_get_num_threads() && !loop_.is_looked_at(step);
   }
 
   /// Run by every thread.
@@ -120,7 +120,8 @@ class ExplicitRun {
     const double dt = loop_.time_step();
     const double factor = loop_.load_factor(step);
     const double increment = loop_.load_factor(step + 1) - factor;
-    if (is_passing(step) != is_passing(step - 1)) {
+    const bool passes = is_passing(step);
+    if (passes != passed_) {
 #pragma omp single
       std::swap(state_.now, passing_);
     }
@@ -132,10 +133,11 @@ class ExplicitRun {
       sweep_rows(rows_, all_stages(dt, factor, increment));
     }
 #pragma omp single
-    note_reactions(step);
+    note_reactions(step, passes);
   }
 
-  void note_reactions(Index step) {
+  void note_reactions(Index step, bool passes) {
+    passed_ = passes;
     double driven = 0.0, supports = 0.0;
     for (const RowReactions& row : state_.reactions) {
       driven += row.driven;
@@ -179,6 +181,7 @@ class ExplicitRun {
   ExplicitRecord record_;
   StepNumbers passing_;       ///< what the state does not hold now
   Index passing_blocks_ = 0;  ///< zero: nothing would be saved
+  bool passed_ = false;       ///< in the last step; rounds of steps may differ in their threads
 };
 
 }  // namespace

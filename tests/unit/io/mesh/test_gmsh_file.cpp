@@ -150,13 +150,12 @@ TEST(GmshFile, ReadsTetrahedraAndTriangles) {
 }
 
 TEST(GmshFile, ReadsLinesInSpace) {
-  const Mesh mesh =
-      parse_gmsh(test::replaced(test::replaced(test::replaced(tetrahedra_mesh, "0 0 2 2",
-                                                              "0 1 2 2\n5 0 0 0 1 1 "
-                                                              "1 1 9 0"),
-                                               "4 4 1 4", "5 6 1 6"),
-                                "2 1 2 1", "1 5 1 2\n5 1 5\n6 5 4\n2 1 2 1"),
-                 "body.msh", 3);
+  const Mesh mesh = parse_gmsh(replaced(replaced(replaced(tetrahedra_mesh, "0 0 2 2",
+                                                          "0 1 2 2\n5 0 0 0 1 1 "
+                                                          "1 1 9 0"),
+                                                 "4 4 1 4", "5 6 1 6"),
+                                        "2 1 2 1", "1 5 1 2\n5 1 5\n6 5 4\n2 1 2 1"),
+                               "body.msh", 3);
   EXPECT_THAT(mesh.lines, ElementsAre(0, 4, 4, 3));
   ASSERT_EQ(mesh.groups.size(), 5u);
   EXPECT_EQ(mesh.groups[0].name, "9");
