@@ -20,6 +20,7 @@ void ThreadChoice::took(double seconds) {
   ++count_;
   const auto change = [&](bool on_trial) {
     several_ = !several_;
+    if (on_trial) mean_[several_ ? 1 : 0] = -1.0;  // what it was tells nothing of the machine now
     on_trial_ = on_trial;
     count_ = 0;
   };

@@ -82,7 +82,7 @@ TEST(BarLayout, CurvesOfAMeshAreBars) {
   EXPECT_EQ(bars.lines[0].bends, (std::vector<Vector3>{{2, 0}}));
   EXPECT_EQ(bars.lines[3].from, (Vector3{0, 5}));
   for (const auto& [name, advice] :
-       {std::pair("bar", "did you mean \"bars\"?"), std::pair("plate", "bars")}) {
+       {std::pair("bar", "did you mean `bars`?"), std::pair("plate", "bars")}) {
     try {
       lay(name);
       FAIL() << name;
