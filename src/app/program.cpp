@@ -60,7 +60,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--out", options.directory, "Directory of the results [results/<file name>]");
   command
       .add_option("--threads", options.threads,
-                  "Threads; results do not depend on it [OMP_NUM_THREADS, or all processors]")
+                  "Most threads; results do not depend on it [OMP_NUM_THREADS, or all processors]")
       ->check(CLI::Range(1, 1024));
   command.add_flag("--quiet", options.quiet, "No progress, no summary");
   command.add_flag("--force", options.force, "Overwrite the results of an earlier run");

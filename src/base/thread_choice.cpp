@@ -5,18 +5,24 @@
 namespace perilink {
 namespace {
 
-/// Share of the last time in the mean.
-constexpr double newest = 0.25;
+/// Share of the last time in the mean, and its largest size over the mean: what comes once is left
+/// out as far as possible.
+constexpr double newest = 0.25, largest = 4.0;
 
-/// Pieces of work in a trial, and from one to the next: twice as many after each that is lost.
-constexpr int trial = 4, least_patience = 32, most_patience = 1024;
+/// Times vary by as much on a quiet machine.
+constexpr double clearly_slower = 1.1;
+
+/// Pieces of work in a trial, and from one to the next: twice as many after each that is lost, and
+/// so many that trials cost a tenth of all time at most.
+constexpr int trial = 4, least_patience = 32, most_patience = 4096;
+constexpr double most_for_trials = 0.1;
 
 }  // namespace
 
 void ThreadChoice::took(double seconds) {
   double& mean = mean_[several_ ? 1 : 0];
   const double other = mean_[several_ ? 0 : 1];
-  mean = mean < 0.0 ? seconds : mean + newest * (seconds - mean);
+  mean = mean < 0.0 ? seconds : mean + newest * (std::min(seconds, largest * mean) - mean);
   ++count_;
   const auto change = [&](bool on_trial) {
     several_ = !several_;
@@ -29,13 +35,15 @@ void ThreadChoice::took(double seconds) {
     if (count_ < trial && !hopeless) return;
     if (other < 0.0) return change(true);
     if (mean > other) {
-      patience_ = std::clamp(2 * patience_, least_patience, most_patience);
+      const double spent = count_ * mean / other;
+      const double needed = std::max(2.0 * patience_, spent / most_for_trials);
+      patience_ = static_cast<int>(std::clamp<double>(needed, least_patience, most_patience));
       return change(false);
     }
     patience_ = least_patience;
     on_trial_ = false;
     count_ = 0;
-  } else if (mean > other) {
+  } else if (mean > clearly_slower * other) {
     patience_ = least_patience;
     change(false);
   } else if (count_ >= patience_) {

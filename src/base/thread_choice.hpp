@@ -5,10 +5,9 @@
 namespace perilink {
 
 /// Chooses between one thread and all for a short piece of work that is done again and again. Where
-/// other programs use the machine, threads wait for one another many times longer than they work (a
-/// notched beam of 9 000 unknowns takes 0.67 ms for an event with two threads and 0.85 ms with one;
-/// beside a busy program on two processors 2.6 ms and 0.85 ms). So the mean time decides, and the
-/// slower number is tried again now and then.
+/// other programs use the machine, threads wait for one another many times longer than they work
+/// (docs/developers/profiling.md). So the mean time decides, and the slower number is tried again
+/// now and then. For each kind of work one choice: means of several kinds tell nothing.
 class ThreadChoice {
  public:
   explicit ThreadChoice(int most) : most_(most) {}
@@ -29,7 +28,7 @@ class ThreadChoice {
 
  private:
   int most_;
-  bool several_ = true;
+  bool several_ = false;
   bool on_trial_ = true;           ///< the slower number, or one that is not known yet
   int count_ = 0;                  ///< pieces of work since the last change
   int patience_ = 0;               ///< pieces of work until the next trial

@@ -21,6 +21,7 @@ constexpr double smallest_parallel_factor = 2e6;
 InPlaceFactor::InPlaceFactor(int threads)
     : threads_(threads),
       solution_threads_(threads),
+      column_threads_(threads),
       change_threads_(threads),
       factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
 
@@ -305,7 +306,7 @@ std::vector<double> InPlaceFactor::columns(std::span<const SparseVector> x) {
       for (Index j = 0; j < b.columns; ++j) motion[j] = p_[b.first_column + j] / *diagonal(s, j);
     }
   }
-  descend(solution_threads_, [&](Index s, double* local) {
+  descend(column_threads_, [&](Index s, double* local) {
     if (!is_wanted(s)) return;
     for (std::size_t c = 0; c < x.size(); ++c) backward_on(s, motions.data() + c * size_, local);
   });

@@ -68,7 +68,7 @@ class InPlaceFactor final : public Factor {
   void start_change(double sign);
 
   int threads_;
-  ThreadChoice solution_threads_, change_threads_;
+  ThreadChoice solution_threads_, column_threads_, change_threads_;
   CholmodSession session_;
   CholmodFactorPtr factor_;
   Index size_ = 0;

@@ -126,6 +126,18 @@ TEST_F(MeshedCase, BarsDrawnInTheMeshAreThoseOfTheirPoints) {
   }
 }
 
+TEST_F(MeshedCase, CurvesBesideTheMeshAreNoRegions) {
+  write_text(directory_ / "body.msh", square_with_curve());
+  more_ = "[[regions]]\nname = \"tie\"\ngroup = \"bars\"\n";
+  for (const char* command : {"check", "run"}) {
+    const auto end = run("body.msh", {command});
+    EXPECT_EQ(end.exit_status, 2);
+    EXPECT_THAT(end.err, AllOf(HasSubstr("regions[3].group: is \"bars\", a line of which, at (0.4, "
+                                         "0.1), is no side of a cell"),
+                               HasSubstr("Coherence")));
+  }
+}
+
 TEST_F(MeshedCase, ScriptsThatRunCommandsNeedTrust) {
   if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
   write_text(directory_ / "body.geo",

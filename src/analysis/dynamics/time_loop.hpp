@@ -31,10 +31,10 @@ class ExplicitLoop {
     ThreadChoice choice(most_threads);
     for (Index begin = 0; begin <= steps_ && !done_; begin += steps_of_a_round) {
       const Index end = std::min(begin + steps_of_a_round, steps_ + 1);
-      choice.run([&](int threads) {
-#pragma omp parallel num_threads(threads)
-        for (Index step = begin; step < end && !done_; ++step) one_step(step);
-      });
+      const Timer timer;
+#pragma omp parallel num_threads(choice.threads())
+      for (Index step = begin; step < end && !done_; ++step) one_step(step);
+      if (tells_of_steps(begin)) choice.took(timer.seconds());
     }
     if (!failure_.empty()) end(Ending::failed, failure_);
     return result_;
@@ -73,9 +73,14 @@ class ExplicitLoop {
   }
 
  private:
-  static constexpr Index steps_between_checks = 200, steps_of_a_round = 8;
+  static constexpr Index steps_between_checks = 200, steps_of_a_round = 4;
 
   bool is_row(Index step) const { return step % between_rows_ == 0 || step == steps_; }
+  /// Whether a round has no row, whose files take longer than steps, or most rounds have one.
+  bool tells_of_steps(Index begin) const {
+    const Index next_row = (begin + between_rows_ - 1) / between_rows_ * between_rows_;
+    return next_row >= begin + steps_of_a_round || between_rows_ < 4 * steps_of_a_round;
+  }
   void end(Ending ending, const std::string& reason);
   /// Why the motion may have grown.
   std::string why() const;

@@ -117,8 +117,9 @@ void print_elements(const Model& model) {
     return;
   }
   const Network& network = model.network;
-  fmt::print("#   bonds              {} and {} ties of bars\n", network.num_bonds(),
-             network.first_segment - network.first_tie);
+  fmt::print("#   bonds              {} and {} ties of {} bar{}\n", network.num_bonds(),
+             network.first_segment - network.first_tie, model.entry_of_bar.size(),
+             model.entry_of_bar.size() == 1 ? "" : "s");
   if (network.cells) {
     fmt::print("#   linear elements    {} beside the bonds\n", network.cells->cells.size());
   }
@@ -172,12 +173,8 @@ void print_sizes(const Model& model, bool damage = false) {
   }
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {
-    std::string curves;
-    if (const std::size_t count = group.curves.size(); count > 0 && group.facets.empty()) {
-      curves = fmt::format(", {} curve{}", count, count == 1 ? "" : "s");
-    }
-    fmt::print("#   group              {}: {} particles, {} facets of the surface{}\n", group.name,
-               group.particles.size(), group.facets.size(), curves);
+    fmt::print("#   group              {}: {} particles, {} facets of the surface\n", group.name,
+               group.particles.size(), group.facets.size());
   }
   for (const std::string& note : model.notes) fmt::print("#   note               {}\n", note);
 }
@@ -195,7 +192,8 @@ void print_cost(const CaseFile& input, const Network& network,
                 const std::optional<FactorStatistics>& factor, const ExpectedSetUp& set_up) {
   const bool events = input.analysis.type != AnalysisType::elastic;
   const ExpectedCost cost =
-      factor ? expected_cost(network, *factor) : expected_cost_of_boxes(network, events);
+      factor ? expected_cost(network, *factor, input.displacements.empty() && input.stages.empty())
+             : expected_cost_of_boxes(network, events);
   fmt::print("# expected cost of a run\n");
   if (factor) {
     fmt::print("#   factor             {:.3g} M numbers, {:.3g} MB\n", factor->entries / 1e6,

@@ -73,7 +73,8 @@ double granted_processors(const std::string& cgroups) {
 int set_threads(int wanted) {
   if (wanted <= 0) {
     wanted = omp_get_max_threads();
-    if (std::getenv("OMP_NUM_THREADS") == nullptr) {
+    const char* const asked = std::getenv("OMP_NUM_THREADS");
+    if (asked == nullptr || *asked == '\0') {
       wanted = static_cast<int>(std::min<double>(wanted, std::ceil(granted_processors())));
     }
   }

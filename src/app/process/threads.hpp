@@ -5,7 +5,7 @@
 namespace perilink {
 
 /// Processors whose time a container may take (docker run --cpus), by the files of cgroups, version
-/// 2 or 1; infinity: all. Their names stay visible there, so that OpenMP counts the host's.
+/// 2 or 1, at the root that it sees; infinity: all. OpenMP counts the processors of the host there.
 double granted_processors(const std::string& cgroups = "/sys/fs/cgroup");
 
 /// Sets the number of threads of everything that follows: as many as are wanted, or fewer, with a

@@ -17,7 +17,7 @@ constexpr double search_seconds_per_bond = 1e-9;
 /// Boxes and some 55 iterations (verification/studies/large_bodies).
 constexpr double box_seconds_per_bond = 0.5e-6, box_seconds_per_frame_bond = 3e-6;
 constexpr double box_bytes_per_bond = 145.0, box_bytes_per_frame_bond = 580.0, box_bytes = 50e6;
-/// An event of the smallest body: row, bookkeeping, progress.
+/// An event of the smallest body: row, bookkeeping, progress (meshes/rc_cantilever.toml, corbel.toml).
 constexpr double seconds_per_row = 15e-6;
 
 /// A field file: compressed, brought to the disk (meshes/block_tension.toml, notched_beam.toml).
@@ -26,24 +26,25 @@ constexpr double seconds_per_file = 2e-3, seconds_per_particle_of_file = 1e-6;
 /// event costs: a column more, solved for along with others.
 constexpr double blocks_of_a_window = 37.0, solutions_per_event = 0.3;
 
-/// Passes through the factor per break. A micropolar bond leaves with three modes in the plane and
+/// Passes through the factor per event. A micropolar bond leaves with three modes in the plane and
 /// six in space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240
 /// unknowns) and 3.5 times (7 938 unknowns) the time of a truss per byte of the factor were
-/// measured, which itself has two or four times the numbers.
+/// measured, which itself has two or four times the numbers. Where bonds keep their shear all but
+/// the last of their events are those of a truss.
 double passes_per_break(const Network& network) {
   if (!network.carries_moments() || network.has_kept_shear()) return 1.0;
   return network.dim() == 2 ? 1.5 : 3.5;
 }
 
-/// Part of the particles that have a bond that can break: events keep only their displacements.
-double share_that_breaks(const Network& network) {
-  std::vector<std::uint8_t> looked_at(static_cast<std::size_t>(network.particles.size()), 0);
+/// Part of the particles whose displacements events keep: under forces alone those of bonds that
+/// have a limit (Equilibrium::choose_current_unknowns).
+double share_that_is_kept(const Network& network) {
+  std::vector<std::uint8_t> kept(static_cast<std::size_t>(network.particles.size()), 0);
   for (Index e = 0; e < network.num_elements(); ++e) {
-    if (network.can_break(e))
-      looked_at[network.bonds.first[e]] = looked_at[network.bonds.second[e]] = 1;
+    if (network.has_limit(e)) kept[network.bonds.first[e]] = kept[network.bonds.second[e]] = 1;
   }
-  return static_cast<double>(std::count(looked_at.begin(), looked_at.end(), 1)) /
-         static_cast<double>(looked_at.size());
+  return static_cast<double>(std::count(kept.begin(), kept.end(), 1)) /
+         static_cast<double>(kept.size());
 }
 
 /// Steps are timed until they take this long.
@@ -100,15 +101,17 @@ double time_of_calibration(const CaseFile& input, const Model& model) {
   return build_model(input).network.calibration->seconds;
 }
 
-ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor) {
+ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor,
+                           bool forces_alone) {
   const double bond_bytes = 100.0 * network.num_elements();
   ExpectedCost cost;
   // The draft is behind us: its peak is known.
   cost.memory = std::max(peak_memory_bytes(), 1.3 * factor.bytes + 3.0 * bond_bytes);
   cost.factorization = factor.flops / factor_flops_per_second;
-  cost.broken_bond = passes_per_break(network) * share_that_breaks(network) * 1.1 * factor.bytes /
-                         read_bytes_per_second +
-                     search_seconds_per_bond * network.num_elements() + seconds_per_row;
+  const double share = forces_alone ? share_that_is_kept(network) : 1.0;
+  cost.broken_bond =
+      passes_per_break(network) * share * 1.1 * factor.bytes / read_bytes_per_second +
+      search_seconds_per_bond * network.num_elements() + seconds_per_row;
   cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   return cost;
 }

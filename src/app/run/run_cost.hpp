@@ -32,7 +32,8 @@ struct ExpectedCost {
 /// Field files of a run until so many bonds are broken.
 Index field_files(const OutputSection& output, Index broken_bonds);
 
-ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor);
+ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor,
+                           bool forces_alone);
 
 /// What conjugate gradients cost in place of a factor.
 /// \param events  whether the run follows events

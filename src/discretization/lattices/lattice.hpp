@@ -65,8 +65,11 @@ struct Group {
   std::string name;
   std::vector<Index> particles;  ///< ascending
   std::vector<Index> facets;     ///< those on the surface that belong to the group, ascending
-  /// Groups of lines: corners of each curve that they join up to [length].
-  std::vector<std::vector<Vector3>> curves = {};
+  /// Groups of lines: their points [length], shape (points, 3), and their ends, shape (lines, 2).
+  std::vector<double> line_points = {};
+  std::vector<Index> lines = {};
+  /// An end of a line that is no edge of the body: a curve for bars alone.
+  std::optional<Vector3> loose = {};
 };
 
 /// Particles and the lattice or the mesh that they belong to.

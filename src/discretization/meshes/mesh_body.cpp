@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -14,7 +13,6 @@
 #include "discretization/mesh_faces.hpp"
 #include "discretization/meshes/cell_corners.hpp"
 #include "discretization/meshes/mesh_conformity.hpp"
-#include "discretization/meshes/mesh_curves.hpp"
 #include "discretization/meshes/mesh_overlap.hpp"
 
 namespace perilink {
@@ -149,33 +147,43 @@ void refuse_overlap(const Mesh& mesh, const CellFaces& faces, const Numbering& n
 }
 
 /// Facets of the surface that a group of facets names. Those between cells are not on the surface,
-/// and those of cells that were left out are not in the body. Curves for bars may lie across cells:
-/// they have points of their own, and none of their lines is a side.
-std::vector<Index> facets_of_facets(const Mesh& mesh, const MeshGroup& group,
-                                    const CellFaces& faces, const Numbering& numbering) {
-  std::vector<Index> found;
-  std::optional<Index> loose;
-  bool across = mesh.dim == 2;  // a curve across cells
+/// and those of cells that were left out are not in the body. Lines that are no side may be curves
+/// for bars.
+void add_facets_of_facets(const Mesh& mesh, const MeshGroup& group, const CellFaces& faces,
+                          const Numbering& numbering, Group& result) {
   std::vector<Index> corners(static_cast<std::size_t>(mesh.dim));
   for (const Index element : group.elements) {
-    for (int k = 0; k < mesh.dim; ++k) {
-      corners[k] =
-          numbering.particle[mesh.facets[static_cast<std::size_t>(element) * mesh.dim + k]];
-    }
+    const Index* own = mesh.facets.data() + static_cast<std::size_t>(element) * mesh.dim;
+    for (int k = 0; k < mesh.dim; ++k) corners[k] = numbering.particle[own[k]];
     const bool known = std::find(corners.begin(), corners.end(), no_index) == corners.end();
     const Index face = known ? find_face(faces, corners) : no_index;
-    if (face == no_index) {
-      if (!loose) loose = element;
-    } else {
-      across = false;
-      if (numbering.surface_facet[face] != no_index) found.push_back(numbering.surface_facet[face]);
+    if (face != no_index) {
+      if (numbering.surface_facet[face] != no_index) {
+        result.facets.push_back(numbering.surface_facet[face]);
+      }
+    } else if (numbering.whole) {
+      if (mesh.dim == 3) refuse_loose_facet(mesh, group, element);
+      if (!result.loose) result.loose = point_of(mesh.positions, mesh.dim, own[0]);
     }
   }
-  across = across && std::any_of(group.points.begin(), group.points.end(), [&](Index point) {
-             return numbering.particle[point] == no_index;
-           });
-  if (loose && numbering.whole && !across) refuse_loose_facet(mesh, group, *loose);
-  return found;
+}
+
+void add_lines(const Mesh& mesh, const MeshGroup& group, const Numbering& numbering,
+               Group& result) {
+  const std::vector<Index>& lines = mesh.dim == 2 ? mesh.facets : mesh.lines;
+  for (const Index point : group.points) {
+    const Vector3 x = point_of(mesh.positions, mesh.dim, point);
+    result.line_points.insert(result.line_points.end(), x.begin(), x.end());
+    const bool is_own = numbering.particle[point] == no_index;
+    if (is_own && numbering.whole && !result.loose) result.loose = x;
+  }
+  for (const Index element : group.elements) {
+    for (const std::size_t k : {0, 1}) {
+      const Index point = lines[2 * static_cast<std::size_t>(element) + k];
+      const auto place = std::lower_bound(group.points.begin(), group.points.end(), point);
+      result.lines.push_back(static_cast<Index>(place - group.points.begin()));
+    }
+  }
 }
 
 std::vector<Index> facets_of_cells(const MeshGroup& group, const CellFaces& faces,
@@ -203,8 +211,8 @@ Group body_group(const Mesh& mesh, const MeshGroup& group, const CellFaces& face
     }
   }
   if (group.dim == mesh.dim) result.facets = facets_of_cells(group, faces, numbering, num_cells);
-  if (group.dim == mesh.dim - 1) result.facets = facets_of_facets(mesh, group, faces, numbering);
-  if (group.dim == 1) result.curves = curves_of(mesh, group);
+  if (group.dim == mesh.dim - 1) add_facets_of_facets(mesh, group, faces, numbering, result);
+  if (group.dim == 1) add_lines(mesh, group, numbering, result);
   std::sort(result.facets.begin(), result.facets.end());
   result.facets.erase(std::unique(result.facets.begin(), result.facets.end()), result.facets.end());
   return result;

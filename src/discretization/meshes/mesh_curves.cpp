@@ -1,13 +1,17 @@
 #include "discretization/meshes/mesh_curves.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
 #include <tuple>
 
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
+#include "discretization/neighbor_search.hpp"
 
 namespace perilink {
 namespace {
@@ -16,36 +20,61 @@ namespace {
 /// digits.
 constexpr double straight = 1e-7;
 
+/// Points this close, over the extent of all of them, are one.
+constexpr double same_place = 1e-9;
+
 /// Where more than two lines meet one goes on in another that turns by less than about 45 degrees.
 constexpr double most_turn_cosine = 0.7;
+
+constexpr std::size_t most_meeting = 100;
 
 /// End of a line: twice its number, and one at its second point.
 using LineEnd = std::size_t;
 
 constexpr LineEnd no_end = static_cast<LineEnd>(-1);
 
-/// The lines of a group and how they go on.
+/// The first of the points at the place of each.
+std::vector<Index> first_there(std::span<const double> points) {
+  double extent = 0.0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    extent = std::max(extent, std::abs(points[k] - points[k % 3]));
+  }
+  const Csr near = find_upper_neighbors(points, 3, same_place * extent);
+  std::vector<Index> first(points.size() / 3);
+  std::iota(first.begin(), first.end(), 0);
+  for (Index i = 0; i < static_cast<Index>(first.size()); ++i) {
+    for (const Index j : near.row(i)) first[j] = std::min(first[j], first[i]);
+  }
+  return first;
+}
+
+/// Lines and how they go on.
 class LineChains {
  public:
-  LineChains(const Mesh& mesh, const MeshGroup& group) : mesh_(mesh) {
-    const std::vector<Index>& lines = mesh.dim == 2 ? mesh.facets : mesh.lines;
-    for (const Index element : group.elements) {
-      const Index from = lines[2 * static_cast<std::size_t>(element)];
-      const Index to = lines[2 * static_cast<std::size_t>(element) + 1];
-      if (from != to) points_.insert(points_.end(), {from, to});
+  LineChains(std::span<const double> points, std::span<const Index> lines) : points_(points) {
+    if (lines.empty()) return;
+    const std::vector<Index> first = first_there(points);
+    std::set<std::pair<Index, Index>> known;
+    for (std::size_t k = 0; k < lines.size(); k += 2) {
+      const Index from = first[lines[k]], to = first[lines[k + 1]];
+      if (from == to) continue;
+      if (!known.insert(std::minmax(from, to)).second) {
+        throw std::invalid_argument("has a line twice, one end of it at " + place_text(from));
+      }
+      ends_.insert(ends_.end(), {from, to});
     }
-    next_.assign(points_.size(), no_end);
+    next_.assign(ends_.size(), no_end);
     std::map<Index, std::vector<LineEnd>> meeting;
-    for (LineEnd end = 0; end < points_.size(); ++end) meeting[points_[end]].push_back(end);
+    for (LineEnd end = 0; end < ends_.size(); ++end) meeting[ends_[end]].push_back(end);
     for (const auto& [point, ends] : meeting) join(ends);
   }
 
   /// Open curves first: a closed one has no end to begin at.
   std::vector<std::vector<Vector3>> follow_all() {
     std::vector<std::vector<Vector3>> curves;
-    std::vector<bool> used(points_.size() / 2, false);
+    std::vector<bool> used(ends_.size() / 2, false);
     for (const bool open : {true, false}) {
-      for (LineEnd end = 0; end < points_.size(); ++end) {
+      for (LineEnd end = 0; end < ends_.size(); ++end) {
         if (!used[end / 2] && (!open || next_[end] == no_end)) curves.push_back(follow(end, used));
       }
     }
@@ -53,7 +82,12 @@ class LineChains {
   }
 
  private:
-  Vector3 place(LineEnd end) const { return point_of(mesh_.positions, mesh_.dim, points_[end]); }
+  Vector3 place(LineEnd end) const { return point_of(points_, 3, ends_[end]); }
+
+  std::string place_text(Index point) const {
+    const Vector3 x = point_of(points_, 3, point);
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
+  }
 
   /// Cosine of the angle by which a way turns that comes along one line and leaves along another.
   double turn(LineEnd in, LineEnd out) const {
@@ -63,28 +97,40 @@ class LineChains {
 
   /// Joins the ends that meet in a point by pairs, the straightest first.
   void join(const std::vector<LineEnd>& ends) {
+    if (ends.size() > most_meeting) {
+      throw std::invalid_argument(fmt::format("has {} lines that meet at ", ends.size()) +
+                                  place_text(ends_[ends.front()]));
+    }
     std::vector<std::tuple<double, LineEnd, LineEnd>> pairs;
     for (std::size_t a = 0; a < ends.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
         const double cosine = turn(ends[a], ends[b]);
-        if (ends.size() == 2 || cosine > most_turn_cosine) {
-          pairs.emplace_back(-cosine, ends[b], ends[a]);
-        }
+        if (cosine > most_turn_cosine) pairs.emplace_back(-cosine, ends[b], ends[a]);
       }
     }
     std::sort(pairs.begin(), pairs.end());
     for (const auto& [turned, a, b] : pairs) {
-      if (next_[a] != no_end || next_[b] != no_end) continue;
-      next_[a] = b;
-      next_[b] = a;
+      if (next_[a] == no_end && next_[b] == no_end) connect(a, b);
     }
+    std::vector<LineEnd> left;
+    std::copy_if(ends.begin(), ends.end(), std::back_inserter(left),
+                 [&](LineEnd end) { return next_[end] == no_end; });
+    if (left.size() == 2) connect(left[0], left[1]);
+  }
+
+  void connect(LineEnd a, LineEnd b) {
+    next_[a] = b;
+    next_[b] = a;
   }
 
   std::vector<Vector3> follow(LineEnd begin, std::vector<bool>& used) const {
     std::vector<Vector3> curve = {place(begin)};
+    double along = 0.0;  // length of the lines that run this way, less that of others
     for (LineEnd end = begin; end != no_end && !used[end / 2]; end = next_[end ^ 1]) {
       used[end / 2] = true;
       const Vector3 point = place(end ^ 1);
+      const double length = norm(minus(point, place(end)));
+      along += end % 2 == 0 ? length : -length;
       if (curve.size() > 1) {
         const Vector3 before = minus(curve.back(), curve[curve.size() - 2]);
         const Vector3 after = minus(point, curve.back());
@@ -95,18 +141,20 @@ class LineChains {
       }
       curve.push_back(point);
     }
+    if (along < 0.0) std::reverse(curve.begin(), curve.end());
     return curve;
   }
 
-  const Mesh& mesh_;
-  std::vector<Index> points_;  ///< per end of a line
+  std::span<const double> points_;
+  std::vector<Index> ends_;    ///< point per end of a line
   std::vector<LineEnd> next_;  ///< end of another line that each end goes on in
 };
 
 }  // namespace
 
-std::vector<std::vector<Vector3>> curves_of(const Mesh& mesh, const MeshGroup& group) {
-  return LineChains(mesh, group).follow_all();
+std::vector<std::vector<Vector3>> curves_of(std::span<const double> points,
+                                            std::span<const Index> lines) {
+  return LineChains(points, lines).follow_all();
 }
 
 }  // namespace perilink

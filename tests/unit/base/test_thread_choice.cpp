@@ -18,7 +18,7 @@ int by_several(ThreadChoice& choice, int count, double with_one, double with_sev
 
 TEST(ThreadChoice, KeepsToWhatIsFaster) {
   ThreadChoice choice(4);
-  EXPECT_EQ(choice.threads(), 4);
+  EXPECT_EQ(choice.threads(), 1);
   EXPECT_GT(by_several(choice, 10000, 1.0, 0.6), 9900);
   ThreadChoice other(4);
   EXPECT_LT(by_several(other, 10000, 1.0, 7.0), 100);
@@ -35,6 +35,28 @@ TEST(ThreadChoice, FollowsTheWork) {
   ThreadChoice choice(2);
   by_several(choice, 1000, 1.0, 0.6);
   EXPECT_GT(by_several(choice, 1000, 10.0, 6.0), 900);  // all of it grows
+}
+
+TEST(ThreadChoice, TrialsCostLittle) {
+  ThreadChoice choice(2);
+  double all = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const double seconds = choice.threads() > 1 ? 75.0 : 1.0;
+    all += seconds;
+    choice.took(seconds);
+  }
+  EXPECT_LT(all, 1.2 * 1000);
+}
+
+TEST(ThreadChoice, ForgetsWhatComesOnce) {
+  ThreadChoice choice(2);
+  int several = 0;
+  for (int k = 0; k < 10000; ++k) {
+    const bool with_all = choice.threads() > 1;
+    several += with_all ? 1 : 0;
+    choice.took((with_all ? 0.6 : 1.0) * (k % 100 == 0 ? 50.0 : 1.0));
+  }
+  EXPECT_GT(several, 7000);
 }
 
 TEST(ThreadChoice, OneThreadIsNoChoice) {

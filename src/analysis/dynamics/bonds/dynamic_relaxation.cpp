@@ -17,7 +17,7 @@ namespace {
 constexpr Index iterations_between_checks = 200;
 
 /// By the same number of threads.
-constexpr int iterations_of_a_round = 8;
+constexpr int iterations_of_a_round = 4;
 
 /// A residual that has grown so much since the first one will not shrink any more.
 constexpr double largest_growth = 1e12;

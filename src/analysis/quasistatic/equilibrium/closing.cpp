@@ -119,14 +119,15 @@ void Equilibrium::close(Index element) {
   axial_[element] = 1.0;
 }
 
-/// \return false where nothing but the bond holds the body: then all is as it was
+/// \return false where nothing but the bond holds the body: then all is as it was, but for the factor,
+/// which may be new
 bool Equilibrium::open(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
   double pivot = factor_->pivot(axial.x[0]);
   const bool doubtful = !(pivot > doubtful_pivot);
   if (doubtful) {
     pivot = pivot_by_energy(axial.x[0], element, secants_[element]);
-    axial_[element] = 1.0;  // closed as before
+    axial_[element] = 1.0;  // which that has set to the secant of an open one
     if (pivot == 0.0) return false;
   }
   axial_[element] = secants_[element];

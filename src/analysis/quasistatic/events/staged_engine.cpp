@@ -14,7 +14,8 @@ StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOption
     : SingleEventEngine(problem, options),
       problem_(problem),
       crossings_(problem.network),
-      crossing_threads_(options.threads),
+      last_crossing_threads_(options.threads),
+      next_crossing_threads_(options.threads),
       unknowns_(std::make_unique<Unknowns>(problem.unknowns)),
       gripped_at_(problem.unknowns.prescribed.size(), 0.0),
       load_factors_(problem.sets.size(), 0.0) {
@@ -129,7 +130,7 @@ BreakSearch::Hit StagedEngine::worst() {
 Event StagedEngine::next_event() {
   const std::span<const double> now = displacement();
   CrossingSearch::Crossing last;
-  crossing_threads_.run([&](int threads) {
+  last_crossing_threads_.run([&](int threads) {
     last = crossings_.largest(now, equilibrium_.where_elements_fail(), tie_tolerance, threads);
   });
   if (last.element == no_index && !(last.distance > 0.0)) {
@@ -151,7 +152,7 @@ Event StagedEngine::next_event_towards(double target) {
   const BreakSearch::Hit hit = worst();
   if (hit.ratio > 1.0 + tie_tolerance) return {hit.element, load_factor_, true};
   CrossingSearch::Crossing next;
-  crossing_threads_.run([&](int threads) {
+  next_crossing_threads_.run([&](int threads) {
     next = crossings_.ahead(now_, equilibrium_.where_elements_fail(),
                             target < load_factor_ ? -1 : 1, tie_tolerance, threads);
   });

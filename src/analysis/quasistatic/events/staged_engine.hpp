@@ -64,7 +64,7 @@ class StagedEngine final : public SingleEventEngine {
 
   const LoadedNetwork& problem_;
   CrossingSearch crossings_;
-  ThreadChoice crossing_threads_;
+  ThreadChoice last_crossing_threads_, next_crossing_threads_;
   void grip(std::size_t set, const Unknowns& held);
   void harden(Index segment);
 

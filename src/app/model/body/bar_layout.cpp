@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/meshes/cell_search.hpp"
+#include "discretization/meshes/mesh_curves.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -106,9 +107,12 @@ constexpr double most_bars = 1e5;
 
 void refuse_too_many(const CaseFile& input, std::size_t k, double count) {
   if (count <= most_bars) return;
-  const bool by_spacing = input.rebar[k].layout && input.rebar[k].layout->spacing;
-  throw InputError(input.where(item_key("rebar", k, by_spacing ? "spacing" : "copies")),
-                   fmt::format("makes {:.3g} bars; an entry may have {:.0e}", count, most_bars),
+  const RebarSection& section = input.rebar[k];
+  const char* key = section.layout && section.layout->spacing ? "spacing"
+                    : section.copies.empty()                  ? "group"
+                                                              : "copies";
+  throw InputError(input.where(item_key("rebar", k, key)),
+                   fmt::format("makes {:.0f} bars; an entry may have {:.0f}", count, most_bars),
                    "look at the units, or lay fewer");
 }
 
@@ -124,14 +128,23 @@ void refuse_hooks_of_closed(const CaseFile& input, std::size_t k, const Points& 
 /// The curves of a physical group.
 std::vector<Points> drawn_bars(const CaseFile& input, std::size_t k, const Body& body) {
   const std::string& name = input.rebar[k].group;
+  const SourceLocation where = input.where(item_key("rebar", k, "group"));
   std::vector<std::string_view> names;
   for (const Group& group : body.groups) {
-    if (group.name == name && !group.curves.empty()) return group.curves;
-    if (!group.curves.empty()) names.push_back(group.name);
+    if (group.lines.empty()) continue;
+    names.push_back(group.name);
+    if (group.name != name) continue;
+    try {
+      std::vector<Points> curves = curves_of(group.line_points, group.lines);
+      if (!curves.empty()) return curves;
+    } catch (const std::invalid_argument& error) {
+      throw InputError(where, fmt::format("is {}, which {}", quoted(name), error.what()),
+                       "draw every bar once: Coherence in gmsh joins what lies together");
+    }
+    throw InputError(where, fmt::format("is {}, whose lines have no length", quoted(name)), "");
   }
   throw InputError(
-      input.where(item_key("rebar", k, "group")),
-      fmt::format("is {}, but the mesh has no physical curves of this name", quoted(name)),
+      where, fmt::format("is {}, but the mesh has no physical curves of this name", quoted(name)),
       names.empty()
           ? fmt::format("write Physical Curve({}) = {{...}}; in the geometry", quoted(name))
           : suggest(name, names));

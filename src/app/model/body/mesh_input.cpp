@@ -1,6 +1,7 @@
 #include "app/model/body/mesh_input.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -150,6 +151,23 @@ std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInp
   return glued;
 }
 
+/// Lines beside the mesh hold no facet, and few particles if any.
+void refuse_regions_of_curves(const CaseFile& input, const Body& body) {
+  for (std::size_t i = 0; i < input.regions.size(); ++i) {
+    for (const Group& group : body.groups) {
+      if (group.name != input.regions[i].group || !group.loose) continue;
+      throw InputError(
+          input.where(item_key("regions", i, "group")),
+          fmt::format(
+              "is {}, a line of which, at ({:.6g}), is no side of a cell", quoted(group.name),
+              fmt::join(group.loose->begin(), group.loose->begin() + body.particles.dim, ", ")),
+          "join it with the body before it is meshed: BooleanFragments or Coherence in gmsh; "
+          "curves "
+          "for bars are regions by intervals");
+    }
+  }
+}
+
 }  // namespace
 
 Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes) {
@@ -161,8 +179,10 @@ Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& no
                                 left_out, material.size()));
   }
   try {
-    return make_mesh_body(mesh, material, dim == 2 ? input.body.thickness : 1.0,
-                          ordinary_elements(input, read));
+    Body body = make_mesh_body(mesh, material, dim == 2 ? input.body.thickness : 1.0,
+                               ordinary_elements(input, read));
+    refuse_regions_of_curves(input, body);
+    return body;
   } catch (const std::invalid_argument& error) {
     throw InputError(input.where("body.mesh"),
                      fmt::format("names {}: {}", mesh_path(input).string(), error.what()), "");

@@ -93,6 +93,9 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
   } else {
     assign(bar.points, table.vectors("points", dim));
     assign(bar.group, table.text("group"));
+    if (table.has("group") && bar.group.empty()) {
+      table.refuse("group", "is empty", "name a physical group of curves of the mesh");
+    }
   }
   if (table.has("inside")) {
     bar.layout = read_layout(table, dim);
@@ -100,7 +103,7 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
     for (const char* key : {"along", "cover", "face", "number", "spacing"}) {
       if (table.has(key)) table.refuse(key, "is given without `inside`", "delete it");
     }
-    if (bar.points.size() < 2 && bar.group.empty()) {
+    if (bar.points.size() < 2 && !table.has("group")) {
       table.refuse("points", "has fewer than two points", "give the ends of the bar and its bends");
     }
     for (std::size_t k = 1; k < bar.points.size(); ++k) {

@@ -13,11 +13,27 @@ TEST(RunCost, GrowsWithTheFactorAndTheMomentsOfBonds) {
   FactorStatistics small, large;
   small.bytes = 1e6, large.bytes = 1e9;
   small.flops = 1e8, large.flops = 1e12;
-  const ExpectedCost less = expected_cost(draft.network, small);
-  const ExpectedCost more = expected_cost(draft.network, large);
+  const ExpectedCost less = expected_cost(draft.network, small, false);
+  const ExpectedCost more = expected_cost(draft.network, large, false);
   EXPECT_GT(more.broken_bond, less.broken_bond);
   EXPECT_GT(more.factorization, less.factorization);
   EXPECT_GE(more.memory, large.bytes);
+}
+
+/// Under forces alone events leave out what cannot break.
+TEST(RunCost, GrowsWithWhatCanBreakUnderForces) {
+  Model draft = draft_model(test::strip_case());
+  FactorStatistics factor;
+  factor.bytes = 1e9;
+  const double all = expected_cost(draft.network, factor, true).broken_bond;
+  EXPECT_EQ(all, expected_cost(draft.network, factor, false).broken_bond);
+  Network& network = draft.network;
+  for (Index e = 0; e < network.num_bonds(); ++e) {
+    if (network.bonds.first[e] < network.particles.size() / 2)
+      network.critical_stretch[e] = infinity;
+  }
+  EXPECT_LT(expected_cost(network, factor, true).broken_bond, 0.9 * all);
+  EXPECT_EQ(expected_cost(network, factor, false).broken_bond, all);
 }
 
 /// Long calibrations are told as expected, short ones are tried.

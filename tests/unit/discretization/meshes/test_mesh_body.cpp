@@ -247,26 +247,41 @@ TEST(MeshBody, RefusesPartsThatOnlyTouch) {
 
 TEST(MeshBody, KeepsCurvesAcrossItsCells) {
   Mesh mesh = square_mesh();
-  mesh.positions.insert(mesh.positions.end(), {0.1, 0.3, 0.9, 0.3, 0.9, 0.8});
-  mesh.facets = {4, 5, 5, 6, 0, 1};
-  mesh.groups = {{"bar", 1, {0, 1}, {4, 5, 6}}, {"foot", 1, {2}, {0, 1}}};
+  mesh.positions.insert(mesh.positions.end(), {0.1, 0.3, 0.9, 0.3});
+  mesh.facets = {4, 5, 5, 2, 0, 1};
+  mesh.groups = {{"bar", 1, {0, 1}, {2, 4, 5}}, {"foot", 1, {2}, {0, 1}}};
   const Body body = make_mesh_body(mesh, one_material(mesh), 1.0);
-  EXPECT_THAT(body.groups[0].curves,
-              ElementsAre(ElementsAre(Vector3{0.1, 0.3}, Vector3{0.9, 0.3}, Vector3{0.9, 0.8})));
-  EXPECT_TRUE(body.groups[0].particles.empty());
-  EXPECT_TRUE(body.groups[0].facets.empty());
+  const Group& bar = body.groups[0];
+  EXPECT_THAT(bar.line_points, ElementsAre(1, 1, 0, 0.1, 0.3, 0, 0.9, 0.3, 0));
+  EXPECT_THAT(bar.lines, ElementsAre(1, 2, 2, 0));
+  EXPECT_EQ(bar.loose, (Vector3{0.1, 0.3}));
+  EXPECT_TRUE(bar.facets.empty());
   EXPECT_EQ(body.groups[1].facets.size(), 1u);
-  mesh.groups[0] = {"half a side", 1, {0, 2}, {0, 1, 4, 5}};
-  EXPECT_THAT(refusal(mesh), HasSubstr("group \"half a side\""));
+  EXPECT_FALSE(body.groups[1].loose);
 }
 
-TEST(MeshBody, RefusesElementsOfGroupsThatAreNoSideOfACell) {
+TEST(MeshBody, KeepsCurvesInSpace) {
+  Mesh mesh = box_mesh(3, 1);
+  mesh.positions.insert(mesh.positions.end(), {0.5, 0.5, 0.5});
+  mesh.lines = {0, 1, 0, 8};
+  mesh.groups = {{"edge", 1, {0}, {0, 1}}, {"bar", 1, {1}, {0, 8}}};
+  const Body body = make_mesh_body(mesh, one_material(mesh), 1.0);
+  EXPECT_THAT(body.groups[0].particles, ElementsAre(0, 1));
+  EXPECT_FALSE(body.groups[0].loose);
+  EXPECT_THAT(body.groups[1].lines, ElementsAre(0, 1));
+  EXPECT_EQ(body.groups[1].loose, (Vector3{0.5, 0.5, 0.5}));
+}
+
+TEST(MeshBody, TellsElementsOfGroupsThatAreNoSideOfACell) {
   Mesh mesh = square_mesh();
   mesh.facets = {1, 3};
   mesh.groups = {{"other diagonal", 1, {0}, {1, 3}}};
-  EXPECT_THAT(refusal(mesh), HasSubstr("group \"other diagonal\""));
-  EXPECT_THAT(refusal(mesh), HasSubstr("is no side of a cell"));
-  EXPECT_EQ(refusal(mesh, {no_index, 0}), "accepted") << "it may belong to what is left out";
+  EXPECT_EQ(make_mesh_body(mesh, one_material(mesh), 1.0).groups[0].loose, (Vector3{1.0, 0.0}));
+  Mesh box = box_mesh(3, 1);
+  box.facets = {1, 2, 4};  // across the diagonal of the cube
+  box.groups = {{"across", 2, {0}, {1, 2, 4}}};
+  EXPECT_THAT(refusal(box), HasSubstr("group \"across\""));
+  EXPECT_THAT(refusal(box), HasSubstr("is no side of a cell"));
 }
 
 }  // namespace

@@ -64,8 +64,13 @@ TEST(BarLayout, CopiesMakeMeshesAndLayers) {
 
 TEST(BarLayout, CurvesOfAMeshAreBars) {
   Body body;
-  body.groups = {{"plate", {}, {}, {}},
-                 {"bars", {}, {}, {{{1, 0}, {2, 0}, {2, 3}}, {{0, 1}, {5, 1}}}}};
+  body.groups = {{"plate", {}, {}, {}, {}, {}},
+                 {"bars",
+                  {},
+                  {},
+                  {1, 0, 0, 2, 0, 0, 2, 3, 0, 0, 1, 0, 5, 1, 0},
+                  {0, 1, 1, 2, 3, 4},
+                  Vector3{1, 0}}};
   const auto lay = [&](const std::string& name) {
     return lay_bars(parse_case("[body]\nmesh = \"a.msh\"\nhorizon_ratio = 3\n[[regions]]\n"
                                "name = \"all\"\ngroup = \"plate\"\n[[materials]]\n"
@@ -91,6 +96,17 @@ TEST(BarLayout, CurvesOfAMeshAreBars) {
       EXPECT_THAT(error.what(), testing::HasSubstr(advice));
     }
   }
+  const auto refusal = [&](std::vector<Index> lines) -> std::string {
+    body.groups[1].lines = std::move(lines);
+    try {
+      lay("bars");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_THAT(refusal({0, 1, 1, 0}), testing::HasSubstr("has a line twice"));
+  EXPECT_THAT(refusal({1, 1}), testing::HasSubstr("whose lines have no length"));
 }
 
 TEST(BarLayout, TheirSteelAndBondAreThoseOfTheEntry) {
