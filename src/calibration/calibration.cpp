@@ -58,6 +58,7 @@ class Calibration {
               const Facets& facets, const BondStiffness& stiffness, const BondOrbits* orbits)
       : in_space_(input.particles.dim == 3),
         irregular_(input.all_free()),
+        priced_(!in_space_ && (irregular_ || input.give_up)),
         tied_(orbits != nullptr),
         moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
@@ -74,9 +75,7 @@ class Calibration {
                          : std::max(report_.residual_after, report_.moment_after);
   }
   /// What a search lessens, to compare two ends: prices the sum, least squares about the largest.
-  double left() const {
-    return irregular_ && !in_space_ && !soft_moments_ ? report_.sum_after : unbalanced();
-  }
+  double left() const { return priced_ && !soft_moments_ ? report_.sum_after : unbalanced(); }
   void soften_moments();
   LeastChange find_least_change(const PointEquations& equations, const LeastChangeOptions& options);
   bool fit_and_balance(double tolerance);
@@ -85,7 +84,9 @@ class Calibration {
   void balance_by(Method method, double charge, double tolerance);
   bool balance(double tolerance);
 
-  bool in_space_, irregular_, tied_, moments_;
+  bool in_space_, irregular_;
+  bool priced_;  // single equations are given up instead of spreading what is left of them
+  bool tied_, moments_;
   double tolerance_;
   CalibrationObserver on_search_;
   int searches_ = 0;
@@ -155,7 +156,7 @@ bool Calibration::balance(double tolerance) {
   const double before = left(), largest_before = unbalanced();
   const CalibrationEquations::State settled = equations_.save();
   const Method first = irregular_ && in_space_ ? Method::interior_point : Method::newton;
-  balance_by(first, irregular_ && !in_space_ ? price : no_price, tolerance);
+  balance_by(first, priced_ ? price : no_price, tolerance);
   const bool solvable = moments_ || !in_space_;
   // The tolerance is that of the mean.
   const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
@@ -165,7 +166,7 @@ bool Calibration::balance(double tolerance) {
     const double reached = left();
     equations_.restore(settled);
     kept_.reset();
-    balance_by(Method::interior_point, irregular_ ? price : no_price, tolerance);
+    balance_by(Method::interior_point, priced_ ? price : no_price, tolerance);
     kept_.reset();
     if (left() > reached) {
       equations_.restore(climbed);
@@ -193,8 +194,7 @@ bool Calibration::balance_dropping_bonds() {
   const double coarse = cautious ? coarse_tolerance : tolerance_;
   if (!fit_and_balance(coarse)) return false;
   const double floored = unbalanced();
-  const bool spread = in_space_ || !irregular_;  // is what cannot be met
-  if (spread && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
+  if (!priced_ && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
     const CalibrationEquations::State with_floors = equations_.save();
     equations_.restore(settled_);
     hopeless_ = far_from_worth * floored;

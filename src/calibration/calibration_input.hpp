@@ -25,6 +25,9 @@ struct CalibrationInput {
   /// The box that the particles fill with one lattice; where the material is the same all over,
   /// bonds that lie alike are then made alike.
   std::optional<LatticeBox> box = std::nullopt;
+  /// In the plane: where particles have no solution, single equations are given up and all others
+  /// hold, as in irregular clouds, in place of least squares.
+  bool give_up = false;
 };
 
 /// What was reached. Forces out of balance are those on a particle at a uniform strain of one,

@@ -15,7 +15,7 @@
 #include "network/builder/bar_elements.hpp"
 #include "network/builder/glued_cells.hpp"
 #include "network/builder/shell_bonds.hpp"
-#include "network/surface_correction.hpp"
+#include "network/correction/surface_correction.hpp"
 #include "network/unknowns.hpp"
 #include "network/weak_interfaces.hpp"
 

@@ -1,4 +1,4 @@
-#include "network/surface_correction.hpp"
+#include "network/correction/surface_correction.hpp"
 
 #include <gtest/gtest.h>
 

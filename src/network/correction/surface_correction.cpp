@@ -1,4 +1,4 @@
-#include "network/surface_correction.hpp"
+#include "network/correction/surface_correction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "calibration/calibration.hpp"
 #include "calibration/calibration_cost.hpp"
 #include "network/bond_strength.hpp"
+#include "network/correction/layered_body.hpp"
 #include "network/lattice_families.hpp"
 
 namespace perilink {
@@ -45,7 +46,9 @@ class Correction {
       : body_(body), input_(input), network_(network) {}
 
   void energy();
-  void calibrate();
+  /// \param give_up  see CalibrationInput::give_up
+  void calibrate(bool give_up = false);
+  bool calibrate_layers();
   void balance(const CalibrationInput& calibration);
 
  private:
@@ -179,7 +182,7 @@ void Correction::energy() {
   scale_to(wanted);
 }
 
-void Correction::calibrate() {
+void Correction::calibrate(bool give_up) {
   const Timer timer;
   std::optional<LatticeFamilies> families;
   fade_at_horizon();
@@ -191,6 +194,7 @@ void Correction::calibrate() {
   }
   const LatticeFamilies* family = families ? &*families : nullptr;
   CalibrationInput calibration{network_.particles, network_.bonds, {}, {}};
+  calibration.give_up = give_up;
   if (family) {
     calibration.free = free_bonds(*family);
     calibration.box = lattice_box(body_);
@@ -221,6 +225,27 @@ void Correction::calibrate() {
   }
 }
 
+/// Layers of materials that meet in planes, each as a body of its own. Bodies that can break keep
+/// the bonds across, and rotations of bonds that carry moments would have to jump in the planes.
+bool Correction::calibrate_layers() {
+  const bool may_break = can_break(input_) || !input_.interfaces.empty();
+  if (micropolar() || may_break || input_.draft || input_.shell) return false;
+  std::vector<LameConstants> constants;
+  for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
+  const Timer timer;
+  const std::optional<Joint> joint =
+      find_joint(network_.facets, network_.particles, constants, body_.lattice.spacing);
+  const auto calibrate_layer = [&](const Body& body, Network& network) {
+    Correction(body, input_, network).calibrate(true);
+  };
+  if (!joint || !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
+    return false;
+  }
+  network_.bending_ratio = own_bending_ratios(network_);
+  network_.calibration->seconds = timer.seconds();
+  return true;
+}
+
 /// Bonds that may carry nothing are taken out.
 void Correction::balance(const CalibrationInput& calibration) {
   BondStiffness stiffness{network_.stiffness, network_.bending, {}};
@@ -242,7 +267,9 @@ void Correction::balance(const CalibrationInput& calibration) {
 void correct_surfaces(const Body& body, const NetworkInput& input, Network& network) {
   const Surface surface = body.lattice.surface;
   if (surface == Surface::energy) Correction(body, input, network).energy();
-  if (surface == Surface::calibrated) Correction(body, input, network).calibrate();
+  if (surface != Surface::calibrated) return;
+  Correction correction(body, input, network);
+  if (!correction.calibrate_layers()) correction.calibrate();
 }
 
 }  // namespace perilink

@@ -1,0 +1,241 @@
+#include "network/correction/layered_body.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "discretization/lattices/triangulate.hpp"
+
+namespace perilink {
+namespace {
+
+/// A joint is left alone where more than this part of a force on a cell stays out of balance, in
+/// the mean over the particles in its planes.
+constexpr double balanced = 0.15;
+
+enum class Side : std::uint8_t { none, inside, outside };
+
+/// Picks out what belongs to a layer.
+class Cut {
+ public:
+  Cut(const Body& body, const NetworkInput& input, const Network& whole, const Joint& joint,
+      std::size_t layer)
+      : body_(body), input_(input), whole_(whole), joint_(joint), layer_(layer) {
+    for (const SolidMaterial& m : input.materials) constants_.push_back(lame_constants(input, m));
+  }
+
+  LayerBody make();
+
+ private:
+  const LameConstants& own() const { return constants_[joint_.layers[layer_]]; }
+  double modulus(Index material) const {
+    return constants_[material].lambda + 2.0 * constants_[material].mu;
+  }
+  double height(Index particle) const { return joint_.height(whole_.particles.position(particle)); }
+  double facet_height(Index facet) const;
+  bool between_planes(double height) const;
+  Side side_of(Index facet) const;
+  void choose_particles(LayerBody& cut);
+  void add_facets(LayerBody& cut) const;
+  void measure(LayerBody& cut) const;
+  void add_bonds(LayerBody& cut) const;
+
+  const Body& body_;
+  const NetworkInput& input_;
+  const Network& whole_;
+  const Joint& joint_;
+  std::size_t layer_;
+  std::vector<LameConstants> constants_;
+  std::vector<Index> number_;         // per particle: in the layer, no_index outside
+  std::vector<std::uint8_t> shared_;  // per particle: with the layer above or below
+};
+
+double Cut::facet_height(Index facet) const {
+  const Vector3 centre = whole_.facets.centre(facet, whole_.particles.positions);
+  return joint_.height({centre.data(), static_cast<std::size_t>(joint_.dim)});
+}
+
+bool Cut::between_planes(double height) const {
+  const bool above = layer_ == 0 || height >= joint_.planes[layer_ - 1] - joint_.tolerance;
+  return above &&
+         (layer_ == joint_.planes.size() || height <= joint_.planes[layer_] + joint_.tolerance);
+}
+
+/// On which side of a facet the layer lies; none also where the layer is on both.
+Side Cut::side_of(Index facet) const {
+  const Index inside = whole_.facets.inside[facet], outside = whole_.facets.outside[facet];
+  if (!between_planes(facet_height(facet))) return Side::none;
+  const bool is_inside = constants_[inside] == own();
+  if (outside == no_index) return is_inside ? Side::inside : Side::none;
+  const bool is_outside = constants_[outside] == own();
+  if (is_inside == is_outside) return Side::none;
+  return is_inside ? Side::inside : Side::outside;
+}
+
+/// Those between the planes and the corners of the layer's facets.
+void Cut::choose_particles(LayerBody& cut) {
+  const auto count = static_cast<std::size_t>(whole_.particles.size());
+  std::vector<std::uint8_t> member(count, 0);
+  shared_.assign(count, 0);
+  for (Index i = 0; i < whole_.particles.size(); ++i) {
+    member[i] = between_planes(height(i)) && !joint_.in_plane(height(i)) ? 1 : 0;
+  }
+  for (Index f = 0; f < whole_.facets.size(); ++f) {
+    if (side_of(f) == Side::none) continue;
+    for (const Index i : whole_.facets.corners.row(f)) {
+      member[i] = 1;
+      if (!whole_.facets.on_surface(f)) shared_[i] = 1;
+    }
+  }
+  number_.assign(count, no_index);
+  Particles& particles = cut.body.particles;
+  particles.dim = joint_.dim;
+  for (Index i = 0; i < whole_.particles.size(); ++i) {
+    if (member[i] == 0) continue;
+    number_[i] = particles.size();
+    cut.particle_of.push_back(i);
+    const auto x = whole_.particles.position(i);
+    particles.positions.insert(particles.positions.end(), x.begin(), x.end());
+    particles.volumes.push_back(whole_.particles.volumes[i]);
+  }
+  particles.kind.assign(cut.particle_of.size(), ParticleKind::solid);
+  particles.material.assign(cut.particle_of.size(), joint_.layers[layer_]);
+}
+
+void Cut::add_facets(LayerBody& cut) const {
+  Facets& facets = cut.network.facets;
+  facets.dim = joint_.dim;
+  for (Index f = 0; f < whole_.facets.size(); ++f) {
+    const Side side = side_of(f);
+    if (side == Side::none) continue;
+    std::vector<Index> corners;
+    for (const Index i : whole_.facets.corners.row(f)) corners.push_back(number_[i]);
+    Vector3 area{};
+    for (int a = 0; a < joint_.dim; ++a) {
+      const double outwards = whole_.facets.area_vector(f)[a];
+      area[a] = side == Side::inside ? outwards : -outwards;
+    }
+    facets.append(corners, area, joint_.layers[layer_], no_index);
+    facets.glued.push_back(whole_.facets.on_surface(f) ? 0 : 1);
+    cut.facet_of.push_back(f);
+  }
+}
+
+/// Each side has half of the volume of particles in a plane of a lattice.
+void Cut::measure(LayerBody& cut) const {
+  Particles& particles = cut.body.particles;
+  if (body_.cells.size() == 0) {
+    for (std::size_t i = 0; i < cut.particle_of.size(); ++i) {
+      if (shared_[cut.particle_of[i]] != 0) particles.volumes[i] *= 0.5;
+    }
+    return;
+  }
+  Simplices cells;
+  cells.dim = joint_.dim;
+  for (Index c = 0; c < body_.cells.size(); ++c) {
+    double middle = 0.0;
+    for (const Index i : body_.cells.cell(c)) middle += height(i) / (joint_.dim + 1.0);
+    if (!between_planes(middle)) continue;
+    cells.material.push_back(joint_.layers[layer_]);
+    for (const Index i : body_.cells.cell(c)) cells.vertices.push_back(number_[i]);
+  }
+  particles.volumes = shape_integrals(cells, particles.positions, input_.thickness);
+}
+
+/// With the modulus of the layer in place of the mean of their ends, and its volumes.
+void Cut::add_bonds(LayerBody& cut) const {
+  Network& layer = cut.network;
+  layer.bonds.dim = joint_.dim;
+  const auto share = [&](Index i) {
+    return layer.particles.volumes[number_[i]] / whole_.particles.volumes[i];
+  };
+  const std::vector<Index>& material = whole_.particles.material;
+  for (Index b = 0; b < whole_.bonds.size(); ++b) {
+    const Index i = whole_.bonds.first[b], j = whole_.bonds.second[b];
+    if (number_[i] == no_index || number_[j] == no_index) continue;
+    layer.bonds.append(layer.particles, number_[i], number_[j]);
+    const double mean = 0.5 * (modulus(material[i]) + modulus(material[j]));
+    layer.stiffness.push_back(whole_.stiffness[b] * modulus(joint_.layers[layer_]) / mean *
+                              share(i) * share(j));
+    layer.critical_stretch.push_back(whole_.critical_stretch[b]);
+  }
+}
+
+LayerBody Cut::make() {
+  LayerBody cut;
+  cut.body.lattice = body_.lattice;
+  choose_particles(cut);
+  add_facets(cut);
+  measure(cut);
+  cut.network.particles = cut.body.particles;
+  add_bonds(cut);
+  return cut;
+}
+
+/// Stiffnesses and shares of a layer are added to those of the body.
+void put_back(const LayerBody& layer, std::vector<double>& stiffness, Network& whole) {
+  const Bonds& bonds = layer.network.bonds;
+  Index at = 0;  // both are sorted by their ends
+  for (Index b = 0; b < bonds.size(); ++b) {
+    const Index i = layer.particle_of[bonds.first[b]], j = layer.particle_of[bonds.second[b]];
+    while (whole.bonds.first[at] != i || whole.bonds.second[at] != j) ++at;
+    stiffness[at] += layer.network.stiffness[b];
+  }
+  const Facets& facets = layer.network.facets;
+  for (Index f = 0; f < facets.size(); ++f) {
+    if (facets.is_glued(f)) continue;
+    std::copy(facets.shares.begin() + facets.corners.offsets[f],
+              facets.shares.begin() + facets.corners.offsets[f + 1],
+              whole.facets.shares.begin() + whole.facets.corners.offsets[layer.facet_of[f]]);
+  }
+}
+
+void add_report(const LayerBody& layer, CalibrationReport& sum) {
+  const CalibrationReport& own = *layer.network.calibration;
+  if (own.residual_after >= sum.residual_after && own.worst_particle != no_index) {
+    sum.worst_particle = layer.particle_of[own.worst_particle];
+  }
+  sum.free_bonds += own.free_bonds;
+  sum.residual_before = std::max(sum.residual_before, own.residual_before);
+  sum.residual_after = std::max(sum.residual_after, own.residual_after);
+  sum.sum_after += own.sum_after;
+  sum.unmet += own.unmet;
+  sum.smallest_weight = std::min(sum.smallest_weight, own.smallest_weight);
+  sum.largest_weight = std::max(sum.largest_weight, own.largest_weight);
+  sum.at_least_weight += own.at_least_weight;
+  sum.dropped += own.dropped;
+  sum.iterations += own.iterations;
+}
+
+}  // namespace
+
+LayerBody cut_layer(const Body& body, const NetworkInput& input, const Network& whole,
+                    const Joint& joint, std::size_t layer) {
+  return Cut(body, input, whole, joint, layer).make();
+}
+
+bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& joint,
+                      const LayerCalibration& calibrate, Network& whole) {
+  double particles_in_planes = 0.0;
+  for (Index i = 0; i < whole.particles.size(); ++i) {
+    if (joint.in_plane(joint.height(whole.particles.position(i)))) particles_in_planes += 1.0;
+  }
+  std::vector<LayerBody> layers;
+  CalibrationReport report;
+  for (std::size_t k = 0; k < joint.layers.size(); ++k) {
+    layers.push_back(cut_layer(body, input, whole, joint, k));
+    calibrate(layers.back().body, layers.back().network);
+    add_report(layers.back(), report);
+    if (!(report.sum_after <= balanced * particles_in_planes)) return false;
+  }
+  std::vector<double> stiffness(whole.stiffness.size(), 0.0);
+  for (const LayerBody& layer : layers) put_back(layer, stiffness, whole);
+  whole.stiffness = std::move(stiffness);
+  whole.calibration = report;
+  std::vector<std::uint8_t> keep;
+  for (const double k : whole.stiffness) keep.push_back(k > 0.0 ? 1 : 0);
+  keep_elements(whole, keep);
+  return true;
+}
+
+}  // namespace perilink
