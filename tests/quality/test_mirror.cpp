@@ -21,7 +21,6 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/main.cpp", "only starts the program; tests/cli runs it"},
       {"app/memory_at_start.cpp", "runs before main: tests/cli/test_memory.cpp"},
       {"app/process/ranks.cpp", "what mpiexec starts: tests/cli/test_ranks.cpp"},
-      {"app/process/threads.cpp", "limits on a process: tests/cli/test_memory.cpp"},
       {"app/program.cpp", "only calls the commands; tests/cli runs the program"},
       {"app/rank_main.cpp", "only starts ranks: tests/cli/test_ranks.cpp"},
       {"discretization/lattices/lattice_conforming.cpp", "a part of make_body: test_make_body.cpp"},

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/plot/plot_axes.hpp"
+#include "base/types.hpp"
 
 namespace perilink {
 namespace {

@@ -17,7 +17,7 @@ constexpr double search_seconds_per_bond = 1e-9;
 /// Boxes and some 55 iterations (verification/studies/large_bodies).
 constexpr double box_seconds_per_bond = 0.5e-6, box_seconds_per_frame_bond = 3e-6;
 constexpr double box_bytes_per_bond = 145.0, box_bytes_per_frame_bond = 580.0, box_bytes = 50e6;
-/// An event of the smallest body: row, bookkeeping, progress (meshes/rc_cantilever.toml, corbel.toml).
+/// An event of the smallest body: row, bookkeeping, progress (meshes/rc_cantilever.toml).
 constexpr double seconds_per_row = 15e-6;
 
 /// A field file: compressed, brought to the disk (meshes/block_tension.toml, notched_beam.toml).

@@ -119,8 +119,8 @@ void Equilibrium::close(Index element) {
   axial_[element] = 1.0;
 }
 
-/// \return false where nothing but the bond holds the body: then all is as it was, but for the factor,
-/// which may be new
+/// \return false where nothing but the bond holds the body: then all is as it was, but the factor
+/// may be a new one
 bool Equilibrium::open(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
   double pivot = factor_->pivot(axial.x[0]);
