@@ -9,12 +9,13 @@ namespace {
 /// out as far as possible.
 constexpr double newest = 0.25, largest = 4.0;
 
-/// Times vary by as much on a quiet machine.
-constexpr double clearly_slower = 1.1;
+/// Times vary by as much on a quiet machine; beyond the second number one piece of work is enough of
+/// a trial.
+constexpr double clearly_slower = 1.1, hopelessly_slower = 1.5;
 
 /// Pieces of work in a trial, and from one to the next: twice as many after each that is lost, and
 /// so many that trials cost a tenth of all time at most.
-constexpr int trial = 4, least_patience = 32, most_patience = 4096;
+constexpr int trial = 2, least_patience = 64, most_patience = 4096;
 constexpr double most_for_trials = 0.1;
 
 }  // namespace
@@ -31,7 +32,7 @@ void ThreadChoice::took(double seconds) {
     count_ = 0;
   };
   if (on_trial_) {
-    const bool hopeless = other >= 0.0 && mean > 2.0 * other;
+    const bool hopeless = other >= 0.0 && mean > hopelessly_slower * other;
     if (count_ < trial && !hopeless) return;
     if (other < 0.0) return change(true);
     if (mean > other) {

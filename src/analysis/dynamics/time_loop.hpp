@@ -73,7 +73,7 @@ class ExplicitLoop {
   }
 
  private:
-  static constexpr Index steps_between_checks = 200, steps_of_a_round = 4;
+  static constexpr Index steps_between_checks = 200, steps_of_a_round = 2;
 
   bool is_row(Index step) const { return step % between_rows_ == 0 || step == steps_; }
   /// Whether a round has no row, whose files take longer than steps, or most rounds have one.

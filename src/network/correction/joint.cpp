@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discretization/facet_geometry.hpp"
+#include "discretization/mesh_faces.hpp"
+
 namespace perilink {
 namespace {
 
@@ -16,20 +19,6 @@ struct Corner {
   Index below, above;
 };
 
-Vector3 unit_along(std::span<const double> vector) {
-  double square = 0.0;
-  for (const double x : vector) square += x * x;
-  Vector3 result{};
-  for (std::size_t a = 0; a < vector.size(); ++a) result[a] = vector[a] / std::sqrt(square);
-  return result;
-}
-
-double along(const Vector3& axis, std::span<const double> vector) {
-  double sum = 0.0;
-  for (std::size_t a = 0; a < vector.size(); ++a) sum += axis[a] * vector[a];
-  return sum;
-}
-
 /// None where facets are not parallel, or glued. Sets the normal.
 std::optional<std::vector<Corner>> corners_between(const Facets& facets, const Particles& particles,
                                                    const std::vector<LameConstants>& materials,
@@ -39,9 +28,11 @@ std::optional<std::vector<Corner>> corners_between(const Facets& facets, const P
     if (facets.is_glued(f)) return std::nullopt;
     const Index inside = facets.inside[f], outside = facets.outside[f];
     if (facets.on_surface(f) || materials[inside] == materials[outside]) continue;
-    const Vector3 normal = unit_along(facets.area_vector(f));
+    Vector3 normal = point_of(facets.area_vectors, joint.dim, f);
+    const double area = norm(normal);
+    for (double& x : normal) x /= area;
     if (corners.empty()) joint.normal = normal;
-    const double cosine = along(joint.normal, {normal.data(), static_cast<std::size_t>(joint.dim)});
+    const double cosine = dot(joint.normal, normal);
     if (std::abs(std::abs(cosine) - 1.0) > same_direction) return std::nullopt;
     for (const Index i : facets.corners.row(f)) {
       const double height = joint.height(particles.position(i));
@@ -74,7 +65,9 @@ bool stack(const std::vector<Corner>& corners, const std::vector<LameConstants>&
 
 }  // namespace
 
-double Joint::height(std::span<const double> position) const { return along(normal, position); }
+double Joint::height(std::span<const double> position) const {
+  return dot(normal, point_of(position, dim, 0));
+}
 
 bool Joint::in_plane(double height) const {
   return std::any_of(planes.begin(), planes.end(),

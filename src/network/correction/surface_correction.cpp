@@ -229,7 +229,8 @@ void Correction::calibrate(bool give_up) {
 /// the bonds across, and rotations of bonds that carry moments would have to jump in the planes.
 bool Correction::calibrate_layers() {
   const bool may_break = can_break(input_) || !input_.interfaces.empty();
-  if (micropolar() || may_break || input_.draft || input_.shell) return false;
+  if (input_.materials.size() < 2 || micropolar() || may_break) return false;
+  if (input_.draft || input_.shell) return false;
   std::vector<LameConstants> constants;
   for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
   const Timer timer;

@@ -161,9 +161,9 @@ void refuse_regions_of_curves(const CaseFile& input, const Body& body) {
           fmt::format(
               "is {}, a line of which, at ({:.6g}), is no side of a cell", quoted(group.name),
               fmt::join(group.loose->begin(), group.loose->begin() + body.particles.dim, ", ")),
-          "join it with the body before it is meshed: BooleanFragments or Coherence in gmsh; "
-          "curves "
-          "for bars are regions by intervals");
+          "join it with the body before it is meshed (BooleanFragments or Coherence in gmsh); "
+          "where "
+          "it is for bars, give intervals");
     }
   }
 }
