@@ -9,8 +9,7 @@ namespace {
 /// out as far as possible.
 constexpr double newest = 0.25, largest = 4.0;
 
-/// Times vary by as much on a quiet machine; beyond the second number one piece of work is enough of
-/// a trial.
+/// Times vary by as much on a quiet machine; beyond the second one piece of work is trial enough.
 constexpr double clearly_slower = 1.1, hopelessly_slower = 1.5;
 
 /// Pieces of work in a trial, and from one to the next: twice as many after each that is lost, and
