@@ -8,9 +8,10 @@ enum class Problem {
   plane_strain,
   three_dimensional,
   shell,  ///< a sheet in space: plane stress in it, and bending
+  beam,   ///< a line in the plane: axial force and bending
 };
 
-/// 2 or 3, 2 of the sheet of a shell.
+/// 2 or 3, 2 of the sheet of a shell and of beams.
 int dimension_of(Problem problem);
 
 /// The only Poisson's ratio that a bond-based isotropic solid can have: 1/3 in plane stress

@@ -11,7 +11,8 @@ double continuum_micromodulus(Problem problem, double youngs_modulus, double hor
   const double cube = horizon * horizon * horizon;
   switch (problem) {
     case Problem::plane_stress:
-    case Problem::shell: return 9.0 * youngs_modulus / (std::numbers::pi * cube * thickness);
+    case Problem::shell:
+    case Problem::beam: return 9.0 * youngs_modulus / (std::numbers::pi * cube * thickness);
     case Problem::plane_strain:
       return 48.0 * youngs_modulus / (5.0 * std::numbers::pi * cube * thickness);
     case Problem::three_dimensional: break;

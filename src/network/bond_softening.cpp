@@ -285,6 +285,10 @@ TooStrong::TooStrong(Index number, double energy)
 
 MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
                                 const SolidMaterial& material, double brittle_stretch) {
+  if (!body.spans.empty()) {  // all bonds of a beam are stretched alike
+    return bonds_by([](const BondLaw&, bool) { return 1.0; }, material.youngs_modulus, material,
+                    brittle_stretch);
+  }
   const Pulled pulled = pulled_cell(body, input, material);
   const double modulus = uniaxial_modulus(lame_constants(input, material), pulled.dim);
   const auto factor_of = [&](const BondLaw& law, bool compressed) {
@@ -302,38 +306,46 @@ MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const F
 
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
   const Particles& particles = network.particles;
-  using Pair = std::pair<Index, Index>;
-  const auto pair_of = [&](Index element) -> Pair {
-    const Index own = particles.material[network.bonds.first[element]];
-    const Index j = network.bonds.second[element];
-    const bool solid = particles.kind[j] == ParticleKind::solid;
-    return std::minmax(own, solid ? particles.material[j] : own);
+  // Materials of the ends, and of beams, whose bonds near ends take more energy, the stretch.
+  struct Kind {
+    std::pair<Index, Index> materials;
+    double stretch;
+    auto operator<=>(const Kind&) const = default;
   };
-  std::map<Pair, MaterialBonds> laws;
+  const auto kind_of = [&](Index element) -> Kind {
+    const Index j = network.bonds.second[element];
+    // Between two spans of a beam stands a particle of the first one.
+    const Index own = particles.material[network.is_beam() ? j : network.bonds.first[element]];
+    const bool solid = particles.kind[j] == ParticleKind::solid;
+    return {std::minmax(own, solid ? particles.material[j] : own),
+            network.is_beam() ? network.critical_stretch[element] : 0.0};
+  };
+  std::map<Kind, MaterialBonds> laws;
   for (Index e = 0; e < network.first_tie; ++e) {
     if (!network.has_limit(e)) continue;
-    const auto [a, b] = pair_of(e);
-    if (laws.contains({a, b})) continue;
+    const Kind kind = kind_of(e);
+    if (laws.contains(kind)) continue;
+    const auto [a, b] = kind.materials;
     const SolidMaterial mean = mean_of(input.materials[a], input.materials[b]);
     if (!softens(mean) && !mean.softening.closes && !input.draft) continue;
     try {
-      laws.insert({{a, b}, bonds_of_material(body, input, mean, network.critical_stretch[e])});
+      laws.insert({kind, bonds_of_material(body, input, mean, network.critical_stretch[e])});
     } catch (const TooStrong& error) {
       throw TooStrong(a, error.share);
     }
   }
   network.strengths.resize(input.materials.size());
-  for (const auto& [pair, bonds] : laws) {
-    if (pair.first == pair.second) network.strengths[pair.first] = bonds.strength;
+  for (const auto& [kind, bonds] : laws) {
+    const auto [a, b] = kind.materials;
+    if (a == b && network.strengths[a].teeth == 0) network.strengths[a] = bonds.strength;
   }
-  for (auto& [pair, bonds] : laws) {
+  for (auto& [kind, bonds] : laws) {
     if (bonds.law.is_brittle()) continue;
     const Index law = static_cast<Index>(network.laws.size());
     network.laws.push_back(bonds.law);
     network.law_of.resize(network.stiffness.size(), 0);
     for (Index e = 0; e < network.first_segment; ++e) {
-      const bool its = network.has_limit(e) && pair == pair_of(e);
-      if (!its) continue;
+      if (!network.has_limit(e) || kind_of(e) != kind) continue;
       network.law_of[e] = law;
       network.critical_stretch[e] = bonds.strength.first_stretch;
     }

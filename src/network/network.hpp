@@ -123,6 +123,8 @@ struct Network {
   std::optional<LinearElements> cells;
 
   std::optional<Shell> shell;  ///< where the body is a plate or a shell
+  /// From the axis of a beam to its faces [length], per element; empty: the body is no beam.
+  std::vector<double> half_height;
 
   int dim() const { return particles.dim; }
   /// The particles where a case means them: those of a shell on its flat sheet.
@@ -138,6 +140,10 @@ struct Network {
     return inflection.empty() ? 0.5 : inflection[element];
   }
   bool carries_moments() const { return !bending.empty(); }
+  bool is_beam() const { return !half_height.empty(); }
+  /// Whether bonds stand for whole sections of a shell or a beam: particles have no stress, and
+  /// cracks no opening.
+  bool has_sections() const { return shell.has_value() || is_beam(); }
   bool has_states() const { return !state_stiffness.empty(); }
   /// Whether the extension of a bond counts in the sum of its first end, or its second.
   bool counts_for(Index element, BondEnd end) const {

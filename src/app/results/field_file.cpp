@@ -39,6 +39,7 @@ void append_cell(VtuGrid& grid, VtuCell type, std::span<const Index> points, Fie
 }
 
 VtuCell cell_of(std::size_t dim, std::size_t corners) {
+  if (corners == 2) return VtuCell::line;
   if (corners == dim + 1) return dim == 2 ? VtuCell::triangle : VtuCell::tetrahedron;
   return dim == 2 ? VtuCell::quadrilateral : VtuCell::hexahedron;
 }
@@ -155,6 +156,12 @@ void add_stresses(VtuGrid& grid, std::vector<double> stresses, int dim) {
   grid.point_data.push_back({"principal_stress", 3, std::move(principal)});
   grid.point_data.push_back({"first_principal_direction", 3, std::move(first)});
   grid.point_data.push_back({"last_principal_direction", 3, std::move(last)});
+}
+
+void add_section_forces(VtuGrid& grid, SectionForces forces) {
+  grid.point_data.push_back({"normal_force", 1, std::move(forces.normal)});
+  grid.point_data.push_back({"shear_force", 1, std::move(forces.shear)});
+  grid.point_data.push_back({"bending_moment", 1, std::move(forces.moment)});
 }
 
 void add_openings(VtuGrid& grid, const Network& network, const CrackOpenings& openings,

@@ -6,6 +6,7 @@
 #include "assembly/bar_state.hpp"
 #include "assembly/linear_elements.hpp"
 #include "assembly/results/crack_state.hpp"
+#include "assembly/results/section_forces.hpp"
 #include "base/csr.hpp"
 #include "discretization/carriers/carriers.hpp"
 #include "io/fields/vtu.hpp"
@@ -58,6 +59,9 @@ void add_bars(VtuGrid& grid, const BarState& bars);
 /// \param stresses  particle_stresses()
 void add_stresses(VtuGrid& grid, std::vector<double> stresses, int dim);
 
+/// Adds what the sections of a beam bear, as fields of points.
+void add_section_forces(VtuGrid& grid, SectionForces forces);
+
 /// Adds crack_opening: of each particle the largest of its damaged bonds, as a field of points; of
 /// each broken bond its own, as a field of cells. Before anything else is added to the cells.
 /// \param broken_elements_in_order  as the grid was made with
@@ -65,7 +69,7 @@ void add_openings(VtuGrid& grid, const Network& network, const CrackOpenings& op
                   std::span<const Index> broken_elements_in_order);
 
 /// Adds the finite elements that carry particles, between those nearest to their corners:
-/// quadrilaterals in the plane, hexahedra in space.
+/// lines along beams, quadrilaterals in the plane, hexahedra in space.
 /// \param whole  per element, whether it carries
 void add_carriers(VtuGrid& grid, const Particles& particles, const Carriers& carriers,
                   std::span<const std::uint8_t> whole);

@@ -160,7 +160,10 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     for (double& u : motion) u *= scale_of(record);
     VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
                                    broken_, families_);
-    if (!network.shell) {  // its faces have stresses of their own, and open where it turns
+    if (network.is_beam()) {
+      add_section_forces(grid, section_forces(network, state.secants, motion));
+    }
+    if (!network.has_sections()) {
       add_stresses(grid, particle_stresses(stress_input(model_, families_, state.secants), motion),
                    network.dim());
       const CrackOpenings openings = crack_openings(network, families_, state.secants, motion);

@@ -21,7 +21,8 @@ VtuGrid make_grid(const Model& model, const Csr& families, std::span<const doubl
   if (model.carried) {
     add_carriers(grid, network.particles, model.carried->carriers, model.carried->whole);
   }
-  if (network.shell) return grid;  // faces have stresses of their own
+  if (network.is_beam()) add_section_forces(grid, section_forces(network, intact, displacement));
+  if (network.has_sections()) return grid;
   add_stresses(grid, particle_stresses(stress_input(model, families), displacement), network.dim());
   return grid;
 }

@@ -37,10 +37,11 @@ struct Carriers {
   }
 };
 
-/// Where an axis is divided into elements, ascending [length]; two planes at least.
+/// Where an axis is divided into elements, ascending [length]; two planes at least, or one where
+/// all particles lie in it.
 using Divisions = std::array<std::vector<double>, 3>;
 
-/// Rectangles or boxes between planes along the axes, one wherever particles lie inside. An element
+/// Lines, rectangles or boxes between planes along the axes, one wherever particles lie inside. An element
 /// with a point of `faces` inside is left out: faces of the body may lie on its border alone.
 /// \param faces      points on faces that no element may have inside [length], shape (points, dim)
 /// \param order      degree of the polynomials along each axis: 1 or 2

@@ -6,7 +6,8 @@
 namespace perilink {
 namespace {
 
-/// The cells of a grid, numbered along x first.
+/// The cells of a grid, numbered along x first. Axes with one plane are not divided: along them
+/// cells have no extent, and nodes are single.
 class Grid {
  public:
   Grid(int dim, const Divisions& divisions, int order, double tolerance)
@@ -19,14 +20,12 @@ class Grid {
   }
   Index num_nodes() const {
     Index count = 1;
-    for (int a = 0; a < dim_; ++a) count *= order_ * intervals(a) + 1;
+    for (int a = 0; a < dim_; ++a) count *= order(a) * intervals(a) + 1;
     return count;
   }
   int dim() const { return dim_; }
   /// In one cell; they are numbered along x first.
-  int nodes_per_cell() const {
-    return dim_ == 2 ? (order_ + 1) * (order_ + 1) : (order_ + 1) * (order_ + 1) * (order_ + 1);
-  }
+  int nodes_per_cell() const { return (order(0) + 1) * (order(1) + 1) * (order(2) + 1); }
 
   /// Calls visit(cell) for every cell that holds the point, borders included.
   template <class Visit>
@@ -48,6 +47,7 @@ class Grid {
   bool is_within(Index cell, std::span<const double> point) const {
     const std::array<Index, 3> at = place(cell);
     for (int a = 0; a < dim_; ++a) {
+      if (order(a) == 0) continue;
       if (point[a] <= divisions_[a][at[a]] + tolerance_) return false;
       if (point[a] >= divisions_[a][at[a] + 1] - tolerance_) return false;
     }
@@ -59,26 +59,31 @@ class Grid {
     const std::array<Index, 3> at = place(cell), in = place_in_cell(local);
     Index result = 0;
     for (int a = dim_ - 1; a >= 0; --a) {
-      result = result * (order_ * intervals(a) + 1) + order_ * at[a] + in[a];
+      result = result * (order(a) * intervals(a) + 1) + order(a) * at[a] + in[a];
     }
     return result;
   }
 
   double lower(Index cell, int axis) const { return divisions_[axis][place(cell)[axis]]; }
-  double upper(Index cell, int axis) const { return divisions_[axis][place(cell)[axis] + 1]; }
+  double upper(Index cell, int axis) const {
+    return divisions_[axis][place(cell)[axis] + (order(axis) > 0 ? 1 : 0)];
+  }
 
-  int num_corners() const { return dim_ == 2 ? 4 : 8; }
+  int num_corners() const {
+    return (order(0) > 0 ? 2 : 1) * (order(1) > 0 ? 2 : 1) * (order(2) > 0 ? 2 : 1);
+  }
   /// Node of a cell at a corner: around its lower face along the last axis, then the upper one.
   int corner(int number) const {
     constexpr std::array<unsigned, 8> around = {0, 1, 3, 2, 4, 5, 7, 6};  // bit a: end along axis a
     int local = 0;
     for (int a = dim_ - 1; a >= 0; --a) {
-      local = local * (order_ + 1) + ((around[number] >> a & 1U) != 0 ? order_ : 0);
+      local = local * (order(a) + 1) + ((around[number] >> a & 1U) != 0 ? order(a) : 0);
     }
     return local;
   }
 
   double coordinate(Index cell, int local, int axis) const {
+    if (order(axis) == 0) return lower(cell, axis);
     const double part = static_cast<double>(place_in_cell(local)[axis]) / order_;
     return lower(cell, axis) + part * (upper(cell, axis) - lower(cell, axis));
   }
@@ -88,6 +93,7 @@ class Grid {
     const std::array<Index, 3> in = place_in_cell(local);
     double product = 1.0;
     for (int a = 0; a < dim_; ++a) {
+      if (order(a) == 0) continue;
       const double part = (point[a] - lower(cell, a)) / (upper(cell, a) - lower(cell, a));
       const double x = order_ * std::clamp(part, 0.0, 1.0);
       for (int k = 0; k <= order_; ++k) {
@@ -98,7 +104,11 @@ class Grid {
   }
 
  private:
-  Index intervals(int axis) const { return static_cast<Index>(divisions_[axis].size()) - 1; }
+  /// Degree of the polynomials along an axis.
+  int order(int axis) const { return axis < dim_ && divisions_[axis].size() > 1 ? order_ : 0; }
+  Index intervals(int axis) const {
+    return std::max<Index>(1, static_cast<Index>(divisions_[axis].size()) - 1);
+  }
 
   Index interval(int axis, double x) const {
     const std::vector<double>& planes = divisions_[axis];
@@ -116,8 +126,8 @@ class Grid {
   std::array<Index, 3> place_in_cell(int local) const {
     std::array<Index, 3> at{};
     for (int a = 0; a < dim_; ++a) {
-      at[a] = local % (order_ + 1);
-      local /= order_ + 1;
+      at[a] = local % (order(a) + 1);
+      local /= order(a) + 1;
     }
     return at;
   }

@@ -72,6 +72,13 @@ struct Group {
   std::optional<Vector3> loose = {};
 };
 
+/// A part of a beam with one section and one material.
+struct BeamSpan {
+  Index first = 0, last = 0;  ///< its particles, ends included
+  Index material = 0;
+  double height = 0.0;  ///< of the section, in the plane [length]
+};
+
 /// Particles and the lattice or the mesh that they belong to.
 struct Body {
   /// With a mesh: pattern irregular, step zero, spacing and cell volume are means.
@@ -83,6 +90,7 @@ struct Body {
   /// Meshes only, per cell: nonzero where it is an ordinary finite element without bonds; empty:
   /// nowhere. The lattice is then that of the others.
   std::vector<std::uint8_t> glued = {};
+  std::vector<BeamSpan> spans = {};  ///< beams only, in the order of their particles
 };
 
 /// Family of a particle far from every surface.

@@ -32,6 +32,12 @@ const NotFor on_lattice{
     "of a given spacing",
     "delete it; `pattern`, `spacing`, `rotation` and `offset` say where they are"};
 
+/// What a beam has no choice of.
+const NotFor of_beams{
+    beam, "is given, but a beam is a row of particles whose bonds share its section", delete_it};
+constexpr std::string_view no_beam = "is given, but beams have none";
+const Without in_beams = {of_beams};
+
 /// Keys of bonds within a horizon.
 const Without horizons = {
     {elements, no_bonds, bonds_instead},
@@ -41,6 +47,12 @@ const Without horizons = {
      "plane and eighteen in space",
      delete_it},
 };
+/// Those that say which bonds there are.
+const Without families = [] {
+  Without keys = horizons;
+  keys.push_back(of_beams);
+  return keys;
+}();
 constexpr std::string_view no_torsion =
     "delete it; three-dimensional bodies with model = \"micropolar\" have it";
 const Without torsion = {
@@ -55,7 +67,7 @@ const Without lattices = {{bonds | particles | elements, "is given, but model is
 
 /// What a kind of body cannot be analysed by.
 const Without methods = {
-    {elements | shell, "is \"linear_elements\", but problem is \"shell\", which bonds make",
+    {elements | shell | beam, "is \"linear_elements\", but shells and beams are made of bonds",
      "delete the line, or take another problem"},
     {elements | damage | relaxation, "is \"linear_elements\", which cannot break",
      "set analysis.type = \"elastic\", or delete the line"}};
@@ -63,17 +75,17 @@ constexpr std::string_view other_type =
     "set type = \"explicit\" or \"elastic\" in [analysis], or take another model";
 const Without models = {
     {elements, no_bonds, bonds_instead},
-    {bond_based | lattice | particles | shell,
-     "is \"{model}\", but the bonds of a shell bend: model = \"micropolar\"",
+    {bond_based | lattice | particles | shell | beam,
+     "is \"{model}\", but the bonds of shells and beams bend: model = \"micropolar\"",
      "delete the line, or take another problem"},
     {lattice | particles | damage | relaxation, "is \"{model}\", but analysis.type is \"{type}\"",
      other_type},
 };
 const Without types = {{elements | explicit_, "is \"explicit\", but linear elements have no masses",
                         "set method = \"bonds\" in [body], or type = \"elastic\""},
-                       {shell | explicit_ | relaxation,
-                        "is \"{type}\", but shells are at rest: nobody has given them masses and "
-                        "damped steps",
+                       {shell | beam | explicit_ | relaxation,
+                        "is \"{type}\", but shells and beams are at rest: nobody has given them "
+                        "masses and damped steps",
                         "set type = \"elastic\" or \"damage\""}};
 
 const Without softening = {{elements, no_bonds, bonds_instead}};
@@ -122,6 +134,8 @@ const Without velocities = {
      "give [[displacements]], which follow the smooth load factor"}};
 
 const Without tractions = {
+    {beam, "is given, but a beam has no faces to act on",
+     "give [[loads]] with `force` or `body_force`, or [[point_loads]]"},
     {lattice, "is given, but a body with model = \"lattice\" has no facets on its surface",
      "give a total over a region, [[loads]] with `force`"}};
 const Without symmetry = {
@@ -142,11 +156,13 @@ const Without outside_of_sheets = {
      "delete it, or set problem = \"three_dimensional\" in [body]"},
     {shell, "is given, but places of a shell are those of its flat sheet, x and y", delete_it}};
 const Without cracks = {
+    {beam, no_beam, flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
     {elements, "is \"linear_elements\", but the case has [[cracks]], which cut bonds",
      "delete one of the two, or leave the crack out of the mesh", "body.method"}};
 const Without interfaces = {
+    {beam, no_beam, flat_instead},
     {shell, "is given, but bonds of a shell have one strength all over", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
@@ -154,6 +170,7 @@ const Without interfaces = {
      "delete one of the two", "body.method"},
     {elastic, {}, {}}};
 const Without rebar = {
+    {beam, no_beam, flat_instead},
     {shell, "is given, but bars are not tied to shells", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
@@ -198,17 +215,17 @@ const std::vector<KeySchema> body_keys = {
     {"radius",
      {{plane | space, "is given, but only shells lie on cylinders",
        "delete it, or set problem = \"shell\""}}},
-    "mesh",
-    "mesh_size",
-    "pattern",
-    {"surface", horizons},
+    {"mesh", in_beams},
+    {"mesh_size", in_beams},
+    {"pattern", in_beams},
+    {"surface", families},
     {"columns", {on_lattice}},
     "spacing",
     {"horizon", horizons},
-    {"horizon_level", horizons},
+    {"horizon_level", families},
     {"horizon_ratio", horizons},
-    {"micromodulus", horizons},
-    {"critical_stretch", horizons},
+    {"micromodulus", families},
+    {"critical_stretch", families},
     {"rotation", lattices},
     {"offset", lattices},
     {"variant", lattices}};
@@ -218,7 +235,7 @@ const std::vector<KeySchema> material_keys = {"name",
                                               "regions",
                                               "holes",
                                               "youngs_modulus",
-                                              "poissons_ratio",
+                                              {"poissons_ratio", in_beams},
                                               "fracture_energy",
                                               "density",
                                               {"tensile_strength", softening},
@@ -340,7 +357,12 @@ const std::vector<TableSchema>& case_schema() {
       {"tractions", true, {"region", "traction", "pressure", "stage"}, tractions},
       {"point_loads", true, {"at", "force", {"moment", moments}, "stage"}},
       {"symmetry", true, {"axis", "at", "region"}, symmetry},
-      {"springs", true, {"region", "stiffness", "total"}, springs},
+      {"springs",
+       true,
+       {"region",
+        {"stiffness", {{beam, "is given per area, but a beam has no faces", "give `total`"}}},
+        "total"},
+       springs},
       {"cracks", true, crack_keys, cracks},
       {"interfaces", true, interface_keys, interfaces},
       {"rebar", true, rebar_keys, rebar},
@@ -348,12 +370,12 @@ const std::vector<TableSchema>& case_schema() {
        false,
        {"spacings",
         "size",
-        "mesh",
-        "mesh_size",
+        {"mesh", in_beams},
+        {"mesh_size", in_beams},
         "order",
         "regions",
         "particles",
-        "glued",
+        {"glued", in_beams},
         {"alert", set_aside(elastic)},
         {"alert_strain", set_aside(elastic)},
         {"halo", set_aside(elastic)}},
@@ -365,7 +387,9 @@ const std::vector<TableSchema>& case_schema() {
         "at",
         "region",
         "axis",
-        {"stress", {{shell, "is given, but stresses of shells are not read", "give `axis`"}}}}},
+        {"stress",
+         {{shell | beam, "is given, but stresses of shells and beams are not read",
+           "give `axis`"}}}}},
       {"analysis", false, analysis_keys},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_events},
       {"stages",

@@ -10,13 +10,13 @@
 namespace perilink {
 
 /// Kinds of cases, as bits in three groups: bodies, their dimensions, analyses. Each group has one
-/// bit set in a case.
+/// bit set in a case, but beams are in the plane as well.
 using Kinds = unsigned;
 
 namespace kinds {
 
 inline constexpr Kinds bond_based = 1, micropolar = 2, lattice = 4, particles = 8, elements = 16;
-inline constexpr Kinds plane = 32, space = 64, shell = 128;
+inline constexpr Kinds plane = 32, space = 64, shell = 128, beam = 4096;  // beams are plane too
 inline constexpr Kinds damage = 256, elastic = 512, explicit_ = 1024, relaxation = 2048;
 
 }  // namespace kinds

@@ -106,7 +106,7 @@ constexpr std::array<std::string_view, sizeof...(Word)> words(Word... word) {
 /// The words of an enumeration in the order of its enumerators; the last enumerators may have none
 /// (Pattern::irregular is what a mesh has).
 constexpr auto words_of(Problem) {
-  return words("plane_stress", "plane_strain", "three_dimensional", "shell");
+  return words("plane_stress", "plane_strain", "three_dimensional", "shell", "beam");
 }
 constexpr auto words_of(BodyMethod) { return words("bonds", "linear_elements"); }
 constexpr auto words_of(BodyModel) {

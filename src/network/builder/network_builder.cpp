@@ -13,6 +13,7 @@
 #include "material/micromodulus.hpp"
 #include "network/bond_softening.hpp"
 #include "network/builder/bar_elements.hpp"
+#include "network/builder/beam_bonds.hpp"
 #include "network/builder/glued_cells.hpp"
 #include "network/builder/shell_bonds.hpp"
 #include "network/correction/surface_correction.hpp"
@@ -165,6 +166,7 @@ Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
 
 Network build_network(const Body& body, const NetworkInput& input) {
   check_input(body, input);
+  if (!body.spans.empty()) return make_beam(body, input);
   const PairConstants constants(body, input);
   Network network = body.glued.empty() ? build_bonds(body, input, constants)
                                        : build_bonds_and_cells(body, input, constants);

@@ -76,7 +76,20 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const 
   return square * (stretched ? bond.inverse : bond.compressed);
 }
 
-/// The same of a bond of a shell.
+/// The same of a bond of a shell or a beam, which is in tension where one of its faces is.
+template <int Dim>
+double FrameLimitSearch::section_ratio(Index k, const double* u) const {
+  const Bond& bond = bonds_[k];
+  if constexpr (Dim == 3) return ribbon_ratio(elements_[k], bond, u);
+  const FrameDeformation<2> d(bond.n, bond.first_arm, bond.second_arm, u + bond.first,
+                              u + bond.second);
+  const double square = d.extension * d.extension + bond.bending_share * d.shear[0] * d.shear[0] +
+                        bond.rotation_share * d.bend[0] * d.bend[0];
+  const double stretch = d.extension + network_.half_height[elements_[k]] * std::abs(d.bend[0]);
+  const bool stretched = stretch > 0.0 && stretch * stretch > least_tension * square;
+  return square * (stretched ? bond.inverse : bond.compressed);
+}
+
 double FrameLimitSearch::ribbon_ratio(Index element, const Bond& bond, const double* u) const {
   const FrameModes<3> modes = frame_modes<3>(network_, element);
   const double ratio = network_.ratio_of_bending(element) * network_.stiffness[element];
@@ -98,9 +111,9 @@ double FrameLimitSearch::ribbon_ratio(Index element, const Bond& bond, const dou
 
 template <int Dim>
 FrameLimitSearch::Hit FrameLimitSearch::find_in(const double* u, double tolerance, int threads) {
+  const bool sections = network_.has_sections();
   const auto value_at = [&](Index k) {
-    if (Dim == 3 && network_.shell) return ribbon_ratio(elements_[k], bonds_[k], u);
-    return squared_ratio<Dim>(bonds_[k], u);
+    return sections ? section_ratio<Dim>(k, u) : squared_ratio<Dim>(bonds_[k], u);
   };
   const auto largest_in = [&](Index begin, Index end) {
     double largest = 0.0, zero_times_all = 0.0;
@@ -128,9 +141,11 @@ std::vector<FrameLimitSearch::Hit> FrameLimitSearch::list(std::span<const double
   std::vector<Hit> hits;
   for (std::size_t k = 0; k < bonds_.size(); ++k) {
     const double* u = displacement.data();
-    const double square = network_.shell ? ribbon_ratio(elements_[k], bonds_[k], u)
-                          : dim_ == 3    ? squared_ratio<3>(bonds_[k], u)
-                                         : squared_ratio<2>(bonds_[k], u);
+    const auto place = static_cast<Index>(k);
+    const double square = network_.shell       ? section_ratio<3>(place, u)
+                          : network_.is_beam() ? section_ratio<2>(place, u)
+                          : dim_ == 3          ? squared_ratio<3>(bonds_[k], u)
+                                               : squared_ratio<2>(bonds_[k], u);
     const double ratio = finite_ratio(elements_[k], std::sqrt(square));
     if (ratio >= least) hits.push_back({elements_[k], ratio});
   }

@@ -21,8 +21,8 @@ namespace perilink {
 /// bending stiffness (ties, bars) have s alone, and so do bonds with teeth in compression of their
 /// own, which sleep at first: set_limits() wakes them.
 ///
-/// Bonds of shells bend and twist as ribbons, whose stiffnesses count in the same way; they are in
-/// tension where one face of the shell is stretched.
+/// Bonds of shells bend and twist as ribbons, whose stiffnesses count in the same way; they and
+/// those of beams are in tension where one face is stretched.
 class FrameLimitSearch final : public BreakSearch {
  public:
   explicit FrameLimitSearch(const Network& network);
@@ -42,6 +42,8 @@ class FrameLimitSearch final : public BreakSearch {
     double inverse;                ///< 1 / (xi s)^2 of the limit s; zero without
     double compressed;             ///< the same of the limit in compression
   };
+  template <int Dim>
+  double section_ratio(Index k, const double* u) const;
   double ribbon_ratio(Index element, const Bond& bond, const double* u) const;
   template <int Dim>
   double squared_ratio(const Bond& bond, const double* u) const;

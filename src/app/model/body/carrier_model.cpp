@@ -40,6 +40,7 @@ std::vector<double> divide(const Model& model, int axis, double size, int order)
     upper = std::max(upper, particles.position(i)[axis]);
   }
   const double extent = upper - lower;
+  if (extent == 0.0) return {lower};  // a beam
   const double count = std::max(1.0, std::round(extent / size));
   const auto is_whole = [](double rows) {
     return rows > 0.5 && std::abs(rows - std::round(rows)) < border_tolerance * rows;

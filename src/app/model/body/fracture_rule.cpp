@@ -36,7 +36,9 @@ double ratio_of_steps(const Lattice& lattice) {
 std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
                                       NetworkInput& network) {
   std::vector<double> costs;
-  if (input.body.critical_stretch != CriticalStretch::dissipated) return costs;
+  if (input.body.critical_stretch != CriticalStretch::dissipated || !body.spans.empty()) {
+    return costs;
+  }
   for (SolidMaterial& material : network.materials) {
     // Bonds that soften do not snap.
     const bool snaps = material.softening.shape.kind == Softening::brittle;
@@ -52,7 +54,9 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
 
 std::optional<std::string> short_horizon_note(const CaseFile& input, const Model& model) {
   const double ratio = model.horizon / model.lattice.spacing;
-  if (ratio > least_ratio_of_cracks - 1e-6 || !bonds_can_break(input, model)) return std::nullopt;
+  if (ratio > least_ratio_of_cracks - 1e-6 || model.network.is_beam() ||
+      !bonds_can_break(input, model))
+    return std::nullopt;
   return fmt::format(
       "the horizon is {:.3g} spacings: below 3, what a crack dissipates per area differs by 10 % "
       "and more from one path to another; take horizon_ratio = 3 or more where bonds break",

@@ -21,6 +21,7 @@
 #include "app/model/gauges.hpp"
 #include "app/results/calibration_text.hpp"
 #include "base/error.hpp"
+#include "discretization/lattices/beam_body.hpp"
 #include "discretization/lattices/make_body.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "io/case/sections/case_kinds.hpp"
@@ -80,6 +81,17 @@ bool has_horizon(const BodySection& body) {
   return body.method == BodyMethod::bonds && !is_particles(body);
 }
 
+Body build_beam_body(const CaseFile& input, const LatticeInput& lattice, double& horizon) {
+  horizon = horizon_of(input.body, lattice.spacing);
+  try {
+    Body body = make_beam_body(lattice);
+    refuse_impossible_horizon(input, reach_of(body.particles, horizon, body.lattice.spacing));
+    return body;
+  } catch (const std::invalid_argument& error) {
+    throw InputError(input.where("body.problem"), error.what(), "");
+  }
+}
+
 Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   LatticeInput lattice;
   lattice.pattern = input.body.pattern;
@@ -95,6 +107,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   lattice.spacing = wanted_spacing(input.body, box.upper[0] - box.lower[0]);
   refuse_too_many_particles(input, box, lattice.spacing, dim);
   const bool bonds = has_horizon(input.body);
+  if (is_beam(input.body)) return build_beam_body(input, lattice, horizon);
   if (bonds) {
     lattice.horizon = horizon_of(input.body, lattice.spacing);
     refuse_impossible_horizon(input, reach_of(box, dim, lattice.horizon, lattice.spacing));
@@ -265,7 +278,7 @@ Network build_case_network(const CaseFile& input, const Body& body, const Networ
 /// on lattices in the plane are calibrated in less time than their matrix is factorised.
 void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkInput network,
                                const Model& model) {
-  if (body.lattice.surface != Surface::calibrated) return;
+  if (body.lattice.surface != Surface::calibrated || !body.spans.empty()) return;
   const bool lattice = body.lattice.pattern != Pattern::irregular;
   if (lattice && body.particles.dim == 2 && network.model == BondModel::bond_based) return;
   network.draft = true;
@@ -294,7 +307,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   network.on_search = options.on_search;
   network.interfaces = weak_interfaces(input, body);
   network.draft = options.draft;
-  refuse_poissons_ratios(input, body, network);
+  if (body.spans.empty()) refuse_poissons_ratios(input, body, network);
   if (network.shell) refuse_impossible_shell(input, body, network);
   refuse_impossible_cracks(input, body.particles.dim);
   model.crack_cost = count_on_the_path(input, body, network);
@@ -314,7 +327,8 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
 /// Particles, and bonds or elements, of every body but lattices of state-based particles.
 Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
   Model model;
-  model.problem = is_shell(input.body) ? Problem::plane_stress : input.body.problem;
+  model.problem =
+      is_shell(input.body) || is_beam(input.body) ? Problem::plane_stress : input.body.problem;
   const int dim = dimension_of(model.problem);
   Body body = build_body(input, dim, model.horizon, model.notes);
   model.lattice = body.lattice;

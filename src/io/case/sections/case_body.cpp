@@ -152,6 +152,7 @@ void check_micropolar_ratio(const CaseTable& table, const BodySection& body, dou
 }
 
 std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySection& body) {
+  if (is_beam(body)) return std::nullopt;
   std::optional<double> given = table.number("poissons_ratio");
   if (body.method == BodyMethod::linear_elements) {
     if (given) check_element_ratio(table, *given);
@@ -164,14 +165,15 @@ std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySect
   return given;
 }
 
-/// Bonds of a shell are as thick as it is: where one face of a crack is pressed, the other gapes.
-void settle_shell_softening(const CaseTable& table, SofteningMaterial& softening) {
+/// Bonds of a shell or a beam are as thick as it is: where one face of a crack is pressed, the other
+/// gapes.
+void settle_thick_softening(const CaseTable& table, SofteningMaterial& softening) {
   if (softening.shape.kind == Softening::concrete) {
-    table.refuse("softening", "is \"concrete\", a law that bonds of shells do not have",
+    table.refuse("softening", "is \"concrete\", a law that bonds of shells and beams do not have",
                  "Allowed here: brittle, linear, bilinear, exponential");
   }
   if (table.has("closing") && softening.closes) {
-    table.refuse("closing", "is true, but bonds of shells break through the thickness",
+    table.refuse("closing", "is true, but bonds of shells and beams break through the thickness",
                  "delete it");
   }
   softening.closes = false;
@@ -210,10 +212,11 @@ std::vector<std::string> read_holes(const CaseTable& table, const BodySection& b
 BodySection read_body(const CaseTable& table, const BodySection& kind) {
   BodySection body = kind;
   assign(body.thickness, table.positive("thickness"));
-  if (is_shell(body)) {
-    if (!table.has("thickness")) table.refuse_missing("thickness", "the thickness of the shell");
-    body.radius = table.positive("radius");
+  if ((is_shell(body) || is_beam(body)) && !table.has("thickness")) {
+    table.refuse_missing("thickness", is_beam(body) ? "the width of the beam, across the plane"
+                                                    : "the thickness of the shell");
   }
+  if (is_shell(body)) body.radius = table.positive("radius");
   if (is_lattice(body)) {
     read_lattice_body(table, body);
     return body;
@@ -256,7 +259,7 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
   }
   material.poissons_ratio = read_poissons_ratio(table, body);
   material.softening = read_softening(table);
-  if (is_shell(body)) settle_shell_softening(table, material.softening);
+  if (is_shell(body) || is_beam(body)) settle_thick_softening(table, material.softening);
   material.fracture_energy = has_stretches(material.softening) ? 0.0 : read_fracture_energy(table);
   if (std::isinf(material.fracture_energy)) refuse_softening(table);
   material.density = table.positive("density");

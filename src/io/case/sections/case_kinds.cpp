@@ -26,6 +26,7 @@ Kinds kinds_of(const CaseFile& input) {
   const BodySection& body = input.body;
   return (body.method == BodyMethod::bonds ? bit(kinds::bond_based, body.model) : kinds::elements) |
          (is_shell(body)            ? kinds::shell
+          : is_beam(body)           ? kinds::beam | kinds::plane
           : dimension_of(body) == 2 ? kinds::plane
                                     : kinds::space) |
          bit(kinds::damage, input.analysis.type);
@@ -36,6 +37,8 @@ int dimension_of(const BodySection& body) { return dimension_of(body.problem); }
 int axes_of(const BodySection& body) { return is_shell(body) ? 3 : dimension_of(body); }
 
 bool is_shell(const BodySection& body) { return body.problem == Problem::shell; }
+
+bool is_beam(const BodySection& body) { return body.problem == Problem::beam; }
 
 bool is_lattice(const BodySection& body) { return body.model == BodyModel::lattice; }
 

@@ -21,6 +21,7 @@ int dimension_of(const BodySection& body);
 int axes_of(const BodySection& body);
 
 bool is_shell(const BodySection& body);
+bool is_beam(const BodySection& body);
 
 /// Whether an analysis of the type finds equilibria one after the other, without motion.
 inline bool is_quasistatic(AnalysisType type) {

@@ -89,7 +89,7 @@ void read_kind(const Document& document, CaseFile& input) {
   assign(input.body.problem, body.choice<Problem>("problem"));
   assign(input.body.method, body.choice<BodyMethod>("method"));
   if (input.body.method == BodyMethod::bonds) {
-    if (is_shell(input.body)) input.body.model = BodyModel::micropolar;
+    if (is_shell(input.body) || is_beam(input.body)) input.body.model = BodyModel::micropolar;
     assign(input.body.model, body.choice<BodyModel>("model"));
   }
   assign(input.analysis.type, document.table("analysis").choice<AnalysisType>("type"));

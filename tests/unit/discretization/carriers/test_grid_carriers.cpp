@@ -87,5 +87,20 @@ TEST(GridCarriers, LeavesOutCellsWithoutParticlesInside) {
   EXPECT_EQ(carriers_on_grid(particles, {}, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6).size(), 1);
 }
 
+/// Along an axis with one plane there is nothing to divide: lines that carry the particles of a
+/// beam.
+TEST(GridCarriers, AreLinesWhereOneAxisAloneIsDivided) {
+  const Particles particles = block(2, 9, 1);
+  for (const int order : {1, 2}) {
+    const Carriers carriers = carriers_on_grid(particles, {}, {{{0, 4, 8}, {0}, {}}}, order, 1e-6);
+    ASSERT_EQ(carriers.size(), 2);
+    EXPECT_EQ(carriers.num_nodes(), 2 * order + 1);
+    EXPECT_EQ(carriers.corners_of.row(0).size(), 2u);
+    EXPECT_EQ(carriers.inside.row(1).size(), 5u);
+    EXPECT_EQ(carriers.upper, (std::vector<double>{4, 0, 8, 0}));
+    expect_polynomials(particles, carriers, order);
+  }
+}
+
 }  // namespace
 }  // namespace perilink
