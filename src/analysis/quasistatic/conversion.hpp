@@ -27,6 +27,8 @@ class Conversion {
     return carrier_[network_.bonds.first[bond]] != no_index ||
            carrier_[network_.bonds.second[bond]] != no_index;
   }
+  /// Per particle, the element that carries it, or no_index.
+  const std::vector<Index>& carriers() const { return carrier_; }
   /// Bonds that are carried now, ascending.
   std::vector<Index> carried_bonds() const;
 

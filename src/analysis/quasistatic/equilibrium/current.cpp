@@ -21,7 +21,7 @@ constexpr double most_drift = 1e-11;
 /// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
 /// events by its growth. Driven bodies and stages need the reactions and keep all.
 void Equilibrium::choose_current_unknowns() {
-  partial_ = false;
+  partial_ = dozing_ = false;
   moving_slots_.clear();
   current_slots_.clear();
   for (std::size_t slot = 0; unknowns_->carries() && slot < displacement_.size(); ++slot) {
@@ -73,8 +73,37 @@ void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
 
 /// The displacements that events keep current, by the unknowns as they are.
 void Equilibrium::scatter_current() {
-  if (!partial_ || !unknowns_->carries()) return scatter_solution();
-  unknowns_->expand(solution_, current_slots_, displacement_);
+  if (dozing_) {
+    unknowns_->expand(solution_, awake_slots_, displacement_);
+    spread_ = false;
+  } else if (partial_ && unknowns_->carries()) {
+    unknowns_->expand(solution_, current_slots_, displacement_);
+  } else {
+    scatter_solution();
+  }
+}
+
+/// What dozes is made current.
+void Equilibrium::spread() {
+  if (spread_) return;
+  unknowns_->expand(solution_, partial_ ? current_slots_ : moving_slots_, displacement_);
+  spread_ = true;
+}
+
+/// Work is summed at loaded and driven particles, and damaged bonds may close.
+void Equilibrium::doze(std::vector<std::uint8_t> awake) {
+  const auto width = static_cast<std::size_t>(network_.width());
+  for (const std::size_t slot : loaded_slots_) awake[slot / width] = 1;
+  for (const std::vector<Index>* elements : {&driven_elements_, &damaged_}) {
+    for (const Index e : *elements) {
+      awake[network_.bonds.first[e]] = awake[network_.bonds.second[e]] = 1;
+    }
+  }
+  awake_slots_.clear();
+  for (const std::size_t slot : partial_ ? current_slots_ : moving_slots_) {
+    if (awake[slot / width] != 0) awake_slots_.push_back(slot);
+  }
+  dozing_ = true;
 }
 
 double Equilibrium::residual_of_current() {
@@ -96,7 +125,8 @@ double Equilibrium::residual_of_current() {
 void Equilibrium::keep_all_current() {
   if (partial_) factor_->keep_current(std::vector<std::uint8_t>(solution_.size(), 1));
   if (stale_) refresh();
-  partial_ = false;
+  spread();
+  partial_ = dozing_ = false;
 }
 
 double Equilibrium::largest_of(std::span<const double> displacement) const {

@@ -229,7 +229,7 @@ void Equilibrium::refine(std::vector<double>& residual) {
 
 /// Observers must not change the run: stale displacements are solved for aside.
 std::span<const double> Equilibrium::displacement() {
-  if (!stale_) return displacement_;
+  if (!stale_) return where_elements_fail();
   std::vector<double> all = present_load();
   factor_->solve(all, all);
   observed_ = unknowns_->expand(all);
@@ -237,6 +237,7 @@ std::span<const double> Equilibrium::displacement() {
 }
 
 void Equilibrium::scatter_solution() {
+  spread_ = true;
   if (unknowns_->carries()) {
     unknowns_->expand(solution_, moving_slots_, displacement_);
     return;
@@ -303,7 +304,7 @@ std::pair<double, double> Equilibrium::driven_work_of(Index element) const {
 }
 
 double Equilibrium::measure_residual(std::vector<double>& residual) {
-  internal_force(network_, secants(), displacement_, internal_);
+  internal_force(network_, secants(), where_elements_fail(), internal_);
   for (std::size_t slot = 0; slot < internal_.forces.size(); ++slot) {
     internal_.forces[slot] = loads_->forces[slot] - internal_.forces[slot];
   }

@@ -96,7 +96,20 @@ class Equilibrium {
 
   /// Displacements at load factor 1, rotations included, shape (particles, width), right wherever
   /// an element can fail; elsewhere they may be those of an earlier event.
-  std::span<const double> where_elements_fail() const { return displacement_; }
+  std::span<const double> where_elements_fail() {
+    spread();
+    return displacement_;
+  }
+
+  /// The same, but of particles that elements carry right only where the search has looked.
+  std::span<const double> where_search_looks() const { return displacement_; }
+  std::vector<double>& searched_displacement() { return displacement_; }
+  const std::vector<double>& solution() const { return solution_; }
+  const Unknowns& unknowns() const { return *unknowns_; }
+  /// Whether events leave it to the search to make displacements of carried particles current.
+  bool may_doze() const { return unknowns_->carries() && !constant_ && boxes_ == nullptr; }
+  /// \param awake  per particle: its displacements are kept current all the same
+  void doze(std::vector<std::uint8_t> awake);
 
   /// The same, right everywhere: costs a solve where some are not.
   std::span<const double> displacement();
@@ -215,6 +228,7 @@ class Equilibrium {
   double largest_of(std::span<const double> displacement) const;
   double refine_followed(double size, std::vector<double>& residual);
   void scatter_current();
+  void spread();
   double work_of_forces() const;
   LoadWork sum_work();
   std::pair<double, double> driven_work_of(Index element) const;
@@ -325,13 +339,15 @@ class Equilibrium {
   std::vector<Index> glanced_elements_;  ///< all elements of the unknowns glanced at
   std::vector<std::uint8_t> glanced_;    ///< per unknown, while partial_
   bool partial_ = false;     ///< events keep only the displacements current that a search looks at
+  bool dozing_ = false;      ///< of carried particles even fewer are current
+  bool spread_ = true;       ///< but now none is missing
   bool stale_ = false;       ///< the other displacements are those of an earlier event
   double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
   double driven_spring_work_ = 0.0;   ///< work of elastic supports at driven displacements
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
   /// Where something carries particles: slots that unknowns move, of all particles and, while
   /// partial_, of those that the search looks at.
-  std::vector<std::size_t> moving_slots_, current_slots_;
+  std::vector<std::size_t> moving_slots_, current_slots_, awake_slots_;
   std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;
   double largest_motion_ = 0.0;   ///< by displacement_, see noise()

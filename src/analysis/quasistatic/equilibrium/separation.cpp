@@ -160,6 +160,7 @@ bool Equilibrium::rebuild_without(Index element, double kept) {
 Balance Equilibrium::polish() {
   look_closer_ = true;
   if (stale_) refresh();
+  spread();
   std::vector<double> load = unknowns_->restrict(loads_->forces);
   for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
   FineMotion motion{{solution_.begin(), solution_.end()},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,6 +12,8 @@
 #include "network/network.hpp"
 
 namespace perilink {
+
+struct CarriedParticles;
 
 /// Finds the element that is nearest to the limit of its law.
 class BreakSearch {
@@ -36,6 +39,12 @@ class BreakSearch {
 
   /// The same of an element with teeth in compression of its own.
   virtual void set_limits(Index element, double tension, double compression) = 0;
+
+  /// From now on elements that are carried whole are looked at where their motion says so alone
+  /// (DozingBlocks); find() then makes the displacements there current.
+  /// \param carried  kept by reference
+  /// \return per particle, whether its displacements must be current at each find()
+  virtual std::vector<std::uint8_t> doze(const CarriedParticles& carried) = 0;
 };
 
 /// The ratio of an element's measure to its limit. One that is not a number compares as nothing and

@@ -35,8 +35,8 @@ class EventEngine {
   /// width), prescribed ones and all: equilibrium of the network as it stands.
   virtual std::span<const double> displacement() = 0;
 
-  /// Those that are right wherever an element can fail, and cost nothing.
-  virtual std::span<const double> where_elements_fail() const = 0;
+  /// Those that are right wherever an element can fail, and cost no solution.
+  virtual std::span<const double> where_elements_fail() = 0;
 
   virtual LoadWork load_work() = 0;
 
@@ -49,6 +49,11 @@ class EventEngine {
 
   /// Equilibrium::change_motion().
   virtual Freedom change_motion(const Unknowns& unknowns) = 0;
+
+  /// Elements of these that carry their particles whole cost next to nothing at events from now on,
+  /// until the unknowns change.
+  /// \param carrier  per particle, the element that carries it, or no_index
+  virtual void doze(const Carriers& carriers, const std::vector<Index>& carrier) = 0;
 
   /// From now on the elements have their next event at this fraction of its limit.
   virtual void set_alert(std::span<const Index> elements, double fraction) = 0;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/events/break_search.hpp"
+#include "analysis/quasistatic/events/dozing_blocks.hpp"
 
 namespace perilink {
 
@@ -31,6 +32,7 @@ class FrameLimitSearch final : public BreakSearch {
   std::vector<Hit> list(std::span<const double> displacement, double least) const override;
   void set_limit(Index element, double limit) override;
   void set_limits(Index element, double tension, double compression) override;
+  std::vector<std::uint8_t> doze(const CarriedParticles& carried) override;
 
  private:
   struct Bond {
@@ -45,8 +47,9 @@ class FrameLimitSearch final : public BreakSearch {
   template <int Dim>
   double section_ratio(Index k, const double* u) const;
   double ribbon_ratio(Index element, const Bond& bond, const double* u) const;
+  /// \param either_way  as if it were in tension and in compression
   template <int Dim>
-  double squared_ratio(const Bond& bond, const double* u) const;
+  double squared_ratio(const Bond& bond, const double* u, bool either_way = false) const;
   double inverse_of(Index element, double limit) const;
   template <int Dim>
   Hit find_in(const double* u, double tolerance, int threads);
@@ -57,6 +60,7 @@ class FrameLimitSearch final : public BreakSearch {
   std::vector<Index> elements_;
   std::vector<Bond> bonds_;
   std::vector<double> block_largest_;
+  DozingBlocks dozing_;
 };
 
 }  // namespace perilink

@@ -80,10 +80,13 @@ double LimitSearch::ratio_at(const Group& group, const double* u, Index place) {
 template <int Dim, Sense sense>
 LimitSearch::Hit LimitSearch::find_in(Group& group, const double* u, double tolerance,
                                       int threads) {
+  const auto largest_in = [&](Index begin, Index end) {
+    return largest_between<Dim, sense>(group, u, begin, end);
+  };
   return find_first_largest(
-      group.elements, group.block_largest, 1.0 - tolerance, threads, fewest_parallel_bonds,
-      [&](Index begin, Index end) { return largest_between<Dim, sense>(group, u, begin, end); },
-      [&](Index place) { return ratio_at<Dim, sense>(group, u, place); });
+      group.elements, group.block_largest, group.dozing, 1.0 - tolerance, threads,
+      fewest_parallel_bonds, largest_in,
+      [&](Index place) { return ratio_at<Dim, sense>(group, u, place); }, largest_in);
 }
 
 template <int Dim>
@@ -132,7 +135,24 @@ void LimitSearch::set_limit(Index element, double limit) {
   if (!network_.has_limit(element)) return;
   Group& group = network_.law(element).sense() == Sense::both ? strained_ : pulled_;
   const auto found = std::lower_bound(group.elements.begin(), group.elements.end(), element);
-  set_gradient(group, static_cast<std::size_t>(found - group.elements.begin()), limit);
+  const auto place = static_cast<std::size_t>(found - group.elements.begin());
+  set_gradient(group, place, limit);
+  group.dozing.wake(place);
+}
+
+std::vector<std::uint8_t> LimitSearch::doze(const CarriedParticles& carried) {
+  std::vector<std::uint8_t> awake(static_cast<std::size_t>(network_.particles.size()), 0);
+  for (Group* group : {&pulled_, &strained_}) {
+    const auto slope_of = [&](std::size_t place, double across, double) -> Slope {
+      double square = 0.0;
+      for (int a = 0; a < dim_; ++a) square += std::pow(group->gradient[a][place], 2);
+      return {across * std::sqrt(square), 0.0};
+    };
+    group->dozing =
+        DozingBlocks(network_, carried, group->elements, search_block_size, false, slope_of);
+    group->dozing.mark_awake(network_, awake);
+  }
+  return awake;
 }
 
 void LimitSearch::set_limits(Index /*element*/, double /*tension*/, double /*compression*/) {

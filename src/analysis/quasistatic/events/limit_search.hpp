@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/events/break_search.hpp"
+#include "analysis/quasistatic/events/dozing_blocks.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
@@ -21,6 +22,7 @@ class LimitSearch final : public BreakSearch {
   std::vector<Hit> list(std::span<const double> displacement, double least) const override;
   void set_limit(Index element, double limit) override;
   void set_limits(Index element, double tension, double compression) override;
+  std::vector<std::uint8_t> doze(const CarriedParticles& carried) override;
 
  private:
   /// Elements whose events come in tension, or those that have them in compression as well.
@@ -29,6 +31,7 @@ class LimitSearch final : public BreakSearch {
     std::vector<Index> first, second;  ///< particle times dim
     std::vector<double> gradient[3];   ///< g, one array per component
     std::vector<double> block_largest;
+    DozingBlocks dozing;
   };
   void add(Index element, Group& group);
   void set_gradient(Group& group, std::size_t place, double limit);

@@ -21,7 +21,7 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
 
 Event SingleEventEngine::next_event() {
   const auto find = [&] {
-    const std::span<const double> displacement = equilibrium_.where_elements_fail();
+    const std::span<const double> displacement = equilibrium_.where_search_looks();
     BreakSearch::Hit hit;
     threads_.run([&](int threads) { hit = search_->find(displacement, tie_tolerance, threads); });
     return hit;
@@ -55,7 +55,7 @@ bool SingleEventEngine::is_within(double noise, const BreakSearch::Hit& hit) con
 
 auto SingleEventEngine::extension_of(Index element) const -> Extension {
   constexpr double digits = 1e-12;
-  const std::span<const double> u = equilibrium_.where_elements_fail();
+  const std::span<const double> u = equilibrium_.where_search_looks();
   const std::span<const double> n = network_.bonds.direction(element);
   const std::size_t i = static_cast<std::size_t>(network_.bonds.first[element]) * network_.width();
   const std::size_t j = static_cast<std::size_t>(network_.bonds.second[element]) * network_.width();
@@ -69,8 +69,9 @@ auto SingleEventEngine::extension_of(Index element) const -> Extension {
 
 /// Nothing in tension is an answer where other elements are strained by far more than the one that
 /// round-off names. On springs that are too weak the whole body moves, and strains are lost in it.
-void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) const {
+void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) {
   constexpr double far_more = 1e3;
+  equilibrium_.where_elements_fail();  // all of them
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (secants()[e] == 0.0) continue;
     const Extension change = extension_of(e);
@@ -104,7 +105,7 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
   prepare(event);
   const BondLaw& law = law_of(event.element);
   const bool compressed =
-      law.crushes() && is_shorter(network_, event.element, equilibrium_.where_elements_fail());
+      law.crushes() && is_shorter(network_, event.element, equilibrium_.where_search_looks());
   const int next = BondLaw::after(teeth_[event.element], compressed);
   const EventOutcome outcome = equilibrium_.weaken(event.element, law.tooth(next).secant);
   if (outcome.mechanism) return outcome;
@@ -144,6 +145,13 @@ const BondLaw& SingleEventEngine::law_of(Index element) const {
 double SingleEventEngine::stretch_of(Index element) const {
   const auto own = own_laws_.find(element);
   return own == own_laws_.end() ? network_.critical_stretch[element] : own->second.stretch;
+}
+
+void SingleEventEngine::doze(const Carriers& carriers, const std::vector<Index>& carrier) {
+  if (!equilibrium_.may_doze()) return;
+  carried_.emplace(carriers, carrier, equilibrium_.unknowns(), equilibrium_.solution(),
+                   equilibrium_.searched_displacement());
+  equilibrium_.doze(search_->doze(*carried_));
 }
 
 void SingleEventEngine::set_alert(std::span<const Index> elements, double fraction) {

@@ -7,6 +7,7 @@
 
 #include "analysis/quasistatic/events/break_search.hpp"
 #include "analysis/quasistatic/events/crushing_bonds.hpp"
+#include "analysis/quasistatic/events/dozing_blocks.hpp"
 #include "analysis/quasistatic/events/event_engine.hpp"
 #include "base/thread_choice.hpp"
 
@@ -20,7 +21,7 @@ class SingleEventEngine : public EventEngine {
   Event next_event() override;
   EventOutcome apply(const Event& event) override;
   std::span<const double> displacement() override { return equilibrium_.displacement(); }
-  std::span<const double> where_elements_fail() const override {
+  std::span<const double> where_elements_fail() override {
     return equilibrium_.where_elements_fail();
   }
   LoadWork load_work() override { return equilibrium_.work(); }
@@ -30,6 +31,7 @@ class SingleEventEngine : public EventEngine {
   Freedom change_motion(const Unknowns& unknowns) override {
     return equilibrium_.change_motion(unknowns);
   }
+  void doze(const Carriers& carriers, const std::vector<Index>& carrier) override;
   void set_alert(std::span<const Index> elements, double fraction) override;
   std::vector<Index> near_events(const Event& event, double fraction) override;
   int factorizations() const override { return equilibrium_.factor().factorizations(); }
@@ -59,16 +61,17 @@ class SingleEventEngine : public EventEngine {
   };
   Extension extension_of(Index element) const;
   bool is_within(double noise, const BreakSearch::Hit& hit) const;
-  void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) const;
+  void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit);
   std::vector<Index> elements_above(double ratio, std::span<const double> motion);
 
   const Network& network_;
   ThreadChoice threads_;
   Equilibrium equilibrium_;
   std::unique_ptr<BreakSearch> search_;
-  bool closes_;                            ///< Network::has_closing()
-  std::optional<CrushingBonds> crushing_;  ///< where there are some
-  std::vector<int> teeth_;                 ///< present tooth of each element
+  std::optional<CarriedParticles> carried_;  ///< what the search leaves out while it dozes
+  bool closes_;                              ///< Network::has_closing()
+  std::optional<CrushingBonds> crushing_;    ///< where there are some
+  std::vector<int> teeth_;                   ///< present tooth of each element
   /// Where bars have flowed.
   struct OwnLaw {
     BondLaw law;

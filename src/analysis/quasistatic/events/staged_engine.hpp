@@ -52,6 +52,8 @@ class StagedEngine final : public SingleEventEngine {
   Balance glance_at_equilibrium() override { return check_equilibrium(); }
   Freedom change_motion(const Unknowns& unknowns) override;
   void set_alert(std::span<const Index> elements, double fraction) override;
+  /// Constant loads change all displacements.
+  void doze(const Carriers&, const std::vector<Index>&) override {}
   std::vector<Index> near_events(const Event& event, double fraction) override;
 
  private:

@@ -59,7 +59,8 @@ TEST(BeamBonds, ShareEverySection) {
       const double height = s < 3 ? 2.0 : 1.0, E = s < 3 ? 4.0 : 8.0, area = height * width;
       EXPECT_NEAR(tension[s], E * area, 1e-13) << "horizon " << horizon << ", section " << s;
       EXPECT_NEAR(bending[s], E * area * height * height / 12.0, 1e-13);
-      if (horizon <= 3.0) EXPECT_NEAR(energy[s], fracture_energy * area, 1e-15);
+      if (horizon > 3.0) continue;  // no section of the first span is far from its ends
+      EXPECT_NEAR(energy[s], fracture_energy * area, 1e-15);
     }
   }
 }
@@ -88,7 +89,8 @@ TEST(BeamBonds, OfMaterialsWithAStrengthSoften) {
     // The particle between the spans is of the first one, its bonds are each of their own.
     const bool softens = beam.bonds.first[e] >= 3;
     EXPECT_EQ(!beam.law(e).is_brittle(), softens) << e;
-    if (softens) EXPECT_NEAR(beam.critical_stretch[e], 0.1 / 8.0, 1e-12);  // beta is one
+    if (!softens) continue;
+    EXPECT_NEAR(beam.critical_stretch[e], 0.1 / 8.0, 1e-12);  // beta is one
   }
   EXPECT_NEAR(beam.strengths[1].tensile_strength, 0.1, 1e-12);
 }
