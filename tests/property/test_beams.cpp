@@ -46,8 +46,8 @@ std::vector<double> deflections(const CaseFile& input) {
 constexpr double EI = 2.0 * 3.0 * 0.125 / 12.0;
 
 /// P L^3 / 3 E I, and of the stepped one P ((L^3 - l^3) / 3 E I + l^3 / 24 E I), l = 4 eight times
-/// as stiff. Whatever the horizon: every bond is a beam, and bonds share the section. Tolerance: the
-/// round-off of a matrix with a condition of 1e6.
+/// as stiff. Whatever the horizon: every bond is a beam, and bonds share the section. Tolerance:
+/// the round-off of a matrix with a condition of 1e6.
 TEST(Beams, LoadedAtTheirEndsAreExactAtTheirParticles) {
   const std::string load = "[[point_loads]]\nat = [12, 0]\nforce = [0, -0.001]\n";
   const double L = std::pow(12.0, 3), l = std::pow(4.0, 3);

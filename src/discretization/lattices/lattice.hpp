@@ -76,7 +76,7 @@ struct Group {
 struct BeamSpan {
   Index first = 0, last = 0;  ///< its particles, ends included
   Index material = 0;
-  double height = 0.0;  ///< of the section, in the plane [length]
+  double height = 0.0;  ///< size of the section in the plane [length]
 };
 
 /// Particles and the lattice or the mesh that they belong to.

@@ -102,8 +102,9 @@ void check_table(const SchemaDocument& document, const TableSchema& schema,
 
 bool NotFor::holds(Kinds kind) const {
   using namespace kinds;
-  for (const Kinds group : {bond_based | micropolar | lattice | particles | elements,
-                            plane | space | shell | beam, damage | elastic | explicit_ | relaxation}) {
+  for (const Kinds group :
+       {bond_based | micropolar | lattice | particles | elements, plane | space | shell | beam,
+        damage | elastic | explicit_ | relaxation}) {
     if ((kinds & group) != 0 && (kinds & group & kind) == 0) return false;
   }
   return true;

@@ -47,8 +47,8 @@ class SpanBonds {
  private:
   double step_;
   Index reach_;                  ///< longest bond over the shortest
-  double share_;                 ///< of a bond far from the ends
-  std::vector<double> missing_;  ///< of the sections between neighbours near the ends
+  double share_;                 ///< that a bond has far from the ends
+  std::vector<double> missing_;  ///< share that nothing has yet, between neighbours
   std::vector<double> length_;   ///< mean of the bonds across these, over the step
 };
 

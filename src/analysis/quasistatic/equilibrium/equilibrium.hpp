@@ -339,7 +339,7 @@ class Equilibrium {
   std::vector<Index> glanced_elements_;  ///< all elements of the unknowns glanced at
   std::vector<std::uint8_t> glanced_;    ///< per unknown, while partial_
   bool partial_ = false;     ///< events keep only the displacements current that a search looks at
-  bool dozing_ = false;      ///< of carried particles even fewer are current
+  bool dozing_ = false;      ///< even fewer, where elements carry particles
   bool spread_ = true;       ///< but now none is missing
   bool stale_ = false;       ///< the other displacements are those of an earlier event
   double force_work_ = 0.0;  ///< f'u, followed through the events while partial_

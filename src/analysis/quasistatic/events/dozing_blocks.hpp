@@ -17,7 +17,7 @@ struct CarriedParticles {
   const Carriers& carriers;
   std::vector<Index> carrier;  ///< per particle, its element; no_index: it moves by itself
   const Unknowns& unknowns;
-  const std::vector<double>& solution;  ///< of the unknowns, as it is at each search
+  const std::vector<double>& solution;  ///< q, as it is at each search
   std::vector<double>& displacement;  ///< by it, shape (particles, width); current where asked for
 };
 
@@ -42,7 +42,7 @@ class DozingBlocks {
   /// \param elements    those of the search, in its order
   /// \param block_size  so many are a block
   /// \param squares     bounds and what looks find are squares of ratios
-  /// \param slope_of    of the bond at a place of the search, from the sum over the nodes of
+  /// \param slope_of    slope for the bond at a place of the search, from the sum over the nodes of
   ///                    |N(second end) - N(first end)| and the largest sum of |N| at an end
   DozingBlocks(
       const Network& network, const CarriedParticles& carried, std::span<const Index> elements,
@@ -81,10 +81,10 @@ class DozingBlocks {
   std::vector<Index> elements_;
   std::vector<Index> group_of_;  ///< per block; no_index: always awake
   std::vector<Group> groups_;
-  std::vector<Index> unknowns_;    ///< of the nodes of all groups, shape (nodes, width)
+  std::vector<Index> unknowns_;    ///< those that move the nodes, shape (nodes, width)
   std::vector<double> arms_;       ///< from their middle [length], shape (nodes, dim)
   std::vector<double> reference_;  ///< q_0, shape (nodes, width)
-  std::vector<Index> particles_;   ///< of all groups
+  std::vector<Index> particles_;   ///< group after group
   std::vector<double> moved_;      ///< work space, shape (nodes, width)
 };
 

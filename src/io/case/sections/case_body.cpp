@@ -165,8 +165,8 @@ std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySect
   return given;
 }
 
-/// Bonds of a shell or a beam are as thick as it is: where one face of a crack is pressed, the other
-/// gapes.
+/// Bonds of a shell or a beam are as thick as it is: where one face of a crack is pressed, the
+/// other gapes.
 void settle_thick_softening(const CaseTable& table, SofteningMaterial& softening) {
   if (softening.shape.kind == Softening::concrete) {
     table.refuse("softening", "is \"concrete\", a law that bonds of shells and beams do not have",
