@@ -42,7 +42,8 @@ struct Carriers {
 using Divisions = std::array<std::vector<double>, 3>;
 
 /// Lines, rectangles or boxes between planes along the axes, one wherever particles lie inside. An
-/// element with a point of `faces` inside is left out: faces of the body may lie on its border alone.
+/// element with a point of `faces` inside is left out: faces of the body may lie on its border
+/// alone.
 /// \param faces      points on faces that no element may have inside [length], shape (points, dim)
 /// \param order      degree of the polynomials along each axis: 1 or 2
 /// \param tolerance  within which a particle lies on the border of an element [length]

@@ -1,5 +1,7 @@
 #include "io/case/case_keys.hpp"
 
+#include <algorithm>
+
 namespace perilink {
 namespace {
 
@@ -282,44 +284,23 @@ const std::vector<KeySchema> analysis_keys = {{"type", types},
                                               {"tolerance", set_aside(damage | explicit_)},
                                               {"iterations", of_relaxation}};
 
-const std::vector<KeySchema> rebar_keys = {
-    "from",
-    "to",
-    "points",
-    "inside",
-    "group",
-    "along",
-    "cover",
-    "face",
-    "number",
-    "spacing",
-    "copies",
-    "steps",
-    "across_gaps",
-    "youngs_modulus",
-    "area",
-    "yield_strength",
-    "yields",
-    "stress_strain",
-    "hardening_modulus",
-    "rupture_strain",
-    "bond",
-    "bond_stiffness",
-    "bond_strength",
-    "bond_curve",
-    "concrete_strength",
-    "rib_spacing",
-    "bond_failure",
-    "bond_conditions",
-    "megapascal",
-    "millimetre",
-    "ties_break",
-    "perimeter",
-    "hooks",
-    "bends",
-    "prestrain",
-    "stage",
-};
+/// Keys without exceptions, separated by spaces.
+std::vector<KeySchema> plain(std::string_view words) {
+  std::vector<KeySchema> keys;
+  while (!words.empty()) {
+    const std::size_t length = std::min(words.find(' '), words.size());
+    keys.emplace_back("").name = words.substr(0, length);
+    words.remove_prefix(std::min(length + 1, words.size()));
+  }
+  return keys;
+}
+
+const std::vector<KeySchema> rebar_keys = plain(
+    "from to points inside group along cover face number spacing copies steps "
+    "across_gaps youngs_modulus area yield_strength yields stress_strain "
+    "hardening_modulus rupture_strain bond bond_stiffness bond_strength bond_curve "
+    "concrete_strength rib_spacing bond_failure bond_conditions megapascal millimetre "
+    "ties_break perimeter hooks bends prestrain stage");
 
 const std::vector<KeySchema> crack_keys = {
     {"points",

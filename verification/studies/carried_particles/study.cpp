@@ -72,8 +72,8 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
                                     {Scene::panel, "panel", 250.0 / 316.0, of_panel},
                                     {Scene::block, "block", 100.0 / 130.0, of_block},
                                     {Scene::block, "block", 100.0 / 316.0, of_block},
-                                    {Scene::prism, "prism", 5.0, {{0}, {4}, {5}, graded(5)}},
-                                    {Scene::prism, "prism", 25.0 / 6.0, {{0}, {4}, {6}, graded(6)}},
+                                    {Scene::prism, "prism", 5.0, {{0}, {4}, {5}, graded(3)}},
+                                    {Scene::prism, "prism", 25.0 / 6.0, {{0}, {4}, {6}, graded(3)}},
                                 });
   }
   std::string table =
