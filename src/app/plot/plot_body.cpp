@@ -46,7 +46,7 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
       }
       body.elements.offsets.push_back(static_cast<Index>(body.elements.values.size()));
     }
-    if (grid.types[cell] != VtuCell::line) continue;
+    if (outlined || grid.types[cell] != VtuCell::line) continue;
     if (end < 2) continue;
     const Ends ends{grid.connectivity[end - 2], grid.connectivity[end - 1]};
     const bool bar = element[cell] == static_cast<double>(FieldElement::rebar_segment);

@@ -22,6 +22,22 @@ TEST(PlotBody, ReadsAFieldFile) {
   EXPECT_EQ(body.spacing, 2.0);
 }
 
+/// Those that carry a beam, with two corners, are no cracks.
+TEST(PlotBody, LinesOfElementsAreElements) {
+  VtuGrid grid = make_cracked_field({}, true);
+  grid.types.push_back(VtuCell::line);
+  grid.connectivity.insert(grid.connectivity.end(), {0, 3});
+  grid.offsets.push_back(grid.offsets.back() + 2);
+  for (VtuArray& field : grid.cell_data) field.values.push_back(0.0);
+  for (VtuArray& field : grid.cell_data) {
+    if (field.name == "element") field.values.back() = 4.0;
+  }
+  const PlotBody body = read_body(grid, "beam.vtu");
+  EXPECT_EQ(body.broken_bonds.size(), 4u);
+  ASSERT_EQ(body.elements.rows(), 1);
+  EXPECT_EQ(body.elements.row(0)[1], 3);
+}
+
 TEST(PlotBody, NamesTheArrayThatIsMissing) {
   VtuGrid grid = make_cracked_field({}, false);
   grid.point_data.erase(grid.point_data.begin() + 1);
