@@ -64,7 +64,7 @@ TEST_F(FractureMechanics, TurnedLatticesHaveTheirParticlesInTheRectangle) {
   Make make{{Arrangement::Kind::turned, true, 15.0}};
   const Specimen specimen = crack_tip_field(make, 0.0);
   const Crack crack = run_specimen(specimen);
-  const double side = 2.0 * field_radius * make.horizon();
+  const double side = 2.0 * make.radius * make.horizon();
   ASSERT_FALSE(crack.broken.empty());
   for (const Place& place : crack.broken) {
     EXPECT_GT(place[0], 0.0);
