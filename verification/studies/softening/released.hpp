@@ -7,12 +7,12 @@ namespace perilink::verification {
 /// Which bonds took the energy that a run dissipated [energy]. What is missing from the dissipated
 /// energy snapped: a bond that falls to its next tooth is stretched farther at once.
 struct Released {
-  double broken = 0.0;    ///< bonds that broke
-  double softened = 0.0;  ///< bonds that softened and hold
-  double cut = 0.0;       ///< what all bonds across a plane take, the least of planes near the middle
+  double crack = 0.0;   ///< bonds that have lost nine tenths of their stiffness, or broke
+  double beside = 0.0;  ///< all other bonds
+  double cut = 0.0;     ///< what bonds across a plane can take, the least of planes near the middle
 };
 
-/// \param middle  where along x the planes lie, one spacing to either side [length]
+/// \param middle  where along x the body has its middle, near which all bonds may soften [length]
 Released released_of(const StepState& state, double middle, double spacing);
 
 }  // namespace perilink::verification

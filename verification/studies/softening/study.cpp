@@ -78,19 +78,20 @@ void run_strips() {
 /// crack and what with the volume. All over G_F times the section.
 void run_lengths() {
   Table table(
-      "model,pattern,softening,spacing,horizon_ratio,soft_length,energy,broken,softened,cut,"
-      "strength,events,seconds");
+      "model,pattern,softening,spacing,horizon_ratio,soft_length,energy,crack,beside,cut,"
+      "strength,ending,seconds");
   const auto add = [&](Make make) {
     const double unit = fracture_energy * section_of(make), part = soft_length_of(make);
     for (const double more : {0.0, 0.5 * part, part}) {
+      if (section_of(make) > 100.0 && more == part) continue;  // bars of two lengths
       make.longer = make.spacing * std::round(more / make.spacing);
       const Timer timer;
       const Outcome outcome = run_text(strip(make), &make);
       const Released& released = outcome.released;
       table.add(fmt::format("{},{:.4g},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.1f}\n", made(make),
-                            soft_length_of(make), outcome.dissipated / unit, released.broken / unit,
-                            released.softened / unit, released.cut / unit,
-                            outcome.peak / (tensile_strength * section_of(make)), outcome.events,
+                            soft_length_of(make), outcome.dissipated / unit, released.crack / unit,
+                            released.beside / unit, released.cut / unit,
+                            outcome.peak / (tensile_strength * section_of(make)), outcome.ending,
                             timer.seconds()));
     }
     write_result(PERILINK_STUDY_DIR, table.text(), "lengths.csv");
@@ -203,16 +204,17 @@ void run_hinge() {
 void run_skin() {
   Table table(
       "model,knee_stress_ratio,knee_opening_ratio,horizon,strength_factor,strain_at_strength,"
-      "hinge");
+      "softened_before,hinge");
   const double length = 30000.0 * fracture_energy / (tensile_strength * tensile_strength);
-  constexpr double knees[][2] = {{1.0 / 3.0, 2.0 / 9.0}, {0.25, 0.15}, {0.15, 0.10}};
+  constexpr double knees[][2] = {{1.0 / 3.0, 2.0 / 9.0}, {0.25, 0.15}, {0.15, 0.10}, {0.5, 0.5}};
   for (const double poissons_ratio : {1.0 / 3.0, 0.2}) {
     for (const auto& [stress, opening] : knees) {
       for (const double horizon : {15.0, 10.0, 7.5, 5.0}) {
         const Skin skin = skin_of({poissons_ratio, stress, opening, horizon / length});
-        table.add(fmt::format("{},{:.3g},{:.3g},{},{:.4f},{:.4f},{:.4f}\n",
+        table.add(fmt::format("{},{:.3g},{:.3g},{},{:.4f},{:.4f},{:.4f},{:.4f}\n",
                               poissons_ratio > 0.3 ? "bond_based" : "micropolar", stress, opening,
                               horizon, skin.strength_factor, skin.curve.back().strain,
+                              softened_before(skin),
                               hinge_strength(stress, opening, 100.0 / length, skin.curve)));
       }
     }
