@@ -1,6 +1,6 @@
 // Cracks against linear elastic fracture mechanics, see README.md:
 //
-//   fracture_mechanics strips|beams|directions|kinks|more
+//   fracture_mechanics strips|beams|directions|kinks|more|rows
 //   fracture_mechanics directions|kinks|more 4      another horizon over spacing than 3
 //
 // Each part writes its own table, a row as soon as a run has ended, and directions and kinks a
@@ -24,6 +24,7 @@
 #include "measures.hpp"
 #include "problems/handbook.hpp"
 #include "problems/program.hpp"
+#include "rows.hpp"
 
 namespace perilink::verification {
 namespace {
@@ -175,6 +176,13 @@ void run_directions(double ratio) {
   }
 }
 
+/// With more than four spacings the largest misses with four.
+bool is_worth(const Arrangement& arrangement, double degrees, double ratio) {
+  if (ratio <= 4.0) return true;
+  if (arrangement.kind == Kind::cloud) return false;
+  return degrees == (arrangement.hexagonal ? 45.0 : 90.0);
+}
+
 void run_kinks(double ratio) {
   const std::string file = file_of("kinks", ratio);
   Table table(file + ".csv",
@@ -184,6 +192,7 @@ void run_kinks(double ratio) {
     Make make_all{arrangement};
     make_all.horizon_ratio = ratio;
     for (const double degrees : {15.0, 30.0, 45.0, 60.0, 90.0}) {
+      if (!is_worth(arrangement, degrees, ratio)) continue;
       const std::vector<Bonds>& bonds = ratio == usual_ratio ? all_bonds : with_moments;
       for_bonds(bonds, table, make_all, [&](const Make& make) {
         const double mixity = degrees * std::numbers::pi / 180.0;
@@ -199,27 +208,86 @@ void run_kinks(double ratio) {
   draw_kinks(kinks).save(fmt::format("{}/{}.svg", PERILINK_STUDY_DIR, file));
 }
 
-/// Mode I over longer cracks in turned lattices, and on more clouds.
-void run_more(double ratio) {
-  Table table(file_of("more_directions", ratio) + ".csv",
-              "lattice,model,law,sample,radius,to_3_horizons,to_4.5,to_6,to_8,length,seconds");
-  std::vector<Arrangement> all = {{Kind::turned, false, 15.0}, {Kind::turned, true, 15.0}};
-  for (const int algorithm : {5, 1, 6}) {
-    for (const int sample : {1, 2}) {
-      all.push_back({Kind::cloud, false, 0.0, algorithm, sample});
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// How far from the criterion a lattice turned by any angle may lead a crack [degrees].
+struct Worst {
+  double mode_one = 0.0, turned = 0.0;  ///< under mode I, and how that lattice is turned
+  double kink = 0.0, mixity = 0.0;      ///< under mixed mode, and under which
+};
+
+Worst worst_of(const Rows& rows) {
+  Worst worst;
+  for (int turned = 0; turned < 90; ++turned) {
+    for (const double mixity : {0.0, 15.0, 30.0, 45.0, 60.0, 90.0}) {
+      const double angle = rows.direction(mixity * degree, turned * degree);
+      const double miss = std::abs(angle - hoop_stress_kink(mixity * degree)) / degree;
+      if (mixity == 0.0 && miss > worst.mode_one) {
+        worst.mode_one = miss;
+        worst.turned = turned;
+      } else if (mixity > 0.0 && miss > worst.kink) {
+        worst.kink = miss;
+        worst.mixity = mixity;
+      }
     }
   }
-  for (const Arrangement& arrangement : all) {
-    const bool is_cloud = arrangement.kind == Kind::cloud;
-    if (!is_cloud && ratio != usual_ratio) continue;
+  return worst;
+}
+
+/// What the energies of straight cracks tell.
+void run_rows() {
+  Table table(
+      "rows.csv",
+      "lattice,horizon_ratio,least_energy,most_energy,mode_I,turned,turned_15,kinks,mixity");
+  for (const bool hexagonal : {false, true}) {
+    for (const double ratio : {3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0}) {
+      const Rows rows(hexagonal, ratio);
+      double least = 2.0, most = 0.0;
+      for (int angle = 0; angle < 90; ++angle) {
+        least = std::min(least, rows.energy(angle * degree));
+        most = std::max(most, rows.energy(angle * degree));
+      }
+      const Worst worst = worst_of(rows);
+      table.add(fmt::format("{},{},{:.4f},{:.4f},{:.1f},{},{:.1f},{:.1f},{}",
+                            hexagonal ? "hexagonal" : "rectangular", ratio, least, most,
+                            worst.mode_one, worst.turned,
+                            rows.direction(0.0, 15.0 * degree) / degree, worst.kink, worst.mixity));
+    }
+  }
+}
+
+/// Mode I on lattices turned by the worst angle, over longer cracks in those turned by 15 degrees,
+/// and on more clouds, these two with the usual ratio only.
+void run_more(double ratio) {
+  Table table(file_of("more_directions", ratio) + ".csv",
+              "lattice,model,law,sample,radius,to_3_horizons,to_4.5,to_6,length,seconds");
+  struct Run {
+    Arrangement arrangement;
+    double radius;
+  };
+  std::vector<Run> all;
+  for (const bool hexagonal : {false, true}) {
+    const double turned = worst_of(Rows(hexagonal, ratio)).turned;
+    all.push_back({{Kind::turned, hexagonal, turned}, 8.0});
+  }
+  if (ratio == usual_ratio) {
+    for (const int algorithm : {5, 1, 6}) {
+      for (const int sample : {1, 2})
+        all.push_back({{Kind::cloud, false, 0, algorithm, sample}, 8});
+    }
+    for (const bool hexagonal : {false, true}) {
+      all.push_back({{Kind::turned, hexagonal, 15.0}, 10.0});
+    }
+  }
+  for (const auto& [arrangement, radius] : all) {
     Make make_all{arrangement};
     make_all.horizon_ratio = ratio;
-    if (!is_cloud) make_all.radius = 12.0;
+    make_all.radius = radius;
     for_bonds(that_keep_to_paths, table, make_all, [&](const Make& make) {
       const Specimen specimen = crack_tip_field(make, 0.0);
       const Crack crack = run_specimen(specimen);
       std::string row = fmt::format("{},{}", make.arrangement.sample, make.radius);
-      for (const double horizons : {3.0, 4.5, 6.0, 8.0}) {
+      for (const double horizons : {3.0, 4.5, 6.0}) {
         row += fmt::format(",{:.2f}", direction_of(crack, specimen.tip, horizons).angle);
       }
       double end = specimen.tip[0];
@@ -240,6 +308,7 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
       {"beams", run_beams},
       {"directions", [&] { run_directions(ratio); }},
       {"kinks", [&] { run_kinks(ratio); }},
+      {"rows", run_rows},
       {"more", [&] { run_more(ratio); }}};
   for (const auto& [name, run] : parts) {
     if (name != part) continue;
@@ -247,5 +316,5 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
     std::filesystem::remove_all(temporary_folder());
     return true;
   }
-  throw std::invalid_argument("name strips, beams, directions, kinks or more");
+  throw std::invalid_argument("name strips, beams, directions, kinks, more or rows");
 }

@@ -40,14 +40,13 @@ double across(const Network& network, const std::vector<double>& energy, double 
 
 Released released_of(const StepState& state, double middle, double spacing) {
   const Network& network = state.network;
-  Released released;
+  Released released{0.0, 0.0, std::numeric_limits<double>::infinity()};
   std::vector<double> in_all;
   for (Index b = 0; b < network.bonds.size(); ++b) {
     (state.secants[b] < nearly_broken ? released.crack : released.beside) +=
         taken(network, b, state.secants[b]);
     in_all.push_back(taken(network, b, 0.0));
   }
-  released.cut = std::numeric_limits<double>::infinity();
   for (int k = -8; k < 8; ++k) {  // not through particles
     const double x = middle + spacing * (k + 0.5) / 8.0;
     released.cut = std::min(released.cut, across(network, in_all, x));

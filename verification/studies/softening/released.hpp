@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "analysis/quasistatic/observer.hpp"
 
 namespace perilink::verification {
@@ -7,9 +9,11 @@ namespace perilink::verification {
 /// Which bonds took the energy that a run dissipated [energy]. What is missing from the dissipated
 /// energy snapped: a bond that falls to its next tooth is stretched farther at once.
 struct Released {
-  double crack = 0.0;   ///< bonds that have lost nine tenths of their stiffness, or broke
-  double beside = 0.0;  ///< all other bonds
-  double cut = 0.0;     ///< what bonds across a plane can take, the least of planes near the middle
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double crack = unknown;   ///< bonds that have lost nine tenths of their stiffness, or broke
+  double beside = unknown;  ///< all other bonds
+  double cut =
+      unknown;  ///< what bonds across a plane can take, the least of planes near the middle
 };
 
 /// \param middle  where along x the body has its middle, near which all bonds may soften [length]

@@ -49,7 +49,7 @@ struct Outcome {
   double energy_error = 0.0;
   int events = 0;
   std::string ending;
-  Released released;  ///< of a strip
+  Released released;  ///< of a strip whose run did not fail; else not a number
 };
 /// \param make  of a strip whose bonds tell where they took the energy
 Outcome run_text(const std::string& text, const Make* make = nullptr);
