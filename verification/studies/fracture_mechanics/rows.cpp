@@ -7,7 +7,6 @@
 namespace perilink::verification {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr int steps_per_degree = 10;
 
 /// Hoop stress at an angle about the tip, without its radius.

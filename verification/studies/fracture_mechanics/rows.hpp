@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 /// \file
@@ -8,6 +9,8 @@
 /// release is that of the hoop stress, so that equal energies in all directions give its kinks.
 
 namespace perilink::verification {
+
+inline constexpr double degree = std::numbers::pi / 180.0;  ///< [radians]
 
 class Rows {
  public:

@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -195,20 +194,17 @@ void run_kinks(double ratio) {
       if (!is_worth(arrangement, degrees, ratio)) continue;
       const std::vector<Bonds>& bonds = ratio == usual_ratio ? all_bonds : with_moments;
       for_bonds(bonds, table, make_all, [&](const Make& make) {
-        const double mixity = degrees * std::numbers::pi / 180.0;
+        const double mixity = degrees * degree;
         const Specimen specimen = crack_tip_field(make, mixity);
         const Direction direction = direction_of(run_specimen(specimen), specimen.tip);
         kinks.push_back({make, degrees, direction.angle});
-        return fmt::format("{},{:.2f},{:.2f},{:.3f}", degrees,
-                           hoop_stress_kink(mixity) * 180.0 / std::numbers::pi, direction.angle,
-                           direction.spread);
+        return fmt::format("{},{:.2f},{:.2f},{:.3f}", degrees, hoop_stress_kink(mixity) / degree,
+                           direction.angle, direction.spread);
       });
     }
   }
   draw_kinks(kinks).save(fmt::format("{}/{}.svg", PERILINK_STUDY_DIR, file));
 }
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// How far from the criterion a lattice turned by any angle may lead a crack [degrees].
 struct Worst {
