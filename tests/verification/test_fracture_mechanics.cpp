@@ -5,15 +5,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "measures.hpp"
 #include "problems/handbook.hpp"
+#include "rows.hpp"
 
 namespace perilink::verification {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// The meshes that a test writes.
 class FractureMechanics : public testing::Test {
@@ -51,6 +49,20 @@ TEST_F(FractureMechanics, CracksTurnTowardsTheLargestHoopStress) {
   const Specimen specimen = crack_tip_field(make, 45.0 * degree);
   const Direction direction = direction_of(run_specimen(specimen), specimen.tip);
   EXPECT_NEAR(direction.angle, hoop_stress_kink(45.0 * degree) / degree, 5.0);
+}
+
+/// Across the axes of a square lattice with three spacings, and with so many bonds that all
+/// directions are nearly alike.
+TEST_F(FractureMechanics, RowsLeadCracksAstrayLessTheLongerTheHorizon) {
+  EXPECT_NEAR(Rows(false, 3.0).energy(0.0), 0.960, 0.001);
+  const Rows many(true, 20.0);
+  EXPECT_NEAR(many.energy(0.0), 1.0, 0.002);
+  for (const double turned : {0.0, 7.0 * degree, 15.0 * degree}) {
+    EXPECT_NEAR(many.direction(0.0, turned) / degree, 0.0, 2.0);
+    EXPECT_NEAR(many.direction(45.0 * degree, turned), hoop_stress_kink(45.0 * degree),
+                2.0 * degree);
+  }
+  EXPECT_NEAR(Rows(false, 3.0).direction(0.0, 12.0 * degree) / degree, 12.0, 0.2) << "the row";
 }
 
 /// The bar of the study, 3 %.

@@ -103,8 +103,8 @@ void run_lengths() {
     }
     add({model, "rectangular", "bilinear", 2.5, 3.0});
     add({model, "rectangular", "bilinear", 3.75, 4.0});
-    add({model, "cubic", "bilinear", 5.0, 3.0});
   }
+  add({"bond_based", "cubic", "bilinear", 5.0, 3.0});
 }
 
 void run_beams() {
