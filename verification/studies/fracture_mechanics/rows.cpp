@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace perilink::verification {
 namespace {
@@ -32,6 +33,16 @@ Rows::Rows(bool hexagonal, double horizon_ratio) {
   for (int k = 0; k < 180 * steps_per_degree; ++k) {
     energies_.push_back(energy(degree * k / steps_per_degree));
   }
+}
+
+int Rows::count() const {
+  std::set<long> directions;  // in millionths of a radian
+  for (const Bond& bond : bonds_) {
+    const double angle = std::atan2(bond.y, bond.x);
+    if (angle > -1e-9 && angle < std::numbers::pi - 1e-9)
+      directions.insert(std::lround(1e6 * angle));
+  }
+  return static_cast<int>(directions.size());
 }
 
 double Rows::energy(double angle) const {

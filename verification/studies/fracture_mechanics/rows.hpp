@@ -17,6 +17,9 @@ class Rows {
   /// Bond-based bonds without a correction, a plane lattice along the axes.
   Rows(bool hexagonal, double horizon_ratio);
 
+  /// Directions in which bonds lie, to and fro counted once.
+  int count() const;
+
   /// Energy of a straight crack over the mean of all directions.
   /// \param angle  of the crack against x [radians]
   double energy(double angle) const;

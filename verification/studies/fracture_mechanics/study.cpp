@@ -203,7 +203,7 @@ void run_kinks(double ratio) {
       });
     }
   }
-  draw_kinks(kinks).save(fmt::format("{}/{}.svg", PERILINK_STUDY_DIR, file));
+  if (ratio == usual_ratio) draw_kinks(kinks).save(std::string(PERILINK_STUDY_DIR) + "/kinks.svg");
 }
 
 /// How far from the criterion a lattice turned by any angle may lead a crack [degrees].
@@ -234,7 +234,7 @@ Worst worst_of(const Rows& rows) {
 void run_rows() {
   Table table(
       "rows.csv",
-      "lattice,horizon_ratio,least_energy,most_energy,mode_I,turned,turned_15,kinks,mixity");
+      "lattice,horizon_ratio,rows,least_energy,most_energy,mode_I,turned,turned_15,kinks,mixity");
   for (const bool hexagonal : {false, true}) {
     for (const double ratio : {3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0}) {
       const Rows rows(hexagonal, ratio);
@@ -244,9 +244,9 @@ void run_rows() {
         most = std::max(most, rows.energy(angle * degree));
       }
       const Worst worst = worst_of(rows);
-      table.add(fmt::format("{},{},{:.4f},{:.4f},{:.1f},{},{:.1f},{:.1f},{}",
-                            hexagonal ? "hexagonal" : "rectangular", ratio, least, most,
-                            worst.mode_one, worst.turned,
+      table.add(fmt::format("{},{},{},{:.4f},{:.4f},{:.1f},{},{:.1f},{:.1f},{}",
+                            hexagonal ? "hexagonal" : "rectangular", ratio, rows.count(), least,
+                            most, worst.mode_one, worst.turned,
                             rows.direction(0.0, 15.0 * degree) / degree, worst.kink, worst.mixity));
     }
   }
@@ -262,18 +262,18 @@ void run_more(double ratio) {
     double radius;
   };
   std::vector<Run> all;
+  if (ratio == usual_ratio) {
+    for (const int algorithm : {5, 6, 1}) {
+      for (const int sample : {1, 2}) {
+        all.push_back({{Kind::cloud, false, 0.0, algorithm, sample}, 10.0});
+      }
+    }
+    all.push_back({{Kind::turned, false, 15.0}, 10.0});
+    all.push_back({{Kind::turned, true, 15.0}, 10.0});
+  }
   for (const bool hexagonal : {false, true}) {
     const double turned = worst_of(Rows(hexagonal, ratio)).turned;
     all.push_back({{Kind::turned, hexagonal, turned}, 8.0});
-  }
-  if (ratio == usual_ratio) {
-    for (const int algorithm : {5, 1, 6}) {
-      for (const int sample : {1, 2})
-        all.push_back({{Kind::cloud, false, 0, algorithm, sample}, 8});
-    }
-    for (const bool hexagonal : {false, true}) {
-      all.push_back({{Kind::turned, hexagonal, 15.0}, 10.0});
-    }
   }
   for (const auto& [arrangement, radius] : all) {
     Make make_all{arrangement};
