@@ -1,7 +1,7 @@
 // Cracks against linear elastic fracture mechanics, see README.md:
 //
-//   fracture_mechanics strips|beams|directions|kinks|more|rows
-//   fracture_mechanics directions|kinks|more 4      another horizon over spacing than 3
+//   fracture_mechanics strips|beams|directions|kinks|more|more_kinks|rows
+//   fracture_mechanics directions|kinks|more|more_kinks 4      another horizon over spacing than 3
 //
 // Each part writes its own table, a row as soon as a run has ended, and directions and kinks a
 // picture.
@@ -206,6 +206,25 @@ void run_kinks(double ratio) {
   if (ratio == usual_ratio) draw_kinks(kinks).save(std::string(PERILINK_STUDY_DIR) + "/kinks.svg");
 }
 
+/// Kinks on more clouds, micropolar bonds.
+void run_more_kinks(double ratio) {
+  Table table(file_of("more_kinks", ratio) + ".csv",
+              "lattice,model,law,sample,mixity,hoop_stress,angle,spread_over_horizon,seconds");
+  for (const double degrees : {90.0, 60.0, 30.0, 45.0, 15.0}) {
+    for (const int sample : {1, 2}) {
+      Make make_all{{Kind::cloud, false, 0.0, 5, sample}};
+      make_all.horizon_ratio = ratio;
+      for_bonds(with_moments, table, make_all, [&](const Make& make) {
+        const Specimen specimen = crack_tip_field(make, degrees * degree);
+        const Direction direction = direction_of(run_specimen(specimen), specimen.tip);
+        return fmt::format("{},{},{:.2f},{:.2f},{:.3f}", make.arrangement.sample, degrees,
+                           hoop_stress_kink(degrees * degree) / degree, direction.angle,
+                           direction.spread);
+      });
+    }
+  }
+}
+
 /// How far from the criterion a lattice turned by any angle may lead a crack [degrees].
 struct Worst {
   double mode_one = 0.0, turned = 0.0;  ///< under mode I, and how that lattice is turned
@@ -305,6 +324,7 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
       {"directions", [&] { run_directions(ratio); }},
       {"kinks", [&] { run_kinks(ratio); }},
       {"rows", run_rows},
+      {"more_kinks", [&] { run_more_kinks(ratio); }},
       {"more", [&] { run_more(ratio); }}};
   for (const auto& [name, run] : parts) {
     if (name != part) continue;
@@ -312,5 +332,5 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
     std::filesystem::remove_all(temporary_folder());
     return true;
   }
-  throw std::invalid_argument("name strips, beams, directions, kinks, more or rows");
+  throw std::invalid_argument("name strips, beams, directions, kinks, more, more_kinks or rows");
 }
