@@ -42,6 +42,14 @@ TEST_F(FractureMechanics, HoopStressTurnsACrackByThePublishedAngles) {
   EXPECT_NEAR(hoop_stress_kink(90.0 * degree), -70.53 * degree, 1e-4);  // Erdogan & Sih: 70.5
 }
 
+TEST_F(FractureMechanics, EnergyReleaseTurnsACrackFartherThanHoopStress) {
+  // Under mode II a kink of 77.3 degrees has no mode II (Amestoy & Leblond 1992).
+  EXPECT_NEAR(kinked_factors(90.0 * degree, -77.3 * degree)[1], 0.0, 2e-3);
+  EXPECT_NEAR(kinked_factors(0.0, 0.0)[0], 1.0, 1e-12);
+  EXPECT_NEAR(energy_release_kink(0.0), 0.0, 1e-4);
+  EXPECT_LT(energy_release_kink(90.0 * degree), hoop_stress_kink(90.0 * degree) - 5.0 * degree);
+}
+
 /// Five degrees are the bar of the study.
 TEST_F(FractureMechanics, CracksTurnTowardsTheLargestHoopStress) {
   Make make;

@@ -21,7 +21,7 @@ class Rows {
   int count() const;
 
   /// Energy of a straight crack over the mean of all directions.
-  /// \param angle  of the crack against x [radians]
+  /// \param angle  from x to the crack [radians]
   double energy(double angle) const;
 
   /// Direction of a crack that begins along x, in a lattice turned by an angle [radians].

@@ -49,9 +49,9 @@ struct Outcome {
   double energy_error = 0.0;
   int events = 0;
   std::string ending;
-  Released released;  ///< of a strip whose run did not fail; else not a number
+  Released released;  ///< strips whose run did not fail; else not a number
 };
-/// \param make  of a strip whose bonds tell where they took the energy
+/// \param make  a strip whose bonds tell where they took the energy; null: another body
 Outcome run_text(const std::string& text, const Make* make = nullptr);
 
 }  // namespace perilink::verification

@@ -74,7 +74,7 @@ void run_strips() {
   write_result(PERILINK_STUDY_DIR, table.text(), "strips.csv");
 }
 
-/// Energies of strips whose part that may soften has other lengths: what scales with the area of the
+/// Energies of strips whose part that may soften has other lengths: what goes with the area of the
 /// crack and what with the volume. All over G_F times the section.
 void run_lengths() {
   Table table(
