@@ -145,7 +145,7 @@ std::string file_of(const std::string& part, double ratio) {
 
 /// With four spacings what misses the bar with three; with more, which take long, the farthest.
 bool is_worth(const Arrangement& arrangement, double ratio) {
-  if (arrangement.kind == Kind::cloud) return ratio <= 4.0 || arrangement.algorithm == 5;
+  if (arrangement.kind == Kind::cloud) return ratio <= 4.0;
   return arrangement.degrees == 15.0 && (ratio <= 4.0 || !arrangement.hexagonal);
 }
 
@@ -174,13 +174,6 @@ void run_directions(double ratio) {
   }
 }
 
-/// With more than four spacings the largest misses with four.
-bool is_worth(const Arrangement& arrangement, double degrees, double ratio) {
-  if (ratio <= 4.0) return true;
-  if (arrangement.kind == Kind::cloud) return false;
-  return degrees == (arrangement.hexagonal ? 45.0 : 90.0);
-}
-
 void run_kinks(double ratio) {
   const std::string file = file_of("kinks", ratio);
   Table table(file + ".csv",
@@ -190,7 +183,6 @@ void run_kinks(double ratio) {
     Make make_all{arrangement};
     make_all.horizon_ratio = ratio;
     for (const double degrees : {15.0, 30.0, 45.0, 60.0, 90.0}) {
-      if (!is_worth(arrangement, degrees, ratio)) continue;
       const std::vector<Bonds>& bonds = ratio == usual_ratio ? all_bonds : with_moments;
       for_bonds(bonds, table, make_all, [&](const Make& make) {
         const double mixity = degrees * degree;
@@ -282,7 +274,9 @@ void run_more(double ratio) {
   std::vector<Run> all;
   for (const int algorithm : {5, 6, 1}) {
     for (const int sample : {1, 2}) {
-      all.push_back({{Kind::cloud, false, 0.0, algorithm, sample}, 10.0});
+      if (sample > 1 && ratio != usual_ratio) continue;
+      all.push_back(
+          {{Kind::cloud, false, 0.0, algorithm, sample}, ratio == usual_ratio ? 10.0 : 8.0});
     }
   }
   if (ratio == usual_ratio) {
