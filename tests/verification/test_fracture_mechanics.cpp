@@ -5,15 +5,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "measures.hpp"
 #include "problems/handbook.hpp"
+#include "rows.hpp"
 
 namespace perilink::verification {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// The meshes that a test writes.
 class FractureMechanics : public testing::Test {
@@ -44,6 +42,14 @@ TEST_F(FractureMechanics, HoopStressTurnsACrackByThePublishedAngles) {
   EXPECT_NEAR(hoop_stress_kink(90.0 * degree), -70.53 * degree, 1e-4);  // Erdogan & Sih: 70.5
 }
 
+TEST_F(FractureMechanics, EnergyReleaseTurnsACrackFartherThanHoopStress) {
+  // Under mode II a kink of 77.3 degrees has no mode II (Amestoy & Leblond 1992).
+  EXPECT_NEAR(kinked_factors(90.0 * degree, -77.3 * degree)[1], 0.0, 2e-3);
+  EXPECT_NEAR(kinked_factors(0.0, 0.0)[0], 1.0, 1e-12);
+  EXPECT_NEAR(energy_release_kink(0.0), 0.0, 1e-4);
+  EXPECT_LT(energy_release_kink(90.0 * degree), hoop_stress_kink(90.0 * degree) - 5.0 * degree);
+}
+
 /// Five degrees are the bar of the study.
 TEST_F(FractureMechanics, CracksTurnTowardsTheLargestHoopStress) {
   Make make;
@@ -51,6 +57,20 @@ TEST_F(FractureMechanics, CracksTurnTowardsTheLargestHoopStress) {
   const Specimen specimen = crack_tip_field(make, 45.0 * degree);
   const Direction direction = direction_of(run_specimen(specimen), specimen.tip);
   EXPECT_NEAR(direction.angle, hoop_stress_kink(45.0 * degree) / degree, 5.0);
+}
+
+/// Across the axes of a square lattice with three spacings, and with so many bonds that all
+/// directions are nearly alike.
+TEST_F(FractureMechanics, RowsLeadCracksAstrayLessTheLongerTheHorizon) {
+  EXPECT_NEAR(Rows(false, 3.0).energy(0.0), 0.960, 0.001);
+  const Rows many(true, 20.0);
+  EXPECT_NEAR(many.energy(0.0), 1.0, 0.002);
+  for (const double turned : {0.0, 7.0 * degree, 15.0 * degree}) {
+    EXPECT_NEAR(many.direction(0.0, turned) / degree, 0.0, 2.0);
+    EXPECT_NEAR(many.direction(45.0 * degree, turned), hoop_stress_kink(45.0 * degree),
+                2.0 * degree);
+  }
+  EXPECT_NEAR(Rows(false, 3.0).direction(0.0, 12.0 * degree) / degree, 12.0, 0.2) << "the row";
 }
 
 /// The bar of the study, 3 %.
@@ -64,7 +84,7 @@ TEST_F(FractureMechanics, TurnedLatticesHaveTheirParticlesInTheRectangle) {
   Make make{{Arrangement::Kind::turned, true, 15.0}};
   const Specimen specimen = crack_tip_field(make, 0.0);
   const Crack crack = run_specimen(specimen);
-  const double side = 2.0 * field_radius * make.horizon();
+  const double side = 2.0 * make.radius * make.horizon();
   ASSERT_FALSE(crack.broken.empty());
   for (const Place& place : crack.broken) {
     EXPECT_GT(place[0], 0.0);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 /// \file
 /// Stress intensity factors of cracked bodies, from handbooks, and the direction in which a crack
 /// turns. Plane stress throughout: a crack grows where K = sqrt(E G_F).
@@ -30,5 +32,14 @@ double double_cantilever_load(double youngs_modulus, double fracture_energy, dou
 /// (Erdogan & Sih 1963, Eq. 12) [radians]; negative for positive K_II.
 /// \param mixity  atan2(K_II, K_I), 0 to pi/2 [radians]
 double hoop_stress_kink(double mixity);
+
+/// Stress intensity factors K_I and K_II of a short straight kink (Amestoy & Leblond 1992, the
+/// expansions in the angle), as a crack without it has them by K_I = cos(mixity), K_II =
+/// sin(mixity).
+/// \param angle  by which the kink turns [radians]
+std::array<double, 2> kinked_factors(double mixity, double angle);
+
+/// Angle at which the energy release of a short kink is largest [radians].
+double energy_release_kink(double mixity);
 
 }  // namespace perilink::verification

@@ -18,6 +18,7 @@ struct Arrangement {
   bool hexagonal = false;
   double degrees = 0.0;  ///< by which a lattice is turned
   int algorithm = 5;     ///< meshes a cloud: gmsh's 1 MeshAdapt, 5 Delaunay, 6 Frontal
+  int sample = 0;        ///< plates are larger by so many fifths of two spacings: other meshes
 };
 
 /// "hexagonal turned 15", for tables.

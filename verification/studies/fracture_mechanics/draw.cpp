@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -24,18 +25,25 @@ constexpr double panel_width = 190.0, panel_height = 130.0, left = 150.0, top = 
 
 Svg draw_cracks(const std::vector<CrackPicture>& pictures) {
   std::vector<std::string> rows;
+  int first = 3;
   for (const CrackPicture& picture : pictures) {
+    first = std::min(first, column_of(picture.make));
     const std::string name = name_of(picture.make.arrangement);
     if (rows.empty() || rows.back() != name) rows.push_back(name);
   }
-  Svg svg(left + 4 * panel_width + 10, top + static_cast<double>(rows.size()) * panel_height + 10);
-  for (int k = 0; k < 4; ++k) {
-    svg.text({left + (k + 0.5) * panel_width, 25}, columns[k], "middle", label);
+  Svg svg(left + (4 - first) * panel_width + 10,
+          top + static_cast<double>(rows.size()) * panel_height + 10);
+  for (int k = first; k < 4; ++k) {
+    svg.text({left + (k - first + 0.5) * panel_width, 25}, columns[k], "middle", label);
   }
   std::size_t row = 0;
+  bool is_named = false;
   for (const CrackPicture& picture : pictures) {
-    if (rows[row] != name_of(picture.make.arrangement)) ++row;
-    const int column = column_of(picture.make);
+    if (rows[row] != name_of(picture.make.arrangement)) {
+      ++row;
+      is_named = false;
+    }
+    const int column = column_of(picture.make) - first;
     const SvgPoint corner = {left + column * panel_width,
                              top + static_cast<double>(row) * panel_height};
     const double scale = panel_width / (9.0 * picture.crack.horizon);
@@ -55,7 +63,8 @@ Svg draw_cracks(const std::vector<CrackPicture>& pictures) {
     svg.path(dots, "stroke=\"#c1440e\" stroke-width=\"3\" stroke-linecap=\"round\" fill=\"none\"");
     svg.text({corner.x + panel_width - 10, corner.y + panel_height - 12},
              fmt::format("{:.1f}°", picture.angle), "end", label);
-    if (column == 0) svg.text({left - 8, tip.y + 4}, rows[row], "end", label);
+    if (!is_named) svg.text({left - 8, tip.y + 4}, rows[row], "end", label);
+    is_named = true;
   }
   return svg;
 }

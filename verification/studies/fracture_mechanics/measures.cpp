@@ -46,11 +46,11 @@ Crack run_specimen(const Specimen& specimen) {
           std::move(recorder.broken)};
 }
 
-Direction direction_of(const Crack& crack, const Place& tip) {
+Direction direction_of(const Crack& crack, const Place& tip, double horizons) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   for (const Place& place : crack.broken) {
     const double dx = place[0] - tip[0], dy = place[1] - tip[1], r = std::hypot(dx, dy);
-    if (r < crack.horizon || r > 4.5 * crack.horizon) continue;
+    if (r < crack.horizon || r > horizons * crack.horizon) continue;
     n += 1.0;
     x += dx;
     y += dy;

@@ -30,8 +30,8 @@ struct Direction {
 };
 
 /// Line of least squares from the tip through the middles of those that broke farther than one
-/// horizon and nearer than four and a half from it.
-Direction direction_of(const Crack& crack, const Place& tip);
+/// horizon and nearer than so many from it.
+Direction direction_of(const Crack& crack, const Place& tip, double horizons = 4.5);
 
 /// Energy that a long crack dissipates per area, over the fracture energy, in clamped_strip().
 struct StripEnergy {

@@ -102,6 +102,14 @@ std::array<std::string, 2> field_of(const Make& make, double mixity, std::array<
                       root, kappa - 1.0, kappa + 1.0)};
 }
 
+/// A crack through crack_tip_field() ends three horizons before its side; with three spacings and
+/// eight horizons it has broken so many bonds there. Bonds across a horizon of growth are in
+/// proportion to the fourth power of the horizon in spacings.
+int bonds_to_break(const Make& make) {
+  return static_cast<int>(280.0 * std::pow(make.horizon_ratio / 3.0, 4) * (make.radius - 3.0) /
+                          5.0);
+}
+
 }  // namespace
 
 std::string bonds_of(const Make& make) {
@@ -175,8 +183,9 @@ Specimen double_cantilever(const Make& make) {
 }
 
 Specimen crack_tip_field(const Make& make, double mixity) {
-  const double h = make.spacing, radius = field_radius * make.horizon();
-  const double side = h * (2.0 * std::round(radius / h) + 1.0), height = rounded(make, side);
+  const double h = make.spacing, radius = make.radius * make.horizon();
+  const double side = h * (2.0 * std::round(radius / h) + 1.0 + 0.4 * make.arrangement.sample);
+  const double height = rounded(make, side);
   const double rim = 1.1 * make.horizon();
   const std::array<double, 2> tip = {between_columns(make, 0.5 * side), between_rows(make, height)};
   const auto [u, v] = field_of(make, mixity, tip);
@@ -189,7 +198,8 @@ Specimen crack_tip_field(const Make& make, double mixity) {
               region("left", {0.0, rim}, {edge, height - edge}) +
               region("right", {side - rim, side}, {edge, height - edge}) + materials(make) +
               crack(-9.0, tip[0], tip[1]) + driven("lower", field) + driven("upper", field) +
-              driven("left", field) + driven("right", field) + "[stop]\nbroken_bonds = 280\n",
+              driven("left", field) + driven("right", field) +
+              fmt::format("[stop]\nbroken_bonds = {}\n", bonds_to_break(make)),
           tip};
 }
 

@@ -20,7 +20,8 @@ struct Make {
   bool softens = false;     ///< bilinear; else brittle
   double spacing = 1.0;     ///< [length]
   double horizon_ratio = 3.0;
-  double zone = 1.0;  ///< E G_F / f_t^2 over the horizon, where bonds soften
+  double zone = 1.0;    ///< E G_F / f_t^2 over the horizon, where bonds soften
+  double radius = 8.0;  ///< half of the width of crack_tip_field() in horizons
 
   double horizon() const { return horizon_ratio * spacing; }
   double poissons_ratio() const { return micropolar ? 0.2 : 1.0 / 3.0; }
@@ -60,9 +61,6 @@ Specimen double_cantilever(const Make& make);
 /// about the tip of a crack in an infinite body. Nothing breaks near the rim and behind the tip.
 /// \param mixity  atan2(K_II, K_I) [radians]
 Specimen crack_tip_field(const Make& make, double mixity);
-
-/// Half of the width of crack_tip_field() in horizons.
-inline constexpr double field_radius = 8.0;
 
 /// Strip between clamps, eight horizons high, as the text of a case by the tip of its crack.
 std::string clamped_strip(const Make& make, double tip);

@@ -46,4 +46,13 @@ Skin skin_of(const SkinBonds& bonds) {
   return skin;
 }
 
+double softened_before(const Skin& skin) {
+  double area = 0.0;
+  for (std::size_t k = 1; k < skin.curve.size(); ++k) {
+    const SkinPoint &a = skin.curve[k - 1], &b = skin.curve[k];
+    area += 0.5 * (a.stress + b.stress) * (b.strain - a.strain);
+  }
+  return area - 0.5 * skin.curve.back().stress * skin.curve.back().strain;
+}
+
 }  // namespace perilink::verification

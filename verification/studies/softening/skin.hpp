@@ -21,4 +21,7 @@ struct Skin {
 
 Skin skin_of(const SkinBonds& bonds);
 
+/// Energy per volume that such a body has dissipated when it comes to f_t, over f_t^2 / E.
+double softened_before(const Skin& skin);
+
 }  // namespace perilink::verification

@@ -53,18 +53,33 @@ std::string materials(const Make& make, const std::string& whole, const std::str
 
 class Recorder final : public StepObserver {
  public:
+  /// \param middle,spacing  of a strip; spacing 0: another body
+  Recorder(double middle, double spacing) : middle_(middle), spacing_(spacing) {}
   void on_step(const StepRecord&, StateSource&) override { ++events; }
+  void on_end(const StepRecord&, StateSource& source) override {
+    if (spacing_ > 0.0) released = released_of(source.state(), middle_, spacing_);
+  }
   int events = 0;
+  Released released;
+
+ private:
+  double middle_, spacing_;
 };
+
+double length_of(const Make& make) { return (in_space(make) ? 60.0 : 100.0) + make.longer; }
 
 }  // namespace
 
 double section_of(const Make& make) { return in_space(make) ? 20.0 * 20.0 : 50.0; }
 
+double soft_length_of(const Make& make) {
+  return 2.0 * (make.horizon_ratio + 1.0) * make.spacing + make.longer;
+}
+
 std::string strip(const Make& make) {
   const bool space = in_space(make);
-  const double length = space ? 60.0 : 100.0, width = space ? 20.0 : 50.0;
-  const double z = space ? width : 0.0, half = (make.horizon_ratio + 1.0) * make.spacing;
+  const double length = length_of(make), width = space ? 20.0 : 50.0;
+  const double z = space ? width : 0.0, half = 0.5 * soft_length_of(make);
   return body(make) + region("strip", 0, length, 0, width, z) +
          region("left part", 0, 0.5 * length - half, 0, width, z) +
          region("right part", 0.5 * length + half, length, 0, width, z) +
@@ -101,14 +116,17 @@ std::string beam(const Make& make, const Beam& size) {
          fmt::format("[stop]\nload_fraction = {}\n", size.load_fraction);
 }
 
-Outcome run_text(const std::string& text) {
+Outcome run_text(const std::string& text, const Make* make) {
   const CaseFile input = parse_case(text, PERILINK_STUDY_DIR "/specimen.toml");
   const Model model = build_model(input);
-  Recorder recorder;
+  Recorder recorder(make ? 0.5 * length_of(*make) : 0.0, make ? make->spacing : 0.0);
   const DamageResult result = run_damage_analysis(model, damage_options(input, 1), recorder);
   return {std::abs(result.smoothed_peak_load.value_or(result.peak_load)),
-          result.last.dissipated_energy, result.energy_error, recorder.events,
-          to_string(result.ending)};
+          result.last.dissipated_energy,
+          result.energy_error,
+          recorder.events,
+          to_string(result.ending),
+          recorder.released};
 }
 
 }  // namespace perilink::verification

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "released.hpp"
+
 namespace perilink::verification {
 
 /// Concrete of the study: E = 30 000, f_t = 3, G_F = 0.1 in N and mm; E G_F / f_t^2 is 333 mm.
@@ -17,11 +19,15 @@ struct Make {
   double horizon_ratio = 3.0;  ///< horizon over spacing
   /// Bilinear curves have a knee; the default is that of Petersson.
   double knee_stress_ratio = 1.0 / 3.0, knee_opening_ratio = 2.0 / 9.0;
+  double longer = 0.0;  ///< by which strip() and its part that may soften are longer [mm]
 };
 
 /// A strip 100 mm long and 50 mm wide (in space a bar 60 mm long and 20 mm square), driven apart
 /// along x, whose middle of two horizons and two spacings may soften, as the text of a case.
 std::string strip(const Make& make);
+
+/// Length of the part of strip() that may soften [mm].
+double soft_length_of(const Make& make);
 
 /// Area that a crack across strip() has [mm^2].
 double section_of(const Make& make);
@@ -43,7 +49,9 @@ struct Outcome {
   double energy_error = 0.0;
   int events = 0;
   std::string ending;
+  Released released;  ///< strips whose run did not fail; else not a number
 };
-Outcome run_text(const std::string& text);
+/// \param make  a strip whose bonds tell where they took the energy; null: another body
+Outcome run_text(const std::string& text, const Make* make = nullptr);
 
 }  // namespace perilink::verification

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <stdexcept>
 #include <string>
 
+#include "base/timer.hpp"
 #include "hinge.hpp"
 #include "problems/program.hpp"
 #include "problems/result.hpp"
@@ -72,6 +74,39 @@ void run_strips() {
   write_result(PERILINK_STUDY_DIR, table.text(), "strips.csv");
 }
 
+/// Energies of strips whose part that may soften has other lengths: what goes with the area of the
+/// crack and what with the volume. All over G_F times the section.
+void run_lengths() {
+  Table table(
+      "model,pattern,softening,spacing,horizon_ratio,soft_length,energy,crack,beside,cut,"
+      "strength,ending,seconds");
+  const auto add = [&](Make make) {
+    const double unit = fracture_energy * section_of(make), part = soft_length_of(make);
+    for (const double more : {0.0, 0.5 * part, part}) {
+      if (section_of(make) > 100.0 && more == part) continue;  // bars of two lengths
+      make.longer = make.spacing * std::round(more / make.spacing);
+      const Timer timer;
+      const Outcome outcome = run_text(strip(make), &make);
+      const Released& released = outcome.released;
+      table.add(fmt::format("{},{:.4g},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.1f}\n", made(make),
+                            soft_length_of(make), outcome.dissipated / unit, released.crack / unit,
+                            released.beside / unit, released.cut / unit,
+                            outcome.peak / (tensile_strength * section_of(make)), outcome.ending,
+                            timer.seconds()));
+    }
+    write_result(PERILINK_STUDY_DIR, table.text(), "lengths.csv");
+  };
+  for (const char* model : {"bond_based", "micropolar"}) {
+    for (const char* softening : {"linear", "bilinear", "exponential"}) {
+      add({model, "rectangular", softening, 5.0, 3.0});
+      add({model, "hexagonal", softening, 5.0, 3.0});
+    }
+    add({model, "rectangular", "bilinear", 2.5, 3.0});
+    add({model, "rectangular", "bilinear", 3.75, 4.0});
+  }
+  add({"bond_based", "cubic", "bilinear", 5.0, 3.0});
+}
+
 void run_beams() {
   Table table(head);
   for (const double part : {20.0, 32.0}) {
@@ -131,6 +166,28 @@ void run_knees() {
   write_result(PERILINK_STUDY_DIR, table.text(), "knees.csv");
 }
 
+/// The same over spacing with the horizon of a spacing of 5, and finer with three spacings.
+void run_fixed() {
+  Table table(unnotched_head);
+  const auto add = [&](const Make& make) {
+    add_unnotched(make, on_points, table);
+    write_result(PERILINK_STUDY_DIR, table.text(), "fixed_horizon.csv");
+  };
+  for (const double ratio : {3.75, 4.5}) {
+    const double spacing = 15.0 / ratio;
+    add({.spacing = spacing, .horizon_ratio = ratio});
+    add({.model = "micropolar", .spacing = spacing, .horizon_ratio = ratio});
+    add({.spacing = spacing,
+         .horizon_ratio = ratio,
+         .knee_stress_ratio = 0.15,
+         .knee_opening_ratio = 0.10});
+    add({.pattern = "mesh", .spacing = spacing, .horizon_ratio = ratio});
+    add({.softening = "exponential", .spacing = spacing, .horizon_ratio = ratio});
+  }
+  add({.model = "micropolar", .spacing = 2.5});
+  add({.spacing = 2.5, .knee_stress_ratio = 0.15, .knee_opening_ratio = 0.10});
+}
+
 /// The same by a cohesive hinge.
 void run_hinge() {
   Table table("knee_stress_ratio,knee_opening_ratio,strength");
@@ -147,16 +204,17 @@ void run_hinge() {
 void run_skin() {
   Table table(
       "model,knee_stress_ratio,knee_opening_ratio,horizon,strength_factor,strain_at_strength,"
-      "hinge");
+      "softened_before,hinge");
   const double length = 30000.0 * fracture_energy / (tensile_strength * tensile_strength);
-  constexpr double knees[][2] = {{1.0 / 3.0, 2.0 / 9.0}, {0.25, 0.15}, {0.15, 0.10}};
+  constexpr double knees[][2] = {{1.0 / 3.0, 2.0 / 9.0}, {0.25, 0.15}, {0.15, 0.10}, {0.5, 0.5}};
   for (const double poissons_ratio : {1.0 / 3.0, 0.2}) {
     for (const auto& [stress, opening] : knees) {
       for (const double horizon : {15.0, 10.0, 7.5, 5.0}) {
         const Skin skin = skin_of({poissons_ratio, stress, opening, horizon / length});
-        table.add(fmt::format("{},{:.3g},{:.3g},{},{:.4f},{:.4f},{:.4f}\n",
+        table.add(fmt::format("{},{:.3g},{:.3g},{},{:.4f},{:.4f},{:.4f},{:.4f}\n",
                               poissons_ratio > 0.3 ? "bond_based" : "micropolar", stress, opening,
                               horizon, skin.strength_factor, skin.curve.back().strain,
+                              softened_before(skin),
                               hinge_strength(stress, opening, 100.0 / length, skin.curve)));
       }
     }
@@ -168,14 +226,18 @@ void run_skin() {
 }  // namespace perilink::verification
 
 /// Strength and energy of strips and beams whose bonds soften, over what the material says:
-/// `softening strips` writes strips.csv, and so beams, unnotched, knees, hinge and skin.
+/// `softening strips` writes strips.csv, and so lengths, beams, unnotched, knees, hinge, skin;
+/// `softening fixed` writes fixed_horizon.csv.
 bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   const std::map<std::string, void (*)()> parts = {
-      {"strips", run_strips}, {"beams", run_beams}, {"unnotched", run_unnotched},
-      {"knees", run_knees},   {"hinge", run_hinge}, {"skin", run_skin}};
+      {"strips", run_strips},       {"lengths", run_lengths},
+      {"beams", run_beams},         {"hinge", run_hinge},
+      {"unnotched", run_unnotched}, {"knees", run_knees},
+      {"fixed", run_fixed},         {"skin", run_skin}};
   const auto part = parts.find(arguments.empty() ? "" : arguments[0]);
   if (part == parts.end()) {
-    throw std::invalid_argument("name strips, beams, unnotched, knees, hinge or skin");
+    throw std::invalid_argument(
+        "name strips, lengths, beams, unnotched, knees, fixed, hinge or skin");
   }
   part->second();
   return true;
