@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "support/replaced.hpp"
 #include "support/whole_run.hpp"
 
 namespace perilink {
@@ -51,6 +52,11 @@ std::vector<double> sum_of_reactions(const WholeRun& run, int step) {
             5)
       << text;
   return {values[2], values[3], values[4]};
+}
+
+/// Name of the table of bars beside the last fields.
+std::string bars_file(const WholeRun& run) {
+  return replaced(replaced(run.series().back().file, "fields", "bars"), ".vtu", ".csv");
 }
 
 /// Values of the segments of bars, in their order.
@@ -132,6 +138,39 @@ TEST(BarRuns, RelaxationTellsWhatElasticityDoes) {
     for (const double value : sum_of_reactions(moved, step))
       EXPECT_LT(std::abs(value), 1e-3 * load);
   }
+}
+
+/// The end of a bar is drawn out of a solid that stays whole, by events and slowly in time: loads,
+/// energies, slips and bond stresses are the same but for the teeth and what is left of motion.
+TEST(BarRuns, BondsSlipInTimeAsTheyDoByEvents) {
+  const std::string drawn = replaced(
+      beam(false,
+           straight + "bond = \"curve\"\nbond_curve = [[0.001, 2], [0.05, 6], [0.2, 1]]\n",
+           "[[regions]]\nname = \"end\"\nx = [179.9, 180.1]\ny = [42.9, 43.1]\n"
+           "[[displacements]]\nregion = \"end\"\nx = 0.15\n"),
+      "fracture_energy = 0.1", "fracture_energy = \"infinite\"\ndensity = 2.4e-9");
+  const WholeRun still(drawn + "[analysis]\ncontrol = \"steps\"\nload_factors = [1.0]\n");
+  const WholeRun moved(drawn + "[analysis]\ntype = \"explicit\"\nduration = 0.004\n"
+                               "damping_rate = 20000\n");
+  const auto near = [&](double value, double expected, const char* what) {
+    EXPECT_NEAR(value, expected, 0.03 * std::abs(expected)) << what;
+  };
+  const auto last = [](const WholeRun& run, const char* column) {
+    const CsvTable history = run.history();
+    return history.rows.back().at(static_cast<std::size_t>(history.column(column)));
+  };
+  near(last(moved, "load"), last(still, "load"), "load");
+  near(told(moved, "dissipated_energy"), told(still, "dissipated_energy"), "dissipated_energy");
+  const VtuGrid of_still = still.fields(still.series().size() - 1);
+  const VtuGrid of_moved = moved.fields(moved.series().size() - 1);
+  for (const char* name : {"axial_stress", "slip", "bond_stress"}) {
+    const std::vector<double> a = of_segments(of_still, name), b = of_segments(of_moved, name);
+    ASSERT_EQ(a.size(), 16u);
+    near(*std::max_element(b.begin(), b.end()), *std::max_element(a.begin(), a.end()), name);
+    near(b.at(8), a.at(8), name);
+  }
+  const CsvTable table = read_csv((moved.work / bars_file(moved)).string());
+  EXPECT_EQ(table.rows.size(), 16u);
 }
 
 /// Both halves of a closed bar bear the same, and so does what they give to the solid: it has no
