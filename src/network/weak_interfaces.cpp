@@ -27,8 +27,7 @@ std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face,
   std::vector<Index> crossing;
   std::vector<std::uint8_t> keep;
   if (face.side.empty()) {
-    keep = find_cut_bonds(network.particles, network.bonds, {&face.face, 1}, body.lattice.spacing)
-               .keep;
+    keep = find_cut_bonds(network.particles, network.bonds, face.faces, body.lattice.spacing).keep;
   }
   const auto side = [&](Index i) {
     return i < static_cast<Index>(face.side.size()) ? face.side[i] : 0;
@@ -64,7 +63,8 @@ void add(const Axes& other, Axes& axes) {
 /// What the bonds that cross a face make of it.
 struct Face {
   double area = 0.0;          ///< [length^2]
-  double fracture_sum = 0.0;  ///< sum of k xi^2 over the area [force/length]
+  double fracture_sum = 0.0;  ///< sum of k xi^2 over the area, as held at the end [force/length]
+  double held = 1.0;          ///< mean of held_at_the_end()
   Vector3 axis{};             ///< mean normal
   bool plane = false;
   std::array<double, 2> moduli{};  ///< mean E behind it and where the normal points
@@ -138,6 +138,15 @@ std::map<Index, Axes> axes_of_face(const Network& network, std::span<const Index
   return axes;
 }
 
+/// What a bond of one holds when it breaks by an opening along the normal, over k xi^2 s_c^2 / 2.
+/// Bonds that carry moments break by a ratio of k_b to k that calibration has left behind.
+double held_at_the_end(const Network& network, Index bond, double cosine) {
+  if (!network.carries_moments()) return 1.0;
+  const double along = cosine * cosine, across = 1.0 - along;
+  const double bending = network.bending[bond] / network.stiffness[bond];
+  return (along + bending * across) / (along + network.ratio_of_bending(bond) * across);
+}
+
 /// A uniform dilatation of one brings a stress of dim lambda + 2 mu, which bonds carry across the
 /// face by k xi: that settles the area that they carry. The normal where a bond crosses is the axis
 /// along which the bonds at its ends lie most.
@@ -155,7 +164,8 @@ Face measure(const Body& body, const NetworkInput& input, const Network& network
   for (const auto& own : axes) add(own.second, mean);
   Face face;
   face.axis = principal_direction(mean, dim);
-  double along = 0.0;  // the area seen along the normal
+  double along = 0.0, fracture_along = 0.0;  // the same seen along the mean normal
+  double squares = 0.0;
   for (const Index e : crossing) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
     Axes both = axes.at(i);
@@ -163,12 +173,21 @@ Face measure(const Body& body, const NetworkInput& input, const Network& network
     const Vector3 n = direction_of(network, e);
     const double length = network.bonds.lengths[e];
     const double area = network.stiffness[e] * length / stress;
-    face.area += area * std::abs(cosine_between(n, principal_direction(both, dim)));
-    along += area * std::abs(cosine_between(n, face.axis));
-    face.fracture_sum += network.stiffness[e] * length * length;
+    const double square = network.stiffness[e] * length * length;
+    const double own = std::abs(cosine_between(n, principal_direction(both, dim)));
+    const double by_mean = std::abs(cosine_between(n, face.axis));
+    face.area += area * own;
+    along += area * by_mean;
+    squares += square;
+    face.fracture_sum += square * held_at_the_end(network, e, own);
+    fracture_along += square * held_at_the_end(network, e, by_mean);
   }
   face.plane = along > plane * face.area;
-  if (face.plane) face.area = along;
+  if (face.plane) {
+    face.area = along;
+    face.fracture_sum = fracture_along;
+  }
+  face.held = face.fracture_sum / squares;
   face.fracture_sum /= face.area;
   mix(input, network, crossing, parts, face);
   return face;
@@ -176,7 +195,7 @@ Face measure(const Body& body, const NetworkInput& input, const Network& network
 
 MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Face& face) {
   const double own = face.material.youngs_modulus;
-  FaceShape shape{std::nullopt, {face.moduli[0] / own, face.moduli[1] / own}};
+  FaceShape shape{std::nullopt, {face.moduli[0] / own, face.moduli[1] / own}, face.held};
   if (face.plane) shape.normal = face.axis;
   return bonds_of_face(body, input, shape, face.material,
                        lattice_critical_stretch(face.material.fracture_energy, face.fracture_sum));
