@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <span>
 
+#include "base/csr.hpp"
 #include "discretization/cuts/cracks.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/principal_values.hpp"
@@ -71,28 +73,36 @@ struct Face {
   SolidMaterial material;          ///< mean constants of both sides, with the law of the face
 };
 
-/// Parts of the materials that fill the face itself. Where two meet in it, the particles of one lie
-/// on their facets, so that the bonds across are calibrated for the stress of the other.
+/// Parts of the materials that fill the face itself. Where particles on the facets between two
+/// materials have bonds across, that is the one which these bonds enter there, whatever the
+/// particles are made of: for its stress they are calibrated.
 std::vector<double> parts_of_materials(const Body& body, const NetworkInput& input,
                                        const Network& network, std::span<const Index> crossing) {
   std::vector<double> ends(input.materials.size(), 0.0), gap = ends;
-  std::vector<std::uint8_t> beside(static_cast<std::size_t>(network.particles.size()), 0);
-  const std::vector<Index>& material = network.particles.material;
   for (const Index e : crossing) {
     for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
-      ends[material[i]] += 0.5 / static_cast<double>(crossing.size());
-      beside[i] = 1;
+      ends[network.particles.material[i]] += 0.5 / static_cast<double>(crossing.size());
     }
   }
   if (input.draft || body.lattice.surface != Surface::calibrated) return ends;
+  const Facets& facets = network.facets;
+  const Csr facets_at = sorted_into_rows(network.particles.size(), [&](const auto& add_to) {
+    for (Index f = 0; f < facets.size(); ++f) {
+      if (facets.on_surface(f) || facets.inside[f] == facets.outside[f]) continue;
+      for (const Index i : facets.corners.row(f)) add_to(i, f);
+    }
+  });
   double sum = 0.0;
-  for (Index f = 0; f < network.facets.size(); ++f) {
-    const Index inside = network.facets.inside[f], outside = network.facets.outside[f];
-    if (network.facets.on_surface(f) || inside == outside) continue;
-    for (const Index i : network.facets.corners.row(f)) {
-      if (beside[i] == 0) continue;
-      gap[material[i] == inside ? outside : inside] += 1.0;
-      sum += 1.0;
+  for (const Index e : crossing) {
+    const auto n = network.bonds.direction(e);
+    for (const bool first : {true, false}) {
+      for (const Index f :
+           facets_at.row(first ? network.bonds.first[e] : network.bonds.second[e])) {
+        const auto area = facets.area_vector(f);
+        const double out = std::inner_product(n.begin(), n.end(), area.begin(), 0.0);
+        gap[(out > 0.0) == first ? facets.outside[f] : facets.inside[f]] += std::abs(out);
+        sum += std::abs(out);
+      }
     }
   }
   if (sum == 0.0) return ends;

@@ -144,14 +144,14 @@ TEST(BarRuns, RelaxationTellsWhatElasticityDoes) {
 /// energies, slips and bond stresses are the same but for the teeth and what is left of motion.
 TEST(BarRuns, BondsSlipInTimeAsTheyDoByEvents) {
   const std::string drawn = replaced(
-      beam(false,
-           straight + "bond = \"curve\"\nbond_curve = [[0.001, 2], [0.05, 6], [0.2, 1]]\n",
+      beam(false, straight + "bond = \"curve\"\nbond_curve = [[0.001, 2], [0.05, 6], [0.2, 1]]\n",
            "[[regions]]\nname = \"end\"\nx = [179.9, 180.1]\ny = [42.9, 43.1]\n"
            "[[displacements]]\nregion = \"end\"\nx = 0.15\n"),
       "fracture_energy = 0.1", "fracture_energy = \"infinite\"\ndensity = 2.4e-9");
-  const WholeRun still(drawn + "[analysis]\ncontrol = \"steps\"\nload_factors = [1.0]\n");
-  const WholeRun moved(drawn + "[analysis]\ntype = \"explicit\"\nduration = 0.004\n"
-                               "damping_rate = 20000\n");
+  const WholeRun still(drawn + "[stop]\ndisplacement = 0.15\n");
+  const WholeRun moved(drawn +
+                       "[analysis]\ntype = \"explicit\"\nduration = 0.004\n"
+                       "damping_rate = 20000\n");
   const auto near = [&](double value, double expected, const char* what) {
     EXPECT_NEAR(value, expected, 0.03 * std::abs(expected)) << what;
   };

@@ -330,8 +330,8 @@ TEST(Joints, WhatBreaksElsewhereLeavesThemInBalance) {
     const Network alike = build_network(joint.body, joint.input);
     ASSERT_FALSE(stretches.empty());
     for (const double stretch : stretches) {
-      EXPECT_NEAR(stretch, *std::min_element(alike.critical_stretch.begin(),
-                                             alike.critical_stretch.end()),
+      EXPECT_NEAR(stretch,
+                  *std::min_element(alike.critical_stretch.begin(), alike.critical_stretch.end()),
                   pattern == Pattern::irregular ? 0.02 * stretch : 1e-12);
     }
     EXPECT_GT(bonds_across(breaks_below(0.4)), 0) << "less than a horizon away";

@@ -43,7 +43,8 @@ std::vector<BarCurve> curves_of_bars(const CsvTable& table, const std::string& p
       if (std::abs(row[column]) <= largest_drawn) continue;
       throw FileError(fmt::format("{}: {} is too large to be drawn", path, row[column]));
     }
-    if (curves.empty() || curves.back().bar != row[at[0]]) curves.push_back({row[at[0]], {}, {}, {}});
+    if (curves.empty() || curves.back().bar != row[at[0]])
+      curves.push_back({row[at[0]], {}, {}, {}});
     curves.back().distance.push_back(row[at[1]]);
     curves.back().stress.push_back(row[at[2]]);
     curves.back().bond.push_back(row[at[3]]);

@@ -20,7 +20,8 @@ struct Flank {
 
 class Surface {
  public:
-  Surface(std::vector<Index>& sides, int dim) : sides_(sides), width_(static_cast<std::size_t>(dim)) {
+  Surface(std::vector<Index>& sides, int dim)
+      : sides_(sides), width_(static_cast<std::size_t>(dim)) {
     for (std::size_t side = 0; side < count(); ++side) {
       for (std::size_t k = 0; k < width_; ++k) {
         flanks_[rim(side, k)].push_back({side, begins(side, k)});
@@ -57,9 +58,7 @@ class Surface {
 
  private:
   std::size_t count() const { return sides_.size() / width_; }
-  Index corner(std::size_t side, std::size_t k) const {
-    return sides_[width_ * side + k % width_];
-  }
+  Index corner(std::size_t side, std::size_t k) const { return sides_[width_ * side + k % width_]; }
   Rim rim(std::size_t side, std::size_t k) const {
     if (width_ == 2) return {corner(side, k), corner(side, k)};
     return {std::min(corner(side, k), corner(side, k + 1)),

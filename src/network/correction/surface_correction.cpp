@@ -241,9 +241,12 @@ bool Correction::breaks_beside(const Joint& joint) const {
       if (std::abs(height - plane) <= input_.horizon + joint.tolerance) near[i] = 1;
     }
   }
+  const auto breaks = [&](Index particle) {
+    return std::isfinite(input_.materials[material(particle)].fracture_energy);
+  };
   for (Index b = 0; b < network_.bonds.size(); ++b) {
-    const bool beside = near[network_.bonds.first[b]] != 0 || near[network_.bonds.second[b]] != 0;
-    if (beside && std::isfinite(network_.critical_stretch[b])) return true;
+    const Index i = network_.bonds.first[b], j = network_.bonds.second[b];
+    if ((near[i] != 0 || near[j] != 0) && breaks(i) && breaks(j)) return true;
   }
   return false;
 }

@@ -71,11 +71,9 @@ const Group& group_of_face(const CaseFile& input, std::size_t k, const Body& bod
 
 using Corners = std::vector<Index>;
 
-/// Facets between materials by their corners.
-std::map<Corners, Index> facets_between(const Body& body) {
+std::map<Corners, Index> facets_by_corners(const Body& body) {
   std::map<Corners, Index> facets;
   for (Index f = 0; f < body.facets.size(); ++f) {
-    if (body.facets.on_surface(f)) continue;
     const auto row = body.facets.corners.row(f);
     Corners corners(row.begin(), row.end());
     std::sort(corners.begin(), corners.end());
@@ -95,18 +93,21 @@ Vector3 normal_of(const Body& body, const Corners& corners) {
 }
 
 /// The sides of a group, all with the same positive side. Particles between two materials, which
-/// are of the later one, are on the side of that.
+/// are of the later one, are on the side of that, and those on the surface inside.
 std::vector<Crack> faces_of_group(const Body& body, const Group& group) {
   const auto dim = static_cast<std::size_t>(body.particles.dim);
-  const std::map<Corners, Index> facets = facets_between(body);
+  const std::map<Corners, Index> facets = facets_by_corners(body);
   std::vector<Index> known, others;
   for (std::size_t s = 0; s < group.sides.size(); s += dim) {
     Corners corners(group.sides.begin() + s, group.sides.begin() + s + dim), sorted = corners;
     std::sort(sorted.begin(), sorted.end());
     const auto facet = facets.find(sorted);
     if (facet != facets.end()) {
-      const Vector3 later = point_of(body.facets.area_vectors, body.particles.dim, facet->second);
-      if (dot(normal_of(body, corners), later) < 0.0) std::swap(corners[dim - 2], corners[dim - 1]);
+      const double towards =
+          dot(normal_of(body, corners),
+              point_of(body.facets.area_vectors, body.particles.dim, facet->second));
+      const bool wrong = body.facets.on_surface(facet->second) ? towards > 0.0 : towards < 0.0;
+      if (wrong) std::swap(corners[dim - 2], corners[dim - 1]);
     }
     std::vector<Index>& list = facet != facets.end() ? known : others;
     list.insert(list.end(), corners.begin(), corners.end());
@@ -116,8 +117,7 @@ std::vector<Crack> faces_of_group(const Body& body, const Group& group) {
   std::vector<Crack> faces;
   for (std::size_t c = 0; c < known.size(); ++c) {
     if (c % dim == 0) faces.emplace_back();
-    faces.back().points.push_back(
-        point_of(body.particles.positions, body.particles.dim, known[c]));
+    faces.back().points.push_back(point_of(body.particles.positions, body.particles.dim, known[c]));
   }
   return faces;
 }
@@ -158,7 +158,8 @@ void refuse_interfaces_without_bonds(const CaseFile& input, const Network& netwo
         input.where(key_of(input, k, network.dim())),
         regions ? "names two regions that no bond joins" : "crosses no bond of the body",
         regions ? "name regions that touch; what lies in both belongs to the second"
-                : "move the line or plane into the body, or delete it");
+        : input.interfaces[k].group.empty() ? "move the line or plane into the body, or delete it"
+                                            : "name a group that lies inside the body");
   }
 }
 
