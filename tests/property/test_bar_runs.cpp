@@ -169,6 +169,11 @@ TEST(BarRuns, BondsSlipInTimeAsTheyDoByEvents) {
     near(*std::max_element(b.begin(), b.end()), *std::max_element(a.begin(), a.end()), name);
     near(b.at(8), a.at(8), name);
   }
+  // Bond stresses stay on their curve (1 to 6) also where the bar is drawn, but for their teeth.
+  for (const double stress : of_segments(of_still, "bond_stress")) {
+    EXPECT_GT(stress, 0.9);
+    EXPECT_LT(stress, 6.3);
+  }
   const CsvTable table = read_csv((moved.work / bars_file(moved)).string());
   EXPECT_EQ(table.rows.size(), 16u);
 }

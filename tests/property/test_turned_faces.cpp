@@ -55,7 +55,7 @@ class HalvedMesh {
   std::filesystem::path path_;
 };
 
-/// \param place  of the interface
+/// \param place  where the interface lies
 CaseFile turned_case(const TurnedFace& tested, const HalvedMesh& mesh, const std::string& place) {
   const bool space = tested.dim == 3;
   std::string text = fmt::format(
