@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <numeric>
 #include <string>
 
@@ -98,6 +99,29 @@ TEST(BarRuns, BarsYieldInStages) {
            "to = 0.2\n"));
   EXPECT_GT(told(run, "yield_events"), 0.0);
   EXPECT_LT(told(run, "energy_error"), 1e-9);
+}
+
+/// Every set of loads has a load factor of its own, and counts in what holds the body.
+TEST(BarRuns, ReactionsOfStagesAreInBalance) {
+  const WholeRun run(
+      beam(false, straight,
+           "[[loads]]\nregion = \"right\"\nforce = [0, -50]\nstage = \"weight\"\n"
+           "[[displacements]]\nregion = \"right\"\nx = 0.002\nstage = \"pull\"\n"
+           "[[stages]]\nname = \"weight\"\nto = 1\n[[stages]]\nname = \"pull\"\nto = 0.5\n"));
+  const Index rows = run.run->files().rows();
+  const double load = std::abs(
+      run.history().rows.back().at(static_cast<std::size_t>(run.history().column("load"))));
+  ASSERT_GT(load, 100.0);
+  const std::string text = read_text(run.work / fmt::format("reactions_{:06}.csv", rows));
+  for (const double value : sum_of_reactions(run, rows)) EXPECT_LT(std::abs(value), 1e-7 * load);
+  double x = 0.0, y = 0.0, moment = 0.0, held = 0.0, lifted = 0.0;
+  const char* support = std::strstr(text.c_str(), "supports: left,");
+  ASSERT_NE(support, nullptr) << text;
+  ASSERT_EQ(
+      std::sscanf(support, "supports: left,%lf,%lf,%lf,%lf,%lf", &x, &y, &held, &lifted, &moment),
+      5);
+  EXPECT_NEAR(held, -load, 1e-6 * load);
+  EXPECT_NEAR(lifted, 50.0, 1e-6);
 }
 
 /// A straight bar is free to turn about itself, whichever way it lies.
