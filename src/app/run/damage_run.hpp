@@ -46,7 +46,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
   std::vector<HeldPlace> places_held_;
   std::vector<std::size_t> set_of_stage_;  ///< in Model::sets
   std::vector<double> set_factors_;        ///< per set, in the last row
-  std::vector<ToldCrack> cracks_;   ///< in the last field file
+  std::vector<ToldCrack> cracks_;          ///< in the last field file
   std::vector<PlaceForce> places_;  ///< in the row of the largest |load|, where there are several
 };
 
