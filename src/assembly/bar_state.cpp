@@ -93,6 +93,80 @@ std::vector<std::array<std::size_t, 2>> neighbours_of(const Network& network) {
   return neighbours;
 }
 
+/// Per particle the tie that holds it along its bar; no_index where it has no anchor.
+std::vector<Index> ties_along_bars(const Network& network) {
+  std::vector<Index> ties(static_cast<std::size_t>(network.particles.size()), no_index);
+  for (Index e = network.first_anchored_tie; e < network.first_segment; e += network.dim()) {
+    ties[network.bonds.first[e]] = e;  // those across the bar come behind it
+  }
+  return ties;
+}
+
+/// What ends of bars give to the solid, in the sense in which forces grow along the bar.
+class BarEnds {
+ public:
+  BarEnds(const Network& network, Secants secants, std::span<const double> motion,
+          std::span<const double> solid)
+      : network_(network),
+        secants_(secants),
+        motion_(motion),
+        solid_(solid),
+        ties_(ties_along_bars(network)) {}
+
+  /// \param otherwise  where the end has no anchor
+  double given(std::size_t segment, bool begin, double otherwise) const {
+    const auto dim = static_cast<std::size_t>(network_.dim());
+    const Index e = network_.first_segment + static_cast<Index>(segment);
+    const bool turned = network_.bars.turned[segment] != 0;
+    const Index end = begin != turned ? network_.bonds.first[e] : network_.bonds.second[e];
+    const auto node = static_cast<std::size_t>(node_of(network_, end));
+    const Index tie = ties_[node];
+    if (tie == no_index) return otherwise;
+    const auto n = network_.bonds.direction(tie), along = network_.bonds.direction(e);
+    double extension = 0.0, cosine = 0.0;
+    for (std::size_t a = 0; a < dim; ++a) {
+      const double moved = motion_[node * static_cast<std::size_t>(network_.width()) + a];
+      extension += n[a] * (solid_[node * dim + a] - moved);
+      cosine += n[a] * along[a];
+    }
+    const double force = network_.stiffness[tie] * secants_.axial(tie) * extension * cosine;
+    return turned ? force : -force;
+  }
+
+ private:
+  const Network& network_;
+  Secants secants_;
+  std::span<const double> motion_, solid_;
+  std::vector<Index> ties_;
+};
+
+/// By the forces of the segments.
+std::vector<double> bond_stresses(const Network& network, const std::vector<double>& force,
+                                  const BarEnds& ends) {
+  const Bars& bars = network.bars;
+  const std::vector<std::array<std::size_t, 2>> neighbours = neighbours_of(network);
+  std::vector<double> stresses;
+  for (std::size_t s = 0; s < bars.bar.size(); ++s) {
+    const double perimeter = bars.perimeter.empty()
+                                 ? std::sqrt(4.0 * std::numbers::pi * bars.area[s])
+                                 : bars.perimeter[s];
+    // At a node the solid takes the difference of the forces of its segments, over half of each; at
+    // an end of the bar what its tie bears, or else all of it.
+    const auto length_of = [&](std::size_t k) {
+      return network.bonds.lengths[network.first_segment + static_cast<Index>(k)];
+    };
+    const std::size_t before = neighbours[s][0], after = neighbours[s][1];
+    const double at_begin =
+        before != s ? (force[s] - force[before]) / (0.5 * (length_of(s) + length_of(before)))
+                    : ends.given(s, true, force[s]) / (0.5 * length_of(s));
+    const double at_end =
+        after != s ? (force[after] - force[s]) / (0.5 * (length_of(s) + length_of(after)))
+                   : ends.given(s, false, -force[s]) / (0.5 * length_of(s));
+    stresses.push_back(0.5 * (at_begin + at_end) / perimeter);
+  }
+  return stresses;
+}
+
 }  // namespace
 
 BarState bar_state(const Network& network, Secants secants, std::span<const double> motion) {
@@ -122,25 +196,7 @@ BarState bar_state(const Network& network, Secants secants, std::span<const doub
     state.stress.push_back(force / bars.area[s]);
     state.slip.push_back(bars.turned[s] != 0 ? 0.0 - slip : slip);
   }
-  const std::vector<std::array<std::size_t, 2>> neighbours = neighbours_of(network);
-  for (std::size_t s = 0; s < bars.bar.size(); ++s) {
-    const double perimeter = bars.perimeter.empty()
-                                 ? std::sqrt(4.0 * std::numbers::pi * bars.area[s])
-                                 : bars.perimeter[s];
-    // At a node the solid takes the difference of the forces of its segments, over half of each; at
-    // an end of the bar all of it.
-    const auto length_of = [&](std::size_t k) {
-      return bonds.lengths[network.first_segment + static_cast<Index>(k)];
-    };
-    const std::size_t before = neighbours[s][0], after = neighbours[s][1];
-    const double at_begin = before != s ? (state.force[s] - state.force[before]) /
-                                              (0.5 * (length_of(s) + length_of(before)))
-                                        : state.force[s] / (0.5 * length_of(s));
-    const double at_end = after != s ? (state.force[after] - state.force[s]) /
-                                           (0.5 * (length_of(s) + length_of(after)))
-                                     : -state.force[s] / (0.5 * length_of(s));
-    state.bond_stress.push_back(0.5 * (at_begin + at_end) / perimeter);
-  }
+  state.bond_stress = bond_stresses(network, state.force, BarEnds(network, secants, motion, solid));
   return state;
 }
 

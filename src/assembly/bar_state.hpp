@@ -19,8 +19,8 @@ struct BarState {
   /// the ties; a node that is a particle of the solid does not slip.
   std::vector<double> slip;
   /// What the segment gives to the solid around it, the mean of its ends: at each the change of the
-  /// force per length over the perimeter of a round bar; beyond an end of the bar there is no force
-  /// [force/length^2].
+  /// force per length over the perimeter of a round bar; at an end with an anchor what the tie
+  /// along the bar bears, else beyond it there is no force [force/length^2].
   std::vector<double> bond_stress;
 };
 

@@ -63,13 +63,14 @@ struct Pulled {
 struct Parted {
   std::vector<std::vector<LayerBond>> directions;
   std::array<double, 2> sides;
+  double held;
   double modulus;
 
-  /// face_strength() over the modulus, the mean over the directions.
+  /// What they bear of face_strength() over the modulus, the mean over the directions.
   double strength(const BondLaw& law) const {
     double sum = 0.0;
     for (const auto& bonds : directions) sum += face_strength(bonds, sides, law);
-    return sum / (modulus * static_cast<double>(directions.size()));
+    return held * sum / (modulus * static_cast<double>(directions.size()));
   }
 };
 
@@ -163,7 +164,10 @@ Parted parted_body(const Body& body, const NetworkInput& input, const SolidMater
   for (std::size_t k = 0; k < stiffness.bending.size(); ++k) {
     stiffness.bending[k] /= stiffness.axial[k];
   }
-  Parted parted{{}, face.sides, uniaxial_modulus(lame_constants(input, material), own.lattice.dim)};
+  Parted parted{{},
+                face.sides,
+                face.held,
+                uniaxial_modulus(lame_constants(input, material), own.lattice.dim)};
   const auto part = [&](const Vector3& normal) {
     auto bonds =
         layer_bonds(offsets, stiffness.axial, stiffness.bending, own.lattice.cell_volume, normal);

@@ -41,6 +41,8 @@ struct FaceShape {
   std::optional<Vector3> normal;  ///< unit vector; nothing: the face is not plane
   /// Moduli behind it and where the normal points, over that of the bonds that cross it [-].
   std::array<double, 2> sides{1, 1};
+  /// What its bonds bear at their limit, over what they would with the k_b by which they break [-].
+  double held = 1.0;
 };
 
 /// The same of bonds that cross a face; beta is that of face_strength().

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <span>
 
+#include "base/csr.hpp"
 #include "discretization/cuts/cracks.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/principal_values.hpp"
@@ -27,8 +29,7 @@ std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face,
   std::vector<Index> crossing;
   std::vector<std::uint8_t> keep;
   if (face.side.empty()) {
-    keep = find_cut_bonds(network.particles, network.bonds, {&face.face, 1}, body.lattice.spacing)
-               .keep;
+    keep = find_cut_bonds(network.particles, network.bonds, face.faces, body.lattice.spacing).keep;
   }
   const auto side = [&](Index i) {
     return i < static_cast<Index>(face.side.size()) ? face.side[i] : 0;
@@ -64,35 +65,44 @@ void add(const Axes& other, Axes& axes) {
 /// What the bonds that cross a face make of it.
 struct Face {
   double area = 0.0;          ///< [length^2]
-  double fracture_sum = 0.0;  ///< sum of k xi^2 over the area [force/length]
+  double fracture_sum = 0.0;  ///< sum of k xi^2 over the area, as held at the end [force/length]
+  double held = 1.0;          ///< mean of held_at_the_end()
   Vector3 axis{};             ///< mean normal
   bool plane = false;
   std::array<double, 2> moduli{};  ///< mean E behind it and where the normal points
   SolidMaterial material;          ///< mean constants of both sides, with the law of the face
 };
 
-/// Parts of the materials that fill the face itself. Where two meet in it, the particles of one lie
-/// on their facets, so that the bonds across are calibrated for the stress of the other.
+/// Parts of the materials that fill the face itself. Where particles on the facets between two
+/// materials have bonds across, that is the one which these bonds enter there, whatever the
+/// particles are made of: for its stress they are calibrated.
 std::vector<double> parts_of_materials(const Body& body, const NetworkInput& input,
                                        const Network& network, std::span<const Index> crossing) {
   std::vector<double> ends(input.materials.size(), 0.0), gap = ends;
-  std::vector<std::uint8_t> beside(static_cast<std::size_t>(network.particles.size()), 0);
-  const std::vector<Index>& material = network.particles.material;
   for (const Index e : crossing) {
     for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
-      ends[material[i]] += 0.5 / static_cast<double>(crossing.size());
-      beside[i] = 1;
+      ends[network.particles.material[i]] += 0.5 / static_cast<double>(crossing.size());
     }
   }
   if (input.draft || body.lattice.surface != Surface::calibrated) return ends;
+  const Facets& facets = network.facets;
+  const Csr facets_at = sorted_into_rows(network.particles.size(), [&](const auto& add_to) {
+    for (Index f = 0; f < facets.size(); ++f) {
+      if (facets.on_surface(f) || facets.inside[f] == facets.outside[f]) continue;
+      for (const Index i : facets.corners.row(f)) add_to(i, f);
+    }
+  });
   double sum = 0.0;
-  for (Index f = 0; f < network.facets.size(); ++f) {
-    const Index inside = network.facets.inside[f], outside = network.facets.outside[f];
-    if (network.facets.on_surface(f) || inside == outside) continue;
-    for (const Index i : network.facets.corners.row(f)) {
-      if (beside[i] == 0) continue;
-      gap[material[i] == inside ? outside : inside] += 1.0;
-      sum += 1.0;
+  for (const Index e : crossing) {
+    const auto n = network.bonds.direction(e);
+    for (const bool first : {true, false}) {
+      for (const Index f :
+           facets_at.row(first ? network.bonds.first[e] : network.bonds.second[e])) {
+        const auto area = facets.area_vector(f);
+        const double out = std::inner_product(n.begin(), n.end(), area.begin(), 0.0);
+        gap[(out > 0.0) == first ? facets.outside[f] : facets.inside[f]] += std::abs(out);
+        sum += std::abs(out);
+      }
     }
   }
   if (sum == 0.0) return ends;
@@ -138,6 +148,15 @@ std::map<Index, Axes> axes_of_face(const Network& network, std::span<const Index
   return axes;
 }
 
+/// What a bond of one holds when it breaks by an opening along the normal, over k xi^2 s_c^2 / 2.
+/// Bonds that carry moments break by a ratio of k_b to k that calibration has left behind.
+double held_at_the_end(const Network& network, Index bond, double cosine) {
+  if (!network.carries_moments()) return 1.0;
+  const double along = cosine * cosine, across = 1.0 - along;
+  const double bending = network.bending[bond] / network.stiffness[bond];
+  return (along + bending * across) / (along + network.ratio_of_bending(bond) * across);
+}
+
 /// A uniform dilatation of one brings a stress of dim lambda + 2 mu, which bonds carry across the
 /// face by k xi: that settles the area that they carry. The normal where a bond crosses is the axis
 /// along which the bonds at its ends lie most.
@@ -155,7 +174,8 @@ Face measure(const Body& body, const NetworkInput& input, const Network& network
   for (const auto& own : axes) add(own.second, mean);
   Face face;
   face.axis = principal_direction(mean, dim);
-  double along = 0.0;  // the area seen along the normal
+  double along = 0.0, fracture_along = 0.0;  // the same seen along the mean normal
+  double squares = 0.0;
   for (const Index e : crossing) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
     Axes both = axes.at(i);
@@ -163,12 +183,21 @@ Face measure(const Body& body, const NetworkInput& input, const Network& network
     const Vector3 n = direction_of(network, e);
     const double length = network.bonds.lengths[e];
     const double area = network.stiffness[e] * length / stress;
-    face.area += area * std::abs(cosine_between(n, principal_direction(both, dim)));
-    along += area * std::abs(cosine_between(n, face.axis));
-    face.fracture_sum += network.stiffness[e] * length * length;
+    const double square = network.stiffness[e] * length * length;
+    const double own = std::abs(cosine_between(n, principal_direction(both, dim)));
+    const double by_mean = std::abs(cosine_between(n, face.axis));
+    face.area += area * own;
+    along += area * by_mean;
+    squares += square;
+    face.fracture_sum += square * held_at_the_end(network, e, own);
+    fracture_along += square * held_at_the_end(network, e, by_mean);
   }
   face.plane = along > plane * face.area;
-  if (face.plane) face.area = along;
+  if (face.plane) {
+    face.area = along;
+    face.fracture_sum = fracture_along;
+  }
+  face.held = face.fracture_sum / squares;
   face.fracture_sum /= face.area;
   mix(input, network, crossing, parts, face);
   return face;
@@ -176,7 +205,7 @@ Face measure(const Body& body, const NetworkInput& input, const Network& network
 
 MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Face& face) {
   const double own = face.material.youngs_modulus;
-  FaceShape shape{std::nullopt, {face.moduli[0] / own, face.moduli[1] / own}};
+  FaceShape shape{std::nullopt, {face.moduli[0] / own, face.moduli[1] / own}, face.held};
   if (face.plane) shape.normal = face.axis;
   return bonds_of_face(body, input, shape, face.material,
                        lattice_critical_stretch(face.material.fracture_energy, face.fracture_sum));

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <numeric>
 #include <string>
 
+#include "support/replaced.hpp"
 #include "support/whole_run.hpp"
 
 namespace perilink {
@@ -53,6 +55,11 @@ std::vector<double> sum_of_reactions(const WholeRun& run, int step) {
   return {values[2], values[3], values[4]};
 }
 
+/// Name of the table of bars beside the last fields.
+std::string bars_file(const WholeRun& run) {
+  return replaced(replaced(run.series().back().file, "fields", "bars"), ".vtu", ".csv");
+}
+
 /// Values of the segments of bars, in their order.
 std::vector<double> of_segments(const VtuGrid& grid, const char* name) {
   const std::vector<double>& kinds = grid.find_cell_data("element")->values;
@@ -94,6 +101,29 @@ TEST(BarRuns, BarsYieldInStages) {
   EXPECT_LT(told(run, "energy_error"), 1e-9);
 }
 
+/// Every set of loads has a load factor of its own, and counts in what holds the body.
+TEST(BarRuns, ReactionsOfStagesAreInBalance) {
+  const WholeRun run(
+      beam(false, straight,
+           "[[loads]]\nregion = \"right\"\nforce = [0, -50]\nstage = \"weight\"\n"
+           "[[displacements]]\nregion = \"right\"\nx = 0.002\nstage = \"pull\"\n"
+           "[[stages]]\nname = \"weight\"\nto = 1\n[[stages]]\nname = \"pull\"\nto = 0.5\n"));
+  const Index rows = run.run->files().rows();
+  const double load = std::abs(
+      run.history().rows.back().at(static_cast<std::size_t>(run.history().column("load"))));
+  ASSERT_GT(load, 100.0);
+  const std::string text = read_text(run.work / fmt::format("reactions_{:06}.csv", rows));
+  for (const double value : sum_of_reactions(run, rows)) EXPECT_LT(std::abs(value), 1e-7 * load);
+  double x = 0.0, y = 0.0, moment = 0.0, held = 0.0, lifted = 0.0;
+  const char* support = std::strstr(text.c_str(), "supports: left,");
+  ASSERT_NE(support, nullptr) << text;
+  ASSERT_EQ(
+      std::sscanf(support, "supports: left,%lf,%lf,%lf,%lf,%lf", &x, &y, &held, &lifted, &moment),
+      5);
+  EXPECT_NEAR(held, -load, 1e-6 * load);
+  EXPECT_NEAR(lifted, 50.0, 1e-6);
+}
+
 /// A straight bar is free to turn about itself, whichever way it lies.
 TEST(BarRuns, StraightBarsBendInSpace) {
   const auto energy = [](const std::string& bar) {
@@ -132,6 +162,44 @@ TEST(BarRuns, RelaxationTellsWhatElasticityDoes) {
     for (const double value : sum_of_reactions(moved, step))
       EXPECT_LT(std::abs(value), 1e-3 * load);
   }
+}
+
+/// The end of a bar is drawn out of a solid that stays whole, by events and slowly in time: loads,
+/// energies, slips and bond stresses are the same but for the teeth and what is left of motion.
+TEST(BarRuns, BondsSlipInTimeAsTheyDoByEvents) {
+  const std::string drawn = replaced(
+      beam(false, straight + "bond = \"curve\"\nbond_curve = [[0.001, 2], [0.05, 6], [0.2, 1]]\n",
+           "[[regions]]\nname = \"end\"\nx = [179.9, 180.1]\ny = [42.9, 43.1]\n"
+           "[[displacements]]\nregion = \"end\"\nx = 0.15\n"),
+      "fracture_energy = 0.1", "fracture_energy = \"infinite\"\ndensity = 2.4e-9");
+  const WholeRun still(drawn + "[stop]\ndisplacement = 0.15\n");
+  const WholeRun moved(drawn +
+                       "[analysis]\ntype = \"explicit\"\nduration = 0.004\n"
+                       "damping_rate = 20000\n");
+  const auto near = [&](double value, double expected, const char* what) {
+    EXPECT_NEAR(value, expected, 0.03 * std::abs(expected)) << what;
+  };
+  const auto last = [](const WholeRun& run, const char* column) {
+    const CsvTable history = run.history();
+    return history.rows.back().at(static_cast<std::size_t>(history.column(column)));
+  };
+  near(last(moved, "load"), last(still, "load"), "load");
+  near(told(moved, "dissipated_energy"), told(still, "dissipated_energy"), "dissipated_energy");
+  const VtuGrid of_still = still.fields(still.series().size() - 1);
+  const VtuGrid of_moved = moved.fields(moved.series().size() - 1);
+  for (const char* name : {"axial_stress", "slip", "bond_stress"}) {
+    const std::vector<double> a = of_segments(of_still, name), b = of_segments(of_moved, name);
+    ASSERT_EQ(a.size(), 16u);
+    near(*std::max_element(b.begin(), b.end()), *std::max_element(a.begin(), a.end()), name);
+    near(b.at(8), a.at(8), name);
+  }
+  // Bond stresses stay on their curve (1 to 6) also where the bar is drawn, but for their teeth.
+  for (const double stress : of_segments(of_still, "bond_stress")) {
+    EXPECT_GT(stress, 0.9);
+    EXPECT_LT(stress, 6.3);
+  }
+  const CsvTable table = read_csv((moved.work / bars_file(moved)).string());
+  EXPECT_EQ(table.rows.size(), 16u);
 }
 
 /// Both halves of a closed bar bear the same, and so does what they give to the solid: it has no

@@ -284,22 +284,58 @@ TEST(Joints, ThreeMaterialsInThinLayersAreInBalance) {
   EXPECT_TRUE(find_loose_particles(network).empty());
 }
 
-/// Bonds that cross the joint hold the halves together where they can break.
-TEST(Joints, BodiesThatCanBreakKeepTheBondsAcross) {
-  const JointCase tested{"rectangular", Pattern::rectangular, 2, 4.0, 3.0};
-  JointBody joint(tested, 8);
-  const auto crossing = [](const Network& network) {
-    Index count = 0;
-    for (Index b = 0; b < network.bonds.size(); ++b) {
-      const double from = network.particles.position(network.bonds.first[b])[1] - height_of_joint;
-      const double to = network.particles.position(network.bonds.second[b])[1] - height_of_joint;
-      count += from * to < -1e-12 ? 1 : 0;
-    }
-    return count;
-  };
-  EXPECT_EQ(crossing(joint.network), 0);
+Index bonds_across(const Network& network) {
+  const int last = network.dim() - 1;
+  Index count = 0;
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const double from = network.particles.position(network.bonds.first[b])[last] - height_of_joint;
+    const double to = network.particles.position(network.bonds.second[b])[last] - height_of_joint;
+    count += from * to < -1e-12 ? 1 : 0;
+  }
+  return count;
+}
+
+/// Bonds that cross the joint hold the halves together where bonds beside it can break.
+TEST(Joints, WhatCanBreakBesideThemKeepsTheBondsAcross) {
+  JointBody joint({"rectangular", Pattern::rectangular, 2, 4.0, 3.0}, 8);
+  EXPECT_EQ(bonds_across(joint.network), 0);
   joint.input.materials[0].fracture_energy = 1.0;
-  EXPECT_GT(crossing(build_network(joint.body, joint.input)), 0);
+  EXPECT_GT(bonds_across(build_network(joint.body, joint.input)), 0);
+}
+
+/// The lower part of the lower half can break: its bonds, a horizon away from the joint, are those
+/// of a body without one.
+TEST(Joints, WhatBreaksElsewhereLeavesThemInBalance) {
+  for (const Pattern pattern : {Pattern::rectangular, Pattern::irregular}) {
+    JointBody joint({"", pattern, 2, 4.0, 2.0}, 16);
+    const auto breaks_below = [&](double height) {
+      joint.input.materials = {{3.0}, {12.0}, {3.0, 1.0}};
+      Particles& particles = joint.body.particles;
+      for (Index i = 0; i < particles.size(); ++i) {
+        const double y = particles.position(i)[1];
+        if (y < height_of_joint) particles.material[i] = y < height ? 2 : 0;
+      }
+      return build_network(joint.body, joint.input);
+    };
+    const Network network = breaks_below(0.2);
+    EXPECT_EQ(bonds_across(network), 0);
+    EXPECT_LT(network.calibration->residual_after, 1e-9);
+    std::vector<double> stretches;
+    for (Index b = 0; b < network.bonds.size(); ++b) {
+      if (std::isfinite(network.critical_stretch[b])) {
+        stretches.push_back(network.critical_stretch[b]);
+      }
+    }
+    joint.input.materials[1] = {3.0};
+    const Network alike = build_network(joint.body, joint.input);
+    ASSERT_FALSE(stretches.empty());
+    for (const double stretch : stretches) {
+      EXPECT_NEAR(stretch,
+                  *std::min_element(alike.critical_stretch.begin(), alike.critical_stretch.end()),
+                  pattern == Pattern::irregular ? 0.02 * stretch : 1e-12);
+    }
+    EXPECT_GT(bonds_across(breaks_below(0.4)), 0) << "less than a horizon away";
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <vector>
 
+#include "support/replaced.hpp"
 #include "support/weak_strips.hpp"
 #include "support/whole_run.hpp"
 
@@ -32,6 +33,22 @@ TEST_P(WeakStrips, BearTheStrengthAndTakeTheFractureEnergyOfTheirInterface) {
   EXPECT_NEAR(told("peak_load"), force, 0.03 * force);
   EXPECT_NEAR(told("dissipated_energy"), energy, 0.03 * energy);
   EXPECT_LT(told("energy_error"), 1e-9);
+}
+
+/// Particles on the joint of two materials are on the one side of a line along it or on the other:
+/// the bonds across are then those of the stiff half, or those of the soft one.
+TEST(WeakStrips, TakeTheirEnergyWhicheverWayALineAlongTheirJointIsDrawn) {
+  for (const char* model : {"bond_based", "micropolar"}) {
+    WeakStrip strip{false, model};
+    strip.stiffer = 0.25;
+    for (const char* line : {"[[50, -1], [50, 51]]", "[[50, 51], [50, -1]]"}) {
+      const WholeRun run(replaced(weak_strip_case(strip), "between = [\"first\", \"second\"]",
+                                  fmt::format("points = {}", line)));
+      const double energy = strip.fracture_energy * strip.area();
+      EXPECT_NEAR(run.summary.json.at("dissipated_energy").get<double>(), energy, 0.03 * energy)
+          << model << line;
+    }
+  }
 }
 
 std::vector<NamedStrip> weak_strips() {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
+#include "app/plot/plot_bars.hpp"
 #include "app/plot/plot_curve.hpp"
 #include "app/plot/plot_fields.hpp"
 #include "app/process/console.hpp"
@@ -46,6 +47,12 @@ void plot_series(const fs::path& directory, const fs::path& out, const PlotLabel
     if (const double time = grid.field("time", -1.0); time >= 0.0) caption.time = time;
     save(draw_fields(read_body(grid, path), caption, labels, scale),
          out / fmt::format("fields_{}.svg", step));
+    const fs::path bars = directory / fmt::format("bars_{:06}.csv", step);
+    if (!fs::exists(bars)) continue;
+    const std::string text =
+        fmt::format("row {}, load {}", step, in_unit(short_number(caption.load), labels.force));
+    save(draw_bars(read_csv(bars.string()), bars.string(), text, labels),
+         out / fmt::format("bars_{}.svg", step));
   }
 }
 

@@ -12,6 +12,8 @@ struct ModelState {
   std::span<const double> motion;  ///< over `scale`, shape (particles, width)
   double scale = 1.0;
   double load_factor = 1.0;  ///< factor on the loads
+  /// With stages those on LoadedNetwork::sets, in place of it; else empty.
+  std::span<const double> set_factors = {};
 };
 
 }  // namespace perilink

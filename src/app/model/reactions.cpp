@@ -17,7 +17,11 @@ namespace {
 /// All loads as they are.
 std::vector<double> present_loads(const Model& model, const ModelState& state) {
   std::vector<double> loads = model.loads.forces;
-  for (double& load : loads) load *= state.load_factor;
+  for (double& load : loads) load *= state.set_factors.empty() ? state.load_factor : 0.0;
+  for (std::size_t s = 0; s < state.set_factors.size(); ++s) {
+    const std::vector<double>& forces = model.sets[s].loads.forces;
+    for (std::size_t k = 0; k < loads.size(); ++k) loads[k] += state.set_factors[s] * forces[k];
+  }
   return loads;
 }
 
@@ -71,6 +75,9 @@ std::vector<std::uint8_t> held_slots(const Model& model) {
   std::vector<std::uint8_t> held(model.unknowns.number.size(), 0);
   for (std::size_t slot = 0; slot < held.size(); ++slot) {
     if (model.unknowns.number[slot] == no_index) held[slot] = 1;
+    for (const LoadSet& set : model.sets) {
+      if (set.unknowns.number[slot] == no_index) held[slot] = 1;
+    }
   }
   const std::vector<double>& springs = model.network.support_stiffness;
   for (std::size_t slot = 0; slot < springs.size(); ++slot) {

@@ -13,8 +13,8 @@
 
 namespace perilink {
 
-/// Nonzero for every component of a particle that is prescribed or on a spring; shape (particles,
-/// width).
+/// Nonzero for every component of a particle that is prescribed, in any stage, or on a spring;
+/// shape (particles, width).
 std::vector<std::uint8_t> held_slots(const Model& model);
 
 /// Force of what holds each component; zero where nothing does. Of a body at rest: what its

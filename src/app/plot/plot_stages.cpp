@@ -2,17 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include "app/plot/color_map.hpp"
 
 namespace perilink {
 namespace {
 
-/// Told apart in print and by the colour-blind, after Okabe & Ito (2008), without their yellow.
-constexpr std::array stage_colors = {"#0072b2", "#d55e00", "#009e73",
-                                     "#cc79a7", "#56b4e9", "#e69f00"};
-
 const char* color_of(const StagePath& stage) {
-  return stage_colors[static_cast<std::size_t>(stage.number - 1) % stage_colors.size()];
+  return distinct_colors[static_cast<std::size_t>(stage.number - 1) % distinct_colors.size()];
 }
 
 StageLabel label_of(Index number, const PlotLabels& labels) {

@@ -12,6 +12,7 @@
 #include "app/model/gauges.hpp"
 #include "app/model/reactions.hpp"
 #include "app/process/signals.hpp"
+#include "app/results/bar_file.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
@@ -113,6 +114,10 @@ void MovingBondsRun::add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& 
     files_->write_table("reactions", record.step,
                         reaction_table(places, model_, {secants, motion, 1.0, record.load_factor}));
   }
+  if (model_.network.bars.bar.empty()) return;
+  const BarState bars = bar_state(model_.network, secants, motion);
+  add_bars(grid, bars);
+  files_->write_table("bars", record.step, bar_table(model_.network, bars));
 }
 
 void MovingBondsRun::on_row(const ExplicitRecord& record, const BondRunState& state) {

@@ -23,8 +23,16 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
   if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   plan += fmt::format(", {} unknowns", model_.unknowns.count);
-  // The sets of loads of stages have load factors of their own, which rows do not tell.
-  if (input.stages.empty()) places_held_ = held_places(input, model_);
+  places_held_ = held_places(input, model_);
+  for (const StageSection& stage : input.stages) {
+    const auto earlier =
+        std::find_if(input.stages.begin(), input.stages.end(),
+                     [&](const StageSection& s) { return s.loads == stage.loads; });
+    const auto number = static_cast<std::size_t>(earlier - input.stages.begin());
+    const bool is_new = number == set_of_stage_.size();
+    set_of_stage_.push_back(is_new ? set_factors_.size() : set_of_stage_[number]);
+    if (is_new) set_factors_.push_back(0.0);
+  }
 }
 
 void DamageRun::analyse() {
@@ -51,6 +59,7 @@ void DamageRun::begin_again(const LateConversion& late) {
   std::fill(is_broken_.begin(), is_broken_.end(), 0);
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
   places_.clear();
+  std::fill(set_factors_.begin(), set_factors_.end(), 0.0);
   last_element_ = no_index;
   broken_at_fields_ = last_stage_ = 0;
   highest_ = 0.0;
@@ -146,7 +155,7 @@ bool DamageRun::wants_fields(const StepRecord& record) const {
 }
 
 ModelState DamageRun::model_state(const StepRecord& record, const StepState& state) const {
-  return {state.secants, state.displacement, scale_of(record), record.load_factor};
+  return {state.secants, state.displacement, scale_of(record), record.load_factor, set_factors_};
 }
 
 void DamageRun::write_state(const StepRecord& record, StateSource& source) {
@@ -210,6 +219,7 @@ void DamageRun::show_progress(const StepRecord& record) {
 }
 
 void DamageRun::on_step(const StepRecord& record, StateSource& source) {
+  if (record.stage > 0) set_factors_[set_of_stage_[record.stage - 1]] = record.load_factor;
   note_broken(record, source);
   note_places(record, source);
   std::vector<double> gauges;

@@ -44,7 +44,9 @@ class DamageRun final : public NetworkRun, public StepObserver {
   Index last_stage_ = 0;           ///< where the last row was
   double highest_ = 0.0;           ///< |load| so far
   std::vector<HeldPlace> places_held_;
-  std::vector<ToldCrack> cracks_;   ///< in the last field file
+  std::vector<std::size_t> set_of_stage_;  ///< in Model::sets
+  std::vector<double> set_factors_;        ///< per set, in the last row
+  std::vector<ToldCrack> cracks_;          ///< in the last field file
   std::vector<PlaceForce> places_;  ///< in the row of the largest |load|, where there are several
 };
 

@@ -116,6 +116,29 @@ std::vector<Vector3> shifted_positions(const Particles& particles, std::span<con
   return positions;
 }
 
+/// Box around all pieces.
+struct Surroundings {
+  Vector3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+
+  explicit Surroundings(std::span<const Piece> pieces, double tolerance) {
+    for (const Piece& piece : pieces) {
+      for (const Vector3& corner : piece.corners) {
+        for (int a = 0; a < 3; ++a) {
+          low[a] = std::min(low[a], corner[a] - tolerance);
+          high[a] = std::max(high[a], corner[a] + tolerance);
+        }
+      }
+    }
+  }
+
+  bool miss(const Vector3& from, const Vector3& to) const {
+    for (int a = 0; a < 3; ++a) {
+      if (std::max(from[a], to[a]) < low[a] || std::min(from[a], to[a]) > high[a]) return true;
+    }
+    return false;
+  }
+};
+
 bool crosses(const Piece& piece, const Vector3& from, const Vector3& to, double tolerance) {
   const double start = dot(minus(from, piece.corners[0]), piece.normal);
   const double end = dot(minus(to, piece.corners[0]), piece.normal);
@@ -136,11 +159,13 @@ CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,
   const std::vector<Piece> pieces = pieces_of(cracks, particles.dim);
   const double tolerance = on_crack_tolerance * spacing;
   const std::vector<Vector3> positions = shifted_positions(particles, pieces, tolerance);
+  const Surroundings all(pieces, 10.0 * tolerance);
   for (Index b = 0; b < bonds.size(); ++b) {
     Index last = no_index;  // a crack with a kink counts a bond once
+    const Vector3 &from = positions[bonds.first[b]], &to = positions[bonds.second[b]];
+    if (all.miss(from, to)) continue;
     for (const Piece& piece : pieces) {
       if (piece.crack == last) continue;
-      const Vector3 &from = positions[bonds.first[b]], &to = positions[bonds.second[b]];
       if (!crosses(piece, from, to, tolerance)) continue;
       ++cut.count[piece.crack];
       last = piece.crack;

@@ -70,6 +70,9 @@ struct Group {
   std::vector<Index> lines = {};
   /// An end of a line that is no edge of the body: a curve for bars alone.
   std::optional<Vector3> loose = {};
+  /// Groups of lines, in space of triangles: the sides of cells that they are, by their corners,
+  /// shape (sides, dim).
+  std::vector<Index> sides = {};
 };
 
 /// A part of a beam with one section and one material.

@@ -158,6 +158,7 @@ void add_facets_of_facets(const Mesh& mesh, const MeshGroup& group, const CellFa
     const bool known = std::find(corners.begin(), corners.end(), no_index) == corners.end();
     const Index face = known ? find_face(faces, corners) : no_index;
     if (face != no_index) {
+      result.sides.insert(result.sides.end(), corners.begin(), corners.end());
       if (numbering.surface_facet[face] != no_index) {
         result.facets.push_back(numbering.surface_facet[face]);
       }

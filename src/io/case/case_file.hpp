@@ -145,10 +145,11 @@ struct CrackSection {
 };
 
 /// [[interfaces]]: bonds that cross a face between two regions, or a line or plane, break by an
-/// energy of their own. Exactly one of between and points.
+/// energy of their own. Exactly one of between, points and group.
 struct InterfaceSection {
   std::vector<std::string> between;  ///< two regions; what lies in both belongs to the second
   std::vector<Vector3> points;       ///< as CrackSection::points
+  std::string group;                 ///< physical curves of the mesh, in space surfaces
   double fracture_energy = 0.0;      ///< [force/length]
   SofteningMaterial softening;
 };

@@ -318,6 +318,7 @@ const std::vector<KeySchema> interface_keys = {
     {"corners",
      {{plane, "is given, but the body has 2 dimensions",
        "give the `points` of a line: [[0, 1], [2, 1]]"}}},
+    "group",
     "fracture_energy",
     "tensile_strength",
     "softening",

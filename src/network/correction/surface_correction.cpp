@@ -57,6 +57,8 @@ class Correction {
   Index material(Index particle) const { return network_.particles.material[particle]; }
   void fade_at_horizon();
   void favor_short_bonds();
+  void set_strength(const LatticeFamilies* families);
+  bool breaks_beside(const Joint& joint) const;
   void take_bulk_families(const LatticeFamilies& families);
   std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
   void scale_to(const std::vector<double>& wanted);
@@ -218,18 +220,41 @@ void Correction::calibrate(bool give_up) {
     balance(calibration);
     network_.calibration->seconds = timer.seconds();
   }
-  if (!family) {
+  set_strength(family);
+}
+
+/// By the stiffnesses as they are now.
+void Correction::set_strength(const LatticeFamilies* families) {
+  if (families == nullptr) {
     set_strength_of_cloud(input_, network_);
   } else if (input_.critical_stretch == Constants::lattice) {
-    set_critical_stretches(input_, *family, body_.lattice.cell_volume, network_);
+    set_critical_stretches(input_, *families, body_.lattice.cell_volume, network_);
   }
 }
 
-/// Layers of materials that meet in planes, each as a body of its own. Bodies that can break keep
-/// the bonds across, and rotations of bonds that carry moments would have to jump in the planes.
+/// Whether bonds can break that lie within a horizon of a plane, at least in part.
+bool Correction::breaks_beside(const Joint& joint) const {
+  std::vector<std::uint8_t> near(static_cast<std::size_t>(network_.particles.size()), 0);
+  for (Index i = 0; i < network_.particles.size(); ++i) {
+    const double height = joint.height(network_.particles.position(i));
+    for (const double plane : joint.planes) {
+      if (std::abs(height - plane) <= input_.horizon + joint.tolerance) near[i] = 1;
+    }
+  }
+  const auto breaks = [&](Index particle) {
+    return std::isfinite(input_.materials[material(particle)].fracture_energy);
+  };
+  for (Index b = 0; b < network_.bonds.size(); ++b) {
+    const Index i = network_.bonds.first[b], j = network_.bonds.second[b];
+    if ((near[i] != 0 || near[j] != 0) && breaks(i) && breaks(j)) return true;
+  }
+  return false;
+}
+
+/// Layers of materials that meet in planes, each as a body of its own. Where bonds beside a plane
+/// can break those across it stay, and rotations of bonds that carry moments would have to jump.
 bool Correction::calibrate_layers() {
-  const bool may_break = can_break(input_) || !input_.interfaces.empty();
-  if (input_.materials.size() < 2 || micropolar() || may_break) return false;
+  if (input_.materials.size() < 2 || micropolar() || !input_.interfaces.empty()) return false;
   if (input_.draft || input_.shell) return false;
   std::vector<LameConstants> constants;
   for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
@@ -239,10 +264,16 @@ bool Correction::calibrate_layers() {
   const auto calibrate_layer = [&](const Body& body, Network& network) {
     Correction(body, input_, network).calibrate(true);
   };
-  if (!joint || !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
+  if (!joint || breaks_beside(*joint) ||
+      !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
     return false;
   }
   network_.bending_ratio = own_bending_ratios(network_);
+  if (can_break(input_)) {
+    std::optional<LatticeFamilies> families;
+    if (on_lattice()) families.emplace(body_, input_);
+    set_strength(families ? &*families : nullptr);
+  }
   network_.calibration->seconds = timer.seconds();
   return true;
 }

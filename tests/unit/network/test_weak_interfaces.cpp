@@ -57,9 +57,9 @@ struct FaceBody {
     const double ratio = tested.model == BondModel::micropolar ? 0.2 : 0.0;
     input.materials = {{youngs_modulus, fracture_energy, ratio}};
     const double at = 0.5 * side + 0.1;
-    WeakInterface face{{}, {{{at, -1, 0}, {at, side + 1, 0}}}, fracture_energy, {}};
+    WeakInterface face{{}, {{{{at, -1, 0}, {at, side + 1, 0}}}}, fracture_energy, {}};
     if (tested.dim == 3) {
-      face.face.points = {
+      face.faces[0].points = {
           {at, -1, -1}, {at, side + 1, -1}, {at, side + 1, side + 1}, {at, -1, side + 1}};
     }
     input.interfaces = {face};

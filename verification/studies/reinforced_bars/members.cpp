@@ -108,6 +108,7 @@ Findings pull_tension_members() {
 Findings pull_bar_out() {
   const BarRun run = run_bars("pull_out", changed_case("pull_out", {}));
   const ForceCurve bond = model_code_curve({36.0, 8.0});
+  draw_stresses(run, "pull_out.svg");
   const PullOut exact = pull_long_bar(bond, 16.0, 200e3, 400.0, run.rows.back().displacement);
   Findings findings;
   findings.push_back(

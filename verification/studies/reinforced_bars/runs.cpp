@@ -10,6 +10,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/plot_command.hpp"
+#include "app/plot/plot_bars.hpp"
 #include "base/timer.hpp"
 #include "io/text/csv.hpp"
 
@@ -137,6 +138,13 @@ void draw_run(const BarRun& run, const std::string& file_name, double scale, dou
   plot_results({one.string(), one.string(), scale});
   fs::copy_file(files_like(one, "fields_", ".svg").back(), fs::path(PERILINK_STUDY_DIR) / file_name,
                 fs::copy_options::overwrite_existing);
+}
+
+void draw_stresses(const BarRun& run, const std::string& file_name) {
+  const std::string table = files_like(run.directory, "bars_", ".csv").back().string();
+  const std::string caption = fmt::format("load {:.4g}", run.rows.back().load);
+  draw_bars(read_csv(table), table, caption, read_labels(run.directory))
+      .save(PERILINK_STUDY_DIR "/" + file_name);
 }
 
 double largest_load(const BarRun& run, std::size_t row) {

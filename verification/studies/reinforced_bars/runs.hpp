@@ -54,6 +54,9 @@ BarRun run_bars(const std::string& label, const std::string& case_text);
 void draw_run(const BarRun& run, const std::string& file_name, double scale = 0.0,
               double displacement = 1e30);
 
+/// Puts a picture of the stresses along the bars in the last row into this folder.
+void draw_stresses(const BarRun& run, const std::string& file_name);
+
 /// The largest load up to a row.
 double largest_load(const BarRun& run, std::size_t row);
 

@@ -11,7 +11,7 @@ namespace perilink {
 
 /// [[interfaces]] of a case on the particles of its body; none of elastic analyses, in which
 /// nothing breaks.
-/// \throws InputError  for lines and planes that are none
+/// \throws InputError  for lines, planes and groups that are none
 std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& body);
 
 /// \throws InputError

@@ -12,7 +12,7 @@ namespace perilink {
 InterfaceSection read_interface(const CaseTable& table, int dim) {
   const std::string key = dim == 2 ? "points" : "corners";
   InterfaceSection section;
-  table.need_one_of({"between", key});
+  table.need_one_of({"between", key, "group"});
   assign(section.between, table.texts("between"));
   if (table.has("between") && section.between.size() != 2) {
     table.refuse("between", fmt::format("names {} regions", section.between.size()),
@@ -29,6 +29,10 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
     table.refuse(key, fmt::format("has {}", section.points.size()),
                  dim == 2 ? "a line needs two points or more" : "a plane needs three corners");
   }
+  assign(section.group, table.text("group"));
+  if (table.has("group") && section.group.empty()) {
+    table.refuse("group", "is empty", "name physical curves of the mesh, in space surfaces");
+  }
   if (table.choice<Softening>("softening") == Softening::concrete) {
     table.refuse("softening", "is \"concrete\", which crushes: a face does not",
                  "take \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
@@ -43,6 +47,13 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
 
 void check_interfaces(const CaseFile& input) {
   if (input.interfaces.empty()) return;
+  for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
+    if (input.interfaces[k].group.empty() || input.body.mesh) continue;
+    throw InputError(input.where(item_key("interfaces", k, "group")),
+                     fmt::format("is {}, a physical group of a mesh, but the body has no mesh",
+                                 quoted(input.interfaces[k].group)),
+                     "give `between`, or the place of the face");
+  }
   for (std::size_t m = 0; m < input.materials.size(); ++m) {
     if (input.materials[m].softening.shape.kind != Softening::concrete) continue;
     throw InputError(
@@ -56,6 +67,8 @@ void write_interface(TomlWriter& out, const InterfaceSection& section, int dim) 
   out.header("[[interfaces]]");
   if (!section.between.empty()) {
     out.write("between", section.between);
+  } else if (!section.group.empty()) {
+    out.write("group", section.group);
   } else {
     std::vector<std::vector<double>> points;
     for (const Vector3& x : section.points) points.emplace_back(x.begin(), x.begin() + dim);
