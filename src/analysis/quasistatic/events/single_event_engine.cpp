@@ -1,6 +1,8 @@
 #include "analysis/quasistatic/events/single_event_engine.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/block.hpp"
@@ -84,18 +86,17 @@ void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::H
 }
 
 /// Where an event needs columns of K^-1 that are not at hand, those of elements near their events
-/// are solved for with them.
+/// are solved for with them, nearest first.
 void SingleEventEngine::prepare(const Event& event) {
   if (equilibrium_.is_prepared(event.element)) return;
-  constexpr std::size_t enough = 4 * block_width;
+  constexpr std::size_t enough = 4 * block_width;  // some of them are at hand
+  constexpr double near = 0.5;
+  std::vector<BreakSearch::Hit> hits =
+      search_->list(equilibrium_.where_elements_fail(), near / event.load_factor);
+  std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
   std::vector<Index> expected;
-  std::vector<std::uint8_t> listed(teeth_.size(), 0);
-  for (const double fraction : {0.95, 0.9, 0.8, 0.65, 0.5}) {
-    for (const Index element : near_events(event, fraction)) {
-      if (listed[element] == 0) expected.push_back(element);
-      listed[element] = 1;
-    }
-    if (expected.size() >= enough) break;
+  for (const BreakSearch::Hit& hit : hits) {
+    if (expected.size() < enough) expected.push_back(hit.element);
   }
   equilibrium_.expect(expected);
 }
