@@ -149,13 +149,14 @@ bool compare_events(int columns, Index count, bool direct, const std::string& on
       {"short horizon", two, "y", brittle},
       {"micropolar", frames, "y", brittle}};
   fmt::print(
-      "scene,unknowns,events,start,ms_per_event,peak_gigabytes{},other_element,load_factor_difference\n",
+      "scene,unknowns,events,start,ms_per_event,peak_gigabytes{},other_element,"
+      "load_factor_difference\n",
       direct ? ",events,start,ms_per_event,peak_gigabytes" : "");
   bool good = true;
   for (const EventScene& scene : scenes) {
     if (!only.empty() && only != scene.name) continue;
-    const Model model =
-        build_model(parse_case(case_text(scene.series, columns, scene.breaks, scene.along), "body"));
+    const Model model = build_model(
+        parse_case(case_text(scene.series, columns, scene.breaks, scene.along), "body"));
     fmt::print("{},{}", scene.name, model.unknowns.count);
     const std::vector<StepRecord> found = follow(model, LinearSolver::iterative, count);
     Index other = 0;
@@ -164,8 +165,7 @@ bool compare_events(int columns, Index count, bool direct, const std::string& on
       const std::vector<StepRecord> expected = follow(model, LinearSolver::direct, count);
       for (std::size_t k = 0; k < std::min(found.size(), expected.size()); ++k) {
         if (found[k].element != expected[k].element) ++other;
-        largest = std::max(
-            largest, std::abs(found[k].load_factor / expected[k].load_factor - 1.0));
+        largest = std::max(largest, std::abs(found[k].load_factor / expected[k].load_factor - 1.0));
       }
       good = good && other == 0 && largest < 1e-9 && found.size() == expected.size();
     }

@@ -33,8 +33,8 @@ std::size_t blocks_of(std::size_t columns) { return (columns + block_width - 1) 
 double share_of(const SparseVector& x, const SparseVector& held) {
   constexpr double same = 1e-14;
   if (x.rows != held.rows) return 0.0;
-  const auto largest = std::ranges::max_element(
-      held.values, {}, [](double value) { return std::abs(value); });
+  const auto largest =
+      std::ranges::max_element(held.values, {}, [](double value) { return std::abs(value); });
   const double at = x.values[static_cast<std::size_t>(largest - held.values.begin())];
   const double share = at / *largest;
   for (int k = 0; k < x.size(); ++k) {
@@ -57,6 +57,7 @@ void BoxFactor::begin(const Unknowns& unknowns, Secants secants,
   ground_ = &ground;
   slot_of_ = unknowns.slots();
   ++begun_;
+  expected_.clear();
   place_of_.assign(static_cast<std::size_t>(unknowns.count), no_index);
   window_.clear();
   forget();
@@ -163,9 +164,8 @@ void BoxFactor::hold(std::span<const SparseVector> x) {
   std::vector<SparseVector> chosen = choose(missing);
   if ((blocks_.size() + blocks_of(chosen.size())) * block_width > most_columns()) {
     keep_latest();
-    chosen = choose(missing_of(x));
+    chosen = choose(missing_of(x));  // some may have gone
   }
-  expected_.clear();
   const std::span<const SparseVector> all(chosen);
   for (std::size_t begin = 0; begin < all.size(); begin += block_width) {
     take_in(all.subspan(begin, std::min<std::size_t>(block_width, all.size() - begin)));
@@ -177,7 +177,8 @@ void BoxFactor::hold(std::span<const SparseVector> x) {
 std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& missing) const {
   std::vector<SparseVector> chosen;
   const auto list = [&](const SparseVector& x) {
-    if (!holds(x) && std::ranges::find(chosen, x) == chosen.end()) chosen.push_back(x);
+    const auto is_same = [&](const SparseVector& other) { return share_of(x, other) != 0.0; };
+    if (!holds(x) && std::ranges::none_of(chosen, is_same)) chosen.push_back(x);
   };
   const auto list_what_it_needs = [&](const SparseVector& x) {
     if (!network_.carries_moments()) return list(x);

@@ -30,8 +30,8 @@ class BoxFactor final : public Factor {
   /// From now on it is, of these vectors. Called before the secants change: a downdate by vectors
   /// that are not held would take the change twice.
   void hold(std::span<const SparseVector> x);
-  /// Vectors that are likely to be asked for next, the likeliest first: taken into the window along
-  /// with those that are asked for and not in it.
+  /// Vectors that are likely to be asked for next, the likeliest first: they go into the window
+  /// where blocks have room beside what is asked for.
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
   /// Columns at hand have followed too many changes: all are solved for again when they are asked
   /// for.

@@ -85,18 +85,17 @@ void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::H
       "tells which of them breaks next; hold it by supports or by stiffer springs");
 }
 
-/// Where an event needs columns of K^-1 that are not at hand, those of elements near their events
-/// are solved for with them, nearest first.
+/// Where an event needs columns of K^-1 that are not at hand, those of the elements that are nearest
+/// to their events are solved for with them.
 void SingleEventEngine::prepare(const Event& event) {
   if (equilibrium_.is_prepared(event.element)) return;
-  constexpr std::size_t enough = 4 * block_width;  // some of them are at hand
   constexpr double near = 0.5;
-  std::vector<BreakSearch::Hit> hits =
-      search_->list(equilibrium_.where_elements_fail(), near / event.load_factor);
+  std::vector<BreakSearch::Hit> hits = near_hits(event, near);
   std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
   std::vector<Index> expected;
   for (const BreakSearch::Hit& hit : hits) {
-    if (expected.size() < enough) expected.push_back(hit.element);
+    if (expected.size() == block_width) break;
+    if (!equilibrium_.is_prepared(hit.element)) expected.push_back(hit.element);
   }
   equilibrium_.expect(expected);
 }
@@ -157,14 +156,13 @@ void SingleEventEngine::set_alert(std::span<const Index> elements, double fracti
 }
 
 std::vector<Index> SingleEventEngine::near_events(const Event& event, double fraction) {
-  return elements_above(fraction / event.load_factor, equilibrium_.where_elements_fail());
+  std::vector<Index> elements;
+  for (const BreakSearch::Hit& hit : near_hits(event, fraction)) elements.push_back(hit.element);
+  return elements;
 }
 
-/// Elements whose ratio is at least this, ascending.
-std::vector<Index> SingleEventEngine::elements_above(double ratio, std::span<const double> motion) {
-  std::vector<Index> elements;
-  for (const BreakSearch::Hit& hit : search_->list(motion, ratio)) elements.push_back(hit.element);
-  return elements;
+std::vector<BreakSearch::Hit> SingleEventEngine::near_hits(const Event& event, double fraction) {
+  return search_->list(equilibrium_.where_elements_fail(), fraction / event.load_factor);
 }
 
 int SingleEventEngine::cut(std::span<const Index> elements) {

@@ -41,6 +41,10 @@ class SingleEventEngine : public EventEngine {
  protected:
   void prepare(const Event& event);
 
+  /// Elements whose ratio at the load factor of the event is at least this, in the order of their
+  /// numbers.
+  virtual std::vector<BreakSearch::Hit> near_hits(const Event& event, double fraction);
+
   /// The stretch at which the element has its next event; infinity: it is broken.
   double limit_of(Index element) const;
 
@@ -60,7 +64,6 @@ class SingleEventEngine : public EventEngine {
   Extension extension_of(Index element) const;
   bool is_within(double noise, const BreakSearch::Hit& hit) const;
   void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) const;
-  std::vector<Index> elements_above(double ratio, std::span<const double> motion);
 
   const Network& network_;
   ThreadChoice threads_;
