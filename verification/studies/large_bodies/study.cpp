@@ -145,7 +145,7 @@ bool compare_events(int columns, Index count, bool direct, const std::string& on
   const EventScene scenes[] = {
       {"pulled", three, "y", brittle},
       {"bent", three, "x", brittle},
-      {"softening", three, "y", "fracture_energy = 0.1\ntensile_strength = 3\n"},
+      {"softening", three, "y", "fracture_energy = 0.1\ntensile_strength = 3\nclosing = false\n"},
       {"short horizon", two, "y", brittle},
       {"micropolar", frames, "y", brittle}};
   fmt::print(
