@@ -85,8 +85,8 @@ void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::H
       "tells which of them breaks next; hold it by supports or by stiffer springs");
 }
 
-/// Where an event needs columns of K^-1 that are not at hand, those of the elements that are nearest
-/// to their events are solved for with them.
+/// Where an event needs columns of K^-1 that are not at hand, those of the elements that are
+/// nearest to their events are solved for with them.
 void SingleEventEngine::prepare(const Event& event) {
   if (equilibrium_.is_prepared(event.element)) return;
   constexpr double near = 0.5;

@@ -180,8 +180,8 @@ TEST(BoxFactor, UnknownsSayWhatVectorsSay) {
   EXPECT_GT(unknowns.columns_solved(), vectors.columns_solved());
 }
 
-/// The particle at a corner is left on a two hundredth of its elements, one after the other: the last
-/// of them hold it by themselves.
+/// The particle at a corner is left on a two hundredth of its elements, one after the other: the
+/// last of them hold it by themselves.
 TEST(BoxFactor, FollowsSmallPivots) {
   const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}, false, false, 5});
   std::vector<double> secants = intact(body.network);
