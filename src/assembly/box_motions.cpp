@@ -108,22 +108,32 @@ void BoxMotions::find_centres(const Network& network) {
   }
 }
 
+/// Shares of the motions of its box in components of a particle that are not held.
+template <class Visit>
+void BoxMotions::for_each_move(Index particle, Visit visit) const {
+  const double* arm = arms_.data() + static_cast<std::size_t>(particle) * dim_;
+  for (int c = 0; c < unknowns_.width; ++c) {
+    if (unknowns_.at(particle, c) < 0) continue;
+    if (c >= dim_) {
+      visit(c, c, 1.0 / size_[box_of_[particle]]);
+      continue;
+    }
+    visit(c, c, 1.0);
+    if (dim_ == 2) {
+      visit(c, 2, c == 0 ? -arm[1] : arm[0]);
+    } else {  // turn x arm
+      const int next = (c + 1) % 3, last = (c + 2) % 3;
+      visit(c, 3 + next, arm[last]);
+      visit(c, 3 + last, -arm[next]);
+    }
+  }
+}
+
 std::array<double, 6> BoxMotions::row(Index particle, int component) const {
   std::array<double, 6> row{};
-  if (unknowns_.at(particle, component) < 0) return row;
-  if (component >= dim_) {
-    row[component] = 1.0 / size_[box_of_[particle]];
-    return row;
-  }
-  const double* arm = arms_.data() + static_cast<std::size_t>(particle) * dim_;
-  row[component] = 1.0;
-  if (dim_ == 2) {
-    row[2] = component == 0 ? -arm[1] : arm[0];
-  } else {  // turn x arm
-    const int next = (component + 1) % 3, last = (component + 2) % 3;
-    row[3 + next] = arm[last];
-    row[3 + last] = -arm[next];
-  }
+  for_each_move(particle, [&](int c, int motion, double share) {
+    if (c == component) row[motion] = share;
+  });
   return row;
 }
 
@@ -166,15 +176,10 @@ void BoxMotions::restrict_block(std::span<const double> residuals, std::span<dou
   for (Index b = 0; b < num_boxes(); ++b) {
     std::array<std::array<double, block_width>, 6> sums{};
     for (const Index p : boxes_[b]) {
-      for (int c = 0; c < width; ++c) {
-        const std::array<double, 6> moves = row(p, c);
-        const double* residual =
-            residuals.data() + (static_cast<std::size_t>(p) * width + c) * block_width;
-        for (int m = 0; m < motions; ++m) {
-          if (moves[m] == 0.0) continue;
-          for (int k = 0; k < block_width; ++k) sums[m][k] += moves[m] * residual[k];
-        }
-      }
+      const double* residual = residuals.data() + static_cast<std::size_t>(p) * width * block_width;
+      for_each_move(p, [&](int c, int m, double share) {
+        for (int k = 0; k < block_width; ++k) sums[m][k] += share * residual[c * block_width + k];
+      });
     }
     double* to = coarse.data() + static_cast<std::size_t>(b) * motions;
     for (int k = 0; k < block_width; ++k) {
@@ -193,14 +198,10 @@ void BoxMotions::add_block(std::span<const double> coarse, std::span<double> res
       for (int m = 0; m < motions; ++m) values[m][k] = from[k * size + m];
     }
     for (const Index p : boxes_[b]) {
-      for (int c = 0; c < width; ++c) {
-        const std::array<double, 6> moves = row(p, c);
-        double* result = results.data() + (static_cast<std::size_t>(p) * width + c) * block_width;
-        for (int m = 0; m < motions; ++m) {
-          if (moves[m] == 0.0) continue;
-          for (int k = 0; k < block_width; ++k) result[k] += moves[m] * values[m][k];
-        }
-      }
+      double* result = results.data() + static_cast<std::size_t>(p) * width * block_width;
+      for_each_move(p, [&](int c, int m, double share) {
+        for (int k = 0; k < block_width; ++k) result[c * block_width + k] += share * values[m][k];
+      });
     }
   }
 }

@@ -40,6 +40,8 @@ class BoxMotions {
   void add_block(std::span<const double> coarse, std::span<double> results) const;
 
  private:
+  template <class Visit>
+  void for_each_move(Index particle, Visit visit) const;
   void split_by_cracks(const Network& network, Secants secants);
   void find_centres(const Network& network);
 

@@ -1,6 +1,8 @@
 #include "analysis/quasistatic/boxes/box_factor.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
@@ -18,8 +20,28 @@ constexpr double slower = 1.3;
 /// Pivots below which the window begins anew.
 constexpr double small_pivot = 0.05;
 
+/// Errors of columns over those of solutions: an event moves the body by little, and what that
+/// leaves is taken away at every check.
+constexpr double coarser = 100.0;
+
 /// Memory that the window may take where that leaves the fewest blocks.
 constexpr double most_bytes = 2e9;
+
+std::size_t blocks_of(std::size_t columns) { return (columns + block_width - 1) / block_width; }
+
+/// How many times the vector holds the other one, which has the same rows; 0: it is another.
+double share_of(const SparseVector& x, const SparseVector& held) {
+  constexpr double same = 1e-14;
+  if (x.rows != held.rows) return 0.0;
+  const auto largest =
+      std::ranges::max_element(held.values, {}, [](double value) { return std::abs(value); });
+  const double at = x.values[static_cast<std::size_t>(largest - held.values.begin())];
+  const double share = at / *largest;
+  for (int k = 0; k < x.size(); ++k) {
+    if (!(std::abs(x.values[k] - share * held.values[k]) <= same * std::abs(at))) return 0.0;
+  }
+  return share;
+}
 
 }  // namespace
 
@@ -35,6 +57,7 @@ void BoxFactor::begin(const Unknowns& unknowns, Secants secants,
   ground_ = &ground;
   slot_of_ = unknowns.slots();
   ++begun_;
+  expected_.clear();
   place_of_.assign(static_cast<std::size_t>(unknowns.count), no_index);
   window_.clear();
   forget();
@@ -60,13 +83,24 @@ void BoxFactor::solve(std::span<const double> rhs, std::span<double> solution) {
   solver_->solve(rhs, solution);
 }
 
-bool BoxFactor::holds(std::span<const Index> unknowns) const {
-  return std::all_of(unknowns.begin(), unknowns.end(),
-                     [&](Index unknown) { return place_of_[unknown] != no_index; });
+/// What the vector is made of in the window, if it is.
+auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vector<Part>> {
+  std::vector<Part> parts;
+  for (int k = 0; k < x.size(); ++k) {
+    const Index place = place_of_[x.rows[k]];
+    if (place == no_index) break;
+    parts.push_back({place, x.values[k] / window_[place].values[0]});
+  }
+  if (parts.size() == x.rows.size()) return parts;
+  for (std::size_t place = 0; place < window_.size(); ++place) {
+    const double share = share_of(x, window_[place]);
+    if (share != 0.0) return std::vector<Part>{{static_cast<Index>(place), share}};
+  }
+  return {};
 }
 
 void BoxFactor::forget() {
-  for (const Index unknown : window_) place_of_[unknown] = no_index;
+  std::ranges::fill(place_of_, no_index);
   window_.clear();
   used_.clear();
   blocks_.clear();
@@ -82,7 +116,7 @@ void BoxFactor::keep_latest() {
   std::stable_sort(places.begin(), places.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return used_[a] > used_[b]; });
   places.resize(kept);
-  const std::size_t columns = (kept + block_width - 1) / block_width * block_width;
+  const std::size_t columns = blocks_of(kept) * block_width;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> shares =
       Eigen::MatrixXd::Zero(shares_.rows(), static_cast<Eigen::Index>(columns));
   shares.leftCols(static_cast<Eigen::Index>(kept)) = shares_(Eigen::all, places);
@@ -90,16 +124,12 @@ void BoxFactor::keep_latest() {
   compliance_ = Eigen::MatrixXd(compliance_(places, places));
   shares_ = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(columns),
                                       static_cast<Eigen::Index>(kept));
-  std::vector<Index> window;
-  std::vector<int> used;
-  for (const Index unknown : window_) place_of_[unknown] = no_index;
-  for (const Eigen::Index place : places) {
-    place_of_[window_[place]] = static_cast<Index>(window.size());
-    window.push_back(window_[place]);
-    used.push_back(used_[place]);
-  }
-  window_ = std::move(window);
-  used_ = std::move(used);
+  const std::vector<SparseVector> window = std::move(window_);
+  const std::vector<int> used = std::move(used_);
+  window_.clear();
+  used_.clear();
+  std::ranges::fill(place_of_, no_index);
+  for (const Eigen::Index place : places) put_in_window(window[place], used[place]);
 }
 
 std::size_t BoxFactor::most_columns() const {
@@ -108,16 +138,22 @@ std::size_t BoxFactor::most_columns() const {
   return block_width * std::clamp(blocks, fewest_blocks, most_blocks);
 }
 
-/// Takes the unknowns of these vectors into the window, and with them those that are expected.
+void BoxFactor::put_in_window(const SparseVector& x, int used) {
+  if (x.size() == 1) place_of_[x.rows[0]] = static_cast<Index>(window_.size());
+  window_.push_back(x);
+  used_.push_back(used);
+}
+
+std::vector<SparseVector> BoxFactor::missing_of(std::span<const SparseVector> x) const {
+  std::vector<SparseVector> missing;
+  std::ranges::copy_if(x, std::back_inserter(missing),
+                       [&](const SparseVector& column) { return !holds(column); });
+  return missing;
+}
+
+/// Takes what these vectors need into the window, and with it what is expected.
 void BoxFactor::hold(std::span<const SparseVector> x) {
-  std::vector<Index> missing;
-  std::vector<std::uint8_t> listed(place_of_.size(), 0);
-  const auto list = [&](Index unknown) {
-    if (place_of_[unknown] != no_index || listed[unknown] != 0) return;
-    listed[unknown] = 1;
-    missing.push_back(unknown);
-  };
-  for (const SparseVector& column : x) std::ranges::for_each(column.rows, list);
+  const std::vector<SparseVector> missing = missing_of(x);
   if (missing.empty()) return;
   ++now_;
   for (const SparseVector& column : x) {
@@ -125,34 +161,55 @@ void BoxFactor::hold(std::span<const SparseVector> x) {
       if (place_of_[unknown] != no_index) used_[place_of_[unknown]] = now_;
     }
   }
-  const std::size_t blocks = (missing.size() + block_width - 1) / block_width;
-  if ((blocks_.size() + blocks) * block_width > most_columns()) keep_latest();
-  for (const Index unknown : expected_) {
-    if (missing.size() < blocks * block_width) list(unknown);
+  std::vector<SparseVector> chosen = choose(missing);
+  if ((blocks_.size() + blocks_of(chosen.size())) * block_width > most_columns()) {
+    keep_latest();
+    chosen = choose(missing_of(x));  // some may have gone
   }
-  expected_.clear();
-  const std::span<const Index> all(missing);
+  const std::span<const SparseVector> all(chosen);
   for (std::size_t begin = 0; begin < all.size(); begin += block_width) {
     take_in(all.subspan(begin, std::min<std::size_t>(block_width, all.size() - begin)));
   }
 }
 
+/// The vectors that are missing and, as far as blocks have room, those that are expected. Modes of
+/// an element that carries moments are asked for combined with each other: of them the unknowns.
+std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& missing) const {
+  std::vector<SparseVector> chosen;
+  const auto list = [&](const SparseVector& x) {
+    const auto is_same = [&](const SparseVector& other) { return share_of(x, other) != 0.0; };
+    if (!holds(x) && std::ranges::none_of(chosen, is_same)) chosen.push_back(x);
+  };
+  const auto list_what_it_needs = [&](const SparseVector& x) {
+    if (!network_.carries_moments()) return list(x);
+    for (const Index unknown : x.rows) list({{unknown}, {1.0}});
+  };
+  std::ranges::for_each(missing, list_what_it_needs);
+  const std::size_t room = blocks_of(chosen.size()) * block_width;
+  for (const SparseVector& x : expected_) {
+    if (chosen.size() < room) list_what_it_needs(x);
+  }
+  if (chosen.size() > room) chosen.resize(room);
+  return chosen;
+}
+
 /// Solves for columns and puts them at the end of the window.
-void BoxFactor::take_in(std::span<const Index> unknowns) {
+void BoxFactor::take_in(std::span<const SparseVector> x) {
   const auto before = static_cast<Eigen::Index>(window_.size());
-  const auto size = before + static_cast<Eigen::Index>(unknowns.size());
+  const auto size = before + static_cast<Eigen::Index>(x.size());
   std::vector<double> right(unknowns_->number.size() * block_width, 0.0);
-  for (std::size_t k = 0; k < unknowns.size(); ++k) {
-    right[slot_of_[unknowns[k]] * block_width + k] = 1.0;
-    place_of_[unknowns[k]] = static_cast<Index>(window_.size());
-    window_.push_back(unknowns[k]);
-    used_.push_back(now_);
+  for (std::size_t c = 0; c < x.size(); ++c) {
+    for (int k = 0; k < x[c].size(); ++k) {
+      right[slot_of_[x[c].rows[k]] * block_width + c] = x[c].values[k];
+    }
+    put_in_window(x[c], now_);
   }
   blocks_.emplace_back(right.size());
-  const int iterations = solver_->solve_block(right, blocks_.back()).iterations;
+  const double enough = coarser * options_.tolerance;
+  const int iterations = solver_->solve_block(right, blocks_.back(), enough).iterations;
   if (first_iterations_ == 0) first_iterations_ = iterations;
   if (iterations > slower * first_iterations_) make_solver();
-  columns_solved_ += static_cast<Index>(unknowns.size());
+  columns_solved_ += static_cast<Index>(x.size());
 
   // Places in the window go on behind those of full blocks alone: unused columns stay zero.
   compliance_.conservativeResize(size, size);
@@ -165,7 +222,11 @@ void BoxFactor::take_in(std::span<const Index> unknowns) {
     const Eigen::Index c = k - before;
     shares_(static_cast<Eigen::Index>((blocks_.size() - 1) * block_width) + c, k) = 1.0;
     for (Eigen::Index w = 0; w < size; ++w) {
-      compliance_(w, k) = columns[slot_of_[window_[w]] * block_width + c];
+      compliance_(w, k) = 0.0;
+      for (int m = 0; m < window_[w].size(); ++m) {
+        compliance_(w, k) +=
+            window_[w].values[m] * columns[slot_of_[window_[w].rows[m]] * block_width + c];
+      }
     }
   }
   compliance_.bottomLeftCorner(size - before, before) =
@@ -178,9 +239,10 @@ void BoxFactor::take_in(std::span<const Index> unknowns) {
 Eigen::VectorXd BoxFactor::in_window(const SparseVector& x) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
   ++now_;
-  for (int k = 0; k < x.size(); ++k) {
-    d[place_of_[x.rows[k]]] += x.values[k];
-    used_[place_of_[x.rows[k]]] = now_;
+  const std::vector<Part> parts = parts_of(x).value();
+  for (const auto& [place, share] : parts) {
+    d[place] += share;
+    used_[place] = now_;
   }
   return d;
 }
@@ -210,13 +272,14 @@ std::vector<double> BoxFactor::columns(std::span<const SparseVector> x) {
 
 void BoxFactor::compliance(std::span<const SparseVector> x, std::span<double> result) {
   hold(x);
+  std::vector<std::vector<Part>> parts;
+  for (const SparseVector& column : x) parts.push_back(parts_of(column).value());
   for (std::size_t a = 0; a < x.size(); ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
       double sum = 0.0;
-      for (int k = 0; k < x[a].size(); ++k) {
-        for (int l = 0; l < x[b].size(); ++l) {
-          sum += x[a].values[k] * x[b].values[l] *
-                 compliance_(place_of_[x[a].rows[k]], place_of_[x[b].rows[l]]);
+      for (const auto& [row, first] : parts[a]) {
+        for (const auto& [column, second] : parts[b]) {
+          sum += first * second * compliance_(row, column);
         }
       }
       result[a * x.size() + b] = result[b * x.size() + a] = sum;
@@ -234,7 +297,7 @@ void BoxFactor::change(const Eigen::VectorXd& d, double pivot, double sign) {
 void BoxFactor::downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                          std::span<const double> pivots, std::span<double> solution) {
   for (const SparseVector& column : x) {
-    if (!holds(column.rows)) throw std::logic_error("columns are solved for before a change");
+    if (!holds(column)) throw std::logic_error("columns are solved for before a change");
   }
   if (!solution.empty()) {
     const std::vector<double> shares = extensions(x, load_changes, solution);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "analysis/quasistatic/boxes/box_solver.hpp"
@@ -11,9 +12,10 @@
 namespace perilink {
 
 /// What a factor does for events, by conjugate gradients (docs/theory/large_bodies.md, section 4):
-/// a window of columns of K^-1, those of unknowns where elements are near their events, and how
-/// they combine since elements have failed. An event whose unknowns are all in the window costs one
-/// pass over its columns.
+/// a window of columns K^-1 e, the e vectors of elements that are near their events or, where
+/// elements carry moments, of unknowns there; and how the columns combine since elements have
+/// failed. An event whose vector is one of them, or acts on unknowns that are all in the window,
+/// costs one pass over the columns.
 class BoxFactor final : public Factor {
  public:
   BoxFactor(const Network& network, const BoxSolverOptions& options);
@@ -23,14 +25,14 @@ class BoxFactor final : public Factor {
   /// \throws NotPositiveDefinite where a part of the body can move without resistance
   void begin(const Unknowns& unknowns, Secants secants, const std::vector<double>& ground);
 
-  /// Whether K^-1 of these unknowns is at hand.
-  bool holds(std::span<const Index> unknowns) const;
-  /// From now on it is, of the unknowns of these vectors. Called before the secants change: a
-  /// downdate of unknowns that are not held would take the change twice.
+  /// Whether K^-1 of this vector is at hand.
+  bool holds(const SparseVector& x) const { return parts_of(x).has_value(); }
+  /// From now on it is, of these vectors. Called before the secants change: a downdate by vectors
+  /// that are not held would take the change twice.
   void hold(std::span<const SparseVector> x);
-  /// Unknowns that are likely to be asked for next, the likeliest first: taken into the window
-  /// along with those that are asked for and not in it.
-  void expect(std::vector<Index> unknowns) { expected_ = std::move(unknowns); }
+  /// Vectors that are likely to be asked for next, the likeliest first: they go into the window
+  /// where blocks have room beside what is asked for.
+  void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
   /// Columns at hand have followed too many changes: all are solved for again when they are asked
   /// for.
   void forget();
@@ -49,9 +51,18 @@ class BoxFactor final : public Factor {
   Index columns_solved() const { return columns_solved_; }
 
  private:
+  /// A vector of the window, and how much of it.
+  struct Part {
+    Index place;
+    double share;
+  };
+  std::optional<std::vector<Part>> parts_of(const SparseVector& x) const;
   void keep_latest();
   void make_solver();
-  void take_in(std::span<const Index> unknowns);
+  std::vector<SparseVector> missing_of(std::span<const SparseVector> x) const;
+  std::vector<SparseVector> choose(const std::vector<SparseVector>& missing) const;
+  void put_in_window(const SparseVector& x, int used);
+  void take_in(std::span<const SparseVector> x);
   Eigen::VectorXd in_window(const SparseVector& x);
   std::vector<double> motion_of(const Eigen::VectorXd& weights) const;
   void change(const Eigen::VectorXd& d, double pivot, double sign);
@@ -65,16 +76,16 @@ class BoxFactor final : public Factor {
   std::unique_ptr<BoxSolver> solver_;
   int first_iterations_ = 0;          ///< the first block took with these boxes
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
-  std::vector<Index> expected_;
-  std::vector<Index> window_;    ///< unknowns whose columns are at hand
-  std::vector<Index> place_of_;  ///< per unknown: its place in the window, or no_index
+  std::vector<SparseVector> expected_;
+  std::vector<SparseVector> window_;  ///< vectors e whose columns are at hand
+  std::vector<Index> place_of_;  ///< per unknown: where it is in the window by itself, or no_index
   std::vector<int> used_;        ///< per place: when an event used it last
   int now_ = 0;                  ///< events and calls so far
   /// Columns of K^-1 as it was when they were solved for, block after block, each of shape
   /// (particles, width, block_width).
   std::vector<std::vector<double>> blocks_;
   Eigen::MatrixXd shares_;      ///< F: the present columns are those of the blocks times F
-  Eigen::MatrixXd compliance_;  ///< H: rows of the window of the present columns
+  Eigen::MatrixXd compliance_;  ///< H: e' K^-1 e of the present columns
   int begun_ = 0;
   Index columns_solved_ = 0;
 };

@@ -208,15 +208,16 @@ void BoxSolver::multiply_block(std::span<const double> motions, std::span<double
   }
 }
 
-GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution) {
+GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution,
+                                       double enough) {
   coarse_block_.resize(coarse_.size() * block_width);
   const BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
   const GradientsReport report = block_conjugate_gradients(
       [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
       [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
-      solution, sizes, options_.tolerance, most_box_iterations);
+      solution, sizes, enough, most_box_iterations);
   iterations_ += report.iterations;
-  if (!report.converged) throw not_there(report.iterations, report.error, options_.tolerance);
+  if (!report.converged) throw not_there(report.iterations, report.error, enough);
   return report;
 }
 

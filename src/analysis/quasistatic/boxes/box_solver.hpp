@@ -40,14 +40,15 @@ class BoxSolver {
   /// \throws SolverError where the iterations do not get there
   void solve(std::span<const double> right, std::span<double> solution);
 
-  /// Many right sides from zero, each to the tolerance by itself; shape (particles, width,
-  /// block_width), zero where something is held. Errors count by the energy of a right side where
-  /// all but the particles that it acts on stand still: elements see differences between particles,
-  /// which are small beside motions of the whole body.
-  /// \param right  used up
-  /// \return iterations, and the largest error as the tolerance counts
+  /// Many right sides from zero, each by itself; shape (particles, width, block_width), zero where
+  /// something is held. Errors count by the energy of a right side where all but the particles that
+  /// it acts on stand still: elements see differences between particles, which are small beside
+  /// motions of the whole body.
+  /// \param right   used up
+  /// \param enough  error that each is to have, as the tolerance counts
+  /// \return iterations, and the largest error
   /// \throws SolverError as solve()
-  GradientsReport solve_block(std::span<double> right, std::span<double> solution);
+  GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough);
 
   int iterations() const { return iterations_; }  ///< in all solves
   double error() const { return error_; }         ///< the last solve left, as the tolerance counts

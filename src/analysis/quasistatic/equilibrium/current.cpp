@@ -13,7 +13,7 @@ namespace {
 /// Error of displacements that have followed events, over all of them and in the norm of energy,
 /// beyond which the window begins anew: an element holds a small part of the energy, and load
 /// factors are to be right to 1e-9.
-constexpr double most_drift = 1e-11;
+constexpr double most_drift = 1e-10;
 
 }  // namespace
 
@@ -164,28 +164,20 @@ double Equilibrium::refine_followed(double size, std::vector<double>& residual) 
   return left;
 }
 
-std::vector<Index> Equilibrium::unknowns_of(Index element) const {
-  std::vector<Index> unknowns;
-  const int width = network_.width();
-  for (const Index end : {network_.bonds.first[element], network_.bonds.second[element]}) {
-    for (int a = 0; a < (is_frame(element) ? width : network_.dim()); ++a) {
-      if (unknowns_->at(end, a) >= 0) unknowns.push_back(unknowns_->at(end, a));
-    }
-  }
-  return unknowns;
-}
-
 bool Equilibrium::is_prepared(Index element) const {
-  return boxes_ == nullptr || boxes_->holds(unknowns_of(element));
+  if (boxes_ == nullptr) return true;
+  const ElementVectors parts = element_vectors(network_, *unknowns_, element, 1.0);
+  return std::all_of(parts.x.begin(), parts.x.begin() + parts.count,
+                     [&](const SparseVector& x) { return boxes_->holds(x); });
 }
 
 void Equilibrium::expect(std::span<const Index> elements) {
-  std::vector<Index> unknowns;
+  std::vector<SparseVector> expected;
   for (const Index element : elements) {
-    const std::vector<Index> own = unknowns_of(element);
-    unknowns.insert(unknowns.end(), own.begin(), own.end());
+    const ElementVectors parts = element_vectors(network_, *unknowns_, element, 1.0);
+    expected.insert(expected.end(), parts.x.begin(), parts.x.begin() + parts.count);
   }
-  boxes_->expect(std::move(unknowns));
+  boxes_->expect(std::move(expected));
 }
 
 }  // namespace perilink

@@ -216,7 +216,6 @@ class Equilibrium {
   void adopt_motion();
   void adopt_load();
   void factorize_anew();
-  std::vector<Index> unknowns_of(Index element) const;
   void find_driven_elements();
   void choose_current_unknowns();
   void choose_glanced(const std::vector<std::uint8_t>& current);

@@ -1,6 +1,8 @@
 #include "analysis/quasistatic/events/single_event_engine.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/block.hpp"
@@ -84,19 +86,17 @@ void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::H
       "tells which of them breaks next; hold it by supports or by stiffer springs");
 }
 
-/// Where an event needs columns of K^-1 that are not at hand, those of elements near their events
-/// are solved for with them.
+/// Where an event needs columns of K^-1 that are not at hand, those of the elements that are
+/// nearest to their events are solved for with them.
 void SingleEventEngine::prepare(const Event& event) {
   if (equilibrium_.is_prepared(event.element)) return;
-  constexpr std::size_t enough = 4 * block_width;
+  constexpr double near = 0.5;
+  std::vector<BreakSearch::Hit> hits = near_hits(event, near);
+  std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
   std::vector<Index> expected;
-  std::vector<std::uint8_t> listed(teeth_.size(), 0);
-  for (const double fraction : {0.95, 0.9, 0.8, 0.65, 0.5}) {
-    for (const Index element : near_events(event, fraction)) {
-      if (listed[element] == 0) expected.push_back(element);
-      listed[element] = 1;
-    }
-    if (expected.size() >= enough) break;
+  for (const BreakSearch::Hit& hit : hits) {
+    if (expected.size() == block_width) break;
+    if (!equilibrium_.is_prepared(hit.element)) expected.push_back(hit.element);
   }
   equilibrium_.expect(expected);
 }
@@ -164,14 +164,13 @@ void SingleEventEngine::set_alert(std::span<const Index> elements, double fracti
 }
 
 std::vector<Index> SingleEventEngine::near_events(const Event& event, double fraction) {
-  return elements_above(fraction / event.load_factor, equilibrium_.where_elements_fail());
+  std::vector<Index> elements;
+  for (const BreakSearch::Hit& hit : near_hits(event, fraction)) elements.push_back(hit.element);
+  return elements;
 }
 
-/// Elements whose ratio is at least this, ascending.
-std::vector<Index> SingleEventEngine::elements_above(double ratio, std::span<const double> motion) {
-  std::vector<Index> elements;
-  for (const BreakSearch::Hit& hit : search_->list(motion, ratio)) elements.push_back(hit.element);
-  return elements;
+std::vector<BreakSearch::Hit> SingleEventEngine::near_hits(const Event& event, double fraction) {
+  return search_->list(equilibrium_.where_elements_fail(), fraction / event.load_factor);
 }
 
 int SingleEventEngine::cut(std::span<const Index> elements) {

@@ -43,6 +43,10 @@ class SingleEventEngine : public EventEngine {
  protected:
   void prepare(const Event& event);
 
+  /// Elements whose ratio at the load factor of the event is at least this, in the order of their
+  /// numbers.
+  virtual std::vector<BreakSearch::Hit> near_hits(const Event& event, double fraction);
+
   /// The stretch at which the element has its next event; infinity: it is broken.
   double limit_of(Index element) const;
 
@@ -61,8 +65,12 @@ class SingleEventEngine : public EventEngine {
   };
   Extension extension_of(Index element) const;
   bool is_within(double noise, const BreakSearch::Hit& hit) const;
+<<<<<<< HEAD
   void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit);
   std::vector<Index> elements_above(double ratio, std::span<const double> motion);
+=======
+  void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) const;
+>>>>>>> h21
 
   const Network& network_;
   ThreadChoice threads_;

@@ -233,8 +233,8 @@ void StagedEngine::set_alert(std::span<const Index> elements, double fraction) {
   for (const Index element : elements) crossings_.set_limit(element, limit_of(element));
 }
 
-std::vector<Index> StagedEngine::near_events(const Event& event, double fraction) {
-  return elements_above(fraction, displacement_at(event.load_factor));
+std::vector<BreakSearch::Hit> StagedEngine::near_hits(const Event& event, double fraction) {
+  return search_->list(displacement_at(event.load_factor), fraction);
 }
 
 }  // namespace perilink
