@@ -24,7 +24,7 @@ constexpr double seconds_per_row = 15e-6;
 constexpr double seconds_per_file = 2e-3, seconds_per_particle_of_file = 1e-6;
 /// Columns that a window and its search for more hold, in blocks, and how much of a solution an
 /// event costs: a column more, solved for along with others.
-constexpr double blocks_of_a_window = 37.0, solutions_per_event = 0.3;
+constexpr double blocks_of_a_window = 37.0, solutions_per_event = 0.13;
 
 /// Passes through the factor per event. A micropolar bond leaves with three modes in the plane and
 /// six in space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240

@@ -65,12 +65,7 @@ class SingleEventEngine : public EventEngine {
   };
   Extension extension_of(Index element) const;
   bool is_within(double noise, const BreakSearch::Hit& hit) const;
-<<<<<<< HEAD
   void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit);
-  std::vector<Index> elements_above(double ratio, std::span<const double> motion);
-=======
-  void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) const;
->>>>>>> h21
 
   const Network& network_;
   ThreadChoice threads_;

@@ -52,12 +52,8 @@ class StagedEngine final : public SingleEventEngine {
   Balance glance_at_equilibrium() override { return check_equilibrium(); }
   Freedom change_motion(const Unknowns& unknowns) override;
   void set_alert(std::span<const Index> elements, double fraction) override;
-<<<<<<< HEAD
   /// Constant loads change all displacements.
   void doze(const Carriers&, const std::vector<Index>&) override {}
-  std::vector<Index> near_events(const Event& event, double fraction) override;
-=======
->>>>>>> h21
 
  private:
   std::vector<BreakSearch::Hit> near_hits(const Event& event, double fraction) override;
