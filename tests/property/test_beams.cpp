@@ -138,6 +138,29 @@ TEST(Beams, PulledTakeTheStrengthAndTheFractureEnergy) {
   EXPECT_LT(result.energy_error, 1e-9);
 }
 
+/// A bond that bends to an S, its ends held parallel, has a stretched face at each end: it breaks
+/// where its energy says so, at s_eq^2 = (h / l)^2 (v / l)^2 = s_c^2 of its shear alone.
+TEST(Beams, BreakWhereTheyBendToAnS) {
+  const CaseFile input = parse_case(
+      "[body]\nproblem = \"beam\"\nthickness = 1\nspacing = 10\nhorizon_ratio = 1\n"
+      "[[regions]]\nname = \"beam\"\nx = [0, 10]\ny = [-1, 1]\n"
+      "[[regions]]\nname = \"left\"\nx = [0, 0]\ny = [-1, 1]\n"
+      "[[regions]]\nname = \"right\"\nx = [10, 10]\ny = [-1, 1]\n"
+      "[[materials]]\nregion = \"beam\"\nyoungs_modulus = 100\nfracture_energy = 0.05\n"
+      "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\", \"rotation\"]\n"
+      "[[supports]]\nregion = \"right\"\nfix = [\"rotation\"]\n"
+      "[[loads]]\nregion = \"right\"\nforce = [0, 1]\n",
+      "beam");
+  const Model model = build_model(input);
+  struct : StepObserver {
+    void on_step(const StepRecord&, StateSource&) override {}
+  } nobody;
+  const DamageResult result = run_damage_analysis(model, damage_options(input, 1), nobody);
+  EXPECT_EQ(result.broken_bonds, 1);
+  const double critical = std::sqrt(2.0 * 0.05 / (100.0 * 10.0));
+  EXPECT_NEAR(result.peak_displacement, critical * 10.0 * 10.0 / 2.0, 1e-9);
+}
+
 /// In bending a face bears sqrt 3 times the strength where a bond begins to soften, one of a mean
 /// length beside the load a little more; and elements that let go in time change nothing.
 TEST(Beams, BendToSqrtThreeTimesTheStrength) {

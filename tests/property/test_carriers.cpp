@@ -113,6 +113,22 @@ TEST(Carriers, ConversionKeepsTheEventsAndTheEnergies) {
   EXPECT_NEAR(some.peak_load, all.peak_load, 0.01 * all.peak_load);
 }
 
+/// The first conversion takes all elements: from there on the body is that of free particles, and
+/// nothing of its elements is left in the search.
+TEST(Carriers, OfWhichNoneIsLeftChangeNothing) {
+  Events free, carried;
+  const DamageResult all = run_case_of(beam_case(""), free);
+  const DamageResult some =
+      run_case_of(beam_case("[elements]\nspacings = 4\nhalo = 1000.0\n"), carried);
+  EXPECT_EQ(some.elements, 0);
+  EXPECT_EQ(carried.elements, free.elements);
+  ASSERT_EQ(carried.load_factors.size(), free.load_factors.size());
+  for (std::size_t k = 0; k < free.load_factors.size(); ++k) {
+    EXPECT_NEAR(carried.load_factors[k], free.load_factors[k], 1e-9 * free.load_factors[k]) << k;
+  }
+  EXPECT_EQ(some.ending, all.ending) << some.reason;
+}
+
 /// A plate whose bonds follow the law of concrete, torn from a pre-crack.
 std::string concrete_plate(const std::string& more) {
   return R"([body]

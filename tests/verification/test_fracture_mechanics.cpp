@@ -47,6 +47,13 @@ TEST_F(FractureMechanics, EnergyReleaseTurnsACrackFartherThanHoopStress) {
   EXPECT_NEAR(kinked_factors(90.0 * degree, -77.3 * degree)[1], 0.0, 2e-3);
   EXPECT_NEAR(kinked_factors(0.0, 0.0)[0], 1.0, 1e-12);
   EXPECT_NEAR(energy_release_kink(0.0), 0.0, 1e-4);
+  // Small kinks (Cotterell & Rice 1980): K_I' = cos^3(a/2) K_I, K_II' = sin(a/2) cos^2(a/2) K_I.
+  const double a = 10.0 * degree;
+  EXPECT_NEAR(kinked_factors(0.0, a)[0], std::pow(std::cos(0.5 * a), 3), 1e-3);
+  EXPECT_NEAR(kinked_factors(0.0, a)[1], std::sin(0.5 * a) * std::pow(std::cos(0.5 * a), 2), 2e-3);
+  // The same expansions, written down and searched a second time by somebody else.
+  EXPECT_NEAR(energy_release_kink(30.0 * degree), -45.4 * degree, 0.1 * degree);
+  EXPECT_NEAR(energy_release_kink(60.0 * degree), -64.3 * degree, 0.1 * degree);
   EXPECT_LT(energy_release_kink(90.0 * degree), hoop_stress_kink(90.0 * degree) - 5.0 * degree);
 }
 

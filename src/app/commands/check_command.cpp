@@ -105,9 +105,9 @@ void print_strengths(const std::vector<MaterialStrength>& strengths) {
 void print_interfaces(const std::vector<InterfaceBonds>& interfaces) {
   for (std::size_t k = 0; k < interfaces.size(); ++k) {
     const auto& [count, area, strength] = interfaces[k];
-    fmt::print("#   interface {}        {} bonds cross {:.5g} of area, tensile strength {:.5g}{}\n",
-               k + 1, count, area, strength.tensile_strength,
-               strength.teeth > 1 ? "" : " by the horizon");
+    fmt::print(
+        "#   interface {}        {} bonds cross about {:.2g} of area, tensile strength {:.5g}{}\n",
+        k + 1, count, area, strength.tensile_strength, strength.teeth > 1 ? "" : " by the horizon");
   }
 }
 

@@ -49,8 +49,10 @@ void plot_series(const fs::path& directory, const fs::path& out, const PlotLabel
          out / fmt::format("fields_{}.svg", step));
     const fs::path bars = directory / fmt::format("bars_{:06}.csv", step);
     if (!fs::exists(bars)) continue;
+    const std::string when = caption.time ? fmt::format("time {}", short_number(*caption.time))
+                                          : fmt::format("row {}", step);
     const std::string text =
-        fmt::format("row {}, load {}", step, in_unit(short_number(caption.load), labels.force));
+        fmt::format("{}, load {}", when, in_unit(short_number(caption.load), labels.force));
     save(draw_bars(read_csv(bars.string()), bars.string(), text, labels),
          out / fmt::format("bars_{}.svg", step));
   }

@@ -23,8 +23,11 @@ constexpr double seconds_per_row = 15e-6;
 /// A field file: compressed, brought to the disk (meshes/block_tension.toml, notched_beam.toml).
 constexpr double seconds_per_file = 2e-3, seconds_per_particle_of_file = 1e-6;
 /// Columns that a window and its search for more hold, in blocks, and how much of a solution an
-/// event costs: a column more, solved for along with others.
+/// event costs: of brittle trusses a column more, solved for along with others; of bonds that soften
+/// several; where bonds carry moments the columns of their unknowns (blocks of 14 807 and 31 382
+/// unknowns).
 constexpr double blocks_of_a_window = 37.0, solutions_per_event = 0.13;
+constexpr double solutions_per_softening_event = 0.5, solutions_per_event_of_frames = 2.0;
 
 /// Passes through the factor per event. A micropolar bond leaves with three modes in the plane and
 /// six in space, which go through the factor together: 1.5 times (blocks of 14 100 and 21 240
@@ -134,7 +137,11 @@ ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
   if (!events) return cost;
   const double unknowns = static_cast<double>(network.particles.size()) * network.width();
   cost.memory += blocks_of_a_window * block_width * 8.0 * unknowns;
-  cost.broken_bond = solutions_per_event * cost.factorization + seconds_per_row;
+  const bool softens = network.laws.size() > 1 || !network.laws[0].is_brittle();
+  const double solutions = frames    ? solutions_per_event_of_frames
+                           : softens ? solutions_per_softening_event
+                                     : solutions_per_event;
+  cost.broken_bond = solutions * cost.factorization + seconds_per_row;
   return cost;
 }
 

@@ -31,11 +31,19 @@ std::vector<double> ends_of(const LatticeInput& input) {
   return ends;
 }
 
-/// The last box that covers the point.
+/// The last box that covers the point; all that do are as high.
 std::size_t box_at(const LatticeInput& input, double x) {
+  std::size_t last = input.solid.size();
   for (std::size_t b = input.solid.size(); b-- > 0;) {
-    if (input.solid[b].lower[0] < x && x < input.solid[b].upper[0]) return b;
+    if (x <= input.solid[b].lower[0] || input.solid[b].upper[0] <= x) continue;
+    if (last == input.solid.size()) last = b;
+    const double apart = std::abs(input.solid[b].upper[1] - input.solid[last].upper[1]);
+    if (apart > input.boundary_tolerance * input.spacing) {
+      throw std::invalid_argument(
+          "regions of different heights lie over each other: a section has one material");
+    }
   }
+  if (last < input.solid.size()) return last;
   throw std::invalid_argument("the regions of the beam leave a gap along x");
 }
 

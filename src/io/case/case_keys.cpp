@@ -204,9 +204,14 @@ const Without strains = {
     {lattice, "is given, but lattice particles stretch by their true lengths", delete_it}};
 
 const Without stages = {
-    {shell, "is given, but all loads of a shell grow together", delete_it},
+    {shell | beam, "is given, but all loads of shells and beams grow together", delete_it},
     {elastic | explicit_ | relaxation,
      "is given, but type = \"{type}\" lets all loads grow together", damage_instead}};
+
+const Without alert_strains = {
+    {elastic, {}, {}},
+    {beam, "is given, but the mean strain of a bent line tells nothing of its faces",
+     "give `alert`"}};
 
 const std::vector<KeySchema> body_keys = {
     "problem",
@@ -237,7 +242,7 @@ const std::vector<KeySchema> body_keys = {
 const std::vector<KeySchema> material_keys = {"name",
                                               "region",
                                               "regions",
-                                              "holes",
+                                              {"holes", in_beams},
                                               "youngs_modulus",
                                               {"poissons_ratio", in_beams},
                                               "fracture_energy",
@@ -302,6 +307,7 @@ const std::vector<KeySchema> rebar_keys = plain(
     "concrete_strength rib_spacing bond_failure bond_conditions megapascal millimetre "
     "ties_break perimeter hooks bends prestrain stage");
 
+/// A line in the plane and on sheets, a polygon in space.
 const std::vector<KeySchema> crack_keys = {
     {"points",
      {{space, "is given, but the body has 3 dimensions", "give the `corners` of a plane polygon"}}},
@@ -312,21 +318,10 @@ const std::vector<KeySchema> crack_keys = {
        "give the `points` of a line: [[0, 1], [2, 1]]"}}}};
 
 const std::vector<KeySchema> interface_keys = {
-    "between",
-    {"points",
-     {{space, "is given, but the body has 3 dimensions", "give the `corners` of a plane polygon"}}},
-    {"corners",
-     {{plane, "is given, but the body has 2 dimensions",
-       "give the `points` of a line: [[0, 1], [2, 1]]"}}},
-    "group",
-    "fracture_energy",
-    "tensile_strength",
-    "softening",
-    "softening_error",
-    "softening_stretches",
-    "closing",
-    "knee_stress_ratio",
-    "knee_opening_ratio"};
+    "between",   crack_keys[0],       crack_keys[1],
+    "group",     "fracture_energy",   "tensile_strength",
+    "softening", "softening_error",   "softening_stretches",
+    "closing",   "knee_stress_ratio", "knee_opening_ratio"};
 
 }  // namespace
 
@@ -358,7 +353,7 @@ const std::vector<TableSchema>& case_schema() {
         "particles",
         {"glued", in_beams},
         {"alert", set_aside(elastic)},
-        {"alert_strain", set_aside(elastic)},
+        {"alert_strain", alert_strains},
         {"halo", set_aside(elastic)}},
        carriers},
       {"gauges",

@@ -13,7 +13,7 @@ namespace {
 
 /// Elements of a body: none, a grid, or a mesh that is fine where the crack runs.
 struct Elements {
-  int spacings = 0;  ///< along a side, of the smallest where graded; 0: none
+  double spacings = 0;  ///< along a side, of the smallest where graded; 0: none
   bool graded = false;
   double alert = 0.5;  ///< the default
 };
@@ -56,7 +56,7 @@ std::string row_of(const Body& body, const Elements& elements) {
 /// them, into result.csv. `carried_particles small` leaves out the large ones.
 bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   const bool small = !arguments.empty() && arguments[0] == "small";
-  const auto graded = [](int spacings) { return Elements{spacings, true}; };
+  const auto graded = [](double spacings) { return Elements{spacings, true}; };
   std::vector<Body> bodies = {
       {Scene::beam, "beam", 2.5, {{0}, {4}, {8}}},
       {Scene::beam, "beam", 1.0, {{0}, {4}, {8}, {12}, graded(8)}},
@@ -66,15 +66,16 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
     // 50 000 and 300 000 particles
     const std::vector<Elements> of_panel = {{0}, {8}, {12}};
     const std::vector<Elements> of_block = {{0}, {12}, {12, false, 0.97}};
-    bodies.insert(bodies.end(), {
-                                    {Scene::beam, "beam", 0.5, {{0}, {8}, {12}, graded(12)}},
-                                    {Scene::panel, "panel", 250.0 / 130.0, of_panel},
-                                    {Scene::panel, "panel", 250.0 / 316.0, of_panel},
-                                    {Scene::block, "block", 100.0 / 130.0, of_block},
-                                    {Scene::block, "block", 100.0 / 316.0, of_block},
-                                    {Scene::prism, "prism", 5.0, {{0}, {4}, {5}, graded(3)}},
-                                    {Scene::prism, "prism", 25.0 / 6.0, {{0}, {4}, {6}, graded(3)}},
-                                });
+    bodies.insert(bodies.end(),
+                  {
+                      {Scene::beam, "beam", 0.5, {{0}, {8}, {12}, graded(12)}},
+                      {Scene::panel, "panel", 250.0 / 130.0, of_panel},
+                      {Scene::panel, "panel", 250.0 / 316.0, of_panel},
+                      {Scene::block, "block", 100.0 / 130.0, of_block},
+                      {Scene::block, "block", 100.0 / 316.0, of_block},
+                      {Scene::prism, "prism", 5.0, {{0}, {4}, {5}, graded(3.3)}},
+                      {Scene::prism, "prism", 25.0 / 6.0, {{0}, {4}, {6}, graded(3.3)}},
+                  });
   }
   std::string table =
       "body,spacing,element_spacings,unknowns,unknowns_at_end,events,conversions,peak,"

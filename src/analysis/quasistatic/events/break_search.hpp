@@ -45,6 +45,8 @@ class BreakSearch {
   /// \param carried  kept by reference
   /// \return per particle, whether its displacements must be current at each find()
   virtual std::vector<std::uint8_t> doze(const CarriedParticles& carried) = 0;
+  /// All elements are looked at again.
+  virtual void wake() = 0;
 };
 
 /// The ratio of an element's measure to its limit. One that is not a number compares as nothing and

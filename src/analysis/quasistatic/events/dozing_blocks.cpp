@@ -221,19 +221,28 @@ double DozingBlocks::bound(Index block) {
 
 void DozingBlocks::look(Index block) {
   const Group& group = groups_[group_of_[block]];
+  move_particles(group);
   const auto width = static_cast<std::size_t>(width_);
-  std::vector<std::size_t> slots;
-  for (std::size_t k = group.first_particle; k < group.last_particle; ++k) {
-    for (std::size_t a = 0; a < width; ++a) {
-      const std::size_t slot = static_cast<std::size_t>(particles_[k]) * width + a;
-      if (carried_->unknowns.number[slot] != no_index) slots.push_back(slot);
-    }
-  }
-  carried_->unknowns.expand(carried_->solution, slots, carried_->displacement);
   const std::size_t first = group.first_node * width;
   for (std::size_t k = first; k < first + static_cast<std::size_t>(group.nodes) * width; ++k) {
     reference_[k] = unknowns_[k] == no_index ? 0.0 : carried_->solution[unknowns_[k]];
   }
+}
+
+void DozingBlocks::look_everywhere() {
+  for (const Group& group : groups_) move_particles(group);
+}
+
+void DozingBlocks::move_particles(const Group& group) {
+  const auto width = static_cast<std::size_t>(width_);
+  slots_.clear();
+  for (std::size_t k = group.first_particle; k < group.last_particle; ++k) {
+    for (std::size_t a = 0; a < width; ++a) {
+      const std::size_t slot = static_cast<std::size_t>(particles_[k]) * width + a;
+      if (carried_->unknowns.number[slot] != no_index) slots_.push_back(slot);
+    }
+  }
+  carried_->unknowns.expand(carried_->solution, slots_, carried_->displacement);
 }
 
 void DozingBlocks::remember(Index block, double largest) {

@@ -55,6 +55,8 @@ class DozingBlocks {
   double bound(Index block);
   /// Makes the displacements of the block's particles current, for a look.
   void look(Index block);
+  /// The same of all blocks that doze; what they remember stays, since it bounds them still.
+  void look_everywhere();
   /// The largest seminorm that this look has found.
   void remember(Index block, double largest);
   /// The limit of the bond at a place has changed: its block is looked at always from now on.
@@ -73,6 +75,7 @@ class DozingBlocks {
     bool restless;
   };
   void add_group(const std::vector<Index>& nodes);
+  void move_particles(const Group& group);
 
   const CarriedParticles* carried_ = nullptr;
   int dim_ = 2, width_ = 2;
@@ -81,11 +84,12 @@ class DozingBlocks {
   std::vector<Index> elements_;
   std::vector<Index> group_of_;  ///< per block; no_index: always awake
   std::vector<Group> groups_;
-  std::vector<Index> unknowns_;    ///< those that move the nodes, shape (nodes, width)
-  std::vector<double> arms_;       ///< from their middle [length], shape (nodes, dim)
-  std::vector<double> reference_;  ///< q_0, shape (nodes, width)
-  std::vector<Index> particles_;   ///< group after group
-  std::vector<double> moved_;      ///< work space, shape (nodes, width)
+  std::vector<Index> unknowns_;     ///< those that move the nodes, shape (nodes, width)
+  std::vector<double> arms_;        ///< from their middle [length], shape (nodes, dim)
+  std::vector<double> reference_;   ///< q_0, shape (nodes, width)
+  std::vector<Index> particles_;    ///< group after group
+  std::vector<double> moved_;       ///< work space, shape (nodes, width)
+  std::vector<std::size_t> slots_;  ///< work space
 };
 
 }  // namespace perilink

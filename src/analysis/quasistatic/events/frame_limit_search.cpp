@@ -86,7 +86,10 @@ double FrameLimitSearch::section_ratio(Index k, const double* u) const {
                               u + bond.second);
   const double square = d.extension * d.extension + bond.bending_share * d.shear[0] * d.shear[0] +
                         bond.rotation_share * d.bend[0] * d.bend[0];
-  const double stretch = d.extension + network_.half_height[elements_[k]] * std::abs(d.bend[0]);
+  // Moments at the ends differ by that of the shear force.
+  const double turn =
+      std::abs(d.bend[0]) + 6.0 * std::abs(d.shear[0]) / (bond.first_arm + bond.second_arm);
+  const double stretch = d.extension + network_.half_height[elements_[k]] * turn;
   const bool stretched = stretch > 0.0 && stretch * stretch > least_tension * square;
   return square * (stretched ? bond.inverse : bond.compressed);
 }

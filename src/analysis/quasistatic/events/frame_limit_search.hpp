@@ -33,6 +33,7 @@ class FrameLimitSearch final : public BreakSearch {
   void set_limit(Index element, double limit) override;
   void set_limits(Index element, double tension, double compression) override;
   std::vector<std::uint8_t> doze(const CarriedParticles& carried) override;
+  void wake() override { dozing_ = {}; }
 
  private:
   struct Bond {

@@ -98,6 +98,8 @@ LimitSearch::Hit LimitSearch::find_in_all(const double* u, double tolerance, int
   const double apart = std::abs(pulled.ratio - strained.ratio);
   if (larger.element == no_index || apart > 2.0 * tolerance * larger.ratio) return larger;
   // A tie across the groups: one threshold for both.
+  pulled_.dozing.look_everywhere();
+  strained_.dozing.look_everywhere();
   const std::span<const double> all(u, network_.particles.positions.size());
   const std::vector<Hit> hits = list(all, larger.ratio * (1.0 - 2.0 * tolerance));
   double largest = 0.0;

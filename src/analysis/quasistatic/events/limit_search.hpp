@@ -23,6 +23,7 @@ class LimitSearch final : public BreakSearch {
   void set_limit(Index element, double limit) override;
   void set_limits(Index element, double tension, double compression) override;
   std::vector<std::uint8_t> doze(const CarriedParticles& carried) override;
+  void wake() override { pulled_.dozing = strained_.dozing = {}; }
 
  private:
   /// Elements whose events come in tension, or those that have them in compression as well.

@@ -29,6 +29,8 @@ class SingleEventEngine : public EventEngine {
   Balance check_equilibrium() override { return equilibrium_.check(); }
   Balance glance_at_equilibrium() override { return equilibrium_.glance(); }
   Freedom change_motion(const Unknowns& unknowns) override {
+    search_->wake();  // what it knows of carried particles is no more
+    carried_.reset();
     return equilibrium_.change_motion(unknowns);
   }
   void doze(const Carriers& carriers, const std::vector<Index>& carrier) override;

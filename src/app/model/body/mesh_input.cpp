@@ -79,6 +79,17 @@ Patches patches_of(const CaseFile& input, const Mesh& mesh) {
 
 }  // namespace
 
+void refuse_loose_lines(const CaseFile& input, const std::string& key, const Body& body,
+                        const Group& group) {
+  if (!group.loose) return;
+  throw InputError(
+      input.where(key),
+      fmt::format("is {}, a line of which, at ({:.6g}), is no side of a cell", quoted(group.name),
+                  fmt::join(group.loose->begin(), group.loose->begin() + body.particles.dim, ", ")),
+      "join it with the body before it is meshed (BooleanFragments or Coherence in gmsh); where it "
+      "is for bars, give intervals");
+}
+
 Mesh read_mesh(const CaseFile& input, const std::string& key, const std::string& file,
                std::optional<double> size, int dim) {
   try {
@@ -155,15 +166,8 @@ std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInp
 void refuse_regions_of_curves(const CaseFile& input, const Body& body) {
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
     for (const Group& group : body.groups) {
-      if (group.name != input.regions[i].group || !group.loose) continue;
-      throw InputError(
-          input.where(item_key("regions", i, "group")),
-          fmt::format(
-              "is {}, a line of which, at ({:.6g}), is no side of a cell", quoted(group.name),
-              fmt::join(group.loose->begin(), group.loose->begin() + body.particles.dim, ", ")),
-          "join it with the body before it is meshed (BooleanFragments or Coherence in gmsh); "
-          "where "
-          "it is for bars, give intervals");
+      if (group.name != input.regions[i].group) continue;
+      refuse_loose_lines(input, item_key("regions", i, "group"), body, group);
     }
   }
 }

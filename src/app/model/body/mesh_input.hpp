@@ -42,6 +42,12 @@ const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const R
 ///         that it lacks, a material for a group without cells, cells that overlap
 Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes);
 
+/// Refuses a group of lines that are not all sides of cells: what lies beside the mesh is lost.
+/// \param key  that names the group, for messages
+/// \throws InputError
+void refuse_loose_lines(const CaseFile& input, const std::string& key, const Body& body,
+                        const Group& group);
+
 /// The case with its mesh named as seen from a folder, so that it can be written there.
 CaseFile seen_from(const CaseFile& input, const std::filesystem::path& directory);
 

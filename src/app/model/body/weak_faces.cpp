@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "app/model/body/mesh_input.hpp"
 #include "base/error.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
@@ -57,7 +58,10 @@ const Group& group_of_face(const CaseFile& input, std::size_t k, const Body& bod
   std::vector<std::string_view> names;
   for (const Group& group : body.groups) {
     if (group.sides.empty()) continue;
-    if (group.name == name) return group;
+    if (group.name == name) {
+      refuse_loose_lines(input, item_key("interfaces", k, "group"), body, group);
+      return group;
+    }
     names.push_back(group.name);
   }
   const char* kind = body.particles.dim == 2 ? "Curve" : "Surface";

@@ -65,6 +65,9 @@ TEST(BeamBody, RefusesGapsFlatRegionsAndSeveralAxes) {
   EXPECT_THROW(make_beam_body(beam_input({part(0, 2, -1, 1), part(2, 4, -1, 2)})),
                std::invalid_argument);
   EXPECT_THROW(make_beam_body(beam_input({part(1, 1, -1, 1)})), std::invalid_argument);
+  EXPECT_THROW(make_beam_body(beam_input({part(0, 9, -1, 1), part(3, 6, -0.5, 0.5)})),
+               std::invalid_argument)
+      << "layers";
 }
 
 }  // namespace

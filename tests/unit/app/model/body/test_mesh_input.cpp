@@ -160,5 +160,22 @@ TEST_F(MeshInput, IsFoundFromTheFolderOfTheResults) {
   EXPECT_EQ(seen_from(absolute, results).body.mesh, absolute.body.mesh);
 }
 
+/// Regions and interfaces would lose what lies beside the mesh.
+TEST_F(MeshInput, LinesBesideTheMeshAreNoneOfAGroup) {
+  const CaseFile input = parse();
+  Body body;
+  Group group{"joint", {}, {}};
+  EXPECT_NO_THROW(refuse_loose_lines(input, "interfaces[1].group", body, group));
+  group.loose = Vector3{20.0, 30.0, 0.0};
+  try {
+    refuse_loose_lines(input, "interfaces[1].group", body, group);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("interfaces[1].group: is \"joint\", a line of which, at (20, "
+                          "30), is no side of a cell"));
+  }
+}
+
 }  // namespace
 }  // namespace perilink
