@@ -23,9 +23,9 @@ constexpr double seconds_per_row = 15e-6;
 /// A field file: compressed, brought to the disk (meshes/block_tension.toml, notched_beam.toml).
 constexpr double seconds_per_file = 2e-3, seconds_per_particle_of_file = 1e-6;
 /// Columns that a window and its search for more hold, in blocks, and how much of a solution an
-/// event costs: of brittle trusses a column more, solved for along with others; of bonds that soften
-/// several; where bonds carry moments the columns of their unknowns (blocks of 14 807 and 31 382
-/// unknowns).
+/// event costs: with brittle trusses a column more, solved for along with others; with bonds that
+/// soften several; where bonds carry moments the columns of their unknowns (blocks of 14 807 and
+/// 31 382 unknowns).
 constexpr double blocks_of_a_window = 37.0, solutions_per_event = 0.13;
 constexpr double solutions_per_softening_event = 0.5, solutions_per_event_of_frames = 2.0;
 
