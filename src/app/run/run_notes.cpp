@@ -18,6 +18,7 @@ std::size_t count_at_grips(const Model& model, std::span<const Index> elements) 
 }  // namespace
 
 std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken) {
+  if (model.network.is_beam()) return std::nullopt;  // moments are largest at loads and supports
   const std::size_t at_grip = count_at_grips(model, broken);
   if (at_grip == 0) return std::nullopt;
   return fmt::format(
