@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace perilink {
 namespace {
@@ -96,8 +95,7 @@ DozingBlocks::DozingBlocks(
       dim_(network.dim()),
       width_(network.width()),
       block_size_(block_size),
-      squares_(squares),
-      elements_(elements.begin(), elements.end()) {
+      squares_(squares) {
   const std::vector<Index> table = unknowns_of_nodes(network, carried);
   Differences differences(carried);
   Listed listed_nodes(carried.carriers.num_nodes()), listed_particles(network.particles.size());
@@ -258,10 +256,11 @@ void DozingBlocks::wake(std::size_t place) {
   group.largest = std::numeric_limits<double>::infinity();
 }
 
-void DozingBlocks::mark_awake(const Network& network, std::vector<std::uint8_t>& awake) const {
-  for (std::size_t k = 0; k < elements_.size(); ++k) {
+void DozingBlocks::mark_awake(const Network& network, std::span<const Index> elements,
+                              std::vector<std::uint8_t>& awake) const {
+  for (std::size_t k = 0; k < elements.size(); ++k) {
     if (may_doze(static_cast<Index>(k) / block_size_)) continue;
-    awake[network.bonds.first[elements_[k]]] = awake[network.bonds.second[elements_[k]]] = 1;
+    awake[network.bonds.first[elements[k]]] = awake[network.bonds.second[elements[k]]] = 1;
   }
 }
 

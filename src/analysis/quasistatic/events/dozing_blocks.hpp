@@ -63,7 +63,9 @@ class DozingBlocks {
   void wake(std::size_t place);
 
   /// Marks the particles that some block must have current at every event.
-  void mark_awake(const Network& network, std::vector<std::uint8_t>& awake) const;
+  /// \param elements  as the blocks were made of
+  void mark_awake(const Network& network, std::span<const Index> elements,
+                  std::vector<std::uint8_t>& awake) const;
 
  private:
   struct Group {
@@ -81,7 +83,6 @@ class DozingBlocks {
   int dim_ = 2, width_ = 2;
   Index block_size_ = 0;
   bool squares_ = false;
-  std::vector<Index> elements_;
   std::vector<Index> group_of_;  ///< per block; no_index: always awake
   std::vector<Group> groups_;
   std::vector<Index> unknowns_;     ///< those that move the nodes, shape (nodes, width)

@@ -186,7 +186,7 @@ std::vector<std::uint8_t> FrameLimitSearch::doze(const CarriedParticles& carried
   };
   dozing_ = DozingBlocks(network_, carried, elements_, search_block_size, true, slope_of);
   std::fill(awake.begin(), awake.end(), 0);
-  dozing_.mark_awake(network_, awake);
+  dozing_.mark_awake(network_, elements_, awake);
   return awake;
 }
 

@@ -152,7 +152,7 @@ std::vector<std::uint8_t> LimitSearch::doze(const CarriedParticles& carried) {
     };
     group->dozing =
         DozingBlocks(network_, carried, group->elements, search_block_size, false, slope_of);
-    group->dozing.mark_awake(network_, awake);
+    group->dozing.mark_awake(network_, group->elements, awake);
   }
   return awake;
 }
