@@ -60,5 +60,20 @@ std::vector<StripCase> strips() {
 INSTANTIATE_TEST_SUITE_P(Curves, SofteningStrips, testing::ValuesIn(strips()),
                          [](const auto& test) { return test.param.name; });
 
+/// The last bond of this strip leaves bonds along the crack alone: both parts slide until nothing is
+/// strained but by round-off, which has no sign that damaged bonds could close by.
+TEST(UnloadedStrips, SettleWhichBondsAreClosed) {
+  SofteningStrip strip;
+  strip.length = 140.0;
+  strip.middle = 78.0;  // without the particles that are 80 apart
+  strip.softening =
+      "softening = \"bilinear\"\nknee_stress_ratio = 0.3333333333333333\n"
+      "knee_opening_ratio = 0.2222222222222222";
+  strip.more = "[stop]\nload_fraction = 0.002";
+  const WholeRun run(softening_case(strip));
+  EXPECT_EQ(run.summary.json.at("status"), "collapsed");
+  EXPECT_EQ(run.summary.json.at("broken_bonds"), 180);
+}
+
 }  // namespace
 }  // namespace perilink

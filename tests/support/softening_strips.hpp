@@ -9,13 +9,13 @@
 
 namespace perilink::test {
 
-/// A strip held at one end and driven along x at the other; only its middle, two horizons long, may
-/// soften.
+/// A strip held at one end and driven along x at the other; only its middle may soften.
 struct SofteningStrip {
   std::string model = "bond_based";
   std::string pattern = "rectangular";
   std::string softening = "softening = \"linear\"";  ///< lines of the material
   double length = 100.0, width = 50.0;               ///< [length]
+  double middle = 0.0;                               ///< [length]; zero: two horizons
   double spacing = 5.0;                              ///< a third of the horizon [length]
   double youngs_modulus = 30000.0;                   ///< [force/length^2]
   double tensile_strength = 3.0;                     ///< [force/length^2]
@@ -25,7 +25,8 @@ struct SofteningStrip {
 };
 
 inline std::string softening_case(const SofteningStrip& strip) {
-  const double half = 3.0 * strip.spacing, middle = 0.5 * strip.length;
+  const double half = strip.middle > 0.0 ? 0.5 * strip.middle : 3.0 * strip.spacing;
+  const double middle = 0.5 * strip.length;
   const std::string ratio = strip.model == "micropolar" ? "poissons_ratio = 0.2\n" : "";
   return fmt::format(R"(title = "Softening strip"
 [body]

@@ -11,6 +11,7 @@ namespace perilink::verification {
 namespace {
 
 constexpr double youngs_modulus = 30000.0, poissons_ratio = 0.2;
+constexpr double strip_width = 50.0, bar_width = 40.0;  // [mm]
 
 bool in_space(const Make& make) { return make.pattern == "cubic"; }
 
@@ -20,12 +21,11 @@ std::string region(const std::string& name, double x0, double x1, double y0, dou
          (z1 > 0.0 ? fmt::format("z = [0, {}]\n", z1) : "");
 }
 
-std::string body(const Make& make) {
+std::string body(const Make& make, const std::string& mesh) {
   if (make.pattern == "mesh") {
     return fmt::format(
-        "[body]\nmodel = \"{}\"\nmesh = \"beam.geo\"\nmesh_size = {}\n"
-        "horizon_ratio = {}\n",
-        make.model, make.spacing, make.horizon_ratio);
+        "[body]\nmodel = \"{}\"\nmesh = \"{}\"\nmesh_size = {}\nhorizon_ratio = {}\n", make.model,
+        mesh, make.spacing, make.horizon_ratio);
   }
   return fmt::format(
       "[body]\nproblem = \"{}\"\nmodel = \"{}\"\npattern = \"{}\"\nspacing = {}\n"
@@ -70,7 +70,7 @@ double length_of(const Make& make) { return (in_space(make) ? 60.0 : 100.0) + ma
 
 }  // namespace
 
-double section_of(const Make& make) { return in_space(make) ? 20.0 * 20.0 : 50.0; }
+double section_of(const Make& make) { return in_space(make) ? bar_width * bar_width : strip_width; }
 
 double soft_length_of(const Make& make) {
   return 2.0 * (make.horizon_ratio + 1.0) * make.spacing + make.longer;
@@ -78,19 +78,19 @@ double soft_length_of(const Make& make) {
 
 std::string strip(const Make& make) {
   const bool space = in_space(make);
-  const double length = length_of(make), width = space ? 20.0 : 50.0;
+  const double length = length_of(make), width = space ? bar_width : strip_width;
   const double z = space ? width : 0.0, half = 0.5 * soft_length_of(make);
-  return body(make) + region("strip", 0, length, 0, width, z) +
+  return body(make, "strip.geo") + region("strip", 0, length, 0, width, z) +
          region("left part", 0, 0.5 * length - half, 0, width, z) +
          region("right part", 0.5 * length + half, length, 0, width, z) +
          region("left", 0, 0, 0, width, z) + region("right", length, length, 0, width, z) +
          region("lower", 0, 0, 0, 0, z) +
-         (space ? "[[regions]]\nname = \"front\"\nx = [0, 0]\ny = [0, 20]\nz = [0, 0]\n" : "") +
+         (space ? region("front", 0, 0, 0, width, 0) + "z = [0, 0]\n" : "") +
          materials(make, "strip", "\"left part\", \"right part\"") +
          "[[supports]]\nregion = \"left\"\nfix = [\"x\"]\n"
          "[[supports]]\nregion = \"lower\"\nfix = [\"y\"]\n" +
          (space ? "[[supports]]\nregion = \"front\"\nfix = [\"z\"]\n" : "") +
-         "[[displacements]]\nregion = \"right\"\nx = 0.1\n[stop]\nload_fraction = 0.002\n";
+         "[[displacements]]\nregion = \"right\"\nx = 0.1\n[stop]\nload_fraction = 1e-6\n";
 }
 
 std::string beam(const Make& make, const Beam& size) {
@@ -103,7 +103,7 @@ std::string beam(const Make& make, const Beam& size) {
                                 ? fmt::format("[[cracks]]\npoints = [[{0}, {1}], [{0}, {2}]]\n",
                                               middle, -make.spacing, size.notch * depth)
                                 : "";
-  return body(make) + region("beam", 0, length, 0, depth, 0) +
+  return body(make, "beam.geo") + region("beam", 0, length, 0, depth, 0) +
          region("left part", 0, middle - zone, 0, depth, 0) +
          region("right part", middle + zone, length, 0, depth, 0) +
          region("left", left - held, left + held, 0, 0, 0) +

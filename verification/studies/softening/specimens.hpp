@@ -13,7 +13,7 @@ inline constexpr double tensile_strength = 3.0, fracture_energy = 0.1;
 struct Make {
   std::string model = "bond_based";
   std::string pattern = "rectangular";  ///< a cubic one makes the specimen three-dimensional,
-                                        ///< "mesh" has the triangles of beam.geo
+                                        ///< "mesh" has the triangles of strip.geo, beam.geo
   std::string softening = "bilinear";
   double spacing = 5.0;        ///< [mm]
   double horizon_ratio = 3.0;  ///< horizon over spacing
@@ -22,8 +22,8 @@ struct Make {
   double longer = 0.0;  ///< by which strip() and its part that may soften are longer [mm]
 };
 
-/// A strip 100 mm long and 50 mm wide (in space a bar 60 mm long and 20 mm square), driven apart
-/// along x, whose middle of two horizons and two spacings may soften, as the text of a case.
+/// A strip 100 mm long and 50 mm wide (in space a bar 60 mm long and 40 mm square), driven apart
+/// along x until nothing resists, whose middle of two horizons and two spacings may soften, as the text of a case.
 std::string strip(const Make& make);
 
 /// Length of the part of strip() that may soften [mm].

@@ -69,6 +69,10 @@ void run_strips() {
       add_strip({model, "rectangular", softening, 3.75, 4.0}, table);
       add_strip({model, "hexagonal", softening, 5.0, 3.0}, table);
     }
+    for (const double spacing : {5.0, 10.0 / 3.0, 2.5}) {
+      add_strip({model, "mesh", "bilinear", spacing, 3.0}, table);
+    }
+    add_strip({model, "mesh", "bilinear", 3.75, 4.0}, table);
   }
   add_strip({"bond_based", "cubic", "bilinear", 5.0, 3.0}, table);
   write_result(PERILINK_STUDY_DIR, table.text(), "strips.csv");

@@ -68,8 +68,10 @@ auto Equilibrium::extension_at(const BondEnds& bond) const -> Extension {
   if (boxes_ != nullptr) {  // errors of parts that move far are everywhere
     size += std::abs(load_factor) * largest_motion_ + (constant_ ? constant_->largest_motion : 0.0);
   }
-  if (std::abs(result.now) <= closing_round_off * size) result.now = 0.0;
+  const double noise = closing_round_off * size + noise_of_sides_;
+  if (std::abs(result.now) <= noise) result.now = 0.0;
   result.side = result.now != 0.0 ? result.now : direction_ * result.growing;
+  if (std::abs(result.side) <= noise_of_sides_) result.side = 0.0;
   return result;
 }
 
@@ -292,12 +294,16 @@ double Equilibrium::line_minimum(std::span<const double> from, std::span<const d
 
 /// All bonds on the wrong side change it together, which ends after a round or two. Where it does
 /// not, the energy is followed down: along the way to the equilibrium of the present sides to its
-/// minimum, and on with the sides there.
+/// minimum, and on with the sides there. What is round-off beside the motion of the whole body has
+/// no side then: a body that an event has unloaded, by cutting through it, would never settle.
 void Equilibrium::settle_closing(EventOutcome& outcome) {
   changed_sides_.clear();
   std::vector<double> reached;  // on the way down
   for (int round = 0; round < most_rounds; ++round) {
+    if (round >= rounds_together)
+      noise_of_sides_ = closing_round_off * largest_of(telling_motion());
     std::vector<Index> wrong = on_wrong_side();
+    noise_of_sides_ = 0.0;
     if (wrong.empty()) return;
     if (round >= rounds_together) {
       const std::vector<double> aim = telling_motion();

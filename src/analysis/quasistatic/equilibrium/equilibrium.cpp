@@ -112,6 +112,7 @@ void Equilibrium::adopt_motion() {
 /// Displacements under the load as it is.
 void Equilibrium::adopt_load() {
   load_norm_ = norm(present_load());
+  if (load_norm_ == 0.0) load_norm_ = 1.0;  // driven across what is free: nothing is out of balance
   residual_floor_ = factor_floor_ = 0.0;
   refresh();
   std::vector<double> residual;
@@ -256,6 +257,7 @@ LoadWork Equilibrium::work() {
   const double whole = work.forces + work.supports;
   if (events_to_follow_ <= 0 || whole < 0.5 * followed_from_) {
     work = sum_work();
+    if ((work.forces + work.supports) * next_to_infinite < last_work_) work.separated = true;
     followed_from_ = work.forces + work.supports;
     followed_compliance_ = work.compliance();
     events_to_follow_ = work.separated ? 0 : most_events_to_follow;

@@ -35,12 +35,16 @@ struct EventOutcome {
   Beside growth_beside = {}, released_beside = {};  ///< what constant loads add to both
 };
 
+/// A body that has become as many times as compliant by one event lies in two. Bonds that are
+/// parallel but for the last digits of a mesh, or of round-off, leave less.
+inline constexpr double next_to_infinite = 1e12;
+
 /// Work products at load factor 1 [force length].
 struct LoadWork {
   double forces = 0.0;    ///< f'u: applied forces on their displacements
   double supports = 0.0;  ///< R'd: reactions of driven particles on their displacements
-  /// The body no longer resists what drives it: nothing does, and both are zero, or nothing but
-  /// elastic supports that are weak beside what it was.
+  /// The body no longer resists what drives it: nothing does, and both are zero, or what does is
+  /// next to nothing beside what it was.
   bool separated = false;
   ConstantWork constant = {};  ///< what constant loads add
   double compliance() const { return forces - supports; }
@@ -349,6 +353,7 @@ class Equilibrium {
   std::vector<std::size_t> moving_slots_, current_slots_, awake_slots_;
   std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;
+  double noise_of_sides_ = 0.0;   ///< extensions below it are on neither side [length]
   double largest_motion_ = 0.0;   ///< by displacement_, see noise()
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_
   std::vector<double> ground_stiffness_;  ///< per unknown, empty until a fragment came loose

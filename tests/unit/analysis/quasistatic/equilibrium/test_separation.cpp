@@ -81,6 +81,52 @@ TEST(Separation, WhatIsNotThereHoldsNothing) {
   }
 }
 
+/// Particle 0 at the origin, pulled or driven by 1 along x and held by a bond of stiffness 1; two
+/// across it, as those along a row of a mesh, are parallel but for `tilt` and hold it by twice the
+/// square of that. Driven, it moves nothing that is free.
+AnalysisBody make_row(double tilt, bool driven) {
+  Network network;
+  network.particles.dim = network.bonds.dim = 2;
+  network.particles.positions = {0, 0, -1, 0, tilt, -1, -tilt, -1};
+  network.particles.volumes.assign(4, 1.0);
+  network.particles.material.assign(4, 0);
+  network.particles.kind.assign(4, ParticleKind::solid);
+  for (const Index end : {1, 2, 3}) network.bonds.append(network.particles, 0, end);
+  network.stiffness = {1.0, 1.0, 1.0};
+  network.critical_stretch = {1e-3, 1e-3, 1e-3};
+  network.first_tie = network.first_segment = 3;
+  AnalysisBody body = free_body(std::move(network));
+  (driven ? body.unknowns.prescribed : body.loads.forces)[0] = 1.0;
+  number(body, [&](Index i, int axis) { return i > 0 || (driven && axis == 0); });
+  body.reference = {driven, 1.0};
+  return body;
+}
+
+/// The next bond would break at a motion of 1e8, and the straight line to that row of the history
+/// would have done work without end.
+TEST(Separation, WhatTheLastDigitsOfAMeshHoldHasSeparated) {
+  for (const bool driven : {false, true}) {
+    const AnalysisBody body = make_row(1e-11, driven);
+    Recorder recorder;
+    const DamageResult result = run(body, {}, recorder);
+    EXPECT_EQ(result.ending, Ending::collapsed) << result.reason;
+    EXPECT_EQ(result.broken_bonds, 1);
+    EXPECT_LE(recorder.rows.back().displacement, 1.01e-3);
+    EXPECT_LE(recorder.rows.back().external_work, 0.51e-6);
+  }
+}
+
+TEST(Separation, WhatHoldsByATiltStillHolds) {
+  for (const bool driven : {false, true}) {
+    const AnalysisBody body = make_row(1e-4, driven);
+    Recorder recorder;
+    const DamageResult result = run(body, {}, recorder);
+    ASSERT_GE(recorder.rows.size(), 2U);
+    EXPECT_NEAR(recorder.rows[1].displacement, 1e-3 / 1e-4, 1e-3) << "both are stretched by 1e-3";
+    EXPECT_EQ(result.ending, Ending::collapsed);
+  }
+}
+
 /// A thousandth of what held the particle is the least that elastic supports alone may give.
 TEST(Separation, WeakSupportsHoldNothing) {
   for (const double bending : {0.0, 2.0}) {
