@@ -19,4 +19,7 @@ std::vector<std::string> strength_notes(const MaterialStrength& strength, double
 /// Those of all materials of a case whose strength is known, with their names.
 std::vector<std::string> strength_notes(const CaseFile& input, const Model& model);
 
+/// The same of bars whose moduli or yield strengths are far from all that is laid into solids.
+std::vector<std::string> bar_notes(const CaseFile& input);
+
 }  // namespace perilink

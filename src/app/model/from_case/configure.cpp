@@ -321,6 +321,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
     if (text) model.notes.push_back(*text);
   }
   for (const std::string& text : strength_notes(input, model)) model.notes.push_back(text);
+  for (const std::string& text : bar_notes(input)) model.notes.push_back(text);
   body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
 }
 

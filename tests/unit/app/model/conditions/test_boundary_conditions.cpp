@@ -121,6 +121,20 @@ TEST(BoundaryConditions, DrivenDisplacementsArePrescribed) {
   EXPECT_DOUBLE_EQ(model.reference.value, 0.2);
 }
 
+/// The load of strip_case() acts on the end that is driven; that of the whole strip reaches it too.
+TEST(BoundaryConditions, ForcesOnWhatIsDrivenAreNoted) {
+  CaseFile input = strip_case();
+  DisplacementSection driven;
+  driven.region = "upper end";
+  driven.value[1] = -0.2;
+  input.displacements.push_back(driven);
+  const auto is_note = testing::Contains(testing::HasSubstr("driven along them"));
+  EXPECT_THAT(build_model(input).notes, is_note);
+  input.displacements[0].value = {};
+  input.displacements[0].value[0] = 0.2;
+  EXPECT_THAT(build_model(input).notes, testing::Not(is_note)) << "across them";
+}
+
 /// Without supports along y the approach of the platens counts, else what one of them moves.
 TEST(BoundaryConditions, PlatensThatMoveBothAreOneDisplacement) {
   CaseFile input = strip_case();
