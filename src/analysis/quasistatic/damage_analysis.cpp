@@ -217,7 +217,8 @@ void EventRun::note_peaks() {
 /// Lets the element fail. \return false when that separates the body
 bool EventRun::pass(const Event& event) {
   const EventOutcome outcome = engine_->apply(event);
-  const bool separates = !reference_->driven && compliance_ > 0.0 &&
+  // Driven bodies tell so themselves, when their work is summed.
+  const bool separates = !reference_->driven && staged_ == nullptr &&
                          outcome.compliance_growth > next_to_infinite * compliance_;
   if (outcome.mechanism || separates) {
     if (outcome.broke()) result_.broken_bonds = 1;  // beyond those of the last row

@@ -67,13 +67,22 @@ double horizon_on_lattice(const BodySection& body, const Lattice& lattice) {
   return horizon_of(body, lattice.spacing) * stretch;
 }
 
-void refuse_too_many_particles(const CaseFile& input, const Box& box, double spacing, int dim) {
-  double count = 1.0;
-  for (int a = 0; a < dim; ++a) count *= std::max(1.0, (box.upper[a] - box.lower[a]) / spacing);
+void refuse_impossible_spacing(const CaseFile& input, const Box& box, double spacing, int dim) {
+  double count = 1.0, longest = 0.0;
+  for (int a = 0; a < dim; ++a) {
+    const double side = box.upper[a] - box.lower[a];
+    count *= std::max(1.0, side / spacing);
+    longest = std::max(longest, side);
+  }
+  const SourceLocation where = input.where(input.body.spacing ? "body.spacing" : "body.columns");
+  if (spacing > 2.0 * longest) {
+    throw InputError(where,
+                     fmt::format("is {:g}, but the body is only {:g} long", spacing, longest),
+                     "give lengths in one unit: particles lie several to each side of the body");
+  }
   if (count <= most_particles) return;
   throw InputError(
-      input.where(input.body.spacing ? "body.spacing" : "body.columns"),
-      fmt::format("gives about {:.1e} particles", count),
+      where, fmt::format("gives about {:.1e} particles", count),
       fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_particles));
 }
 
@@ -105,7 +114,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   }
   const Box box = bounding_box(lattice.solid);
   lattice.spacing = wanted_spacing(input.body, box.upper[0] - box.lower[0]);
-  refuse_too_many_particles(input, box, lattice.spacing, dim);
+  refuse_impossible_spacing(input, box, lattice.spacing, dim);
   const bool bonds = has_horizon(input.body);
   if (is_beam(input.body)) return build_beam_body(input, lattice, horizon);
   if (bonds) {
