@@ -16,6 +16,7 @@ void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
     keep_values(*values);
   }
   keep_values(network.law_of);
+  keep_values(network.hinged);
 }
 
 }  // namespace perilink

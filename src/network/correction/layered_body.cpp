@@ -21,16 +21,16 @@ class Cut {
   Cut(const Body& body, const NetworkInput& input, const Network& whole, const Joint& joint,
       std::size_t layer)
       : body_(body), input_(input), whole_(whole), joint_(joint), layer_(layer) {
-    for (const SolidMaterial& m : input.materials) constants_.push_back(lame_constants(input, m));
+    for (const SolidMaterial& m : input.materials) {
+      constants_.push_back(lame_constants(input, m));
+      moduli_.push_back(moduli_of(body, input, m));
+    }
   }
 
   LayerBody make();
 
  private:
   const LameConstants& own() const { return constants_[joint_.layers[layer_]]; }
-  double modulus(Index material) const {
-    return constants_[material].lambda + 2.0 * constants_[material].mu;
-  }
   double height(Index particle) const { return joint_.height(whole_.particles.position(particle)); }
   double facet_height(Index facet) const;
   bool between_planes(double height) const;
@@ -46,6 +46,7 @@ class Cut {
   const Joint& joint_;
   std::size_t layer_;
   std::vector<LameConstants> constants_;
+  std::vector<MicropolarModuli> moduli_;
   std::vector<Index> number_;         // per particle: in the layer, no_index outside
   std::vector<std::uint8_t> shared_;  // per particle: with the layer above or below
 };
@@ -142,22 +143,33 @@ void Cut::measure(LayerBody& cut) const {
   particles.volumes = shape_integrals(cells, particles.positions, input_.thickness);
 }
 
-/// With the modulus of the layer in place of the mean of their ends, and its volumes.
+/// With the moduli of the layer in place of the mean of their ends, and its volumes; where they
+/// carry moments, hinged at the particles in a plane.
 void Cut::add_bonds(LayerBody& cut) const {
   Network& layer = cut.network;
   layer.bonds.dim = joint_.dim;
+  layer.torsion = whole_.torsion;
   const auto share = [&](Index i) {
     return layer.particles.volumes[number_[i]] / whole_.particles.volumes[i];
   };
-  const std::vector<Index>& material = whole_.particles.material;
+  const auto over_mean = [&](double MicropolarModuli::*modulus, Index i, Index j) {
+    const std::vector<Index>& material = whole_.particles.material;
+    const double mean = 0.5 * (moduli_[material[i]].*modulus + moduli_[material[j]].*modulus);
+    return mean > 0.0 ? moduli_[joint_.layers[layer_]].*modulus / mean : 0.0;
+  };
   for (Index b = 0; b < whole_.bonds.size(); ++b) {
     const Index i = whole_.bonds.first[b], j = whole_.bonds.second[b];
     if (number_[i] == no_index || number_[j] == no_index) continue;
     layer.bonds.append(layer.particles, number_[i], number_[j]);
-    const double mean = 0.5 * (modulus(material[i]) + modulus(material[j]));
-    layer.stiffness.push_back(whole_.stiffness[b] * modulus(joint_.layers[layer_]) / mean *
-                              share(i) * share(j));
+    const double part = share(i) * share(j);
+    layer.stiffness.push_back(whole_.stiffness[b] * part *
+                              over_mean(&MicropolarModuli::micromodulus, i, j));
     layer.critical_stretch.push_back(whole_.critical_stretch[b]);
+    if (!whole_.carries_moments()) continue;
+    layer.bending.push_back(whole_.bending[b] * part *
+                            over_mean(&MicropolarModuli::bending_modulus, i, j));
+    layer.hinged.push_back(static_cast<std::uint8_t>((shared_[i] != 0 ? first_end : 0) |
+                                                     (shared_[j] != 0 ? second_end : 0)));
   }
 }
 
@@ -172,7 +184,8 @@ LayerBody Cut::make() {
   return cut;
 }
 
-/// Stiffnesses and shares of a layer are added to those of the body.
+/// Stiffnesses and shares of a layer are added to those of the body. Bonds with moments are those
+/// of one layer only.
 void put_back(const LayerBody& layer, std::vector<double>& stiffness, Network& whole) {
   const Bonds& bonds = layer.network.bonds;
   Index at = 0;  // both are sorted by their ends
@@ -180,6 +193,10 @@ void put_back(const LayerBody& layer, std::vector<double>& stiffness, Network& w
     const Index i = layer.particle_of[bonds.first[b]], j = layer.particle_of[bonds.second[b]];
     while (whole.bonds.first[at] != i || whole.bonds.second[at] != j) ++at;
     stiffness[at] += layer.network.stiffness[b];
+    if (!whole.carries_moments()) continue;
+    whole.bending[at] = layer.network.bending[b];
+    whole.inflection[at] = layer.network.inflection[b];
+    whole.hinged[at] = layer.network.hinged[b];
   }
   const Facets& facets = layer.network.facets;
   for (Index f = 0; f < facets.size(); ++f) {
@@ -198,6 +215,7 @@ void add_report(const LayerBody& layer, CalibrationReport& sum) {
   sum.free_bonds += own.free_bonds;
   sum.residual_before = std::max(sum.residual_before, own.residual_before);
   sum.residual_after = std::max(sum.residual_after, own.residual_after);
+  sum.moment_after = std::max(sum.moment_after, own.moment_after);
   sum.sum_after += own.sum_after;
   sum.unmet += own.unmet;
   sum.smallest_weight = std::min(sum.smallest_weight, own.smallest_weight);
@@ -229,6 +247,10 @@ bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& 
     if (!(report.sum_after <= balanced * particles_in_planes)) return false;
   }
   std::vector<double> stiffness(whole.stiffness.size(), 0.0);
+  if (whole.carries_moments()) {
+    whole.inflection.assign(stiffness.size(), 0.5);
+    whole.hinged.assign(stiffness.size(), 0);
+  }
   for (const LayerBody& layer : layers) put_back(layer, stiffness, whole);
   whole.stiffness = std::move(stiffness);
   whole.calibration = report;

@@ -35,6 +35,11 @@ double continuum_modulus(const NetworkInput& input, double micromodulus) {
   return std::numbers::pi / 3.0 * micromodulus * input.thickness * std::pow(delta, 3);
 }
 
+/// In space moments find no balance where a plane between layers meets the surface of a lattice
+/// with fewer neighbours (cubic ones with horizons of two spacings have 32): about three variables
+/// to each of the 18 equations of a particle.
+constexpr std::size_t least_neighbours = 36;
+
 bool can_break(const NetworkInput& input) {
   return std::any_of(input.materials.begin(), input.materials.end(),
                      [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); });
@@ -57,6 +62,7 @@ class Correction {
   Index material(Index particle) const { return network_.particles.material[particle]; }
   void fade_at_horizon();
   void favor_short_bonds();
+  void hinge();
   void set_strength(const LatticeFamilies* families);
   bool breaks_beside(const Joint& joint) const;
   void take_bulk_families(const LatticeFamilies& families);
@@ -199,7 +205,7 @@ void Correction::calibrate(bool give_up) {
   calibration.give_up = give_up;
   if (family) {
     calibration.free = free_bonds(*family);
-    calibration.box = lattice_box(body_);
+    if (network_.hinged.empty()) calibration.box = lattice_box(body_);
   }
   std::vector<double> bulk = network_.stiffness;
   std::vector<double> bulk_bending = network_.bending;
@@ -209,6 +215,7 @@ void Correction::calibrate(bool give_up) {
     network_.stiffness[b] = bulk[b];  // exactly
     if (micropolar()) network_.bending[b] = bulk_bending[b];
   }
+  hinge();
   for (const SolidMaterial& m : input_.materials) {
     calibration.materials.push_back(lame_constants(input_, m));
   }
@@ -221,6 +228,18 @@ void Correction::calibrate(bool give_up) {
     network_.calibration->seconds = timer.seconds();
   }
   set_strength(family);
+}
+
+/// Nothing turns in the planes of a joint, where the layers turn unlike.
+void Correction::hinge() {
+  if (network_.hinged.empty()) return;
+  network_.inflection.assign(network_.hinged.size(), 0.5);
+  for (std::size_t b = 0; b < network_.hinged.size(); ++b) {
+    const int ends = network_.hinged[b];
+    if (ends == (first_end | second_end)) network_.bending[b] = 0.0;
+    if (ends == first_end) network_.inflection[b] = 0.0;
+    if (ends == second_end) network_.inflection[b] = 1.0;
+  }
 }
 
 /// By the stiffnesses as they are now.
@@ -252,10 +271,14 @@ bool Correction::breaks_beside(const Joint& joint) const {
 }
 
 /// Layers of materials that meet in planes, each as a body of its own. Where bonds beside a plane
-/// can break those across it stay, and rotations of bonds that carry moments would have to jump.
+/// can break those across it stay.
 bool Correction::calibrate_layers() {
-  if (input_.materials.size() < 2 || micropolar() || !input_.interfaces.empty()) return false;
+  if (input_.materials.size() < 2 || !input_.interfaces.empty()) return false;
   if (input_.draft || input_.shell) return false;
+  if (micropolar() && on_lattice() && network_.dim() == 3 &&
+      bulk_family(body_.lattice, input_.horizon).offsets.size() < least_neighbours) {
+    return false;
+  }
   std::vector<LameConstants> constants;
   for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
   const Timer timer;
@@ -280,7 +303,7 @@ bool Correction::calibrate_layers() {
 
 /// Bonds that may carry nothing are taken out.
 void Correction::balance(const CalibrationInput& calibration) {
-  BondStiffness stiffness{network_.stiffness, network_.bending, {}};
+  BondStiffness stiffness{network_.stiffness, network_.bending, network_.inflection};
   CalibrationOptions options;
   options.on_search = input_.on_search;
   network_.calibration = calibrate_bonds(calibration, options, network_.facets, stiffness);
