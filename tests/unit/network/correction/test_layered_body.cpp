@@ -19,7 +19,7 @@ struct TwoSquares {
   Network network;
   Joint joint;
 
-  TwoSquares() {
+  explicit TwoSquares(BondModel model = BondModel::bond_based) {
     LatticeInput lattice;
     lattice.surface = Surface::calibrated;
     lattice.spacing = 0.125;
@@ -30,6 +30,11 @@ struct TwoSquares {
     input.solid = lattice.solid;
     input.horizon = lattice.horizon;
     input.materials = {{1.0}, {3.0}};
+    input.model = model;
+    if (model == BondModel::micropolar) {
+      input.materials[0].poissons_ratio = 0.05;
+      input.materials[1].poissons_ratio = 0.15;
+    }
     Body plain = body;
     plain.lattice.surface = Surface::none;
     network = build_network(plain, input);
@@ -62,6 +67,30 @@ TEST(LayeredBody, ALayerIsABodyOfOneMaterialWithGluedFaces) {
     }
     EXPECT_EQ(glued, 8);
     EXPECT_NEAR(std::hypot(closed[0], closed[1]), 0.0, 1e-12);
+  }
+}
+
+/// Bonds with moments end at the plane in hinges, and have the moduli of their layer.
+TEST(LayeredBody, ParticlesInThePlaneDoNotTurn) {
+  const TwoSquares squares(BondModel::micropolar);
+  for (const std::size_t k : {0, 1}) {
+    const LayerBody layer =
+        cut_layer(squares.body, squares.input, squares.network, squares.joint, k);
+    const Network& own = layer.network;
+    ASSERT_EQ(own.hinged.size(), own.bending.size());
+    for (Index b = 0; b < own.bonds.size(); ++b) {
+      const Index i = layer.particle_of[own.bonds.first[b]];
+      const Index j = layer.particle_of[own.bonds.second[b]];
+      const auto in_plane = [&](Index p) { return std::abs(squares.height(p) - 1.0) < 1e-9; };
+      EXPECT_EQ((own.hinged[b] & first_end) != 0, in_plane(i));
+      EXPECT_EQ((own.hinged[b] & second_end) != 0, in_plane(j));
+    }
+    const Index inner = own.bonds.size() / 2;
+    const MicropolarModuli moduli =
+        moduli_of(squares.body, squares.input, squares.input.materials[k]);
+    const double length = own.bonds.lengths[inner];
+    EXPECT_NEAR(own.bending[inner] / own.stiffness[inner],
+                12.0 * moduli.bending_modulus / (moduli.micromodulus * length * length), 1e-12);
   }
 }
 
