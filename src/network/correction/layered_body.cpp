@@ -1,6 +1,7 @@
 #include "network/correction/layered_body.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -73,7 +74,7 @@ Side Cut::side_of(Index facet) const {
   return is_inside ? Side::inside : Side::outside;
 }
 
-/// Those between the planes and the corners of the layer's facets.
+/// Those between the planes and the corners of the layer's facets, of the material on its side.
 void Cut::choose_particles(LayerBody& cut) {
   const auto count = static_cast<std::size_t>(whole_.particles.size());
   std::vector<std::uint8_t> member(count, 0);
@@ -81,11 +82,15 @@ void Cut::choose_particles(LayerBody& cut) {
   for (Index i = 0; i < whole_.particles.size(); ++i) {
     member[i] = between_planes(height(i)) && !joint_.in_plane(height(i)) ? 1 : 0;
   }
+  std::vector<Index> material = whole_.particles.material;
   for (Index f = 0; f < whole_.facets.size(); ++f) {
-    if (side_of(f) == Side::none) continue;
+    const Side side = side_of(f);
+    if (side == Side::none) continue;
     for (const Index i : whole_.facets.corners.row(f)) {
       member[i] = 1;
-      if (!whole_.facets.on_surface(f)) shared_[i] = 1;
+      if (whole_.facets.on_surface(f)) continue;
+      shared_[i] = 1;
+      material[i] = side == Side::inside ? whole_.facets.inside[f] : whole_.facets.outside[f];
     }
   }
   number_.assign(count, no_index);
@@ -98,9 +103,9 @@ void Cut::choose_particles(LayerBody& cut) {
     const auto x = whole_.particles.position(i);
     particles.positions.insert(particles.positions.end(), x.begin(), x.end());
     particles.volumes.push_back(whole_.particles.volumes[i]);
+    particles.material.push_back(material[i]);
   }
   particles.kind.assign(cut.particle_of.size(), ParticleKind::solid);
-  particles.material.assign(cut.particle_of.size(), joint_.layers[layer_]);
 }
 
 void Cut::add_facets(LayerBody& cut) const {
@@ -184,15 +189,23 @@ LayerBody Cut::make() {
   return cut;
 }
 
+/// Of the bonds of the body, summed over the layers.
+struct BondSums {
+  std::vector<double> stiffness;
+  std::vector<double> held;  // k s_c^2
+};
+
 /// Stiffnesses and shares of a layer are added to those of the body. Bonds with moments are those
 /// of one layer only.
-void put_back(const LayerBody& layer, std::vector<double>& stiffness, Network& whole) {
+void put_back(const LayerBody& layer, BondSums& sums, Network& whole) {
   const Bonds& bonds = layer.network.bonds;
   Index at = 0;  // both are sorted by their ends
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = layer.particle_of[bonds.first[b]], j = layer.particle_of[bonds.second[b]];
     while (whole.bonds.first[at] != i || whole.bonds.second[at] != j) ++at;
-    stiffness[at] += layer.network.stiffness[b];
+    const double stretch = layer.network.critical_stretch[b];
+    sums.stiffness[at] += layer.network.stiffness[b];
+    sums.held[at] += layer.network.stiffness[b] * stretch * stretch;
     if (!whole.carries_moments()) continue;
     whole.bending[at] = layer.network.bending[b];
     whole.inflection[at] = layer.network.inflection[b];
@@ -242,20 +255,24 @@ bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& 
   CalibrationReport report;
   for (std::size_t k = 0; k < joint.layers.size(); ++k) {
     layers.push_back(cut_layer(body, input, whole, joint, k));
-    calibrate(layers.back().body, layers.back().network);
+    calibrate(k, layers.back().body, layers.back().network);
     add_report(layers.back(), report);
     if (!(report.sum_after <= balanced * particles_in_planes)) return false;
   }
-  std::vector<double> stiffness(whole.stiffness.size(), 0.0);
+  const std::size_t count = whole.stiffness.size();
+  BondSums sums{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
   if (whole.carries_moments()) {
-    whole.inflection.assign(stiffness.size(), 0.5);
-    whole.hinged.assign(stiffness.size(), 0);
+    whole.inflection.assign(count, 0.5);
+    whole.hinged.assign(count, 0);
   }
-  for (const LayerBody& layer : layers) put_back(layer, stiffness, whole);
-  whole.stiffness = std::move(stiffness);
-  whole.calibration = report;
+  for (const LayerBody& layer : layers) put_back(layer, sums, whole);
   std::vector<std::uint8_t> keep;
-  for (const double k : whole.stiffness) keep.push_back(k > 0.0 ? 1 : 0);
+  for (std::size_t b = 0; b < count; ++b) {
+    keep.push_back(sums.stiffness[b] > 0.0 ? 1 : 0);
+    whole.critical_stretch[b] = std::sqrt(sums.held[b] / sums.stiffness[b]);
+  }
+  whole.stiffness = std::move(sums.stiffness);
+  whole.calibration = report;
   keep_elements(whole, keep);
   return true;
 }

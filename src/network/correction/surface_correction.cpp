@@ -9,6 +9,7 @@
 #include "calibration/calibration.hpp"
 #include "calibration/calibration_cost.hpp"
 #include "network/bond_strength.hpp"
+#include "network/correction/glued_strength.hpp"
 #include "network/correction/layered_body.hpp"
 #include "network/lattice_families.hpp"
 
@@ -64,7 +65,7 @@ class Correction {
   void favor_short_bonds();
   void hinge();
   void set_strength(const LatticeFamilies* families);
-  bool breaks_beside(const Joint& joint) const;
+  bool softens_beside(const Joint& joint) const;
   void take_bulk_families(const LatticeFamilies& families);
   std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
   void scale_to(const std::vector<double>& wanted);
@@ -251,8 +252,9 @@ void Correction::set_strength(const LatticeFamilies* families) {
   }
 }
 
-/// Whether bonds can break that lie within a horizon of a plane, at least in part.
-bool Correction::breaks_beside(const Joint& joint) const {
+/// Whether bonds that lie within a horizon of a plane, at least in part, can break otherwise than
+/// all at once by their stretch.
+bool Correction::softens_beside(const Joint& joint) const {
   std::vector<std::uint8_t> near(static_cast<std::size_t>(network_.particles.size()), 0);
   for (Index i = 0; i < network_.particles.size(); ++i) {
     const double height = joint.height(network_.particles.position(i));
@@ -263,15 +265,21 @@ bool Correction::breaks_beside(const Joint& joint) const {
   const auto breaks = [&](Index particle) {
     return std::isfinite(input_.materials[material(particle)].fracture_energy);
   };
+  const auto snaps = [&](Index particle) {
+    const SofteningMaterial& softening = input_.materials[material(particle)].softening;
+    return !micropolar() && input_.critical_stretch == Constants::lattice && !softening.closes &&
+           softening.shape.kind == Softening::brittle;
+  };
   for (Index b = 0; b < network_.bonds.size(); ++b) {
     const Index i = network_.bonds.first[b], j = network_.bonds.second[b];
-    if ((near[i] != 0 || near[j] != 0) && breaks(i) && breaks(j)) return true;
+    if (near[i] == 0 && near[j] == 0) continue;
+    if (breaks(i) && breaks(j) && !(snaps(i) && snaps(j))) return true;
   }
   return false;
 }
 
 /// Layers of materials that meet in planes, each as a body of its own. Where bonds beside a plane
-/// can break those across it stay.
+/// can soften, or break by moments, those across it stay.
 bool Correction::calibrate_layers() {
   if (input_.materials.size() < 2 || !input_.interfaces.empty()) return false;
   if (input_.draft || input_.shell) return false;
@@ -284,19 +292,15 @@ bool Correction::calibrate_layers() {
   const Timer timer;
   const std::optional<Joint> joint =
       find_joint(network_.facets, network_.particles, constants, body_.lattice.spacing);
-  const auto calibrate_layer = [&](const Body& body, Network& network) {
+  const auto calibrate_layer = [&](std::size_t layer, const Body& body, Network& network) {
     Correction(body, input_, network).calibrate(true);
+    toughen_glued_faces(*joint, layer, input_.horizon, body_.lattice.spacing, network);
   };
-  if (!joint || breaks_beside(*joint) ||
+  if (!joint || softens_beside(*joint) ||
       !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
     return false;
   }
   network_.bending_ratio = own_bending_ratios(network_);
-  if (can_break(input_)) {
-    std::optional<LatticeFamilies> families;
-    if (on_lattice()) families.emplace(body_, input_);
-    set_strength(families ? &*families : nullptr);
-  }
   network_.calibration->seconds = timer.seconds();
   return true;
 }

@@ -14,7 +14,7 @@ namespace {
 /// Two squares of eight spacings, the upper one three times as stiff, with bonds as they are before
 /// calibration.
 struct TwoSquares {
-  Body body;
+  Body body, plain;
   NetworkInput input;
   Network network;
   Joint joint;
@@ -35,7 +35,7 @@ struct TwoSquares {
       input.materials[0].poissons_ratio = 0.05;
       input.materials[1].poissons_ratio = 0.15;
     }
-    Body plain = body;
+    plain = body;
     plain.lattice.surface = Surface::none;
     network = build_network(plain, input);
     joint = *find_joint(
@@ -75,7 +75,7 @@ TEST(LayeredBody, ParticlesInThePlaneDoNotTurn) {
   const TwoSquares squares(BondModel::micropolar);
   for (const std::size_t k : {0, 1}) {
     const LayerBody layer =
-        cut_layer(squares.body, squares.input, squares.network, squares.joint, k);
+        cut_layer(squares.plain, squares.input, squares.network, squares.joint, k);
     const Network& own = layer.network;
     ASSERT_EQ(own.hinged.size(), own.bending.size());
     for (Index b = 0; b < own.bonds.size(); ++b) {
@@ -87,7 +87,7 @@ TEST(LayeredBody, ParticlesInThePlaneDoNotTurn) {
     }
     const Index inner = own.bonds.size() / 2;
     const MicropolarModuli moduli =
-        moduli_of(squares.body, squares.input, squares.input.materials[k]);
+        moduli_of(squares.plain, squares.input, squares.input.materials[k]);
     const double length = own.bonds.lengths[inner];
     EXPECT_NEAR(own.bending[inner] / own.stiffness[inner],
                 12.0 * moduli.bending_modulus / (moduli.micromodulus * length * length), 1e-12);
@@ -97,7 +97,7 @@ TEST(LayeredBody, ParticlesInThePlaneDoNotTurn) {
 TEST(LayeredBody, BondsInThePlaneAreThoseOfBothLayersAndNoneCross) {
   TwoSquares squares;
   Index calls = 0;
-  const auto calibrate = [&](const Body& body, Network& layer) {
+  const auto calibrate = [&](std::size_t, const Body& body, Network& layer) {
     EXPECT_EQ(body.particles.size(), layer.particles.size());
     layer.stiffness.assign(layer.stiffness.size(), 1.0);
     layer.calibration.emplace();
@@ -119,7 +119,7 @@ TEST(LayeredBody, BondsInThePlaneAreThoseOfBothLayersAndNoneCross) {
 TEST(LayeredBody, ABodyWithoutBalanceStaysAsItWas) {
   TwoSquares squares;
   const std::vector<double> before = squares.network.stiffness;
-  const auto calibrate = [](const Body&, Network& layer) {
+  const auto calibrate = [](std::size_t, const Body&, Network& layer) {
     layer.calibration.emplace();
     layer.calibration->sum_after = 10.0;
   };
