@@ -14,6 +14,9 @@ constexpr int rounds = 200;
 /// Cuts in each spacing of particles.
 constexpr int cuts_in_spacing = 2;
 
+/// Every stretch of soft bonds costs a law: factors on stretches are multiples of this.
+constexpr double steps = 0.01;
+
 /// Energies and forces of cuts along one glued face.
 class CutsAlongFace {
  public:
@@ -157,7 +160,8 @@ void toughen_glued_faces(const Joint& joint, std::size_t layer, double horizon, 
     cuts.measure(share, per_force);
     cuts.even_out();
     for (Index b = 0; b < network.bonds.size(); ++b) {
-      network.critical_stretch[b] *= std::sqrt(cuts.factor(b));
+      const double factor = std::sqrt(cuts.factor(b));
+      network.critical_stretch[b] *= steps * std::round(factor / steps);
     }
   };
   if (layer > 0) toughen(joint.planes[layer - 1], 1.0);

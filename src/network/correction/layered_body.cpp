@@ -1,6 +1,7 @@
 #include "network/correction/layered_body.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -189,10 +190,16 @@ LayerBody Cut::make() {
   return cut;
 }
 
+/// Every stretch of soft bonds costs a law: rounded to one percent.
+double in_few_steps(double stretch) {
+  return std::exp(0.01 * std::round(100.0 * std::log(stretch)));
+}
+
 /// Of the bonds of the body, summed over the layers.
 struct BondSums {
   std::vector<double> stiffness;
-  std::vector<double> held;  // k s_c^2
+  std::vector<double> held;          // k s_c^2
+  std::vector<std::uint8_t> shared;  // bonds of two layers
 };
 
 /// Stiffnesses and shares of a layer are added to those of the body. Bonds with moments are those
@@ -206,9 +213,18 @@ void put_back(const LayerBody& layer, BondSums& sums, Network& whole) {
     const double stretch = layer.network.critical_stretch[b];
     sums.stiffness[at] += layer.network.stiffness[b];
     sums.held[at] += layer.network.stiffness[b] * stretch * stretch;
+    const auto end = [&](Index particle) { return layer.body.particles.material[particle]; };
+    std::array<Index, 2>& materials = whole.materials_of[at];
+    if (materials[0] == no_index) {
+      materials = {end(bonds.first[b]), end(bonds.second[b])};
+    } else {
+      materials[1] = end(bonds.first[b]);  // in a plane: of both its layers
+      sums.shared[at] = 1;
+    }
     if (!whole.carries_moments()) continue;
     whole.bending[at] = layer.network.bending[b];
     whole.inflection[at] = layer.network.inflection[b];
+    whole.bending_ratio[at] = layer.network.bending_ratio[b];
     whole.hinged[at] = layer.network.hinged[b];
   }
   const Facets& facets = layer.network.facets;
@@ -260,16 +276,20 @@ bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& 
     if (!(report.sum_after <= balanced * particles_in_planes)) return false;
   }
   const std::size_t count = whole.stiffness.size();
-  BondSums sums{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
+  BondSums sums{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0),
+                std::vector<std::uint8_t>(count, 0)};
+  whole.materials_of.assign(count, {no_index, no_index});
   if (whole.carries_moments()) {
     whole.inflection.assign(count, 0.5);
+    whole.bending_ratio.assign(count, 0.0);
     whole.hinged.assign(count, 0);
   }
   for (const LayerBody& layer : layers) put_back(layer, sums, whole);
   std::vector<std::uint8_t> keep;
   for (std::size_t b = 0; b < count; ++b) {
     keep.push_back(sums.stiffness[b] > 0.0 ? 1 : 0);
-    whole.critical_stretch[b] = std::sqrt(sums.held[b] / sums.stiffness[b]);
+    const double stretch = std::sqrt(sums.held[b] / sums.stiffness[b]);
+    whole.critical_stretch[b] = sums.shared[b] != 0 ? in_few_steps(stretch) : stretch;
   }
   whole.stiffness = std::move(sums.stiffness);
   whole.calibration = report;

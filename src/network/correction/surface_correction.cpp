@@ -65,7 +65,6 @@ class Correction {
   void favor_short_bonds();
   void hinge();
   void set_strength(const LatticeFamilies* families);
-  bool softens_beside(const Joint& joint) const;
   void take_bulk_families(const LatticeFamilies& families);
   std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
   void scale_to(const std::vector<double>& wanted);
@@ -252,37 +251,11 @@ void Correction::set_strength(const LatticeFamilies* families) {
   }
 }
 
-/// Whether bonds that lie within a horizon of a plane, at least in part, can break otherwise than
-/// all at once by their stretch.
-bool Correction::softens_beside(const Joint& joint) const {
-  std::vector<std::uint8_t> near(static_cast<std::size_t>(network_.particles.size()), 0);
-  for (Index i = 0; i < network_.particles.size(); ++i) {
-    const double height = joint.height(network_.particles.position(i));
-    for (const double plane : joint.planes) {
-      if (std::abs(height - plane) <= input_.horizon + joint.tolerance) near[i] = 1;
-    }
-  }
-  const auto breaks = [&](Index particle) {
-    return std::isfinite(input_.materials[material(particle)].fracture_energy);
-  };
-  const auto snaps = [&](Index particle) {
-    const SofteningMaterial& softening = input_.materials[material(particle)].softening;
-    return !micropolar() && input_.critical_stretch == Constants::lattice && !softening.closes &&
-           softening.shape.kind == Softening::brittle;
-  };
-  for (Index b = 0; b < network_.bonds.size(); ++b) {
-    const Index i = network_.bonds.first[b], j = network_.bonds.second[b];
-    if (near[i] == 0 && near[j] == 0) continue;
-    if (breaks(i) && breaks(j) && !(snaps(i) && snaps(j))) return true;
-  }
-  return false;
-}
-
-/// Layers of materials that meet in planes, each as a body of its own. Where bonds beside a plane
-/// can soften, or break by moments, those across it stay.
+/// Layers of materials that meet in planes, each as a body of its own.
 bool Correction::calibrate_layers() {
   if (input_.materials.size() < 2 || !input_.interfaces.empty()) return false;
   if (input_.draft || input_.shell) return false;
+  if (can_break(input_) && input_.critical_stretch != Constants::lattice) return false;
   if (micropolar() && on_lattice() && network_.dim() == 3 &&
       bulk_family(body_.lattice, input_.horizon).offsets.size() < least_neighbours) {
     return false;
@@ -296,11 +269,9 @@ bool Correction::calibrate_layers() {
     Correction(body, input_, network).calibrate(true);
     toughen_glued_faces(*joint, layer, input_.horizon, body_.lattice.spacing, network);
   };
-  if (!joint || softens_beside(*joint) ||
-      !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
+  if (!joint || !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
     return false;
   }
-  network_.bending_ratio = own_bending_ratios(network_);
   network_.calibration->seconds = timer.seconds();
   return true;
 }

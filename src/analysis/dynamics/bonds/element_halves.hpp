@@ -153,7 +153,7 @@ struct FrameHalf {
     rotational = network.is_hinged(element) ? 0.0 : kb * length * length / 12.0;
     twisting = network.torsion * rotational;
     shear_share = network.ratio_of_bending(element);
-    bend_share = shear_share * length * length / 12.0;
+    bend_share = network.is_hinged(element) ? 0.0 : shear_share * length * length / 12.0;
     twist_share = network.torsion * bend_share;
   }
 
