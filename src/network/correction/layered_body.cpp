@@ -195,31 +195,31 @@ double in_few_steps(double stretch) {
   return std::exp(0.01 * std::round(100.0 * std::log(stretch)));
 }
 
-/// Of the bonds of the body, summed over the layers.
-struct BondSums {
-  std::vector<double> stiffness;
-  std::vector<double> held;          // k s_c^2
-  std::vector<std::uint8_t> shared;  // bonds of two layers
+/// What the bonds of the body become.
+struct NewBonds {
+  std::vector<double> stiffness;  // zero so far
+  std::vector<double> stretch;    // critical
 };
 
 /// Stiffnesses and shares of a layer are added to those of the body. Bonds with moments are those
 /// of one layer only.
-void put_back(const LayerBody& layer, BondSums& sums, Network& whole) {
+void put_back(const LayerBody& layer, NewBonds& made, Network& whole) {
   const Bonds& bonds = layer.network.bonds;
   Index at = 0;  // both are sorted by their ends
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = layer.particle_of[bonds.first[b]], j = layer.particle_of[bonds.second[b]];
     while (whole.bonds.first[at] != i || whole.bonds.second[at] != j) ++at;
-    const double stretch = layer.network.critical_stretch[b];
-    sums.stiffness[at] += layer.network.stiffness[b];
-    sums.held[at] += layer.network.stiffness[b] * stretch * stretch;
-    const auto end = [&](Index particle) { return layer.body.particles.material[particle]; };
-    std::array<Index, 2>& materials = whole.materials_of[at];
-    if (materials[0] == no_index) {
-      materials = {end(bonds.first[b]), end(bonds.second[b])};
-    } else {
-      materials[1] = end(bonds.first[b]);  // in a plane: of both its layers
-      sums.shared[at] = 1;
+    const double own = layer.network.stiffness[b], limit = layer.network.critical_stretch[b];
+    double& stiffness = made.stiffness[at];
+    double& stretch = made.stretch[at];
+    const bool again = stiffness > 0.0;  // in a plane: of both its layers
+    const double held = stiffness * stretch * stretch + own * limit * limit;
+    stretch = again ? in_few_steps(std::sqrt(held / (stiffness + own))) : limit;
+    stiffness += own;
+    if (!whole.materials_of.empty()) {
+      const std::vector<Index>& material = layer.body.particles.material;
+      const Index first = material[bonds.first[b]], second = material[bonds.second[b]];
+      whole.materials_of[at] = {again ? whole.materials_of[at][0] : first, second};
     }
     if (!whole.carries_moments()) continue;
     whole.bending[at] = layer.network.bending[b];
@@ -276,23 +276,22 @@ bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& 
     if (!(report.sum_after <= balanced * particles_in_planes)) return false;
   }
   const std::size_t count = whole.stiffness.size();
-  BondSums sums{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0),
-                std::vector<std::uint8_t>(count, 0)};
-  whole.materials_of.assign(count, {no_index, no_index});
+  NewBonds made{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
+  if (std::any_of(input.materials.begin(), input.materials.end(),
+                  [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); })) {
+    whole.materials_of.assign(count, {no_index, no_index});
+  }
   if (whole.carries_moments()) {
     whole.inflection.assign(count, 0.5);
     whole.bending_ratio.assign(count, 0.0);
     whole.hinged.assign(count, 0);
   }
-  for (const LayerBody& layer : layers) put_back(layer, sums, whole);
-  std::vector<std::uint8_t> keep;
-  for (std::size_t b = 0; b < count; ++b) {
-    keep.push_back(sums.stiffness[b] > 0.0 ? 1 : 0);
-    const double stretch = std::sqrt(sums.held[b] / sums.stiffness[b]);
-    whole.critical_stretch[b] = sums.shared[b] != 0 ? in_few_steps(stretch) : stretch;
-  }
-  whole.stiffness = std::move(sums.stiffness);
+  for (const LayerBody& layer : layers) put_back(layer, made, whole);
+  whole.stiffness = std::move(made.stiffness);
+  whole.critical_stretch = std::move(made.stretch);
   whole.calibration = report;
+  std::vector<std::uint8_t> keep;
+  for (const double k : whole.stiffness) keep.push_back(k > 0.0 ? 1 : 0);
   keep_elements(whole, keep);
   return true;
 }

@@ -28,9 +28,10 @@ LayerBody cut_layer(const Body& body, const NetworkInput& input, const Network& 
 using LayerCalibration = std::function<void(std::size_t, const Body&, Network&)>;
 
 /// Calibrates the layers one by one and puts them together: bonds in a plane are those of both
-/// sides and break when they hold what both may, bonds that cross one are taken out, and displacements that are linear in every layer and
-/// in equilibrium across the planes are in equilibrium (docs/theory/calibration.md, section 3).
-/// False, and the network as it was, where the particles of a layer find no balance.
+/// sides, and break when they hold what both may, bonds that cross one are taken out, and
+/// displacements that are linear in every layer and in equilibrium across the planes are in
+/// equilibrium (docs/theory/calibration.md, section 3). False, and the network as it was, where the
+/// particles of a layer find no balance.
 bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& joint,
                       const LayerCalibration& calibrate, Network& whole);
 

@@ -40,7 +40,7 @@ struct Ladder {
     network.facets.glued.push_back(1);
   }
 
-  /// Of the bonds that cross a height, over k xi^2 s_c^2 of one as they were.
+  /// What the bonds that cross a height hold, over k xi^2 s_c^2 of one as they were.
   double energy(double height) const {
     double sum = 0.0;
     for (Index b = 0; b < network.bonds.size(); ++b) {
