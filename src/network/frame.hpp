@@ -20,8 +20,9 @@
 ///   torsion  torsion kb xi^2 / 12    e = (theta_j - theta_i) . n     (three dimensions)
 ///
 /// a is one half in the paper; calibrated bonds have their inflection elsewhere
-/// (Network::inflection), and hinged ones no bending and no torsion (Network::hinged). In three dimensions shear and bending come twice, for the two directions
-/// across the bond. A rigid motion, rotations included, costs nothing.
+/// (Network::inflection), and hinged ones no bending and no torsion (Network::hinged). In three
+/// dimensions shear and bending come twice, for the two directions across the bond. A rigid motion,
+/// rotations included, costs nothing.
 ///
 /// Bonds of shells are ribbons of the height t: against bending and torsion out of the sheet they
 /// have the stiffnesses t^2/12 times k and kb, against shear across it Shell::shear_ratio times k

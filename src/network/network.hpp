@@ -103,8 +103,8 @@ struct Network {
   /// By which each element's law counts its stretches [-]: where brittle bonds break, the yield
   /// strain of bars; infinity: stays elastic.
   std::vector<double> critical_stretch;
-  /// Materials whose mean breaks a bond, per element: those of the layers that it belongs to. Empty:
-  /// those of its ends.
+  /// Materials whose mean breaks a bond, per element: those of the layers that it belongs to.
+  /// Empty: those of its ends.
   std::vector<std::array<Index, 2>> materials_of;
   std::vector<MaterialStrength> strengths;  ///< by material; empty where bonds were not asked
   /// Stiffness of elastic supports between the components of particles and the ground

@@ -103,8 +103,8 @@ double relative_error(const JointCase& tested, int count) {
 
 class SmoothFieldsAtJoints : public testing::TestWithParam<JointCase> {};
 
-/// Orders of the meshes of one material are 1.8 to 2.2 there; where layers are not calibrated one by
-/// one they are 0.6 to 1.3.
+/// Orders of the meshes of one material are 1.8 to 2.2 there; where layers are not calibrated one
+/// by one they are 0.6 to 1.3.
 TEST_P(SmoothFieldsAtJoints, HaveErrorsOfOrderTwo) {
   const bool in_plane = GetParam().dim == 2;
   const int few = in_plane ? 16 : 6, many = in_plane ? 32 : 10;
