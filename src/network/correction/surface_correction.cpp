@@ -267,6 +267,7 @@ bool Correction::calibrate_layers() {
       find_joint(network_.facets, network_.particles, constants, body_.lattice.spacing);
   const auto calibrate_layer = [&](std::size_t layer, const Body& body, Network& network) {
     Correction(body, input_, network).calibrate(true);
+    if (!can_break(input_)) return;
     toughen_glued_faces(*joint, layer, input_.horizon, body_.lattice.spacing, network);
   };
   if (!joint || !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
