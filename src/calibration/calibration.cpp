@@ -304,7 +304,7 @@ CalibrationReport calibrate_bonds(const CalibrationInput& input, const Calibrati
   for (const LameConstants& material : input.materials) lambda.push_back(material.lambda);
   balance_shares(facets, input.particles.positions,
                  connected_parts(input.bonds, input.particles.size()), lambda);
-  if (!stiffness.bending.empty()) stiffness.inflection.assign(stiffness.bending.size(), 0.5);
+  if (stiffness.inflection.empty()) stiffness.inflection.assign(stiffness.bending.size(), 0.5);
   if (input.box && !input.all_free() && uniform(input)) {
     if (const auto report = calibrate_alike(input, options, facets, stiffness)) return *report;
   }

@@ -162,8 +162,9 @@ void CalibrationEquations::for_each_variable(Visit visit) const {
   if (carries_moments()) {
     for (const Index b : kept_) {
       if (!(start_.stiffness.bending[b] > 0.0)) continue;  // a truss (Poisson's ratio at its limit)
-      visit(couple_variable(b, 0));
-      visit(couple_variable(b, 1));
+      const double at_first = start_.stiffness.inflection[b];
+      if (at_first != 0.0) visit(couple_variable(b, 0));  // a hinge has none
+      if (at_first != 1.0) visit(couple_variable(b, 1));
     }
   }
   if (shares_vary()) for_each_share(visit);

@@ -310,19 +310,25 @@ MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const F
 
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
   const Particles& particles = network.particles;
-  // Materials of the ends, and of beams, whose bonds near ends take more energy, the stretch.
+  // Materials, and the stretch where bonds of the same take unlike energies: those of beams near
+  // ends, and those of layers beside other materials.
   struct Kind {
     std::pair<Index, Index> materials;
     double stretch;
     auto operator<=>(const Kind&) const = default;
   };
+  const bool by_layers = !network.materials_of.empty();
   const auto kind_of = [&](Index element) -> Kind {
     const Index j = network.bonds.second[element];
+    const double stretch = network.is_beam() || by_layers ? network.critical_stretch[element] : 0.0;
+    if (by_layers && element < static_cast<Index>(network.materials_of.size())) {
+      const auto& [a, b] = network.materials_of[element];
+      return {std::minmax(a, b), stretch};
+    }
     // Between two spans of a beam stands a particle of the first one.
     const Index own = particles.material[network.is_beam() ? j : network.bonds.first[element]];
     const bool solid = particles.kind[j] == ParticleKind::solid;
-    return {std::minmax(own, solid ? particles.material[j] : own),
-            network.is_beam() ? network.critical_stretch[element] : 0.0};
+    return {std::minmax(own, solid ? particles.material[j] : own), stretch};
   };
   std::map<Kind, MaterialBonds> laws;
   for (Index e = 0; e < network.first_tie; ++e) {
@@ -343,16 +349,21 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
     const auto [a, b] = kind.materials;
     if (a == b && network.strengths[a].teeth == 0) network.strengths[a] = bonds.strength;
   }
+  std::map<Kind, Index> number;
   for (auto& [kind, bonds] : laws) {
     if (bonds.law.is_brittle()) continue;
-    const Index law = static_cast<Index>(network.laws.size());
+    number[kind] = static_cast<Index>(network.laws.size());
     network.laws.push_back(bonds.law);
-    network.law_of.resize(network.stiffness.size(), 0);
-    for (Index e = 0; e < network.first_segment; ++e) {
-      if (!network.has_limit(e) || kind_of(e) != kind) continue;
-      network.law_of[e] = law;
-      network.critical_stretch[e] = bonds.strength.first_stretch;
-    }
+  }
+  if (number.empty()) return;
+  network.law_of.resize(network.stiffness.size(), 0);
+  for (Index e = 0; e < network.first_segment; ++e) {
+    if (!network.has_limit(e)) continue;
+    const Kind kind = kind_of(e);
+    const auto law = number.find(kind);
+    if (law == number.end()) continue;
+    network.law_of[e] = law->second;
+    network.critical_stretch[e] = laws.at(kind).strength.first_stretch;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,8 +20,9 @@
 ///   torsion  torsion kb xi^2 / 12    e = (theta_j - theta_i) . n     (three dimensions)
 ///
 /// a is one half in the paper; calibrated bonds have their inflection elsewhere
-/// (Network::inflection). In three dimensions shear and bending come twice, for the two directions
-/// across the bond. A rigid motion, rotations included, costs nothing.
+/// (Network::inflection), and hinged ones no bending and no torsion (Network::hinged). In three
+/// dimensions shear and bending come twice, for the two directions across the bond. A rigid motion,
+/// rotations included, costs nothing.
 ///
 /// Bonds of shells are ribbons of the height t: against bending and torsion out of the sheet they
 /// have the stiffnesses t^2/12 times k and kb, against shear across it Shell::shear_ratio times k
@@ -191,12 +193,17 @@ FrameModes<Dim> frame_modes(const Network& network, Index element) {
   const double k = network.stiffness[element];
   const double kb = network.bending[element];
   const double inflection = network.inflection_of(element);
+  FrameModes<Dim> modes;
   if constexpr (Dim == 2) {
-    return detail::plane_modes(n, xi, k, kb, inflection);
+    modes = detail::plane_modes(n, xi, k, kb, inflection);
   } else {
     if (network.shell) return detail::ribbon_modes(network, element, xi, k, kb, inflection);
-    return detail::space_modes(n, xi, k, kb, network.torsion, inflection);
+    modes = detail::space_modes(n, xi, k, kb, network.torsion, inflection);
   }
+  if (network.is_hinged(element)) {
+    std::fill(modes.stiffness.begin() + Dim, modes.stiffness.end(), 0.0);
+  }
+  return modes;
 }
 
 }  // namespace perilink

@@ -16,6 +16,8 @@ void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
     keep_values(*values);
   }
   keep_values(network.law_of);
+  keep_values(network.hinged);
+  keep_values(network.materials_of);
 }
 
 }  // namespace perilink

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -83,6 +84,10 @@ struct Network {
   /// Where micropolar bonds bent by a transverse force have their inflection, from the first end
   /// over the length [-], per element; empty: in the middle.
   std::vector<double> inflection;
+  /// Ends at which micropolar bonds are hinged, see BondEnd, per element: with a hinge nothing
+  /// resists the relative rotation of the ends, and the inflection lies at it; with two the bond is
+  /// a truss. Empty: none is.
+  std::vector<std::uint8_t> hinged;
   /// State-based particles only: beside its bonds a particle stores c s^2 / 2, s the sum of the
   /// extensions of its neighbours' bonds, c = b / 2 [force/length] (b / (2 L_0) in a lattice), per
   /// particle; negative where Poisson's ratio is below that of the bonds alone. Empty: bonds only.
@@ -98,6 +103,9 @@ struct Network {
   /// By which each element's law counts its stretches [-]: where brittle bonds break, the yield
   /// strain of bars; infinity: stays elastic.
   std::vector<double> critical_stretch;
+  /// Materials whose mean breaks a bond, per element: those of the layers that it belongs to.
+  /// Empty: those of its ends.
+  std::vector<std::array<Index, 2>> materials_of;
   std::vector<MaterialStrength> strengths;  ///< by material; empty where bonds were not asked
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: none.
@@ -139,6 +147,7 @@ struct Network {
   double inflection_of(Index element) const {
     return inflection.empty() ? 0.5 : inflection[element];
   }
+  bool is_hinged(Index element) const { return !hinged.empty() && hinged[element] != 0; }
   bool carries_moments() const { return !bending.empty(); }
   bool is_beam() const { return !half_height.empty(); }
   /// Whether bonds stand for whole sections of a shell or a beam: particles have no stress, and

@@ -135,8 +135,9 @@ std::vector<std::uint8_t> rotating_particles(const Network& network) {
   std::vector<std::uint8_t> rotating(static_cast<std::size_t>(network.particles.size()), 0);
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!(network.bending[e] > 0.0)) continue;
-    rotating[network.bonds.first[e]] = 1;
-    rotating[network.bonds.second[e]] = 1;
+    const int hinged = network.hinged.empty() ? 0 : network.hinged[e];
+    if ((hinged & first_end) == 0) rotating[network.bonds.first[e]] = 1;
+    if ((hinged & second_end) == 0) rotating[network.bonds.second[e]] = 1;
   }
   return rotating;
 }

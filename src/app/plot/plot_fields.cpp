@@ -173,7 +173,7 @@ void draw_crack_faces(Svg& svg, const Scene& scene) {
       path.line_to({middle.x + half_face.x, middle.y + half_face.y});
     }
   }
-  const double width = std::clamp(0.09 * scene.spacing_px(), 0.5, 2.2);
+  const double width = std::clamp(0.12 * scene.spacing_px(), 0.7, 2.2);
   for (const auto& [step, path] : paths) svg.path(path, face_style(step, width));
 }
 
@@ -259,7 +259,8 @@ void draw_bars(Svg& svg, const Scene& scene, std::vector<KeyEntry>& key) {
   if (least < 0.0) key.push_back({"bar, stress to " + short_number(least), style(-steps)});
 }
 
-std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
+/// \param length  unit; empty: not known
+std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene, const std::string& length) {
   std::vector<KeyEntry> key;
   SvgPath ghosts;
   for (Index i = 0; i < scene.body.size(); ++i) {
@@ -281,8 +282,8 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene) {
     draw_crack_faces(svg, scene);
     if (!scene.body.broken_bonds.empty()) key.push_back({"crack face", face_style(0, 2.0)});
     if (const double widest = largest_opening(scene.body); widest > 0.0) {
-      key.push_back(
-          {"crack face, opened by " + short_number(widest), face_style(opening_steps, 2.0)});
+      key.push_back({"crack face, opened by " + in_unit(short_number(widest), length),
+                     face_style(opening_steps, 2.0)});
     }
   }
   draw_bars(svg, scene, key);
@@ -323,7 +324,7 @@ Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLa
   Svg svg(page.width, page.height);
   svg.clip_rect("body", {page.left, page.top}, page.right - page.left, page.bottom - page.top);
   svg.open_group("clip-path=\"url(#body)\"");
-  const std::vector<KeyEntry> key = draw_body(svg, scene);
+  const std::vector<KeyEntry> key = draw_body(svg, scene, labels.length);
   svg.close_group();
   draw_page(svg, page, body.dim, labels, caption_text(caption, body, labels, scale), colors, key);
   return svg;

@@ -73,19 +73,25 @@ void draw_scale_bar(Svg& svg, const BodyPage& page, const std::string& length_un
   svg.text({end + 10, y + 4.5}, in_unit(short_number(length), length_unit), "start", small_style);
 }
 
+/// Room for a letter of the key, in wide fonts too.
+constexpr double letter = 7.6;
+
 /// From the right end of the line with the scale bar on; what has no room there stands above.
 void draw_key(Svg& svg, const BodyPage& page, const std::vector<KeyEntry>& key) {
   const double first = page.width - 20.0;
   double x = first, y = page.height - 22.0;
   double least = page.left + 0.22 * (page.right - page.left) + 70.0;  // the end of the scale bar
+  const auto width_of = [](const std::string& name) {
+    return letter * static_cast<double>(name.size());
+  };
   for (auto entry = key.rbegin(); entry != key.rend(); ++entry) {
-    if (x < first && x - 7.0 * static_cast<double>(entry->name.size()) - 32.0 < least) {
+    if (x < first && x - width_of(entry->name) - 32.0 < least) {
       x = first;
       y -= 17.0;
       least = 0.0;
     }
     svg.text({x, y + 4.5}, entry->name, "end", small_style);
-    x -= 7.0 * static_cast<double>(entry->name.size()) + 10.0;
+    x -= width_of(entry->name) + 10.0;
     SvgPath sample;
     if (entry->dot) {
       sample.dot({x, y});

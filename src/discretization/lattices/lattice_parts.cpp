@@ -15,6 +15,34 @@ double even_step(const Box& bounds, int axis, double wanted, bool even_number = 
   return extent / std::max(1.0, std::round(extent / wanted));
 }
 
+/// Rows of calibrated hexagonal lattices: an even number. In a body of several materials there is
+/// one below every face, too, where rows of about the wanted height can be so.
+double height_of_paired_rows(const LatticeInput& input, const Box& bounds, double wanted) {
+  constexpr double most_stretched = 0.15, same_plane = 1e-6;
+  const double extent = bounds.upper[1] - bounds.lower[1], pairs = 0.5 * extent / wanted;
+  const auto has_below = [&](double number, double height) {
+    const double below = (height - bounds.lower[1]) / extent * number;
+    return std::abs(below - std::round(below)) < same_plane;
+  };
+  const auto has_below_faces = [&](double number) {
+    return std::all_of(input.solid.begin(), input.solid.end(), [&](const Box& box) {
+      return has_below(number, box.lower[1]) && has_below(number, box.upper[1]);
+    });
+  };
+  double found = std::max(1.0, std::round(pairs));
+  if (std::count(input.material.begin(), input.material.end(), input.material.front()) ==
+      static_cast<std::ptrdiff_t>(input.material.size())) {
+    return extent / (2.0 * found);
+  }
+  double off = most_stretched * pairs;
+  for (double number = 1.0; number < pairs + off; number += 1.0) {
+    if (std::abs(number - pairs) > off || !has_below_faces(number)) continue;
+    off = std::abs(number - pairs);
+    found = number;
+  }
+  return extent / (2.0 * found);
+}
+
 }  // namespace
 
 int dimension_of(Pattern pattern) {
@@ -44,7 +72,9 @@ Lattice conforming_lattice(const LatticeInput& input, const Box& bounds, double 
   lattice.spacing = lattice.step[0];
   const double rows =
       input.pattern == Pattern::hexagonal ? 0.5 * std::numbers::sqrt3 * lattice.spacing : spacing;
-  lattice.step[1] = even_step(bounds, 1, rows, even_number && input.pattern == Pattern::hexagonal);
+  lattice.step[1] = even_number && input.pattern == Pattern::hexagonal
+                        ? height_of_paired_rows(input, bounds, rows)
+                        : even_step(bounds, 1, rows);
   lattice.cell_volume = lattice.step[0] * lattice.step[1];
   if (lattice.dim == 3) {
     lattice.step[2] = even_step(bounds, 2, spacing);

@@ -70,6 +70,7 @@ void append_edges(const Bonds& edges, Network& network) {
     if (!values->empty()) values->resize(count, 0.0);
   }
   if (!network.inflection.empty()) network.inflection.resize(count, 0.5);
+  if (!network.hinged.empty()) network.hinged.resize(count, 0);
 }
 
 }  // namespace

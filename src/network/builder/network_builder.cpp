@@ -179,6 +179,7 @@ Network build_network(const Body& body, const NetworkInput& input) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
   }
   if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
+  if (!network.hinged.empty()) network.hinged.resize(network.stiffness.size(), 0);
   if (input.shell) make_shell(input, network);
   return network;
 }

@@ -1,6 +1,8 @@
 #include "network/correction/layered_body.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -21,16 +23,16 @@ class Cut {
   Cut(const Body& body, const NetworkInput& input, const Network& whole, const Joint& joint,
       std::size_t layer)
       : body_(body), input_(input), whole_(whole), joint_(joint), layer_(layer) {
-    for (const SolidMaterial& m : input.materials) constants_.push_back(lame_constants(input, m));
+    for (const SolidMaterial& m : input.materials) {
+      constants_.push_back(lame_constants(input, m));
+      moduli_.push_back(moduli_of(body, input, m));
+    }
   }
 
   LayerBody make();
 
  private:
   const LameConstants& own() const { return constants_[joint_.layers[layer_]]; }
-  double modulus(Index material) const {
-    return constants_[material].lambda + 2.0 * constants_[material].mu;
-  }
   double height(Index particle) const { return joint_.height(whole_.particles.position(particle)); }
   double facet_height(Index facet) const;
   bool between_planes(double height) const;
@@ -46,6 +48,7 @@ class Cut {
   const Joint& joint_;
   std::size_t layer_;
   std::vector<LameConstants> constants_;
+  std::vector<MicropolarModuli> moduli_;
   std::vector<Index> number_;         // per particle: in the layer, no_index outside
   std::vector<std::uint8_t> shared_;  // per particle: with the layer above or below
 };
@@ -72,7 +75,7 @@ Side Cut::side_of(Index facet) const {
   return is_inside ? Side::inside : Side::outside;
 }
 
-/// Those between the planes and the corners of the layer's facets.
+/// Those between the planes and the corners of the layer's facets, of the material on its side.
 void Cut::choose_particles(LayerBody& cut) {
   const auto count = static_cast<std::size_t>(whole_.particles.size());
   std::vector<std::uint8_t> member(count, 0);
@@ -80,11 +83,15 @@ void Cut::choose_particles(LayerBody& cut) {
   for (Index i = 0; i < whole_.particles.size(); ++i) {
     member[i] = between_planes(height(i)) && !joint_.in_plane(height(i)) ? 1 : 0;
   }
+  std::vector<Index> material = whole_.particles.material;
   for (Index f = 0; f < whole_.facets.size(); ++f) {
-    if (side_of(f) == Side::none) continue;
+    const Side side = side_of(f);
+    if (side == Side::none) continue;
     for (const Index i : whole_.facets.corners.row(f)) {
       member[i] = 1;
-      if (!whole_.facets.on_surface(f)) shared_[i] = 1;
+      if (whole_.facets.on_surface(f)) continue;
+      shared_[i] = 1;
+      material[i] = side == Side::inside ? whole_.facets.inside[f] : whole_.facets.outside[f];
     }
   }
   number_.assign(count, no_index);
@@ -97,9 +104,9 @@ void Cut::choose_particles(LayerBody& cut) {
     const auto x = whole_.particles.position(i);
     particles.positions.insert(particles.positions.end(), x.begin(), x.end());
     particles.volumes.push_back(whole_.particles.volumes[i]);
+    particles.material.push_back(material[i]);
   }
   particles.kind.assign(cut.particle_of.size(), ParticleKind::solid);
-  particles.material.assign(cut.particle_of.size(), joint_.layers[layer_]);
 }
 
 void Cut::add_facets(LayerBody& cut) const {
@@ -142,22 +149,33 @@ void Cut::measure(LayerBody& cut) const {
   particles.volumes = shape_integrals(cells, particles.positions, input_.thickness);
 }
 
-/// With the modulus of the layer in place of the mean of their ends, and its volumes.
+/// With the moduli of the layer in place of the mean of their ends, and its volumes; where they
+/// carry moments, hinged at the particles in a plane.
 void Cut::add_bonds(LayerBody& cut) const {
   Network& layer = cut.network;
   layer.bonds.dim = joint_.dim;
+  layer.torsion = whole_.torsion;
   const auto share = [&](Index i) {
     return layer.particles.volumes[number_[i]] / whole_.particles.volumes[i];
   };
-  const std::vector<Index>& material = whole_.particles.material;
+  const auto over_mean = [&](double MicropolarModuli::*modulus, Index i, Index j) {
+    const std::vector<Index>& material = whole_.particles.material;
+    const double mean = 0.5 * (moduli_[material[i]].*modulus + moduli_[material[j]].*modulus);
+    return mean > 0.0 ? moduli_[joint_.layers[layer_]].*modulus / mean : 0.0;
+  };
   for (Index b = 0; b < whole_.bonds.size(); ++b) {
     const Index i = whole_.bonds.first[b], j = whole_.bonds.second[b];
     if (number_[i] == no_index || number_[j] == no_index) continue;
     layer.bonds.append(layer.particles, number_[i], number_[j]);
-    const double mean = 0.5 * (modulus(material[i]) + modulus(material[j]));
-    layer.stiffness.push_back(whole_.stiffness[b] * modulus(joint_.layers[layer_]) / mean *
-                              share(i) * share(j));
+    const double part = share(i) * share(j);
+    layer.stiffness.push_back(whole_.stiffness[b] * part *
+                              over_mean(&MicropolarModuli::micromodulus, i, j));
     layer.critical_stretch.push_back(whole_.critical_stretch[b]);
+    if (!whole_.carries_moments()) continue;
+    layer.bending.push_back(whole_.bending[b] * part *
+                            over_mean(&MicropolarModuli::bending_modulus, i, j));
+    layer.hinged.push_back(static_cast<std::uint8_t>((shared_[i] != 0 ? first_end : 0) |
+                                                     (shared_[j] != 0 ? second_end : 0)));
   }
 }
 
@@ -172,14 +190,42 @@ LayerBody Cut::make() {
   return cut;
 }
 
-/// Stiffnesses and shares of a layer are added to those of the body.
-void put_back(const LayerBody& layer, std::vector<double>& stiffness, Network& whole) {
+/// Every stretch of soft bonds costs a law: rounded to one percent.
+double in_few_steps(double stretch) {
+  return std::exp(0.01 * std::round(100.0 * std::log(stretch)));
+}
+
+/// What the bonds of the body become.
+struct NewBonds {
+  std::vector<double> stiffness;  // zero so far
+  std::vector<double> stretch;    // critical
+};
+
+/// Stiffnesses and shares of a layer are added to those of the body. Bonds with moments are those
+/// of one layer only.
+void put_back(const LayerBody& layer, NewBonds& made, Network& whole) {
   const Bonds& bonds = layer.network.bonds;
   Index at = 0;  // both are sorted by their ends
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = layer.particle_of[bonds.first[b]], j = layer.particle_of[bonds.second[b]];
     while (whole.bonds.first[at] != i || whole.bonds.second[at] != j) ++at;
-    stiffness[at] += layer.network.stiffness[b];
+    const double own = layer.network.stiffness[b], limit = layer.network.critical_stretch[b];
+    double& stiffness = made.stiffness[at];
+    double& stretch = made.stretch[at];
+    const bool again = stiffness > 0.0;  // in a plane: of both its layers
+    const double held = stiffness * stretch * stretch + own * limit * limit;
+    stretch = again ? in_few_steps(std::sqrt(held / (stiffness + own))) : limit;
+    stiffness += own;
+    if (!whole.materials_of.empty()) {
+      const std::vector<Index>& material = layer.body.particles.material;
+      const Index first = material[bonds.first[b]], second = material[bonds.second[b]];
+      whole.materials_of[at] = {again ? whole.materials_of[at][0] : first, second};
+    }
+    if (!whole.carries_moments()) continue;
+    whole.bending[at] = layer.network.bending[b];
+    whole.inflection[at] = layer.network.inflection[b];
+    whole.bending_ratio[at] = layer.network.bending_ratio[b];
+    whole.hinged[at] = layer.network.hinged[b];
   }
   const Facets& facets = layer.network.facets;
   for (Index f = 0; f < facets.size(); ++f) {
@@ -198,6 +244,7 @@ void add_report(const LayerBody& layer, CalibrationReport& sum) {
   sum.free_bonds += own.free_bonds;
   sum.residual_before = std::max(sum.residual_before, own.residual_before);
   sum.residual_after = std::max(sum.residual_after, own.residual_after);
+  sum.moment_after = std::max(sum.moment_after, own.moment_after);
   sum.sum_after += own.sum_after;
   sum.unmet += own.unmet;
   sum.smallest_weight = std::min(sum.smallest_weight, own.smallest_weight);
@@ -224,13 +271,24 @@ bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& 
   CalibrationReport report;
   for (std::size_t k = 0; k < joint.layers.size(); ++k) {
     layers.push_back(cut_layer(body, input, whole, joint, k));
-    calibrate(layers.back().body, layers.back().network);
+    calibrate(k, layers.back().body, layers.back().network);
     add_report(layers.back(), report);
     if (!(report.sum_after <= balanced * particles_in_planes)) return false;
   }
-  std::vector<double> stiffness(whole.stiffness.size(), 0.0);
-  for (const LayerBody& layer : layers) put_back(layer, stiffness, whole);
-  whole.stiffness = std::move(stiffness);
+  const std::size_t count = whole.stiffness.size();
+  NewBonds made{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
+  if (std::any_of(input.materials.begin(), input.materials.end(),
+                  [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); })) {
+    whole.materials_of.assign(count, {no_index, no_index});
+  }
+  if (whole.carries_moments()) {
+    whole.inflection.assign(count, 0.5);
+    whole.bending_ratio.assign(count, 0.0);
+    whole.hinged.assign(count, 0);
+  }
+  for (const LayerBody& layer : layers) put_back(layer, made, whole);
+  whole.stiffness = std::move(made.stiffness);
+  whole.critical_stretch = std::move(made.stretch);
   whole.calibration = report;
   std::vector<std::uint8_t> keep;
   for (const double k : whole.stiffness) keep.push_back(k > 0.0 ? 1 : 0);

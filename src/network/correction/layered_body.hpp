@@ -23,13 +23,15 @@ struct LayerBody {
 LayerBody cut_layer(const Body& body, const NetworkInput& input, const Network& whole,
                     const Joint& joint, std::size_t layer);
 
-/// Calibrates the bonds of one layer and fills Network::calibration.
-using LayerCalibration = std::function<void(const Body&, Network&)>;
+/// Calibrates the bonds of one layer, by its number, sets their critical stretches and fills
+/// Network::calibration.
+using LayerCalibration = std::function<void(std::size_t, const Body&, Network&)>;
 
 /// Calibrates the layers one by one and puts them together: bonds in a plane are those of both
-/// sides, bonds that cross one are taken out, and displacements that are linear in every layer and
-/// in equilibrium across the planes are in equilibrium (docs/theory/calibration.md, section 3).
-/// False, and the network as it was, where the particles of a layer find no balance.
+/// sides, and break when they hold what both may, bonds that cross one are taken out, and
+/// displacements that are linear in every layer and in equilibrium across the planes are in
+/// equilibrium (docs/theory/calibration.md, section 3). False, and the network as it was, where the
+/// particles of a layer find no balance.
 bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& joint,
                       const LayerCalibration& calibrate, Network& whole);
 

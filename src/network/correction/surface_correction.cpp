@@ -9,6 +9,7 @@
 #include "calibration/calibration.hpp"
 #include "calibration/calibration_cost.hpp"
 #include "network/bond_strength.hpp"
+#include "network/correction/glued_strength.hpp"
 #include "network/correction/layered_body.hpp"
 #include "network/lattice_families.hpp"
 
@@ -35,6 +36,11 @@ double continuum_modulus(const NetworkInput& input, double micromodulus) {
   return std::numbers::pi / 3.0 * micromodulus * input.thickness * std::pow(delta, 3);
 }
 
+/// In space moments find no balance where a plane between layers meets the surface of a lattice
+/// with fewer neighbours (cubic ones with horizons of two spacings have 32): about three variables
+/// to each of the 18 equations of a particle.
+constexpr std::size_t least_neighbours = 36;
+
 bool can_break(const NetworkInput& input) {
   return std::any_of(input.materials.begin(), input.materials.end(),
                      [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); });
@@ -57,8 +63,8 @@ class Correction {
   Index material(Index particle) const { return network_.particles.material[particle]; }
   void fade_at_horizon();
   void favor_short_bonds();
+  void hinge();
   void set_strength(const LatticeFamilies* families);
-  bool breaks_beside(const Joint& joint) const;
   void take_bulk_families(const LatticeFamilies& families);
   std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
   void scale_to(const std::vector<double>& wanted);
@@ -199,7 +205,7 @@ void Correction::calibrate(bool give_up) {
   calibration.give_up = give_up;
   if (family) {
     calibration.free = free_bonds(*family);
-    calibration.box = lattice_box(body_);
+    if (network_.hinged.empty()) calibration.box = lattice_box(body_);
   }
   std::vector<double> bulk = network_.stiffness;
   std::vector<double> bulk_bending = network_.bending;
@@ -209,6 +215,7 @@ void Correction::calibrate(bool give_up) {
     network_.stiffness[b] = bulk[b];  // exactly
     if (micropolar()) network_.bending[b] = bulk_bending[b];
   }
+  hinge();
   for (const SolidMaterial& m : input_.materials) {
     calibration.materials.push_back(lame_constants(input_, m));
   }
@@ -223,6 +230,18 @@ void Correction::calibrate(bool give_up) {
   set_strength(family);
 }
 
+/// Nothing turns in the planes of a joint, where the layers turn unlike.
+void Correction::hinge() {
+  if (network_.hinged.empty()) return;
+  network_.inflection.assign(network_.hinged.size(), 0.5);
+  for (std::size_t b = 0; b < network_.hinged.size(); ++b) {
+    const int ends = network_.hinged[b];
+    if (ends == (first_end | second_end)) network_.bending[b] = 0.0;
+    if (ends == first_end) network_.inflection[b] = 0.0;
+    if (ends == second_end) network_.inflection[b] = 1.0;
+  }
+}
+
 /// By the stiffnesses as they are now.
 void Correction::set_strength(const LatticeFamilies* families) {
   if (families == nullptr) {
@@ -232,47 +251,27 @@ void Correction::set_strength(const LatticeFamilies* families) {
   }
 }
 
-/// Whether bonds can break that lie within a horizon of a plane, at least in part.
-bool Correction::breaks_beside(const Joint& joint) const {
-  std::vector<std::uint8_t> near(static_cast<std::size_t>(network_.particles.size()), 0);
-  for (Index i = 0; i < network_.particles.size(); ++i) {
-    const double height = joint.height(network_.particles.position(i));
-    for (const double plane : joint.planes) {
-      if (std::abs(height - plane) <= input_.horizon + joint.tolerance) near[i] = 1;
-    }
-  }
-  const auto breaks = [&](Index particle) {
-    return std::isfinite(input_.materials[material(particle)].fracture_energy);
-  };
-  for (Index b = 0; b < network_.bonds.size(); ++b) {
-    const Index i = network_.bonds.first[b], j = network_.bonds.second[b];
-    if ((near[i] != 0 || near[j] != 0) && breaks(i) && breaks(j)) return true;
-  }
-  return false;
-}
-
-/// Layers of materials that meet in planes, each as a body of its own. Where bonds beside a plane
-/// can break those across it stay, and rotations of bonds that carry moments would have to jump.
+/// Layers of materials that meet in planes, each as a body of its own.
 bool Correction::calibrate_layers() {
-  if (input_.materials.size() < 2 || micropolar() || !input_.interfaces.empty()) return false;
+  if (input_.materials.size() < 2 || !input_.interfaces.empty()) return false;
   if (input_.draft || input_.shell) return false;
+  if (can_break(input_) && input_.critical_stretch != Constants::lattice) return false;
+  if (micropolar() && on_lattice() && network_.dim() == 3 &&
+      bulk_family(body_.lattice, input_.horizon).offsets.size() < least_neighbours) {
+    return false;
+  }
   std::vector<LameConstants> constants;
   for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
   const Timer timer;
   const std::optional<Joint> joint =
       find_joint(network_.facets, network_.particles, constants, body_.lattice.spacing);
-  const auto calibrate_layer = [&](const Body& body, Network& network) {
+  const auto calibrate_layer = [&](std::size_t layer, const Body& body, Network& network) {
     Correction(body, input_, network).calibrate(true);
+    if (!can_break(input_)) return;
+    toughen_glued_faces(*joint, layer, input_.horizon, body_.lattice.spacing, network);
   };
-  if (!joint || breaks_beside(*joint) ||
-      !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
+  if (!joint || !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
     return false;
-  }
-  network_.bending_ratio = own_bending_ratios(network_);
-  if (can_break(input_)) {
-    std::optional<LatticeFamilies> families;
-    if (on_lattice()) families.emplace(body_, input_);
-    set_strength(families ? &*families : nullptr);
   }
   network_.calibration->seconds = timer.seconds();
   return true;
@@ -280,7 +279,7 @@ bool Correction::calibrate_layers() {
 
 /// Bonds that may carry nothing are taken out.
 void Correction::balance(const CalibrationInput& calibration) {
-  BondStiffness stiffness{network_.stiffness, network_.bending, {}};
+  BondStiffness stiffness{network_.stiffness, network_.bending, network_.inflection};
   CalibrationOptions options;
   options.on_search = input_.on_search;
   network_.calibration = calibrate_bonds(calibration, options, network_.facets, stiffness);

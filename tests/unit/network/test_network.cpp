@@ -13,6 +13,8 @@ TEST(KeepElements, TakesBondsOutOfEveryList) {
   Network network = make_network({"", Pattern::rectangular, Surface::none}, 4);
   network.bending.assign(network.stiffness.begin(), network.stiffness.end());
   network.bending_ratio.assign(network.stiffness.begin(), network.stiffness.end());
+  network.hinged.assign(network.stiffness.size(), 0);
+  network.hinged[3] = first_end;
   const Network whole = network;
   std::vector<std::uint8_t> keep(whole.stiffness.size());
   std::vector<Index> kept;
@@ -26,10 +28,12 @@ TEST(KeepElements, TakesBondsOutOfEveryList) {
   ASSERT_EQ(network.bending.size(), kept.size());
   ASSERT_EQ(network.bending_ratio.size(), kept.size());
   ASSERT_EQ(network.critical_stretch.size(), kept.size());
+  ASSERT_EQ(network.hinged.size(), kept.size());
   for (std::size_t e = 0; e < kept.size(); ++e) {
     EXPECT_EQ(network.bonds.first[e], whole.bonds.first[kept[e]]);
     EXPECT_EQ(network.bonds.second[e], whole.bonds.second[kept[e]]);
     EXPECT_EQ(network.stiffness[e], whole.stiffness[kept[e]]);
+    EXPECT_EQ(network.hinged[e], whole.hinged[kept[e]]);
     EXPECT_EQ(network.bending[e], whole.stiffness[kept[e]]);
     EXPECT_EQ(network.bending_ratio[e], whole.stiffness[kept[e]]);
   }

@@ -23,5 +23,20 @@ TEST(Unknowns, ExpandPutsPrescribedValuesBack) {
   EXPECT_EQ(unknowns.expand(solution), (std::vector<double>{7.0, 0.5, -0.25, 8.0}));
 }
 
+/// A particle with two neighbours: a bond with a hinge at it does not turn it, nor does a truss.
+TEST(RotatingParticles, AreNotThoseWithHingesOnly) {
+  Network network;
+  network.bonds.first = {0, 0, 1};
+  network.bonds.second = {1, 2, 2};
+  network.bonds.lengths = {1.0, 1.0, 1.0};
+  network.bending = {1.0, 0.0, 1.0};
+  network.particles.volumes.assign(3, 1.0);
+  EXPECT_EQ(rotating_particles(network), (std::vector<std::uint8_t>{1, 1, 1}));
+  network.hinged = {first_end, 0, 0};
+  EXPECT_EQ(rotating_particles(network), (std::vector<std::uint8_t>{0, 1, 1}));
+  network.hinged = {0, 0, second_end};
+  EXPECT_EQ(rotating_particles(network), (std::vector<std::uint8_t>{1, 1, 0}));
+}
+
 }  // namespace
 }  // namespace perilink

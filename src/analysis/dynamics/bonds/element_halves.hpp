@@ -150,10 +150,10 @@ struct FrameHalf {
     for (int a = 0; a < Dim; ++a) n[a] = network.bonds.direction(element)[a];
     first_arm = network.inflection_of(element) * length;
     second_arm = (1.0 - network.inflection_of(element)) * length;
-    rotational = kb * length * length / 12.0;
+    rotational = network.is_hinged(element) ? 0.0 : kb * length * length / 12.0;
     twisting = network.torsion * rotational;
     shear_share = network.ratio_of_bending(element);
-    bend_share = shear_share * length * length / 12.0;
+    bend_share = network.is_hinged(element) ? 0.0 : shear_share * length * length / 12.0;
     twist_share = network.torsion * bend_share;
   }
 

@@ -84,7 +84,8 @@ CrossingSearch::CrossingSearch(const Network& network)
       element.first_arm = network.inflection_of(e) * length;
       element.second_arm = (1.0 - network.inflection_of(e)) * length;
       element.shear_share = std::sqrt(network.ratio_of_bending(e));
-      element.rotation_share = element.shear_share * length / std::sqrt(12.0);
+      element.rotation_share =
+          network.is_hinged(e) ? 0.0 : element.shear_share * length / std::sqrt(12.0);
     }
     element.length = length;
     element.inverse = 1.0 / (length * network.critical_stretch[e] * network.law(e).tooth(0).limit);

@@ -37,7 +37,7 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
               network.inflection_of(e) * length,
               (1.0 - network.inflection_of(e)) * length,
               share,
-              share * length * length / 12.0,
+              network.is_hinged(e) ? 0.0 : share * length * length / 12.0,
               inverse_of(e, network.critical_stretch[e] * network.law(e).tooth(0).limit),
               0.0};
     if (sense == Sense::both) bond.compressed = bond.inverse;

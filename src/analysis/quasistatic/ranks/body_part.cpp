@@ -22,6 +22,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(network.stiffness);
   visit(network.bending);
   visit(network.inflection);
+  visit(network.hinged);
   visit(network.support_stiffness);
   visit(part.axial);
   visit(part.other);
@@ -84,6 +85,7 @@ void cut_elements(const Network& network, Secants secants, const std::vector<int
     own.stiffness.push_back(network.stiffness[e]);
     if (!network.bending.empty()) own.bending.push_back(network.bending[e]);
     if (!network.inflection.empty()) own.inflection.push_back(network.inflection[e]);
+    if (!network.hinged.empty()) own.hinged.push_back(network.hinged[e]);
     part.axial.push_back(secants.axial(e));
     part.other.push_back(secants[e]);
   }

@@ -14,12 +14,12 @@ namespace {
 /// Two squares of eight spacings, the upper one three times as stiff, with bonds as they are before
 /// calibration.
 struct TwoSquares {
-  Body body;
+  Body body, plain;
   NetworkInput input;
   Network network;
   Joint joint;
 
-  TwoSquares() {
+  explicit TwoSquares(BondModel model = BondModel::bond_based) {
     LatticeInput lattice;
     lattice.surface = Surface::calibrated;
     lattice.spacing = 0.125;
@@ -30,7 +30,12 @@ struct TwoSquares {
     input.solid = lattice.solid;
     input.horizon = lattice.horizon;
     input.materials = {{1.0}, {3.0}};
-    Body plain = body;
+    input.model = model;
+    if (model == BondModel::micropolar) {
+      input.materials[0].poissons_ratio = 0.05;
+      input.materials[1].poissons_ratio = 0.15;
+    }
+    plain = body;
     plain.lattice.surface = Surface::none;
     network = build_network(plain, input);
     joint = *find_joint(
@@ -65,10 +70,34 @@ TEST(LayeredBody, ALayerIsABodyOfOneMaterialWithGluedFaces) {
   }
 }
 
+/// Bonds with moments end at the plane in hinges, and have the moduli of their layer.
+TEST(LayeredBody, ParticlesInThePlaneDoNotTurn) {
+  const TwoSquares squares(BondModel::micropolar);
+  for (const std::size_t k : {0, 1}) {
+    const LayerBody layer =
+        cut_layer(squares.plain, squares.input, squares.network, squares.joint, k);
+    const Network& own = layer.network;
+    ASSERT_EQ(own.hinged.size(), own.bending.size());
+    for (Index b = 0; b < own.bonds.size(); ++b) {
+      const Index i = layer.particle_of[own.bonds.first[b]];
+      const Index j = layer.particle_of[own.bonds.second[b]];
+      const auto in_plane = [&](Index p) { return std::abs(squares.height(p) - 1.0) < 1e-9; };
+      EXPECT_EQ((own.hinged[b] & first_end) != 0, in_plane(i));
+      EXPECT_EQ((own.hinged[b] & second_end) != 0, in_plane(j));
+    }
+    const Index inner = own.bonds.size() / 2;
+    const MicropolarModuli moduli =
+        moduli_of(squares.plain, squares.input, squares.input.materials[k]);
+    const double length = own.bonds.lengths[inner];
+    EXPECT_NEAR(own.bending[inner] / own.stiffness[inner],
+                12.0 * moduli.bending_modulus / (moduli.micromodulus * length * length), 1e-12);
+  }
+}
+
 TEST(LayeredBody, BondsInThePlaneAreThoseOfBothLayersAndNoneCross) {
   TwoSquares squares;
   Index calls = 0;
-  const auto calibrate = [&](const Body& body, Network& layer) {
+  const auto calibrate = [&](std::size_t, const Body& body, Network& layer) {
     EXPECT_EQ(body.particles.size(), layer.particles.size());
     layer.stiffness.assign(layer.stiffness.size(), 1.0);
     layer.calibration.emplace();
@@ -90,7 +119,7 @@ TEST(LayeredBody, BondsInThePlaneAreThoseOfBothLayersAndNoneCross) {
 TEST(LayeredBody, ABodyWithoutBalanceStaysAsItWas) {
   TwoSquares squares;
   const std::vector<double> before = squares.network.stiffness;
-  const auto calibrate = [](const Body&, Network& layer) {
+  const auto calibrate = [](std::size_t, const Body&, Network& layer) {
     layer.calibration.emplace();
     layer.calibration->sum_after = 10.0;
   };

@@ -74,12 +74,17 @@ TEST_F(BodyPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
 }
 
 TEST_F(BodyPartTest, ArrivesAsItWasSent) {
+  for (Index e = 0; e < body_.network.num_elements(); ++e) {
+    body_.network.hinged.push_back(e % 2 == 0 ? second_end : 0);
+  }
   const BodyPart sent = part(2);
   const Parcel parcel = sent.pack();
   const BodyPart come = BodyPart::unpack(Parcel({parcel.bytes().begin(), parcel.bytes().end()}));
   EXPECT_EQ(come.network.bonds.first, sent.network.bonds.first);
   EXPECT_EQ(come.network.bonds.directions, sent.network.bonds.directions);
   EXPECT_EQ(come.network.stiffness, sent.network.stiffness);
+  EXPECT_EQ(come.network.hinged, sent.network.hinged);
+  EXPECT_NE(std::count(come.network.hinged.begin(), come.network.hinged.end(), second_end), 0);
   EXPECT_EQ(come.unknowns.number, sent.unknowns.number);
   EXPECT_EQ(come.unknowns.count, sent.unknowns.count);
   EXPECT_EQ(come.ghosts.numbers, sent.ghosts.numbers);
