@@ -4,12 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "analysis/quasistatic/boxes/single_body.hpp"
 #include "analysis/quasistatic/ranks/team.hpp"
 #include "assembly/box_motions.hpp"
 #include "assembly/internal_force.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
-#include "solver/conjugate_gradients.hpp"
+#include "solver/block_gradients.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -65,6 +66,8 @@ class BoxSolver {
   void require_resistance();
   void precondition_block(std::span<const double> residuals, std::span<double> results);
   void multiply_block(std::span<const double> motions, std::span<double> results);
+  GradientsReport search_in_single(std::span<double> right, std::span<double> solution,
+                                   const BlockRow& sizes, double enough);
 
   const Network& network_;
   const Unknowns& unknowns_;
@@ -75,6 +78,7 @@ class BoxSolver {
   const std::vector<double>* ground_;
   std::unique_ptr<Factor> factor_;
   std::unique_ptr<Team> team_;  ///< null: this process works alone
+  std::unique_ptr<SingleBody> single_;  ///< null: blocks are solved for in double precision
   std::vector<double> coarse_;  // residual or motion of the boxes, shape (boxes, motions)
   std::vector<double> motion_;  // shape (particles, width), zero where it is prescribed
   std::vector<double> coarse_block_;
