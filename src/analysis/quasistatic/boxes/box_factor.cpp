@@ -83,6 +83,11 @@ void BoxFactor::solve(std::span<const double> rhs, std::span<double> solution) {
   solver_->solve(rhs, solution);
 }
 
+void BoxFactor::correct(std::vector<double>& residual, double energy) {
+  energy > 0.0 ? solver_->correct(residual, residual, energy)
+               : solver_->solve(residual, residual);
+}
+
 /// What the vector is made of in the window, if it is.
 auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vector<Part>> {
   std::vector<Part> parts;

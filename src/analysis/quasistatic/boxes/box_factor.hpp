@@ -33,6 +33,8 @@ class BoxFactor final : public Factor {
   /// Vectors that are likely to be asked for next, the likeliest first: they go into the window
   /// where blocks have room beside what is asked for.
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
+  /// residual <- K^-1 residual, as exact as a solution of this energy is to be.
+  void correct(std::vector<double>& residual, double energy);
   /// Columns at hand have followed too many changes: all are solved for again when they are asked
   /// for.
   void forget();

@@ -176,6 +176,27 @@ void BoxSolver::solve(std::span<const double> right, std::span<double> solution)
   if (!report.converged) throw not_there(report.iterations, error_, tolerance);
 }
 
+void BoxSolver::correct(std::span<const double> right, std::span<double> solution, double energy) {
+  const double tolerance = options_.tolerance * finer;
+  GradientsReport report;
+  if (single_) {
+    std::vector<double> block(unknowns_.number.size() * block_width, 0.0), found(block.size());
+    for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
+      if (unknowns_.number[slot] >= 0) block[slot * block_width] = right[unknowns_.number[slot]];
+    }
+    report = search_in_single(block, found, {energy}, tolerance);
+    for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
+      if (unknowns_.number[slot] >= 0) solution[unknowns_.number[slot]] = found[slot * block_width];
+    }
+  } else {
+    const std::vector<double> wanted(right.begin(), right.end());
+    std::ranges::fill(solution, 0.0);
+    report = search(wanted, solution, tolerance, energy, most_box_iterations);
+  }
+  iterations_ += report.iterations;
+  if (!report.converged) throw not_there(report.iterations, report.error, tolerance);
+}
+
 void BoxSolver::precondition_block(std::span<const double> residuals, std::span<double> results) {
   const int width = unknowns_.width;
   const double* block = blocks_.data();

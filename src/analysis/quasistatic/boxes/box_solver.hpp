@@ -51,6 +51,11 @@ class BoxSolver {
   /// \throws SolverError as solve()
   GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough);
 
+  /// A solution less exact, of what is left of another one.
+  /// \param energy  that the error counts by, of the whole solution; positive
+  /// \throws SolverError as solve()
+  void correct(std::span<const double> right, std::span<double> solution, double energy);
+
   int iterations() const { return iterations_; }  ///< in all solves
   double error() const { return error_; }         ///< the last solve left, as the tolerance counts
   Index num_boxes() const { return motions_.num_boxes(); }
