@@ -101,11 +101,12 @@ auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vect
     const double share = share_of(x, window_[place]);
     if (share != 0.0) return std::vector<Part>{{static_cast<Index>(place), share}};
   }
-  return {};
+  return span_.parts_of(x);
 }
 
 void BoxFactor::forget() {
   std::ranges::fill(place_of_, no_index);
+  span_.clear();
   window_.clear();
   used_.clear();
   blocks_.clear();
@@ -133,6 +134,7 @@ void BoxFactor::keep_latest() {
   const std::vector<int> used = std::move(used_);
   window_.clear();
   used_.clear();
+  span_.clear();
   std::ranges::fill(place_of_, no_index);
   for (const Eigen::Index place : places) put_in_window(window[place], used[place]);
 }
@@ -144,7 +146,9 @@ std::size_t BoxFactor::most_columns() const {
 }
 
 void BoxFactor::put_in_window(const SparseVector& x, int used) {
-  if (x.size() == 1) place_of_[x.rows[0]] = static_cast<Index>(window_.size());
+  const auto place = static_cast<Index>(window_.size());
+  if (x.size() == 1) place_of_[x.rows[0]] = place;
+  span_.add(x, place);
   window_.push_back(x);
   used_.push_back(used);
 }

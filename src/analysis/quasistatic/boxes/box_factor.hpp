@@ -8,6 +8,7 @@
 #include "analysis/quasistatic/boxes/box_solver.hpp"
 #include "network/network.hpp"
 #include "solver/factor.hpp"
+#include "solver/vector_span.hpp"
 
 namespace perilink {
 
@@ -53,11 +54,7 @@ class BoxFactor final : public Factor {
   Index columns_solved() const { return columns_solved_; }
 
  private:
-  /// A vector of the window, and how much of it.
-  struct Part {
-    Index place;
-    double share;
-  };
+  using Part = VectorSpan::Part;  ///< by places of the window
   std::optional<std::vector<Part>> parts_of(const SparseVector& x) const;
   void keep_latest();
   void make_solver();
@@ -81,6 +78,7 @@ class BoxFactor final : public Factor {
   std::vector<SparseVector> expected_;
   std::vector<SparseVector> window_;  ///< vectors e whose columns are at hand
   std::vector<Index> place_of_;  ///< per unknown: where it is in the window by itself, or no_index
+  VectorSpan span_;              ///< of the window
   std::vector<int> used_;        ///< per place: when an event used it last
   int now_ = 0;                  ///< events and calls so far
   /// Columns of K^-1 as it was when they were solved for, block after block, each of shape
