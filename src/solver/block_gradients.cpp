@@ -183,10 +183,13 @@ GradientsReport block_conjugate_gradients(
     if (report.converged) break;
     precondition(right, z);
     const double left = left_by(gram<Number>(right, z));
-    if (getenv("SHOWITS")) fprintf(stderr, "%d left %.2e error %.2e\n", report.iterations, left, report.error);
-    report.converged = left <= gone * enough && is_exact;
-    if (report.converged) break;
-    if (correct && (left < digits_between * corrected_at || (!is_exact && report.error <= enough))) {
+    if (left <= gone * enough && is_exact) {
+      report.error = left;
+      report.converged = true;
+      break;
+    }
+    if (correct &&
+        (left < digits_between * corrected_at || (!is_exact && report.error <= enough))) {
       correct(solution, right);
       std::ranges::fill(solution, Number{0});
       precondition(right, z);

@@ -35,9 +35,9 @@ class VectorSpan {
 
   std::unordered_map<Index, std::size_t> row_of_;  ///< of each unknown that vectors act on
   std::vector<Index> numbers_;
-  std::vector<double> lengths_;                    ///< of the vectors
-  std::vector<std::vector<double>> directions_;    ///< orthonormal; rows behind the last are zero
-  std::vector<std::vector<double>> coordinates_;   ///< of each vector, over its length
+  std::vector<double> lengths_;                   ///< of the vectors
+  std::vector<std::vector<double>> directions_;   ///< orthonormal; rows behind the last are zero
+  std::vector<std::vector<double>> coordinates_;  ///< of each vector, over its length
 };
 
 }  // namespace perilink

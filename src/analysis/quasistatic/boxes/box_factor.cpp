@@ -84,8 +84,7 @@ void BoxFactor::solve(std::span<const double> rhs, std::span<double> solution) {
 }
 
 void BoxFactor::correct(std::vector<double>& residual, double energy) {
-  energy > 0.0 ? solver_->correct(residual, residual, energy)
-               : solver_->solve(residual, residual);
+  energy > 0.0 ? solver_->correct(residual, residual, energy) : solver_->solve(residual, residual);
 }
 
 /// What the vector is made of in the window, if it is.
@@ -185,9 +184,12 @@ void BoxFactor::hold(std::span<const SparseVector> x) {
 /// an element that carries moments are asked for combined with each other: of them the unknowns.
 std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& missing) const {
   std::vector<SparseVector> chosen;
+  VectorSpan span = span_;
   const auto list = [&](const SparseVector& x) {
     const auto is_same = [&](const SparseVector& other) { return share_of(x, other) != 0.0; };
-    if (!holds(x) && std::ranges::none_of(chosen, is_same)) chosen.push_back(x);
+    if (holds(x) || std::ranges::any_of(chosen, is_same) || span.parts_of(x)) return;
+    span.add(x, static_cast<Index>(window_.size() + chosen.size()));
+    chosen.push_back(x);
   };
   const auto list_what_it_needs = [&](const SparseVector& x) {
     if (!network_.carries_moments()) return list(x);

@@ -244,7 +244,6 @@ GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double
         solution, sizes, enough, most_box_iterations);
   }
   iterations_ += report.iterations;
-  if (getenv("SHOWITS")) fprintf(stderr,"block its %d boxes %d\n",report.iterations,(int)num_boxes());
   if (!report.converged) throw not_there(report.iterations, report.error, enough);
   return report;
 }

@@ -82,10 +82,10 @@ class BoxSolver {
   std::vector<double> blocks_;  // inverse, shape (particles, width, width)
   const std::vector<double>* ground_;
   std::unique_ptr<Factor> factor_;
-  std::unique_ptr<Team> team_;  ///< null: this process works alone
+  std::unique_ptr<Team> team_;          ///< null: this process works alone
   std::unique_ptr<SingleBody> single_;  ///< null: blocks are solved for in double precision
-  std::vector<double> coarse_;  // residual or motion of the boxes, shape (boxes, motions)
-  std::vector<double> motion_;  // shape (particles, width), zero where it is prescribed
+  std::vector<double> coarse_;          // residual or motion of the boxes, shape (boxes, motions)
+  std::vector<double> motion_;          // shape (particles, width), zero where it is prescribed
   std::vector<double> coarse_block_;
   InternalForce forces_;
   double energy_ = 0.0, error_ = 0.0;

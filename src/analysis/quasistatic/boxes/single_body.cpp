@@ -54,8 +54,8 @@ SingleBody::SingleBody(const Network& network, const Unknowns& unknowns, Secants
     for (std::size_t a = 0; a < dim; ++a) {
       const int component = static_cast<int>(a);
       const std::array<double, 6> row = motions.row(p, component);
-      std::copy_n(row.begin(), count, moves_.begin() + static_cast<std::ptrdiff_t>(
-                                                           (at_place * dim + a) * count));
+      std::copy_n(row.begin(), count,
+                  moves_.begin() + static_cast<std::ptrdiff_t>((at_place * dim + a) * count));
       if (unknowns.at(p, component) < 0) continue;
       for (std::size_t b = 0; b < dim; ++b) {
         if (unknowns.at(p, static_cast<int>(b)) < 0) continue;

@@ -50,11 +50,11 @@ class SingleBody {
   std::vector<Index> place_;
   double unit_;
   PackedBonds bonds_;
-  std::vector<float> springs_;         ///< to the ground, by the order; empty: none
-  std::vector<float> blocks_;          ///< inverse ones, by the order, zero where something is held
-  std::vector<float> moves_;           ///< rows of P, by the order, shape (particles, dim, motions)
-  std::vector<std::size_t> box_end_;   ///< places up to which the particles of each box go
-  std::vector<double> coarse_;         ///< shape (block_width, boxes, motions)
+  std::vector<float> springs_;        ///< to the ground, by the order; empty: none
+  std::vector<float> blocks_;         ///< inverse ones, by the order, zero where something is held
+  std::vector<float> moves_;          ///< rows of P, by the order, shape (particles, dim, motions)
+  std::vector<std::size_t> box_end_;  ///< places up to which the particles of each box go
+  std::vector<double> coarse_;        ///< shape (block_width, boxes, motions)
 };
 
 }  // namespace perilink
