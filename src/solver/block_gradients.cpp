@@ -131,6 +131,39 @@ Square inverse_of(const Square& matrix, const Square& sides, double same) {
   return left;
 }
 
+/// The largest error of all, each as it counts.
+double largest(const BlockRow& sizes, auto error_of) {
+  double result = 0.0;
+  for (int c = 0; c < width; ++c) {
+    if (sizes[c] > 0.0) result = std::max(result, error_of(c) / std::sqrt(sizes[c]));
+  }
+  return result;
+}
+
+/// Root of r'z, near the error, as it counts.
+double left_by(const Square& rz, const BlockRow& sizes) {
+  return largest(sizes, [&](int c) { return std::sqrt(std::max(rz[c][c], 0.0)); });
+}
+
+/// What a step adds to the energy of every solution.
+BlockRow gains_of(const Square& sides, const Square& steps) {
+  BlockRow gains{};
+  for (int d = 0; d < width; ++d) {
+    for (int c = 0; c < width; ++c) gains[c] += sides[d][c] * steps[d][c];
+  }
+  return gains;
+}
+
+/// sum += sign block shares
+template <class Number>
+void add_shares(std::span<Number> sum, Number sign, std::span<const Number> block,
+                const Square& shares) {
+  const Shares<Number> share(shares);
+  for (std::size_t k = 0; k < sum.size(); k += width) {
+    at(sum.data() + k) += sign * share(block.data() + k);
+  }
+}
+
 }  // namespace
 
 template <class Number>
@@ -138,67 +171,46 @@ GradientsReport block_conjugate_gradients(
     const BlockMap<Number>& product, const BlockMap<Number>& precondition, std::span<Number> right,
     std::span<Number> solution, const BlockRow& sizes, double enough, int most_iterations,
     const std::function<void(std::span<const Number> solution, std::span<Number> right)>& correct) {
-  constexpr double same = std::numeric_limits<Number>::epsilon() * 10.0;
+  constexpr double epsilon = std::numeric_limits<Number>::epsilon();
+  constexpr double same = std::max(10.0 * epsilon, 1e-12);
   constexpr double digits_between = 1e-5;
   /// A residual so small, counted as an error, is none even where the body is soft.
   constexpr double gone = 1e-3;
-  const std::size_t size = right.size();
-  std::vector<Number> z(size), p(size), q(size);
+  constexpr Number one{1};
+  std::vector<Number> z(right.size()), p(right.size()), q(right.size());
   std::ranges::fill(solution, Number{0});
   std::array<EnergyGains, width> gains;
-  const auto largest = [&](auto error_of) {
-    double result = 0.0;
-    for (int c = 0; c < width; ++c) {
-      const double error = error_of(c) / std::sqrt(sizes[c]);
-      if (sizes[c] > 0.0) result = std::max(result, error);
-    }
-    return result;
-  };
-  const auto left_by = [&](const Square& rz) {
-    return largest([&](int c) { return std::sqrt(std::max(rz[c][c], 0.0)); });
-  };
   precondition(right, z);
   std::ranges::copy(z, p.begin());
   Square sides = gram<Number>(p, right);
-  double corrected_at = left_by(sides);
+  double corrected_at = left_by(sides, sizes);
   GradientsReport report;
   while (report.iterations < most_iterations) {
     product(p, q);
     const Square inverse = inverse_of(gram<Number>(p, q), sides, same);
     const Square steps = times(inverse, sides);
-    for (int c = 0; c < width; ++c) {
-      double gain = 0.0;
-      for (int d = 0; d < width; ++d) gain += sides[d][c] * steps[d][c];
-      gains[c].add(std::max(gain, 0.0));
-    }
-    const Shares<Number> share(steps);
-    for (std::size_t k = 0; k < size; k += width) {
-      at(solution.data() + k) += share(p.data() + k);
-      at(right.data() + k) -= share(q.data() + k);
-    }
+    const BlockRow gained = gains_of(sides, steps);
+    for (int c = 0; c < width; ++c) gains[c].add(std::max(gained[c], 0.0));
+    add_shares<Number>(solution, one, p, steps);
+    add_shares<Number>(right, -one, q, steps);
     ++report.iterations;
-    report.error = largest([&](int c) { return gains[c].error(); });
+    report.error = largest(sizes, [&](int c) { return gains[c].error(); });
     const bool is_exact = !correct || 0.1 * digits_between * corrected_at <= enough;
     report.converged = report.error <= enough && is_exact;
     if (report.converged) break;
     precondition(right, z);
-    const double left = left_by(gram<Number>(right, z));
-    if (left <= gone * enough && is_exact) {
-      report.error = left;
-      report.converged = true;
-      break;
-    }
-    if (correct &&
-        (left < digits_between * corrected_at || (!is_exact && report.error <= enough))) {
+    const double left = left_by(gram<Number>(right, z), sizes);
+    report.converged = left <= gone * enough && is_exact;
+    if (report.converged) report.error = left;
+    if (report.converged) break;
+    if (correct && (left < digits_between * corrected_at || report.error <= enough)) {
       correct(solution, right);
       std::ranges::fill(solution, Number{0});
       precondition(right, z);
       corrected_at = left;
     }
-    const Shares<Number> back(times(inverse, gram<Number>(q, z)));
-    for (std::size_t k = 0; k < size; k += width) {
-      at(p.data() + k) = at(z.data() + k) - back(p.data() + k);
-    }
+    add_shares<Number>(z, -one, p, times(inverse, gram<Number>(q, z)));
+    p.swap(z);
     sides = gram<Number>(p, right);
   }
   return report;

@@ -57,7 +57,7 @@ TEST(BlockGradients, SolveEveryRightSideToItsOwnTolerance) {
       block_product(matrix), block_identity, {right.data(), std::size_t(right.size())},
       {solution.data(), std::size_t(solution.size())}, energies_of(matrix, exact), 1e-9, 1000);
   EXPECT_TRUE(report.converged);
-  EXPECT_LT(report.iterations, size / 4);  // 60 by itself, each would take
+  EXPECT_LT(report.iterations, size / 4);  // as many by itself each might take
   EXPECT_LE(report.error, 1e-9);
   for (int c = 0; c < block_width; ++c) {
     const Eigen::VectorXd missing = exact.col(c) - solution.col(c);
