@@ -25,7 +25,7 @@ constexpr double small_pivot = 0.05;
 constexpr double coarser = 100.0;
 
 /// Memory that the window may take where that leaves the fewest blocks.
-constexpr double most_bytes = 2e9;
+constexpr double most_bytes = 1.5e9;
 
 std::size_t blocks_of(std::size_t columns) { return (columns + block_width - 1) / block_width; }
 
