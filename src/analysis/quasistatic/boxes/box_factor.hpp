@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "analysis/quasistatic/boxes/box_solver.hpp"
+#include "base/vector_span.hpp"
 #include "network/network.hpp"
 #include "solver/factor.hpp"
-#include "solver/vector_span.hpp"
 
 namespace perilink {
 
@@ -78,7 +78,7 @@ class BoxFactor final : public Factor {
   std::vector<SparseVector> expected_;
   std::vector<SparseVector> window_;  ///< vectors e whose columns are at hand
   std::vector<Index> place_of_;  ///< per unknown: where it is in the window by itself, or no_index
-  VectorSpan span_;              ///< of the window
+  VectorSpan span_;              ///< what the window makes up
   std::vector<int> used_;        ///< per place: when an event used it last
   int now_ = 0;                  ///< events and calls so far
   /// Columns of K^-1 as it was when they were solved for, block after block, each of shape

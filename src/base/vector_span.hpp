@@ -33,11 +33,11 @@ class VectorSpan {
   };
   Split split(const SparseVector& x) const;
 
-  std::unordered_map<Index, std::size_t> row_of_;  ///< of each unknown that vectors act on
+  std::unordered_map<Index, std::size_t> row_of_;  ///< where each unknown that they act on comes
   std::vector<Index> numbers_;
-  std::vector<double> lengths_;                   ///< of the vectors
+  std::vector<double> lengths_;                   ///< that the vectors have
   std::vector<std::vector<double>> directions_;   ///< orthonormal; rows behind the last are zero
-  std::vector<std::vector<double>> coordinates_;  ///< of each vector, over its length
+  std::vector<std::vector<double>> coordinates_;  ///< one list for each vector, over its length
 };
 
 }  // namespace perilink

@@ -1,4 +1,4 @@
-#include "solver/vector_span.hpp"
+#include "base/vector_span.hpp"
 
 #include <algorithm>
 #include <cmath>
