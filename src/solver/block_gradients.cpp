@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "solver/not_positive_definite.hpp"
@@ -11,83 +12,218 @@
 namespace perilink {
 namespace {
 
-/// What r'z of a right side falls to where it is solved for exactly, as in bodies of few unknowns:
-/// steps from there on would divide by nothing.
-constexpr double all_gone = 1e-40;
+constexpr int width = block_width;
 
-BlockRow dots(std::span<const double> a, std::span<const double> b) {
-  BlockRow sums{};
-  for (std::size_t begin = 0; begin < a.size(); begin += block_width) {
-    for (int c = 0; c < block_width; ++c) sums[c] += a[begin + c] * b[begin + c];
+/// Small matrices between the vectors of two blocks.
+using Square = std::array<std::array<double, width>, width>;
+
+Square times(const Square& a, const Square& b) {
+  Square result{};
+  for (int i = 0; i < width; ++i) {
+    for (int k = 0; k < width; ++k) {
+      for (int j = 0; j < width; ++j) result[i][j] += a[i][k] * b[k][j];
+    }
   }
-  return sums;
+  return result;
 }
 
-/// The largest error of those that go on, as it counts.
-double largest_error(const std::array<EnergyGains, block_width>& gains, const BlockRow& sizes,
-                     const std::array<bool, block_width>& goes_on) {
-  double largest = 0.0;
-  for (int c = 0; c < block_width; ++c) {
-    if (goes_on[c]) largest = std::max(largest, gains[c].error() / std::sqrt(sizes[c]));
+template <class Number>
+using Lanes [[gnu::vector_size(sizeof(Number) * width)]] = Number;
+template <class Number>
+using LanesInMemory
+    [[gnu::vector_size(sizeof(Number) * width), gnu::aligned(sizeof(Number)), gnu::may_alias]] =
+        Number;
+
+template <class Number>
+const LanesInMemory<Number>& at(const Number* numbers) {
+  return *reinterpret_cast<const LanesInMemory<Number>*>(numbers);
+}
+template <class Number>
+LanesInMemory<Number>& at(Number* numbers) {
+  return *reinterpret_cast<LanesInMemory<Number>*>(numbers);
+}
+
+/// a'b; parts of the sum have the digits of the numbers, the sum of the parts has more.
+template <class Number>
+Square gram(std::span<const Number> a, std::span<const Number> b) {
+  constexpr std::size_t part = 256 * width;
+  Square sum{};
+  for (std::size_t begin = 0; begin < a.size(); begin += part) {
+    const std::size_t end = std::min(begin + part, a.size());
+    Lanes<Number> rows[width] = {};
+    for (std::size_t k = begin; k < end; k += width) {
+      const Lanes<Number> row = at(b.data() + k);
+      for (int c = 0; c < width; ++c) rows[c] += a[k + c] * row;
+    }
+    for (int c = 0; c < width; ++c) {
+      for (int d = 0; d < width; ++d) sum[c][d] += static_cast<double>(rows[c][d]);
+    }
   }
-  return largest;
+  return sum;
+}
+
+/// Rows of a small matrix, ready to be added to those of blocks.
+template <class Number>
+class Shares {
+ public:
+  explicit Shares(const Square& shares) {
+    for (int c = 0; c < width; ++c) {
+      for (int d = 0; d < width; ++d) rows_[c][d] = static_cast<Number>(shares[c][d]);
+    }
+  }
+  /// Row of a block times the matrix.
+  Lanes<Number> operator()(const Number* row) const {
+    Lanes<Number> sum = row[0] * rows_[0];
+    for (int c = 1; c < width; ++c) sum += row[c] * rows_[c];
+    return sum;
+  }
+
+ private:
+  Lanes<Number> rows_[width];
+};
+
+/// Inverse of p'A p between directions p that differ, zero for others and where there are none.
+/// \param same   what is left of a direction of length one, square, where it counts as one that is
+///               made of others
+/// \param sides  p'r: what is left to do along each direction
+Square inverse_of(const Square& matrix, const Square& sides, double same) {
+  constexpr double negative = -1e-3;
+  const auto require = [](bool positive) {
+    if (!positive) throw NotPositiveDefinite("the stiffness is not positive definite");
+  };
+  BlockRow scale{};
+  for (int c = 0; c < width; ++c) {
+    require(matrix[c][c] > 0.0 || (matrix[c][c] == 0.0 && sides[c][c] == 0.0));
+    if (matrix[c][c] > 0.0) scale[c] = 1.0 / std::sqrt(matrix[c][c]);
+  }
+  Square left;
+  for (int i = 0; i < width; ++i) {
+    for (int j = 0; j < width; ++j) {
+      left[i][j] = 0.5 * (matrix[i][j] + matrix[j][i]) * scale[i] * scale[j];
+    }
+  }
+  std::array<bool, width> taken{};
+  for (int step = 0; step < width; ++step) {  // the direction that differs most from those taken
+    int next = -1;
+    for (int c = 0; c < width; ++c) {
+      require(taken[c] || left[c][c] >= negative);
+      if (!taken[c] && (next < 0 || left[c][c] > left[next][next])) next = c;
+    }
+    const double pivot = left[next][next];
+    if (pivot <= same) break;
+    taken[next] = true;
+    for (int i = 0; i < width; ++i) {
+      for (int j = 0; i != next && j < width; ++j) {
+        if (j != next) left[i][j] -= left[i][next] * left[next][j] / pivot;
+      }
+    }
+    for (int i = 0; i < width; ++i) {
+      left[i][next] /= i == next ? 1.0 : pivot;
+      left[next][i] /= i == next ? 1.0 : pivot;
+    }
+    left[next][next] = -1.0 / pivot;
+  }
+  for (int i = 0; i < width; ++i) {
+    for (int j = 0; j < width; ++j) {
+      left[i][j] = taken[i] && taken[j] ? -left[i][j] * scale[i] * scale[j] : 0.0;
+    }
+  }
+  return left;
+}
+
+/// The largest error of all, each as it counts.
+double largest(const BlockRow& sizes, auto error_of) {
+  double result = 0.0;
+  for (int c = 0; c < width; ++c) {
+    if (sizes[c] > 0.0) result = std::max(result, error_of(c) / std::sqrt(sizes[c]));
+  }
+  return result;
+}
+
+/// Root of r'z, near the error, as it counts.
+double left_by(const Square& rz, const BlockRow& sizes) {
+  return largest(sizes, [&](int c) { return std::sqrt(std::max(rz[c][c], 0.0)); });
+}
+
+/// What a step adds to the energy of every solution.
+BlockRow gains_of(const Square& sides, const Square& steps) {
+  BlockRow gains{};
+  for (int d = 0; d < width; ++d) {
+    for (int c = 0; c < width; ++c) gains[c] += sides[d][c] * steps[d][c];
+  }
+  return gains;
+}
+
+/// sum += sign block shares
+template <class Number>
+void add_shares(std::span<Number> sum, Number sign, std::span<const Number> block,
+                const Square& shares) {
+  const Shares<Number> share(shares);
+  for (std::size_t k = 0; k < sum.size(); k += width) {
+    at(sum.data() + k) += sign * share(block.data() + k);
+  }
 }
 
 }  // namespace
 
-GradientsReport block_conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
-                                          std::span<double> right, std::span<double> solution,
-                                          const BlockRow& sizes, double enough,
-                                          int most_iterations) {
-  const std::size_t size = right.size();
-  std::vector<double> z(size), q(size);
+template <class Number>
+GradientsReport block_conjugate_gradients(
+    const BlockMap<Number>& product, const BlockMap<Number>& precondition, std::span<Number> right,
+    std::span<Number> solution, const BlockRow& sizes, double enough, int most_iterations,
+    const std::function<void(std::span<const Number> solution, std::span<Number> right)>& correct) {
+  constexpr double epsilon = std::numeric_limits<Number>::epsilon();
+  constexpr double same = std::max(10.0 * epsilon, 1e-12);
+  constexpr double digits_between = 1e-5;
+  /// A residual so small, counted as an error, is none even where the body is soft.
+  constexpr double gone = 1e-3;
+  constexpr Number one{1};
+  std::vector<Number> z(right.size()), p(right.size()), q(right.size());
+  std::ranges::fill(solution, Number{0});
+  std::array<EnergyGains, width> gains;
   precondition(right, z);
-  std::vector<double> p = z;
-  std::fill(solution.begin(), solution.end(), 0.0);
-  BlockRow rz = dots(right, z);
-  const BlockRow first = rz;
-  std::array<EnergyGains, block_width> gains;
-  std::array<bool, block_width> goes_on{};
-  const auto stop_where_all_is_gone = [&] {
-    // Written so that what is not a number goes on, up to the limit.
-    for (int c = 0; c < block_width; ++c) goes_on[c] = !(rz[c] <= all_gone * first[c]);
-    return std::ranges::none_of(goes_on, std::identity());
-  };
+  std::ranges::copy(z, p.begin());
+  Square sides = gram<Number>(p, right);
+  double corrected_at = left_by(sides, sizes);
   GradientsReport report;
-  report.converged = stop_where_all_is_gone();
-  while (!report.converged && report.iterations < most_iterations) {
+  while (report.iterations < most_iterations) {
     product(p, q);
-    const BlockRow curvature = dots(p, q);
-    BlockRow step{}, share{};
-    for (int c = 0; c < block_width; ++c) {
-      if (!goes_on[c]) continue;
-      if (!(curvature[c] > 0.0)) {
-        throw NotPositiveDefinite("the stiffness is not positive definite");
-      }
-      step[c] = rz[c] / curvature[c];
-      gains[c].add(step[c] * rz[c]);
-    }
-    for (std::size_t begin = 0; begin < size; begin += block_width) {
-      for (int c = 0; c < block_width; ++c) {
-        solution[begin + c] += step[c] * p[begin + c];
-        right[begin + c] -= step[c] * q[begin + c];
-      }
-    }
+    const Square inverse = inverse_of(gram<Number>(p, q), sides, same);
+    const Square steps = times(inverse, sides);
+    const BlockRow gained = gains_of(sides, steps);
+    for (int c = 0; c < width; ++c) gains[c].add(std::max(gained[c], 0.0));
+    add_shares<Number>(solution, one, p, steps);
+    add_shares<Number>(right, -one, q, steps);
     ++report.iterations;
-    report.error = largest_error(gains, sizes, goes_on);
-    report.converged = report.error <= enough;
+    report.error = largest(sizes, [&](int c) { return gains[c].error(); });
+    const bool is_exact = !correct || 0.1 * digits_between * corrected_at <= enough;
+    report.converged = report.error <= enough && is_exact;
     if (report.converged) break;
     precondition(right, z);
-    const BlockRow next = dots(right, z);
-    for (int c = 0; c < block_width; ++c) share[c] = goes_on[c] ? next[c] / rz[c] : 0.0;
-    for (std::size_t begin = 0; begin < size; begin += block_width) {
-      for (int c = 0; c < block_width; ++c) p[begin + c] = z[begin + c] + share[c] * p[begin + c];
+    const double left = left_by(gram<Number>(right, z), sizes);
+    report.converged = left <= gone * enough && is_exact;
+    if (report.converged) report.error = left;
+    if (report.converged) break;
+    if (correct && (left < digits_between * corrected_at || report.error <= enough)) {
+      correct(solution, right);
+      std::ranges::fill(solution, Number{0});
+      precondition(right, z);
+      corrected_at = left;
     }
-    rz = next;
-    report.converged = stop_where_all_is_gone();
+    add_shares<Number>(z, -one, p, times(inverse, gram<Number>(q, z)));
+    p.swap(z);
+    sides = gram<Number>(p, right);
   }
   return report;
 }
+
+template GradientsReport block_conjugate_gradients<double>(
+    const BlockMap<double>&, const BlockMap<double>&, std::span<double>, std::span<double>,
+    const BlockRow&, double, int,
+    const std::function<void(std::span<const double>, std::span<double>)>&);
+template GradientsReport block_conjugate_gradients<float>(
+    const BlockMap<float>&, const BlockMap<float>&, std::span<float>, std::span<float>,
+    const BlockRow&, double, int,
+    const std::function<void(std::span<const float>, std::span<float>)>&);
 
 void recombine(std::vector<std::vector<double>>& blocks, std::span<const double> shares) {
   const std::size_t old = blocks.size() * block_width, fewer = shares.size() / old;

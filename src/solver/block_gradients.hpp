@@ -12,18 +12,30 @@ namespace perilink {
 /// One number for each of the vectors of a block.
 using BlockRow = std::array<double, block_width>;
 
-/// conjugate_gradients() of many right sides side by side, from zero: each goes its own way, and
-/// products and preconditioner are applied to all of them at once. Ends where the last one has got
-/// there. Vectors have shape (n, block_width).
-/// \param right  used up
-/// \param sizes  energies that errors count by: each ends where the root of the energy that is
-///               missing is no larger than `enough` times the root of its own
+/// result = A x of a block of vectors, shape (n, block_width).
+template <class Number>
+using BlockMap = std::function<void(std::span<const Number> vectors, std::span<Number> results)>;
+
+/// Block conjugate gradients (O'Leary 1980, The block conjugate gradient algorithm and related
+/// methods): every right side is looked for among the directions of all of them, so that there are
+/// fewer steps than for each by itself, and the product is applied to all at once. Directions that
+/// have become one are left out. Ends where the last right side has got there. Vectors have shape
+/// (n, block_width).
+/// \param right     used up
+/// \param solution  from zero; what has come since the last correction
+/// \param sizes     energies that errors count by: each ends where the root of the energy that is
+///                  missing is no larger than `enough` times the root of its own
+/// \param correct   where numbers have few digits: takes the solution away, to where there are
+///                  more, and leaves the right side that is missing. It is called whenever errors
+///                  have fallen by some digits; empty: never
 /// \return iterations, and the largest error of all, as it counts
 /// \throws NotPositiveDefinite where A is not
-GradientsReport block_conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
-                                          std::span<double> right, std::span<double> solution,
-                                          const BlockRow& sizes, double enough,
-                                          int most_iterations);
+template <class Number>
+GradientsReport block_conjugate_gradients(
+    const BlockMap<Number>& product, const BlockMap<Number>& precondition, std::span<Number> right,
+    std::span<Number> solution, const BlockRow& sizes, double enough, int most_iterations,
+    const std::function<void(std::span<const Number> solution, std::span<Number> right)>& correct =
+        {});
 
 /// blocks <- blocks shares: columns, block_width of them in each block of shape (n, block_width),
 /// go over to combinations of them, which may be fewer.

@@ -25,7 +25,7 @@ constexpr double small_pivot = 0.05;
 constexpr double coarser = 100.0;
 
 /// Memory that the window may take where that leaves the fewest blocks.
-constexpr double most_bytes = 2e9;
+constexpr double most_bytes = 1.5e9;
 
 std::size_t blocks_of(std::size_t columns) { return (columns + block_width - 1) / block_width; }
 
@@ -83,6 +83,10 @@ void BoxFactor::solve(std::span<const double> rhs, std::span<double> solution) {
   solver_->solve(rhs, solution);
 }
 
+void BoxFactor::correct(std::vector<double>& residual, double energy) {
+  energy > 0.0 ? solver_->correct(residual, residual, energy) : solver_->solve(residual, residual);
+}
+
 /// What the vector is made of in the window, if it is.
 auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vector<Part>> {
   std::vector<Part> parts;
@@ -96,11 +100,12 @@ auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vect
     const double share = share_of(x, window_[place]);
     if (share != 0.0) return std::vector<Part>{{static_cast<Index>(place), share}};
   }
-  return {};
+  return span_.parts_of(x);
 }
 
 void BoxFactor::forget() {
   std::ranges::fill(place_of_, no_index);
+  span_.clear();
   window_.clear();
   used_.clear();
   blocks_.clear();
@@ -128,6 +133,7 @@ void BoxFactor::keep_latest() {
   const std::vector<int> used = std::move(used_);
   window_.clear();
   used_.clear();
+  span_.clear();
   std::ranges::fill(place_of_, no_index);
   for (const Eigen::Index place : places) put_in_window(window[place], used[place]);
 }
@@ -139,7 +145,9 @@ std::size_t BoxFactor::most_columns() const {
 }
 
 void BoxFactor::put_in_window(const SparseVector& x, int used) {
-  if (x.size() == 1) place_of_[x.rows[0]] = static_cast<Index>(window_.size());
+  const auto place = static_cast<Index>(window_.size());
+  if (x.size() == 1) place_of_[x.rows[0]] = place;
+  span_.add(x, place);
   window_.push_back(x);
   used_.push_back(used);
 }
@@ -176,9 +184,12 @@ void BoxFactor::hold(std::span<const SparseVector> x) {
 /// an element that carries moments are asked for combined with each other: of them the unknowns.
 std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& missing) const {
   std::vector<SparseVector> chosen;
+  VectorSpan span = span_;
   const auto list = [&](const SparseVector& x) {
     const auto is_same = [&](const SparseVector& other) { return share_of(x, other) != 0.0; };
-    if (!holds(x) && std::ranges::none_of(chosen, is_same)) chosen.push_back(x);
+    if (holds(x) || std::ranges::any_of(chosen, is_same) || span.parts_of(x)) return;
+    span.add(x, static_cast<Index>(window_.size() + chosen.size()));
+    chosen.push_back(x);
   };
   const auto list_what_it_needs = [&](const SparseVector& x) {
     if (!network_.carries_moments()) return list(x);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/boxes/box_solver.hpp"
+#include "base/vector_span.hpp"
 #include "network/network.hpp"
 #include "solver/factor.hpp"
 
@@ -33,6 +34,8 @@ class BoxFactor final : public Factor {
   /// Vectors that are likely to be asked for next, the likeliest first: they go into the window
   /// where blocks have room beside what is asked for.
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
+  /// residual <- K^-1 residual, as exact as a solution of this energy is to be.
+  void correct(std::vector<double>& residual, double energy);
   /// Columns at hand have followed too many changes: all are solved for again when they are asked
   /// for.
   void forget();
@@ -51,11 +54,7 @@ class BoxFactor final : public Factor {
   Index columns_solved() const { return columns_solved_; }
 
  private:
-  /// A vector of the window, and how much of it.
-  struct Part {
-    Index place;
-    double share;
-  };
+  using Part = VectorSpan::Part;  ///< by places of the window
   std::optional<std::vector<Part>> parts_of(const SparseVector& x) const;
   void keep_latest();
   void make_solver();
@@ -79,6 +78,7 @@ class BoxFactor final : public Factor {
   std::vector<SparseVector> expected_;
   std::vector<SparseVector> window_;  ///< vectors e whose columns are at hand
   std::vector<Index> place_of_;  ///< per unknown: where it is in the window by itself, or no_index
+  VectorSpan span_;              ///< what the window makes up
   std::vector<int> used_;        ///< per place: when an event used it last
   int now_ = 0;                  ///< events and calls so far
   /// Columns of K^-1 as it was when they were solved for, block after block, each of shape

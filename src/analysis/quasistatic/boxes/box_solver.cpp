@@ -10,7 +10,6 @@
 
 #include "assembly/block_forces.hpp"
 #include "base/error.hpp"
-#include "solver/block_gradients.hpp"
 #include "solver/factor_routes.hpp"
 #include "solver/not_positive_definite.hpp"
 
@@ -90,6 +89,8 @@ BoxSolver::BoxSolver(const Network& network, const Unknowns& unknowns, Secants s
     team_ = std::make_unique<Team>(*options.ranks, network, unknowns, secants, motions_, stiffness);
   }
   require_resistance();
+  if (!options.blocks || !SingleBody::is_made_of(network)) return;
+  single_ = std::make_unique<SingleBody>(network, unknowns, secants, motions_, blocks_);
 }
 
 /// What moves without resistance shows under forces of any kind; the loads may not stir it. With
@@ -175,6 +176,27 @@ void BoxSolver::solve(std::span<const double> right, std::span<double> solution)
   if (!report.converged) throw not_there(report.iterations, error_, tolerance);
 }
 
+void BoxSolver::correct(std::span<const double> right, std::span<double> solution, double energy) {
+  const double tolerance = options_.tolerance * finer;
+  GradientsReport report;
+  if (single_) {
+    std::vector<double> block(unknowns_.number.size() * block_width, 0.0), found(block.size());
+    for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
+      if (unknowns_.number[slot] >= 0) block[slot * block_width] = right[unknowns_.number[slot]];
+    }
+    report = search_in_single(block, found, {energy}, tolerance);
+    for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
+      if (unknowns_.number[slot] >= 0) solution[unknowns_.number[slot]] = found[slot * block_width];
+    }
+  } else {
+    const std::vector<double> wanted(right.begin(), right.end());
+    std::ranges::fill(solution, 0.0);
+    report = search(wanted, solution, tolerance, energy, most_box_iterations);
+  }
+  iterations_ += report.iterations;
+  if (!report.converged) throw not_there(report.iterations, report.error, tolerance);
+}
+
 void BoxSolver::precondition_block(std::span<const double> residuals, std::span<double> results) {
   const int width = unknowns_.width;
   const double* block = blocks_.data();
@@ -210,14 +232,62 @@ void BoxSolver::multiply_block(std::span<const double> motions, std::span<double
 
 GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution,
                                        double enough) {
-  coarse_block_.resize(coarse_.size() * block_width);
   const BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
-  const GradientsReport report = block_conjugate_gradients(
-      [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
-      [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
-      solution, sizes, enough, most_box_iterations);
+  GradientsReport report;
+  if (single_) {
+    report = search_in_single(right, solution, sizes, enough);
+  } else {
+    coarse_block_.resize(coarse_.size() * block_width);
+    report = block_conjugate_gradients<double>(
+        [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
+        [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
+        solution, sizes, enough, most_box_iterations);
+  }
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, enough);
+  return report;
+}
+
+/// Steps in single precision; what they have found is added up in double precision, and so is what
+/// is left.
+/// \param right  is left as it is
+GradientsReport BoxSolver::search_in_single(std::span<double> right, std::span<double> solution,
+                                            const BlockRow& sizes, double enough) {
+  single_->follow(secants_, ground_ == nullptr ? std::span<const double>() : *ground_);
+  const std::size_t row = static_cast<std::size_t>(unknowns_.width) * block_width;
+  const double root = std::sqrt(single_->unit());
+  std::vector<float> found(right.size()), missing(right.size());
+  const auto for_each_particle = [&](auto visit) {
+    for (Index p = 0; p < network_.particles.size(); ++p) {
+      visit(static_cast<std::size_t>(p) * row, single_->place(p) * row);
+    }
+  };
+  const auto add = [&](std::span<const float> part) {
+    for_each_particle([&](std::size_t to, std::size_t from) {
+      for (std::size_t k = 0; k < row; ++k) solution[to + k] += part[from + k] / root;
+    });
+  };
+  const auto round = [&](std::span<const double> whole, std::span<float> rounded) {
+    for_each_particle([&](std::size_t from, std::size_t to) {
+      for (std::size_t k = 0; k < row; ++k) {
+        rounded[to + k] = static_cast<float>(whole[from + k] / root);
+      }
+    });
+  };
+  std::ranges::fill(solution, 0.0);
+  round(right, missing);
+  const GradientsReport report = block_conjugate_gradients<float>(
+      [&](std::span<const float> q, std::span<float> result) { single_->multiply(q, result); },
+      [&](std::span<const float> r, std::span<float> z) { single_->precondition(r, *factor_, z); },
+      missing, found, sizes, enough, most_box_iterations,
+      [&](std::span<const float> part, std::span<float> left) {
+        add(part);
+        std::vector<double> residual(right.size());
+        multiply_block(solution, residual);
+        for (std::size_t k = 0; k < right.size(); ++k) residual[k] = right[k] - residual[k];
+        round(residual, left);
+      });
+  add(found);
   return report;
 }
 

@@ -4,12 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "analysis/quasistatic/boxes/single_body.hpp"
 #include "analysis/quasistatic/ranks/team.hpp"
 #include "assembly/box_motions.hpp"
 #include "assembly/internal_force.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
-#include "solver/conjugate_gradients.hpp"
+#include "solver/block_gradients.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -50,6 +51,11 @@ class BoxSolver {
   /// \throws SolverError as solve()
   GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough);
 
+  /// A solution less exact, of what is left of another one.
+  /// \param energy  that the error counts by, of the whole solution; positive
+  /// \throws SolverError as solve()
+  void correct(std::span<const double> right, std::span<double> solution, double energy);
+
   int iterations() const { return iterations_; }  ///< in all solves
   double error() const { return error_; }         ///< the last solve left, as the tolerance counts
   Index num_boxes() const { return motions_.num_boxes(); }
@@ -65,6 +71,8 @@ class BoxSolver {
   void require_resistance();
   void precondition_block(std::span<const double> residuals, std::span<double> results);
   void multiply_block(std::span<const double> motions, std::span<double> results);
+  GradientsReport search_in_single(std::span<double> right, std::span<double> solution,
+                                   const BlockRow& sizes, double enough);
 
   const Network& network_;
   const Unknowns& unknowns_;
@@ -74,9 +82,10 @@ class BoxSolver {
   std::vector<double> blocks_;  // inverse, shape (particles, width, width)
   const std::vector<double>* ground_;
   std::unique_ptr<Factor> factor_;
-  std::unique_ptr<Team> team_;  ///< null: this process works alone
-  std::vector<double> coarse_;  // residual or motion of the boxes, shape (boxes, motions)
-  std::vector<double> motion_;  // shape (particles, width), zero where it is prescribed
+  std::unique_ptr<Team> team_;          ///< null: this process works alone
+  std::unique_ptr<SingleBody> single_;  ///< null: blocks are solved for in double precision
+  std::vector<double> coarse_;          // residual or motion of the boxes, shape (boxes, motions)
+  std::vector<double> motion_;          // shape (particles, width), zero where it is prescribed
   std::vector<double> coarse_block_;
   InternalForce forces_;
   double energy_ = 0.0, error_ = 0.0;

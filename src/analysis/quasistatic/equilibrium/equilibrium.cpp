@@ -220,9 +220,13 @@ double Equilibrium::work_of_forces() const {
   return work;
 }
 
-/// One step of iterative refinement; `residual` is used up.
+/// One step of iterative refinement; `residual`, just measured, goes over to the correction.
 void Equilibrium::refine(std::vector<double>& residual) {
-  factor_->solve(residual, residual);
+  if (boxes_ != nullptr) {
+    boxes_->correct(residual, 2.0 * internal_.energy);
+  } else {
+    factor_->solve(residual, residual);
+  }
   for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
   scatter_solution();
   force_work_ = work_of_forces();

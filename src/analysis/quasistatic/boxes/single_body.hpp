@@ -1,0 +1,60 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "assembly/box_motions.hpp"
+#include "assembly/packed_bonds.hpp"
+#include "network/network.hpp"
+#include "network/unknowns.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// A body of trusses in single precision, for the steps of a search whose residuals are computed
+/// elsewhere: product and preconditioner (docs/theory/large_bodies.md, L-1) of block_width vectors
+/// side by side. Particles come box after box, so that what is near is near in memory. Vectors have
+/// shape (particles, dim, block_width); forces count by the square root of a stiffness, and motions
+/// by one over it, so that energies are what they are.
+class SingleBody {
+ public:
+  /// Whether a body consists of nothing but trusses.
+  static bool is_made_of(const Network& network);
+
+  /// \param blocks  inverse ones of the particles, shape (particles, dim, dim)
+  /// \param motions, unknowns  kept by reference, as the network
+  SingleBody(const Network& network, const Unknowns& unknowns, Secants secants,
+             const BoxMotions& motions, std::span<const double> blocks);
+
+  /// Takes over what has changed since.
+  /// \param ground  springs that hold unknowns, or empty
+  void follow(Secants secants, std::span<const double> ground);
+
+  /// forces = K motions; where something is held they are those that hold it, and motions zero.
+  void multiply(std::span<const float> motions, std::span<float> forces) const;
+  /// \param coarse  factor of P'K P
+  void precondition(std::span<const float> residuals, Factor& coarse, std::span<float> motions);
+
+  /// Where a particle comes in the order.
+  Index place(Index particle) const { return place_[particle]; }
+  double unit() const { return unit_; }  ///< stiffness whose root forces count by
+
+ private:
+  template <int Dim>
+  void restrict_to_boxes(const float* residuals);
+  template <int Dim>
+  void add_motions(const float* residuals, float* motions) const;
+
+  const Network& network_;
+  const Unknowns& unknowns_;
+  std::vector<Index> place_;
+  double unit_;
+  PackedBonds bonds_;
+  std::vector<float> springs_;        ///< to the ground, by the order; empty: none
+  std::vector<float> blocks_;         ///< inverse ones, by the order, zero where something is held
+  std::vector<float> moves_;          ///< rows of P, by the order, shape (particles, dim, motions)
+  std::vector<std::size_t> box_end_;  ///< places up to which the particles of each box go
+  std::vector<double> coarse_;        ///< shape (block_width, boxes, motions)
+};
+
+}  // namespace perilink

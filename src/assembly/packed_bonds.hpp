@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "base/block.hpp"
+#include "network/network.hpp"
+
+namespace perilink {
+
+/// Trusses in single precision, sixteen bytes for each in space, by an order of the particles in
+/// which neighbours are near each other: for searches whose residuals are computed from the network
+/// itself. Forces are those of block_forces() to seven digits.
+class PackedBonds {
+ public:
+  /// \param place  where each particle comes in the order
+  /// \param unit   stiffness that counts as one
+  PackedBonds(const Network& network, Secants secants, std::span<const Index> place, double unit);
+
+  /// Takes over what has changed since: bonds that differ from then, one by one.
+  void follow(Secants secants);
+
+  /// Forces without those of supports, over the unit.
+  /// \param motions  by the order, shape (particles, dim, block_width), as `forces`
+  void forces(std::span<const float> motions, std::span<float> forces) const;
+
+ private:
+  template <int Dim>
+  void fill(Secants secants);
+  template <int Dim>
+  void set(Index element, double before, double now);
+  void set_any(Index element, double before, double now);
+  template <int Dim>
+  void add_forces(const float* motions, float* forces) const;
+
+  /// n sqrt(k s) over the square root of the unit, and whose other end it is.
+  template <int Dim>
+  struct Packed {
+    std::int32_t other;
+    float pull[Dim];
+  };
+  template <int Dim>
+  Packed<Dim> packed(Index element, double secant) const;
+  template <int Dim>
+  auto& bonds();
+  template <int Dim>
+  const auto& bonds() const;
+
+  const Network& network_;
+  std::vector<Index> place_;
+  double unit_;
+  std::vector<std::size_t> begin_;  ///< bonds of each place, to places behind it
+  std::vector<Packed<2>> plane_;
+  std::vector<Packed<3>> space_;
+  std::unordered_map<Index, double> damaged_;  ///< secants that are not one, as packed
+};
+
+}  // namespace perilink

@@ -1,0 +1,117 @@
+#include "analysis/quasistatic/boxes/single_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "assembly/block_forces.hpp"
+#include "solver/factor_routes.hpp"
+#include "support/analysis_bodies.hpp"
+#include "support/small_networks.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+/// A body in boxes, and what a solver would have of it.
+struct Boxed {
+  explicit Boxed(const LatticeCase& lattice) : body(make_block({lattice})) {
+    secants = intact(body.network);
+    motions.emplace(body.network, secants, body.unknowns, 8);
+    BoxStiffness stiffness = assemble_box_stiffness(body.network, secants, body.unknowns, *motions);
+    factor = make_factor(FactorRoute::refactorize, 1);
+    std::vector<Index> groups;
+    for (Index k = 0; k < stiffness.coarse.rows(); ++k) {
+      groups.push_back(k / motions->num_motions());
+    }
+    factor->factorize(stiffness.coarse, groups);
+    const int dim = body.network.dim();
+    const std::size_t size = static_cast<std::size_t>(dim) * dim;
+    for (std::size_t begin = 0; begin < stiffness.blocks.size(); begin += size) {
+      Eigen::Map<Eigen::MatrixXd> block(stiffness.blocks.data() + begin, dim, dim);
+      block = block.inverse().eval();
+    }
+    blocks = std::move(stiffness.blocks);
+    single = std::make_unique<SingleBody>(body.network, body.unknowns, secants, *motions, blocks);
+  }
+  /// Numbers of every particle in the order of the body.
+  std::vector<float> ordered(const std::vector<double>& values) const {
+    const std::size_t row = static_cast<std::size_t>(body.network.dim()) * block_width;
+    std::vector<float> result(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      result[single->place(static_cast<Index>(k / row)) * row + k % row] =
+          static_cast<float>(values[k]);
+    }
+    return result;
+  }
+  /// Zero where something is held.
+  std::vector<double> motion(int seed) const {
+    std::vector<double> values = random_vector(body.unknowns.number.size() * block_width, seed);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (body.unknowns.number[k / block_width] < 0) values[k] = 0.0;
+    }
+    return values;
+  }
+  AnalysisBody body;
+  std::vector<double> secants;
+  std::optional<BoxMotions> motions;
+  std::unique_ptr<Factor> factor;
+  std::vector<double> blocks;
+  std::unique_ptr<SingleBody> single;
+};
+
+/// Seven digits of terms that cancel.
+void expect_near(const std::vector<float>& found, const std::vector<float>& expected) {
+  float size = 0.0F;
+  for (const float value : expected) size = std::max(size, std::abs(value));
+  for (std::size_t k = 0; k < found.size(); ++k) ASSERT_NEAR(found[k], expected[k], 1e-5F * size);
+}
+
+TEST(SingleBody, MultipliesWithSpringsAsInDoublePrecision) {
+  Boxed boxed({"", Pattern::cubic, Surface::none});
+  boxed.secants[5] = 0.25;
+  const std::vector<double> ground =
+      random_vector(static_cast<std::size_t>(boxed.body.unknowns.count), 2);
+  boxed.single->follow(boxed.secants, ground);
+  const std::vector<double> motion = boxed.motion(3);
+  std::vector<double> expected(motion.size());
+  block_forces(boxed.body.network, boxed.secants, motion, expected);
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    const Index unknown = boxed.body.unknowns.number[k / block_width];
+    if (unknown >= 0) expected[k] += ground[unknown] * motion[k];
+    expected[k] /= boxed.single->unit();
+  }
+  std::vector<float> found(motion.size());
+  boxed.single->multiply(boxed.ordered(motion), found);
+  expect_near(found, boxed.ordered(expected));
+}
+
+TEST(SingleBody, PreconditionsByParticlesAndBoxes) {
+  for (const Pattern pattern : {Pattern::hexagonal, Pattern::cubic}) {
+    Boxed boxed({"", pattern, Surface::none});
+    const std::size_t dim = static_cast<std::size_t>(boxed.body.network.dim());
+    const std::vector<double> residual = boxed.motion(4);
+    std::vector<double> expected(residual.size(), 0.0);
+    for (std::size_t k = 0; k < residual.size(); ++k) {
+      const std::size_t slot = k / block_width, particle = slot / dim;
+      if (boxed.body.unknowns.number[slot] < 0) continue;
+      for (std::size_t b = 0; b < dim; ++b) {
+        expected[k] += boxed.blocks[slot * dim + b] *
+                       residual[(particle * dim + b) * block_width + k % block_width];
+      }
+    }
+    std::vector<double> coarse(static_cast<std::size_t>(boxed.motions->num_boxes()) *
+                               boxed.motions->num_motions() * block_width);
+    boxed.motions->restrict_block(residual, coarse);
+    boxed.factor->solve_all(coarse);
+    boxed.motions->add_block(coarse, expected);
+    for (double& value : expected) value *= boxed.single->unit();
+    std::vector<float> found(residual.size());
+    boxed.single->precondition(boxed.ordered(residual), *boxed.factor, found);
+    expect_near(found, boxed.ordered(expected));
+  }
+}
+
+}  // namespace
+}  // namespace perilink

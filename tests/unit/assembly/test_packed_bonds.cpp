@@ -1,0 +1,74 @@
+#include "assembly/packed_bonds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "assembly/block_forces.hpp"
+#include "support/lattice_networks.hpp"
+#include "support/small_networks.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+/// Last particle first.
+std::vector<Index> backwards(const Network& network) {
+  std::vector<Index> place(static_cast<std::size_t>(network.particles.size()));
+  std::iota(place.rbegin(), place.rend(), 0);
+  return place;
+}
+
+/// Seven digits of each of some hundred terms.
+void expect_forces(const PackedBonds& bonds, const Network& network, Secants secants, double unit) {
+  const std::vector<Index> place = backwards(network);
+  const std::size_t row = static_cast<std::size_t>(network.dim()) * block_width;
+  const std::vector<double> motions = random_vector(place.size() * row, 3);
+  std::vector<double> expected(motions.size());
+  block_forces(network, secants, motions, expected);
+  std::vector<float> packed(motions.size()), forces(motions.size(), 7.0F);
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    packed[place[k / row] * row + k % row] = static_cast<float>(motions[k]);
+  }
+  bonds.forces(packed, forces);
+  double size = 0.0;
+  for (const double force : expected) size = std::max(size, std::abs(force));
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    ASSERT_NEAR(unit * forces[place[k / row] * row + k % row], expected[k], 1e-5 * size) << k;
+  }
+}
+
+TEST(PackedBonds, PullAsThoseOfTheNetwork) {
+  for (const Pattern pattern : {Pattern::hexagonal, Pattern::cubic}) {
+    const Network network = make_network({"", pattern, Surface::none}, 4);
+    std::vector<double> secants = random_secants(network.num_elements(), 1);
+    const double unit = 3.0 * network.stiffness[0];
+    const PackedBonds bonds(network, secants, backwards(network), unit);
+    expect_forces(bonds, network, secants, unit);
+  }
+}
+
+TEST(PackedBonds, FollowWhatHasChanged) {
+  Network network = make_network({"", Pattern::cubic, Surface::none}, 4);
+  // Two bonds between the same particles.
+  network.bonds.second[1] = network.bonds.second[0];
+  network.stiffness[1] = 0.3 * network.stiffness[0];
+  std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
+  secants[3] = 0.0;
+  const double unit = network.stiffness[0];
+  PackedBonds bonds(network, secants, backwards(network), unit);
+  secants[0] = 0.0;
+  secants[1] = 0.5;
+  secants[7] = 0.25;
+  bonds.follow(secants);
+  expect_forces(bonds, network, secants, unit);
+  secants[0] = secants[3] = 1.0;  // whole again
+  secants[7] = 0.0;
+  bonds.follow(secants);
+  expect_forces(bonds, network, secants, unit);
+}
+
+}  // namespace
+}  // namespace perilink
