@@ -15,11 +15,12 @@ namespace {
 /// steps from there on would divide by nothing.
 constexpr double all_gone = 1e-40;
 
-BlockRow dots(std::span<const double> a, std::span<const double> b) {
+BlockRow dots(std::span<const double> a, std::span<const double> b, const SumOverParts& sum) {
   BlockRow sums{};
   for (std::size_t begin = 0; begin < a.size(); begin += block_width) {
     for (int c = 0; c < block_width; ++c) sums[c] += a[begin + c] * b[begin + c];
   }
+  if (sum) sum(sums);
   return sums;
 }
 
@@ -37,14 +38,14 @@ double largest_error(const std::array<EnergyGains, block_width>& gains, const Bl
 
 GradientsReport block_conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
                                           std::span<double> right, std::span<double> solution,
-                                          const BlockRow& sizes, double enough,
-                                          int most_iterations) {
+                                          const BlockRow& sizes, double enough, int most_iterations,
+                                          const SumOverParts& sum) {
   const std::size_t size = right.size();
   std::vector<double> z(size), q(size);
   precondition(right, z);
   std::vector<double> p = z;
   std::fill(solution.begin(), solution.end(), 0.0);
-  BlockRow rz = dots(right, z);
+  BlockRow rz = dots(right, z, sum);
   const BlockRow first = rz;
   std::array<EnergyGains, block_width> gains;
   std::array<bool, block_width> goes_on{};
@@ -57,7 +58,7 @@ GradientsReport block_conjugate_gradients(const LinearMap& product, const Linear
   report.converged = stop_where_all_is_gone();
   while (!report.converged && report.iterations < most_iterations) {
     product(p, q);
-    const BlockRow curvature = dots(p, q);
+    const BlockRow curvature = dots(p, q, sum);
     BlockRow step{}, share{};
     for (int c = 0; c < block_width; ++c) {
       if (!goes_on[c]) continue;
@@ -78,7 +79,7 @@ GradientsReport block_conjugate_gradients(const LinearMap& product, const Linear
     report.converged = report.error <= enough;
     if (report.converged) break;
     precondition(right, z);
-    const BlockRow next = dots(right, z);
+    const BlockRow next = dots(right, z, sum);
     for (int c = 0; c < block_width; ++c) share[c] = goes_on[c] ? next[c] / rz[c] : 0.0;
     for (std::size_t begin = 0; begin < size; begin += block_width) {
       for (int c = 0; c < block_width; ++c) p[begin + c] = z[begin + c] + share[c] * p[begin + c];

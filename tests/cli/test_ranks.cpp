@@ -13,6 +13,7 @@
 
 #include "support/process.hpp"
 #include "support/program_cases.hpp"
+#include "support/replaced.hpp"
 
 namespace perilink::test {
 namespace {
@@ -70,6 +71,24 @@ solver = "iterative"
                      in_space ? R"("x", "y", "z")" : R"("x", "y")", in_space ? "3, 1, 0" : "3, 1");
 }
 
+/// The bar with a notch from below that runs half through it, in which bonds fail.
+std::string breaking_case(bool in_space, const std::string& body, const std::string& law,
+                          const std::string& analysis) {
+  std::string text = replaced(bar_case(in_space, body), "\"infinite\"", "0.01\n" + law);
+  text = replaced(text, "\"elastic\"", "\"damage\"");
+  const std::string notch =
+      in_space ? "corners = [[9.5, -1, -1], [9.5, 2.4, -1], [9.5, 2.4, 6], [9.5, -1, 6]]"
+               : "points = [[9.5, -1], [9.5, 2.4]]";
+  return text + analysis + "\n[[cracks]]\n" + notch + "\n";
+}
+
+/// Driven in place of loaded.
+std::string driven(const std::string& text) {
+  const std::size_t begin = text.find("[[tractions]]"), end = text.find("[analysis]");
+  return text.substr(0, begin) + "[[displacements]]\nregion = \"right\"\nx = 1\n\n" +
+         text.substr(end);
+}
+
 struct RankCase {
   std::string name, text;
 };
@@ -102,12 +121,15 @@ class RankFolder : public testing::Test {
 
 class RankRuns : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
-/// Numbers of the only row.
-std::vector<double> row_of(const std::string& history) {
-  std::istringstream line(history.substr(history.find('\n') + 1));
+/// Numbers of all rows.
+std::vector<double> numbers_of(const std::string& history) {
+  std::istringstream rows(history.substr(history.find('\n') + 1));
   std::vector<double> values;
-  std::string value;
-  while (std::getline(line, value, ',')) values.push_back(std::atof(value.c_str()));
+  std::string row, value;
+  while (std::getline(rows, row)) {
+    std::istringstream line(row);
+    while (std::getline(line, value, ',')) values.push_back(std::atof(value.c_str()));
+  }
   return values;
 }
 
@@ -116,7 +138,7 @@ TEST_P(RankRuns, FindTheSameAnswer) {
   write_text(work() / "c.toml", GetParam().text);
   const ProcessEnd alone = run_program(work(), {"run", "c.toml", "--out", "r1"});
   ASSERT_EQ(alone.exit_status, 0) << alone.err;
-  const std::vector<double> expected = row_of(history("r1"));
+  const std::vector<double> expected = numbers_of(history("r1"));
   ASSERT_GT(expected.size(), 5u);
   for (const int count : {2, 4}) {
     const std::string directory = "r" + std::to_string(count);
@@ -124,11 +146,11 @@ TEST_P(RankRuns, FindTheSameAnswer) {
     ASSERT_EQ(end.exit_status, 0) << end.err;
     EXPECT_THAT(end.out, HasSubstr("by " + std::to_string(count) + " ranks"));
     EXPECT_EQ(summary(directory).at("ranks"), count);
-    const std::vector<double> found = row_of(history(directory));
+    const std::vector<double> found = numbers_of(history(directory));
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
       if (std::abs(expected[k]) < 1e-8) continue;  // residuals
-      EXPECT_NEAR(found[k], expected[k], 1e-9 * std::abs(expected[k])) << "column " << k;
+      EXPECT_NEAR(found[k], expected[k], 1e-9 * std::abs(expected[k])) << "number " << k;
     }
   }
 }
@@ -198,11 +220,21 @@ TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
   EXPECT_THAT(read_text(work() / "err"), HasSubstr("this build knows no MPI"));
 }
 
+const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
+
 INSTANTIATE_TEST_SUITE_P(
     Bodies, RankRuns,
-    testing::Values(RankCase{"Plane", bar_case(false, "")}, RankCase{"Space", bar_case(true, "")},
-                    RankCase{"MicropolarPlane", bar_case(false, "model = \"micropolar\"\n")},
-                    RankCase{"MicropolarSpace", bar_case(true, "model = \"micropolar\"\n")}),
+    testing::Values(
+        RankCase{"Plane", bar_case(false, "")}, RankCase{"Space", bar_case(true, "")},
+        RankCase{"MicropolarPlane", bar_case(false, "model = \"micropolar\"\n")},
+        RankCase{"MicropolarSpace", bar_case(true, "model = \"micropolar\"\n")},
+        RankCase{"Breaking", breaking_case(true, "", "", "[stop]\nbroken_bonds = 60\n")},
+        RankCase{"BreakingInTwo", driven(breaking_case(false, "", "", ""))},
+        RankCase{"BreakingBySteps",
+                 breaking_case(false, "", "", "control = \"steps\"\nload_factors = [1, 2, 3]\n")},
+        RankCase{"Softening", breaking_case(false, "", softening, "[stop]\nbroken_bonds = 5\n")},
+        RankCase{"MicropolarBreaking", breaking_case(false, "model = \"micropolar\"\n", "",
+                                                     "[stop]\nbroken_bonds = 20\n")}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -60,6 +60,8 @@ class PetscGhostLayer final : public GhostLayer {
 class PetscRanks final : public Ranks {
  public:
   PetscRanks() {
+    // Ranks that wait for each other leave the processors to others; the user's word goes first.
+    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     char name[] = "perilink", own_options_alone[] = "-skip_petscrc";
     char* words[] = {name, own_options_alone, nullptr};
     char** argv = words;

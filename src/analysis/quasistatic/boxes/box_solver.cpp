@@ -85,9 +85,10 @@ BoxSolver::BoxSolver(const Network& network, const Unknowns& unknowns, Secants s
   std::vector<Index> groups;
   for (Index b = 0; b < num_boxes(); ++b) groups.insert(groups.end(), motions, b);
   factor_->factorize(stiffness.coarse, groups);
-  if (options.ranks && ground == nullptr && can_be_shared(network, unknowns)) {
+  if (options.ranks && can_be_shared(network, unknowns)) {
     stiffness.blocks = blocks_;
-    team_ = std::make_unique<Team>(*options.ranks, network, unknowns, secants, motions_, stiffness);
+    team_ = std::make_unique<Team>(*options.ranks, network, unknowns, secants, motions_, stiffness,
+                                   ground);
   }
   require_resistance();
 }
@@ -208,14 +209,20 @@ void BoxSolver::multiply_block(std::span<const double> motions, std::span<double
   }
 }
 
-GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution,
-                                       double enough) {
+GradientsReport BoxSolver::search_block(std::span<double> right, std::span<double> solution,
+                                        const BlockRow& sizes, double enough) {
+  if (team_) return team_->search_block(right, solution, sizes, enough, most_box_iterations);
   coarse_block_.resize(coarse_.size() * block_width);
-  const BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
-  const GradientsReport report = block_conjugate_gradients(
+  return block_conjugate_gradients(
       [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
       [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
       solution, sizes, enough, most_box_iterations);
+}
+
+GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution,
+                                       double enough) {
+  const BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
+  const GradientsReport report = search_block(right, solution, sizes, enough);
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, enough);
   return report;

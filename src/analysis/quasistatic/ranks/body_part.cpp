@@ -25,6 +25,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(network.support_stiffness);
   visit(part.axial);
   visit(part.other);
+  visit(part.elements);
   visit(part.unknowns.width);
   visit(part.unknowns.count);
   visit(part.unknowns.number);
@@ -35,6 +36,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(part.boxes);
   visit(part.rows);
   visit(part.motions);
+  visit(part.changes);
 }
 
 std::vector<int> owners_of(const Partition& partition, Index count) {
@@ -86,6 +88,7 @@ void cut_elements(const Network& network, Secants secants, const std::vector<int
     if (!network.inflection.empty()) own.inflection.push_back(network.inflection[e]);
     part.axial.push_back(secants.axial(e));
     part.other.push_back(secants[e]);
+    part.elements.push_back(GlobalIndex{e});
   }
 }
 
