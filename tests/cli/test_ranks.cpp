@@ -82,12 +82,24 @@ std::string breaking_case(bool in_space, const std::string& body, const std::str
   return text + analysis + "\n[[cracks]]\n" + notch + "\n";
 }
 
+/// The bar with its notch moved through time, so fine that there are blocks for four ranks.
+std::string explicit_case(const std::string& body, const std::string& law) {
+  std::string text =
+      breaking_case(false, body, law, "duration = 0.02\nramp_time = 0.01\nrows = 30\n");
+  text = replaced(text, "\"damage\"\nsolver = \"iterative\"", "\"explicit\"");
+  text = replaced(text, "spacing = 1", "spacing = 0.25");
+  text = replaced(text, "[3, 1]", "[20, 1]");
+  return replaced(text, "fracture_energy", "density = 1e-3\nfracture_energy");
+}
+
 /// Driven in place of loaded.
 std::string driven(const std::string& text) {
   const std::size_t begin = text.find("[[tractions]]"), end = text.find("[analysis]");
   return text.substr(0, begin) + "[[displacements]]\nregion = \"right\"\nx = 1\n\n" +
          text.substr(end);
 }
+
+const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
 
 struct RankCase {
   std::string name, text;
@@ -155,6 +167,28 @@ TEST_P(RankRuns, FindTheSameAnswer) {
   }
 }
 
+class ExplicitRankRuns : public RankFolder, public testing::WithParamInterface<RankCase> {};
+
+/// Blocks of particles are summed over in one order by any number of ranks.
+TEST_P(ExplicitRankRuns, WriteTheSameBytes) {
+  if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
+  write_text(work() / "c.toml", GetParam().text);
+  ASSERT_EQ(run_program(work(), {"run", "c.toml", "--out", "r1"}).exit_status, 0);
+  EXPECT_GT(summary("r1").at("broken_bonds"), 20);
+  for (const int count : {2, 4}) {
+    const std::string directory = "r" + std::to_string(count);
+    const ProcessEnd end = run_ranks(count, "run c.toml --out " + directory);
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+    EXPECT_EQ(summary(directory).at("ranks"), count);
+    EXPECT_EQ(summary(directory).at("peak_load"), summary("r1").at("peak_load"));
+    EXPECT_EQ(history(directory), history("r1"));
+    for (const auto& file : fs::directory_iterator(work() / "r1")) {
+      if (file.path().extension() != ".vtu") continue;
+      EXPECT_EQ(read_text(work() / directory / file.path().filename()), read_text(file.path()));
+    }
+  }
+}
+
 TEST_F(RankFolder, SayWhatIsWrongOnce) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
   const ProcessEnd end = run_ranks(3, "run missing.toml");
@@ -165,11 +199,11 @@ TEST_F(RankFolder, SayWhatIsWrongOnce) {
       << end.err;
 }
 
-TEST_F(RankFolder, EndTogetherWhereOneIsKilled) {
+class RankKills : public RankFolder, public testing::WithParamInterface<RankCase> {};
+
+TEST_P(RankKills, EndAllTogether) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
-  std::string text = bar_case(true, "");
-  text.replace(text.find("spacing = 1"), 11, "spacing = 0.3");  // some seconds of work
-  write_text(work() / "c.toml", text);
+  write_text(work() / "c.toml", GetParam().text);
   const std::string words = "run c.toml --out killed_" + std::to_string(getpid());
   // mpiexec has these words, too; the newest process is a rank.
   std::thread killer([&] {
@@ -220,7 +254,22 @@ TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
   EXPECT_THAT(read_text(work() / "err"), HasSubstr("this build knows no MPI"));
 }
 
-const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
+// Each has some seconds of work.
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, RankKills,
+    testing::Values(
+        RankCase{"Elastic", replaced(bar_case(true, ""), "spacing = 1", "spacing = 0.3")},
+        RankCase{"Damage",
+                 replaced(breaking_case(true, "", "", ""), "spacing = 1", "spacing = 0.5")},
+        RankCase{"Explicit", replaced(explicit_case("", ""), "duration = 0.02", "duration = 5")}),
+    [](const auto& instance) { return instance.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(Bodies, ExplicitRankRuns,
+                         testing::Values(RankCase{"Brittle", explicit_case("", "")},
+                                         RankCase{"Softening", explicit_case("", softening)},
+                                         RankCase{"Micropolar",
+                                                  explicit_case("model = \"micropolar\"\n", "")}),
+                         [](const auto& instance) { return instance.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, RankRuns,

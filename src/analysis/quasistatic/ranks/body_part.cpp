@@ -30,6 +30,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(part.unknowns.count);
   visit(part.unknowns.number);
   visit(part.unknowns.prescribed);
+  visit(part.ghosts.places);
   visit(part.ghosts.owners);
   visit(part.ghosts.numbers);
   visit(part.blocks);
@@ -186,6 +187,7 @@ BodyPart cut_part(const Network& network, Secants secants, const Unknowns& unkno
     const GlobalIndex ghost = local.particles[k];
     const int owner = entry(owners, ghost);
     const std::vector<GlobalIndex>& there = partition.particles[owner];
+    part.ghosts.places.push_back(static_cast<Index>(k));
     part.ghosts.owners.push_back(owner);
     part.ghosts.numbers.push_back(
         static_cast<Index>(std::lower_bound(there.begin(), there.end(), ghost) - there.begin()));

@@ -29,7 +29,7 @@ PartSolver::PartSolver(Ranks& ranks, BodyPart part)
     : ranks_(ranks),
       part_(std::move(part)),
       factor_(make_factor(part_.changes ? FactorRoute::refactorize : FactorRoute::in_place, 1)),
-      layer_(ranks.make_ghost_layer(part_.owned(), part_.ghosts, part_.unknowns.width)),
+      layer_(ranks.make_ghost_layer(part_.particles(), part_.ghosts, part_.unknowns.width)),
       motion_(part_.unknowns.number.size(), 0.0),
       coarse_(static_cast<std::size_t>(part_.coarse.rows()), 0.0) {
   std::vector<Index> groups(coarse_.size());
@@ -40,7 +40,7 @@ PartSolver::PartSolver(Ranks& ranks, BodyPart part)
   part_.coarse = {};
   if (!part_.changes) return;
   block_layer_ =
-      ranks.make_ghost_layer(part_.owned(), part_.ghosts, part_.unknowns.width * block_width);
+      ranks.make_ghost_layer(part_.particles(), part_.ghosts, part_.unknowns.width * block_width);
   motions_.resize(motion_.size() * block_width);
   block_forces_.resize(motions_.size());
   coarse_sums_.resize(coarse_.size() * block_width);

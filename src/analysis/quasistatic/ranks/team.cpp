@@ -1,18 +1,22 @@
 #include "analysis/quasistatic/ranks/team.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/memory.hpp"
 
 namespace perilink {
 namespace {
 
-enum class Job : int { end, take_part, follow, search, search_block };
+enum class Job : int { take_part, follow, search, search_block };
+
+Parcel order_for(Job job) {
+  Parcel order;
+  order.put(Service::solve);
+  order.put(job);
+  return order;
+}
 
 struct SearchOrder {
   double enough, scale;
@@ -41,20 +45,6 @@ void add(std::span<double> all, const std::vector<GlobalIndex>& numbers,
          std::span<const double> own, std::size_t width = 1) {
   for (std::size_t k = 0; k < own.size(); ++k) {
     entry(all, numbers[k / width], width, k % width) += own[k];
-  }
-}
-
-/// What the first rank does for all: what goes wrong in it alone ends all ranks, which else would
-/// wait for it for ever. The solver's errors are those of all ranks.
-template <class Act>
-auto lead(Ranks& ranks, Act act) {
-  try {
-    return act();
-  } catch (const SolverError&) {
-    throw;
-  } catch (const std::exception& error) {
-    ranks.abandon(failure_text(error));
-    throw;  // not reached, which GCC does not see
   }
 }
 
@@ -92,8 +82,7 @@ Team::Team(Ranks& ranks, const Network& network, const Unknowns& unknowns, Secan
   };
   own_ = lead(ranks, [&] {
     for (int rank = 1; rank < ranks.count(); ++rank) {
-      Parcel order;
-      order.put(Job::take_part);
+      Parcel order = order_for(Job::take_part);
       ranks.send(rank, order.bytes());
       ranks.send(rank, part(rank).pack().bytes());
     }
@@ -120,8 +109,7 @@ void Team::tell_changes() {
   for (int rank = ranks_.count() - 1; rank >= 0; --rank) {
     if (has_new_ground) changes.ground = take(told_ground_, partition_.unknowns[rank]);
     if (rank == 0) return own_->follow(changes);
-    Parcel order;
-    order.put(Job::follow);
+    Parcel order = order_for(Job::follow);
     changes.pack(order);
     ranks_.send(rank, order.bytes());
   }
@@ -132,8 +120,7 @@ GradientsReport Team::search(std::span<const double> right, std::span<double> so
   return lead(ranks_, [&] {
     tell_changes();
     for (int rank = 1; rank < ranks_.count(); ++rank) {
-      Parcel order;
-      order.put(Job::search);
+      Parcel order = order_for(Job::search);
       order.put(SearchOrder{enough, scale, most_iterations});
       order.put(take(right, partition_.unknowns[rank]));
       ranks_.send(rank, order.bytes());
@@ -156,8 +143,7 @@ GradientsReport Team::search_block(std::span<const double> right, std::span<doub
     tell_changes();
     const std::size_t width = width_ * block_width;
     for (int rank = 1; rank < ranks_.count(); ++rank) {
-      Parcel order;
-      order.put(Job::search_block);
+      Parcel order = order_for(Job::search_block);
       order.put(BlockOrder{sizes, enough, most_iterations});
       order.put(take(right, partition_.particles[rank], width));
       ranks_.send(rank, order.bytes());
@@ -176,39 +162,24 @@ GradientsReport Team::search_block(std::span<const double> right, std::span<doub
   });
 }
 
-void serve(Ranks& ranks) {
-  std::optional<PartSolver> solver;
-  try {
-    for (;;) {
-      Parcel order(ranks.receive(0));
-      switch (order.get<Job>()) {
-        case Job::end: return;
-        case Job::take_part:
-          solver.reset();
-          solver.emplace(ranks, BodyPart::unpack(Parcel(ranks.receive(0))));
-          break;
-        case Job::follow: solver->follow(BodyChanges::unpack(order)); break;
-        case Job::search:
-          search_along<SearchOrder>(ranks, order, [&](const SearchOrder& how, auto& b, auto& x) {
-            solver->search(b, x, how.enough, how.scale, how.most_iterations);
-          });
-          break;
-        case Job::search_block:
-          search_along<BlockOrder>(ranks, order, [&](const BlockOrder& how, auto& b, auto& x) {
-            solver->search_block(b, x, how.sizes, how.enough, how.most_iterations);
-          });
-          break;
-      }
-    }
-  } catch (const std::exception& error) {
-    ranks.abandon(error.what());
+void TeamMember::obey(Parcel& order) {
+  switch (order.get<Job>()) {
+    case Job::take_part:
+      solver_.reset();
+      solver_.emplace(ranks_, BodyPart::unpack(Parcel(ranks_.receive(0))));
+      break;
+    case Job::follow: solver_->follow(BodyChanges::unpack(order)); break;
+    case Job::search:
+      search_along<SearchOrder>(ranks_, order, [&](const SearchOrder& how, auto& b, auto& x) {
+        solver_->search(b, x, how.enough, how.scale, how.most_iterations);
+      });
+      break;
+    case Job::search_block:
+      search_along<BlockOrder>(ranks_, order, [&](const BlockOrder& how, auto& b, auto& x) {
+        solver_->search_block(b, x, how.sizes, how.enough, how.most_iterations);
+      });
+      break;
   }
-}
-
-void dismiss(Ranks& ranks) {
-  Parcel order;
-  order.put(Job::end);
-  for (int rank = 1; rank < ranks.count(); ++rank) ranks.send(rank, order.bytes());
 }
 
 }  // namespace perilink

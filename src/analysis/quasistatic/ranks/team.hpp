@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "analysis/quasistatic/ranks/part_solver.hpp"
@@ -12,8 +13,7 @@ inline bool can_be_shared(const Network& network, const Unknowns& unknowns) {
   return !network.has_states() && !network.cells && !network.shell && !unknowns.carries();
 }
 
-/// All ranks at work on one body, seen from the one that leads. The others are in serve(), and work
-/// for one team at a time.
+/// All ranks at work on one body, seen from the one that leads. The others obey, one team at a time.
 class Team {
  public:
   /// Cuts the body into parts and sends them.
@@ -48,11 +48,16 @@ class Team {
   std::unique_ptr<PartSolver> own_;
 };
 
-/// What the other ranks do until the first dismisses them. What goes wrong here ends all ranks with
-/// a message: the others would wait for ever.
-void serve(Ranks& ranks);
+/// What the other ranks do in a team.
+class TeamMember {
+ public:
+  explicit TeamMember(Ranks& ranks) : ranks_(ranks) {}
+  /// \param order  the team's, its Service read
+  void obey(Parcel& order);
 
-/// Lets the other ranks come back from serve().
-void dismiss(Ranks& ranks);
+ private:
+  Ranks& ranks_;
+  std::optional<PartSolver> solver_;
+};
 
 }  // namespace perilink

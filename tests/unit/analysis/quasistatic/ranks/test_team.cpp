@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/quasistatic/boxes/box_solver.hpp"
+#include "app/process/serve.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
 #include "support/analysis_bodies.hpp"
