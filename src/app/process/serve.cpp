@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "analysis/quasistatic/ranks/team.hpp"
 #include "base/memory.hpp"
 #include "base/parcel.hpp"

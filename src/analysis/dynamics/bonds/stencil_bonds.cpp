@@ -326,7 +326,7 @@ std::vector<double> StencilBonds<Dim>::secants() const {
     }
   };
   set(1.0, [](std::size_t) { return true; });
-  set(0.0, [&](std::size_t slot) { return !is_intact(slot); });  // of one half at least
+  set(0.0, [&](std::size_t slot) { return !is_intact(slot); });  // one half does
   return result;
 }
 

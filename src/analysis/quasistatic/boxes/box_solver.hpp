@@ -31,8 +31,8 @@ class BoxSolver {
  public:
   /// \param unknowns  nothing may carry particles; kept by reference, as network and secants: the
   ///                  product is that of the secants as they are
-  /// \param ground    springs that hold unknowns, size n, or empty: may be filled later; null: there are
-  ///                  none, and the secants do not change
+  /// \param ground    springs that hold unknowns, size n, or empty: may be filled later; null:
+  ///                  there are none, and secants do not change
   /// \throws NotPositiveDefinite where a part of the body can move without resistance
   BoxSolver(const Network& network, const Unknowns& unknowns, Secants secants,
             const BoxSolverOptions& options, const std::vector<double>* ground = nullptr);

@@ -13,7 +13,8 @@ inline bool can_be_shared(const Network& network, const Unknowns& unknowns) {
   return !network.has_states() && !network.cells && !network.shell && !unknowns.carries();
 }
 
-/// All ranks at work on one body, seen from the one that leads. The others obey, one team at a time.
+/// All ranks at work on one body, seen from the one that leads. The others obey, to one team at a
+/// time.
 class Team {
  public:
   /// Cuts the body into parts and sends them.

@@ -29,7 +29,7 @@ TEST(LatticeYielding, ReturnsInteriorParticlesToTheYieldSurface) {
     ExplicitState state(model);
     // Twice: the second time from a plastic strain in another direction.
     for (const double sign : {-1.0, 1.0}) {
-      strain_plane(model, state, sign * 4e-4, sign * -2e-3, 3e-4);
+      strain_body(model, state, sign * 4e-4, sign * -2e-3, 3e-4);
       change(model, changes, state);
       int interior = 0;
       for_each_particle(model.lattice, [&](Index row, Index slot) {
@@ -54,7 +54,7 @@ TEST(LatticeYielding, StoredEnergyThatIsLostIsPlastic) {
     const ExplicitModel model = block(problem);
     const LatticeChanges changes(model);
     ExplicitState state(model);
-    strain_plane(model, state, 4e-4, -2e-3, 3e-4);
+    strain_body(model, state, 4e-4, -2e-3, 3e-4);
     const double before = stored_energy(state);
     change(model, changes, state);
     const double plastic = total(state, &RowSums::plastic);
@@ -73,7 +73,7 @@ TEST(LatticeYielding, WorkOfTheForcesAgainstTheFlowIsTheEnergyLost) {
   const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 23.0), material);
   const LatticeChanges changes(model);
   ExplicitState state(model);
-  strain_plane(model, state, -1.5e-3, -2.5e-3, 1e-4);  // no tension: nothing cracks
+  strain_body(model, state, -1.5e-3, -2.5e-3, 1e-4);  // no tension: nothing cracks
   const double before = stored_energy(state);
   change(model, changes, state);
   for (const double damage : state.damage) EXPECT_EQ(damage, 0.0);
@@ -127,7 +127,7 @@ TEST(LatticeYielding, RulesOf2018StepAlongTheDeviatorOfTheBondForces) {
   ExplicitState state(model);
   const double yield = 22.98e6, e = 25e9, excess = 1.01;
   const double strain = -excess * yield / e;  // uniaxial stress along y
-  strain_plane(model, state, -0.2 * strain, strain, 0.0);
+  strain_body(model, state, -0.2 * strain, strain, 0.0);
   const LatticeYielding yielding(model, particles);
   for_each_particle(lattice, [&](Index row, Index slot) { yielding.flow(state, row, slot); });
   int deep = 0;  // whole neighbours: the bond forces are those of the uniform strain
@@ -156,7 +156,7 @@ TEST(LatticeYielding, RulesOf2018SoftenByAStepAndThoseOf2017Crush) {
     double lowest = 1e300;
     for (int step = 1; step <= 400; ++step) {
       const double strain = -0.004 * step / 400.0;
-      strain_plane(model, state, -0.2 * strain, strain, 0.0);
+      strain_body(model, state, -0.2 * strain, strain, 0.0);
       change(model, changes, state);
     }
     int crushed = 0;

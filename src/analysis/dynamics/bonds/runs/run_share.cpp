@@ -1,4 +1,4 @@
-#include "analysis/dynamics/bonds/ranks/run_share.hpp"
+#include "analysis/dynamics/bonds/runs/run_share.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "analysis/dynamics/bonds/ranks/bond_part.hpp"
+#include "analysis/dynamics/bonds/runs/bond_part.hpp"
 
 #include <algorithm>
 #include <cstdint>

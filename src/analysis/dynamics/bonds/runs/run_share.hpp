@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/dynamics/bonds/moving_bonds.hpp"
-#include "analysis/dynamics/bonds/ranks/bond_part.hpp"
+#include "analysis/dynamics/bonds/runs/bond_part.hpp"
 #include "solver/ranks.hpp"
 
 namespace perilink {
@@ -15,7 +15,7 @@ namespace perilink {
 /// takes the sums of all blocks, and what has broken, and tells the others whether to go on.
 class RunShare {
  public:
-  /// \param unknowns  of the particles that the rank numbers
+  /// \param unknowns  those of the particles that the rank numbers
   RunShare(Ranks& ranks, const Unknowns& unknowns, const ParticleBlocks& blocks, Index first_block,
            Index past_block, const Ghosts& ghosts);
 

@@ -1,4 +1,4 @@
-#include "analysis/dynamics/bonds/ranks/bond_part.hpp"
+#include "analysis/dynamics/bonds/runs/bond_part.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 
 #include <algorithm>
 #include <span>
 #include <utility>
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
-#include "analysis/dynamics/bonds/ranks/run_share.hpp"
+#include "analysis/dynamics/bonds/runs/run_share.hpp"
 #include "analysis/dynamics/time_loop.hpp"
 
 namespace perilink {

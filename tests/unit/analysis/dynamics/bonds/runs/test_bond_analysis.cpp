@@ -1,4 +1,4 @@
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -275,7 +275,7 @@ TEST_P(SharedBondRuns, RanksChangeNothing) {
   AnalysisBody body = make_block(block);
   const double stretch =
       *std::min_element(body.network.critical_stretch.begin(), body.network.critical_stretch.end());
-  body = scaled(body, block.driven ? 2.0 * stretch * block.columns : 40.0 * stretch);
+  body = scaled(body, block.driven ? 2.0 * stretch * block.columns : 600.0 * stretch);
   const Inertia inertia = lumped_inertia(body.network, std::vector{1.0}, MassScaling::none, strain);
   ExplicitOptions options;
   options.duration = 400.0 * inertia.critical_time_step();
@@ -319,8 +319,8 @@ INSTANTIATE_TEST_SUITE_P(
                              .toothed = true},
                    Strain::small},
         std::tuple{BlockCase{.lattice = square, .driven = true, .columns = 30}, Strain::green}),
-    [](const auto& info) {
-      return to_string(std::get<0>(info.param)) + std::to_string(info.index);
+    [](const auto& instance) {
+      return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
     });
 
 TEST(ExplicitBondAnalysis, StopsWhenAsked) {
