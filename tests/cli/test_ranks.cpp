@@ -204,18 +204,23 @@ class RankKills : public RankFolder, public testing::WithParamInterface<RankCase
 TEST_P(RankKills, EndAllTogether) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
   write_text(work() / "c.toml", GetParam().text);
-  const std::string words = "run c.toml --out killed_" + std::to_string(getpid());
-  // mpiexec has these words, too; the newest process is a rank.
+  const std::string out = "killed_" + std::to_string(getpid()), words = "run c.toml --out " + out;
+  // In mid-run. mpiexec has these words, too; the newest process is a rank.
+  const std::string lines = GetParam().name == "Elastic" ? "summary.json 2>/dev/null | wc -l) -ge 1"
+                                                         : "history.csv 2>/dev/null | wc -l) -ge 3";
+  const std::string has_begun = "[ $(cat " + out + "/" + lines + " ]";
   std::thread killer([&] {
-    const std::string command = "for k in $(seq 600); do [ $(pgrep -fc '" + words +
-                                "$') -ge 3 ] && break; sleep 0.05; done; pkill -9 -n -f '" + words +
-                                "$'";
+    const std::string command = "cd '" + work().string() +
+                                "'; for k in $(seq 600); do [ $(pgrep -fc '" + words +
+                                "$') -ge 3 ] && " + has_begun +
+                                " && break; sleep 0.05; done; pkill -9 -n -f '" + words + "$'";
     EXPECT_EQ(std::system(command.c_str()), 0) << "no process was killed";
   });
   const ProcessEnd end = run_ranks(2, words);
   killer.join();
   EXPECT_NE(end.exit_status, 0);
   EXPECT_THAT(end.err, HasSubstr("signal 9"));
+  EXPECT_EQ(summary(out).at("status"), "running");
 }
 
 /// The first rank holds the whole body: where it has no room for a search the others do not wait.
@@ -257,11 +262,13 @@ TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
 // Each has some seconds of work.
 INSTANTIATE_TEST_SUITE_P(
     Kinds, RankKills,
-    testing::Values(
-        RankCase{"Elastic", replaced(bar_case(true, ""), "spacing = 1", "spacing = 0.3")},
-        RankCase{"Damage",
-                 replaced(breaking_case(true, "", "", ""), "spacing = 1", "spacing = 0.5")},
-        RankCase{"Explicit", replaced(explicit_case("", ""), "duration = 0.02", "duration = 5")}),
+    testing::Values(RankCase{"Elastic",
+                             replaced(bar_case(true, ""), "spacing = 1", "spacing = 0.3")},
+                    RankCase{"Damage", replaced(breaking_case(true, "", "", ""), "spacing = 1",
+                                                "spacing = 0.5")},
+                    RankCase{"Explicit", replaced(replaced(explicit_case("", ""), "duration = 0.02",
+                                                           "duration = 5"),
+                                                  "rows = 30", "rows = 30000")}),
     [](const auto& instance) { return instance.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(Bodies, ExplicitRankRuns,
