@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/quasistatic/ranks/team.hpp"
 #include "app/process/ranks.hpp"
+#include "app/process/serve.hpp"
 #include "app/program.hpp"
 #include "solver/ranks/petsc_ranks.hpp"
 

@@ -97,6 +97,17 @@ class BondLaw {
   /// Whether shear and bending stay as they are until the bond breaks.
   bool keeps_shear() const { return keeps_shear_; }
 
+  /// Visits all that a law is made of, in one order, as for another process.
+  template <class Law, class Visit>
+  static void for_each_member(Law& law, Visit visit) {
+    visit(law.sense_);
+    visit(law.teeth_);
+    visit(law.ratio_);
+    visit(law.closes_);
+    visit(law.crushing_);
+    visit(law.keeps_shear_);
+  }
+
  private:
   BondLaw(Sense sense, std::vector<Tooth> teeth, double ratio)
       : sense_(sense), teeth_(std::move(teeth)), ratio_(ratio) {}

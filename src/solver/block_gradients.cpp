@@ -45,7 +45,7 @@ LanesInMemory<Number>& at(Number* numbers) {
 
 /// a'b; parts of the sum have the digits of the numbers, the sum of the parts has more.
 template <class Number>
-Square gram(std::span<const Number> a, std::span<const Number> b) {
+Square gram(std::span<const Number> a, std::span<const Number> b, const SumOverParts& sum_up) {
   constexpr std::size_t part = 256 * width;
   Square sum{};
   for (std::size_t begin = 0; begin < a.size(); begin += part) {
@@ -59,6 +59,7 @@ Square gram(std::span<const Number> a, std::span<const Number> b) {
       for (int d = 0; d < width; ++d) sum[c][d] += static_cast<double>(rows[c][d]);
     }
   }
+  if (sum_up) sum_up({sum[0].data(), sizeof(sum) / sizeof(double)});
   return sum;
 }
 
@@ -170,7 +171,8 @@ template <class Number>
 GradientsReport block_conjugate_gradients(
     const BlockMap<Number>& product, const BlockMap<Number>& precondition, std::span<Number> right,
     std::span<Number> solution, const BlockRow& sizes, double enough, int most_iterations,
-    const std::function<void(std::span<const Number> solution, std::span<Number> right)>& correct) {
+    const std::function<void(std::span<const Number> solution, std::span<Number> right)>& correct,
+    const SumOverParts& sum) {
   constexpr double epsilon = std::numeric_limits<Number>::epsilon();
   constexpr double same = std::max(10.0 * epsilon, 1e-12);
   constexpr double digits_between = 1e-5;
@@ -182,12 +184,12 @@ GradientsReport block_conjugate_gradients(
   std::array<EnergyGains, width> gains;
   precondition(right, z);
   std::ranges::copy(z, p.begin());
-  Square sides = gram<Number>(p, right);
+  Square sides = gram<Number>(p, right, sum);
   double corrected_at = left_by(sides, sizes);
   GradientsReport report;
   while (report.iterations < most_iterations) {
     product(p, q);
-    const Square inverse = inverse_of(gram<Number>(p, q), sides, same);
+    const Square inverse = inverse_of(gram<Number>(p, q, sum), sides, same);
     const Square steps = times(inverse, sides);
     const BlockRow gained = gains_of(sides, steps);
     for (int c = 0; c < width; ++c) gains[c].add(std::max(gained[c], 0.0));
@@ -199,7 +201,7 @@ GradientsReport block_conjugate_gradients(
     report.converged = report.error <= enough && is_exact;
     if (report.converged) break;
     precondition(right, z);
-    const double left = left_by(gram<Number>(right, z), sizes);
+    const double left = left_by(gram<Number>(right, z, sum), sizes);
     report.converged = left <= gone * enough && is_exact;
     if (report.converged) report.error = left;
     if (report.converged) break;
@@ -209,9 +211,9 @@ GradientsReport block_conjugate_gradients(
       precondition(right, z);
       corrected_at = left;
     }
-    add_shares<Number>(z, -one, p, times(inverse, gram<Number>(q, z)));
+    add_shares<Number>(z, -one, p, times(inverse, gram<Number>(q, z, sum)));
     p.swap(z);
-    sides = gram<Number>(p, right);
+    sides = gram<Number>(p, right, sum);
   }
   return report;
 }
@@ -219,11 +221,11 @@ GradientsReport block_conjugate_gradients(
 template GradientsReport block_conjugate_gradients<double>(
     const BlockMap<double>&, const BlockMap<double>&, std::span<double>, std::span<double>,
     const BlockRow&, double, int,
-    const std::function<void(std::span<const double>, std::span<double>)>&);
+    const std::function<void(std::span<const double>, std::span<double>)>&, const SumOverParts&);
 template GradientsReport block_conjugate_gradients<float>(
     const BlockMap<float>&, const BlockMap<float>&, std::span<float>, std::span<float>,
     const BlockRow&, double, int,
-    const std::function<void(std::span<const float>, std::span<float>)>&);
+    const std::function<void(std::span<const float>, std::span<float>)>&, const SumOverParts&);
 
 void recombine(std::vector<std::vector<double>>& blocks, std::span<const double> shares) {
   const std::size_t old = blocks.size() * block_width, fewer = shares.size() / old;

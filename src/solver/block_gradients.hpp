@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,9 @@ using BlockRow = std::array<double, block_width>;
 template <class Number>
 using BlockMap = std::function<void(std::span<const Number> vectors, std::span<Number> results)>;
 
+/// Adds up numbers that several processes have their parts of.
+using SumOverParts = std::function<void(std::span<double> parts)>;
+
 /// Block conjugate gradients (O'Leary 1980, The block conjugate gradient algorithm and related
 /// methods): every right side is looked for among the directions of all of them, so that there are
 /// fewer steps than for each by itself, and the product is applied to all at once. Directions that
@@ -28,6 +32,7 @@ using BlockMap = std::function<void(std::span<const Number> vectors, std::span<N
 /// \param correct   where numbers have few digits: takes the solution away, to where there are
 ///                  more, and leaves the right side that is missing. It is called whenever errors
 ///                  have fallen by some digits; empty: never
+/// \param sum       where vectors here are parts of whole ones; empty: they are whole
 /// \return iterations, and the largest error of all, as it counts
 /// \throws NotPositiveDefinite where A is not
 template <class Number>
@@ -35,7 +40,8 @@ GradientsReport block_conjugate_gradients(
     const BlockMap<Number>& product, const BlockMap<Number>& precondition, std::span<Number> right,
     std::span<Number> solution, const BlockRow& sizes, double enough, int most_iterations,
     const std::function<void(std::span<const Number> solution, std::span<Number> right)>& correct =
-        {});
+        {},
+    const SumOverParts& sum = {});
 
 /// blocks <- blocks shares: columns, block_width of them in each block of shape (n, block_width),
 /// go over to combinations of them, which may be fewer.

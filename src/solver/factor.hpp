@@ -22,6 +22,7 @@ struct FactorStatistics {
   double flops = 0.0;        ///< for one factorisation
   double event_bytes = 0.0;  ///< part of L that the last downdate read (in place only)
   int factorizations = 0;    ///< so far
+  int ranks = 1;             ///< processes that share the work
 };
 
 /// Cholesky factor of a symmetric positive definite matrix K that follows changes of low rank, and

@@ -1,27 +1,35 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/types.hpp"
 #include "solver/conjugate_gradients.hpp"
 
 namespace perilink {
 
+/// What the first rank asks the others for, the first word of every order.
+enum class Service : int { end, solve, move_bonds };
+
 /// Particles that other ranks own and this one needs to know the motion of.
 struct Ghosts {
-  std::vector<int> owners;     ///< rank that owns each
-  std::vector<Index> numbers;  ///< its number among the particles that this rank owns
+  std::vector<Index> places;   ///< number of each among the particles that this rank knows
+  std::vector<int> owners;     ///< rank that owns it
+  std::vector<Index> numbers;  ///< its number among the particles that this rank knows
 };
 
 /// Brings the motion of ghosts up to date.
 class GhostLayer {
  public:
   virtual ~GhostLayer() = default;
-  /// Collective. \param motion  shape (owned particles + ghosts, width): ghosts are overwritten
+  /// Collective. \param motion  of the particles that the rank knows, shape (particles, width):
+  ///                            those of ghosts are overwritten
   virtual void update(std::span<double> motion) = 0;
 };
 
@@ -40,8 +48,9 @@ class Ranks {
   virtual void send(int to, std::span<const std::byte> message) = 0;
   virtual std::vector<std::byte> receive(int from) = 0;
 
-  /// Collective. \param width  components of the motion of a particle
-  virtual std::unique_ptr<GhostLayer> make_ghost_layer(Index owned, const Ghosts& ghosts,
+  /// Collective. \param particles  that this rank knows, its own and ghosts
+  /// \param width  components of the motion of a particle
+  virtual std::unique_ptr<GhostLayer> make_ghost_layer(Index particles, const Ghosts& ghosts,
                                                        int width) = 0;
 
   /// Collective: perilink::conjugate_gradients() of a system whose unknowns the ranks share out;
@@ -55,5 +64,19 @@ class Ranks {
   /// Ends all ranks at once: others may be waiting for this one.
   [[noreturn]] virtual void abandon(const std::string& reason) = 0;
 };
+
+/// What the first rank does for all: what goes wrong in it alone ends all ranks, which else would
+/// wait for it for ever. The solver's errors are those of all ranks.
+template <class Act>
+auto lead(Ranks& ranks, Act act) {
+  try {
+    return act();
+  } catch (const SolverError&) {
+    throw;
+  } catch (const std::exception& error) {
+    ranks.abandon(failure_text(error));
+    throw;  // not reached, which GCC does not see
+  }
+}
 
 }  // namespace perilink

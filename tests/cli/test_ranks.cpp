@@ -13,6 +13,7 @@
 
 #include "support/process.hpp"
 #include "support/program_cases.hpp"
+#include "support/replaced.hpp"
 
 namespace perilink::test {
 namespace {
@@ -70,6 +71,36 @@ solver = "iterative"
                      in_space ? R"("x", "y", "z")" : R"("x", "y")", in_space ? "3, 1, 0" : "3, 1");
 }
 
+/// The bar with a notch from below that runs half through it, in which bonds fail.
+std::string breaking_case(bool in_space, const std::string& body, const std::string& law,
+                          const std::string& analysis) {
+  std::string text = replaced(bar_case(in_space, body), "\"infinite\"", "0.01\n" + law);
+  text = replaced(text, "\"elastic\"", "\"damage\"");
+  const std::string notch =
+      in_space ? "corners = [[9.5, -1, -1], [9.5, 2.4, -1], [9.5, 2.4, 6], [9.5, -1, 6]]"
+               : "points = [[9.5, -1], [9.5, 2.4]]";
+  return text + analysis + "\n[[cracks]]\n" + notch + "\n";
+}
+
+/// The bar with its notch moved through time, so fine that there are blocks for four ranks.
+std::string explicit_case(const std::string& body, const std::string& law) {
+  std::string text =
+      breaking_case(false, body, law, "duration = 0.02\nramp_time = 0.01\nrows = 30\n");
+  text = replaced(text, "\"damage\"\nsolver = \"iterative\"", "\"explicit\"");
+  text = replaced(text, "spacing = 1", "spacing = 0.25");
+  text = replaced(text, "[3, 1]", "[20, 1]");
+  return replaced(text, "fracture_energy", "density = 1e-3\nfracture_energy");
+}
+
+/// Driven in place of loaded.
+std::string driven(const std::string& text) {
+  const std::size_t begin = text.find("[[tractions]]"), end = text.find("[analysis]");
+  return text.substr(0, begin) + "[[displacements]]\nregion = \"right\"\nx = 1\n\n" +
+         text.substr(end);
+}
+
+const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
+
 struct RankCase {
   std::string name, text;
 };
@@ -102,12 +133,15 @@ class RankFolder : public testing::Test {
 
 class RankRuns : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
-/// Numbers of the only row.
-std::vector<double> row_of(const std::string& history) {
-  std::istringstream line(history.substr(history.find('\n') + 1));
+/// Numbers of all rows.
+std::vector<double> numbers_of(const std::string& history) {
+  std::istringstream rows(history.substr(history.find('\n') + 1));
   std::vector<double> values;
-  std::string value;
-  while (std::getline(line, value, ',')) values.push_back(std::atof(value.c_str()));
+  std::string row, value;
+  while (std::getline(rows, row)) {
+    std::istringstream line(row);
+    while (std::getline(line, value, ',')) values.push_back(std::atof(value.c_str()));
+  }
   return values;
 }
 
@@ -116,7 +150,7 @@ TEST_P(RankRuns, FindTheSameAnswer) {
   write_text(work() / "c.toml", GetParam().text);
   const ProcessEnd alone = run_program(work(), {"run", "c.toml", "--out", "r1"});
   ASSERT_EQ(alone.exit_status, 0) << alone.err;
-  const std::vector<double> expected = row_of(history("r1"));
+  const std::vector<double> expected = numbers_of(history("r1"));
   ASSERT_GT(expected.size(), 5u);
   for (const int count : {2, 4}) {
     const std::string directory = "r" + std::to_string(count);
@@ -124,11 +158,33 @@ TEST_P(RankRuns, FindTheSameAnswer) {
     ASSERT_EQ(end.exit_status, 0) << end.err;
     EXPECT_THAT(end.out, HasSubstr("by " + std::to_string(count) + " ranks"));
     EXPECT_EQ(summary(directory).at("ranks"), count);
-    const std::vector<double> found = row_of(history(directory));
+    const std::vector<double> found = numbers_of(history(directory));
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
       if (std::abs(expected[k]) < 1e-8) continue;  // residuals
-      EXPECT_NEAR(found[k], expected[k], 1e-9 * std::abs(expected[k])) << "column " << k;
+      EXPECT_NEAR(found[k], expected[k], 1e-9 * std::abs(expected[k])) << "number " << k;
+    }
+  }
+}
+
+class ExplicitRankRuns : public RankFolder, public testing::WithParamInterface<RankCase> {};
+
+/// Blocks of particles are summed over in one order by any number of ranks.
+TEST_P(ExplicitRankRuns, WriteTheSameBytes) {
+  if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
+  write_text(work() / "c.toml", GetParam().text);
+  ASSERT_EQ(run_program(work(), {"run", "c.toml", "--out", "r1"}).exit_status, 0);
+  EXPECT_GT(summary("r1").at("broken_bonds"), 20);
+  for (const int count : {2, 4}) {
+    const std::string directory = "r" + std::to_string(count);
+    const ProcessEnd end = run_ranks(count, "run c.toml --out " + directory);
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+    EXPECT_EQ(summary(directory).at("ranks"), count);
+    EXPECT_EQ(summary(directory).at("peak_load"), summary("r1").at("peak_load"));
+    EXPECT_EQ(history(directory), history("r1"));
+    for (const auto& file : fs::directory_iterator(work() / "r1")) {
+      if (file.path().extension() != ".vtu") continue;
+      EXPECT_EQ(read_text(work() / directory / file.path().filename()), read_text(file.path()));
     }
   }
 }
@@ -143,23 +199,28 @@ TEST_F(RankFolder, SayWhatIsWrongOnce) {
       << end.err;
 }
 
-TEST_F(RankFolder, EndTogetherWhereOneIsKilled) {
+class RankKills : public RankFolder, public testing::WithParamInterface<RankCase> {};
+
+TEST_P(RankKills, EndAllTogether) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
-  std::string text = bar_case(true, "");
-  text.replace(text.find("spacing = 1"), 11, "spacing = 0.3");  // some seconds of work
-  write_text(work() / "c.toml", text);
-  const std::string words = "run c.toml --out killed_" + std::to_string(getpid());
-  // mpiexec has these words, too; the newest process is a rank.
+  write_text(work() / "c.toml", GetParam().text);
+  const std::string out = "killed_" + std::to_string(getpid()), words = "run c.toml --out " + out;
+  // In mid-run. mpiexec has these words, too; the newest process is a rank.
+  const std::string lines = GetParam().name == "Elastic" ? "summary.json 2>/dev/null | wc -l) -ge 1"
+                                                         : "history.csv 2>/dev/null | wc -l) -ge 3";
+  const std::string has_begun = "[ $(cat " + out + "/" + lines + " ]";
   std::thread killer([&] {
-    const std::string command = "for k in $(seq 600); do [ $(pgrep -fc '" + words +
-                                "$') -ge 3 ] && break; sleep 0.05; done; pkill -9 -n -f '" + words +
-                                "$'";
+    const std::string command = "cd '" + work().string() +
+                                "'; for k in $(seq 600); do [ $(pgrep -fc '" + words +
+                                "$') -ge 3 ] && " + has_begun +
+                                " && break; sleep 0.05; done; pkill -9 -n -f '" + words + "$'";
     EXPECT_EQ(std::system(command.c_str()), 0) << "no process was killed";
   });
   const ProcessEnd end = run_ranks(2, words);
   killer.join();
   EXPECT_NE(end.exit_status, 0);
   EXPECT_THAT(end.err, HasSubstr("signal 9"));
+  EXPECT_EQ(summary(out).at("status"), "running");
 }
 
 /// The first rank holds the whole body: where it has no room for a search the others do not wait.
@@ -198,11 +259,38 @@ TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
   EXPECT_THAT(read_text(work() / "err"), HasSubstr("this build knows no MPI"));
 }
 
+// Each has some seconds of work.
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, RankKills,
+    testing::Values(RankCase{"Elastic",
+                             replaced(bar_case(true, ""), "spacing = 1", "spacing = 0.3")},
+                    RankCase{"Damage", replaced(breaking_case(true, "", "", ""), "spacing = 1",
+                                                "spacing = 0.5")},
+                    RankCase{"Explicit", replaced(replaced(explicit_case("", ""), "duration = 0.02",
+                                                           "duration = 5"),
+                                                  "rows = 30", "rows = 30000")}),
+    [](const auto& instance) { return instance.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(Bodies, ExplicitRankRuns,
+                         testing::Values(RankCase{"Brittle", explicit_case("", "")},
+                                         RankCase{"Softening", explicit_case("", softening)},
+                                         RankCase{"Micropolar",
+                                                  explicit_case("model = \"micropolar\"\n", "")}),
+                         [](const auto& instance) { return instance.param.name; });
+
 INSTANTIATE_TEST_SUITE_P(
     Bodies, RankRuns,
-    testing::Values(RankCase{"Plane", bar_case(false, "")}, RankCase{"Space", bar_case(true, "")},
-                    RankCase{"MicropolarPlane", bar_case(false, "model = \"micropolar\"\n")},
-                    RankCase{"MicropolarSpace", bar_case(true, "model = \"micropolar\"\n")}),
+    testing::Values(
+        RankCase{"Plane", bar_case(false, "")}, RankCase{"Space", bar_case(true, "")},
+        RankCase{"MicropolarPlane", bar_case(false, "model = \"micropolar\"\n")},
+        RankCase{"MicropolarSpace", bar_case(true, "model = \"micropolar\"\n")},
+        RankCase{"Breaking", breaking_case(true, "", "", "[stop]\nbroken_bonds = 60\n")},
+        RankCase{"BreakingInTwo", driven(breaking_case(false, "", "", ""))},
+        RankCase{"BreakingBySteps",
+                 breaking_case(false, "", "", "control = \"steps\"\nload_factors = [1, 2, 3]\n")},
+        RankCase{"Softening", breaking_case(false, "", softening, "[stop]\nbroken_bonds = 5\n")},
+        RankCase{"MicropolarBreaking", breaking_case(false, "model = \"micropolar\"\n", "",
+                                                     "[stop]\nbroken_bonds = 20\n")}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

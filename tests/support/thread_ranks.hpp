@@ -61,9 +61,8 @@ class ThreadRanks final : public Ranks {
     return message;
   }
 
-  std::unique_ptr<GhostLayer> make_ghost_layer(Index owned, const Ghosts& ghosts,
-                                               int width) override {
-    return std::make_unique<Layer>(*this, owned, ghosts, width);
+  std::unique_ptr<GhostLayer> make_ghost_layer(Index, const Ghosts& ghosts, int width) override {
+    return std::make_unique<Layer>(*this, ghosts, width);
   }
 
   GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
@@ -85,8 +84,8 @@ class ThreadRanks final : public Ranks {
  private:
   class Layer final : public GhostLayer {
    public:
-    Layer(ThreadRanks& ranks, Index owned, Ghosts ghosts, int width)
-        : ranks_(ranks), owned_(owned), ghosts_(std::move(ghosts)), width_(width) {}
+    Layer(ThreadRanks& ranks, Ghosts ghosts, int width)
+        : ranks_(ranks), ghosts_(std::move(ghosts)), width_(width) {}
     void update(std::span<double> motion) override {
       World& world = ranks_.world_;
       world.motions[ranks_.own_] = motion;
@@ -94,14 +93,14 @@ class ThreadRanks final : public Ranks {
       for (std::size_t g = 0; g < ghosts_.owners.size(); ++g) {
         const double* from = world.motions[ghosts_.owners[g]].data() +
                              static_cast<std::size_t>(ghosts_.numbers[g]) * width_;
-        std::copy_n(from, width_, motion.data() + (owned_ + g) * width_);
+        std::copy_n(from, width_,
+                    motion.data() + static_cast<std::size_t>(ghosts_.places[g]) * width_);
       }
       world.meeting.arrive_and_wait();
     }
 
    private:
     ThreadRanks& ranks_;
-    Index owned_;
     Ghosts ghosts_;
     int width_;
   };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "analysis/dynamics/lattice/lattice_analysis.hpp"
 #include "base/timer.hpp"
 #include "discretization/lattices/lattice.hpp"

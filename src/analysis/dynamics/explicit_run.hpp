@@ -7,6 +7,8 @@
 
 namespace perilink {
 
+class Ranks;
+
 /// \file
 /// How explicit runs are asked for and what they tell, whatever they move.
 
@@ -25,6 +27,7 @@ struct ExplicitOptions {
   double reference = 1.0;
   bool driven = true;
   int threads = 1;
+  Ranks* ranks = nullptr;       ///< that share the work of bonds, each by one thread; null: none do
   bool refuse_unstable = true;  ///< false: a step beyond the critical one runs until it is noticed
 
   /// Where the time step is given.
@@ -86,6 +89,7 @@ struct ExplicitResult {
   double peak_load = 0.0;           ///< largest support reaction in magnitude [force]
   double peak_displacement = 0.0;  ///< displacement of the driven particles at that moment [length]
   double largest_surplus = 0.0;    ///< over the external work at the end [-]
+  int ranks = 1;                   ///< that shared the work
   ExplicitRecord last;
 };
 

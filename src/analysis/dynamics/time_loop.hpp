@@ -21,6 +21,11 @@ class ExplicitLoop {
 
   double time_step() const { return result_.time_step; }
   double load_factor(Index step) const;
+  bool is_done() const { return done_; }
+  /// Ends the run where another process has looked at it.
+  void leave() { done_ = true; }
+  /// So far; what run() returns has that of the steps it knew of.
+  const ExplicitResult& result() const { return result_; }
   /// Whether look() has to be called at a step.
   bool is_looked_at(Index step) const { return is_row(step) || step % steps_between_checks == 0; }
 

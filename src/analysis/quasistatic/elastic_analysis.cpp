@@ -157,7 +157,7 @@ auto by_boxes(const LoadedNetwork& problem, Secants secants, const BoxSolverOpti
     result.factor = solver->coarse();
     result.factor.factorizations = 0;  // none of the stiffness
     result.boxes = solver->num_boxes();
-    result.ranks = solver->num_ranks();
+    result.factor.ranks = solver->num_ranks();
     return [solver, &result](std::span<const double> right, std::span<double> solution) {
       solver->solve(right, solution);
       result.iterations = solver->iterations();

@@ -38,7 +38,6 @@ struct ElasticResult {
   FactorStatistics factor;           ///< the stiffness has, or that of boxes
   Index boxes = 0;                   ///< that conjugate gradients have taken; 0: a factor
   int iterations = 0;                ///< conjugate gradients
-  int ranks = 1;                     ///< that shared the work
   double error = 0.0;                ///< they leave, over the solution, in the norm of energy
   ElasticSeconds seconds;
 };

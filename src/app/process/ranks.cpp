@@ -40,6 +40,6 @@ void become_rank(char** words) {
 }
 
 Ranks* ranks() { return shared; }
-void set_ranks(Ranks* ranks) { shared = ranks; }
+void set_ranks(Ranks* ranks) { shared = ranks->count() > 1 ? ranks : nullptr; }
 
 }  // namespace perilink

@@ -11,7 +11,7 @@ bool is_one_of_many();
 /// where there is none; the first process says so.
 void become_rank(char** words);
 
-/// The processes that share the work of this one, null where it is alone.
+/// The processes that share the work of this one, two at least; null where it is alone.
 Ranks* ranks();
 void set_ranks(Ranks* ranks);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/csr.hpp"
 

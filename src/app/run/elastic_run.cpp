@@ -79,7 +79,6 @@ class ElasticRun final : public NetworkRun {
     summary.add("iterations", solution.iterations);
     summary.add("boxes", solution.boxes);
     summary.add("solution_error", solution.error);
-    if (solution.ranks > 1) summary.add("ranks", solution.ranks);
   }
 
  private:

@@ -64,11 +64,20 @@ std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Sec
   return places;
 }
 
+namespace {
+
+std::string text_of_ranks(const FactorStatistics& factor) {
+  return factor.ranks > 1 ? fmt::format(" by {} ranks", factor.ranks) : "";
+}
+
+}  // namespace
+
 Equilibria::Equilibria(const DamageResult& result)
     : last(result.last),
       peaks(result.peaks),
       factor(result.factor),
-      solver(fmt::format("{} factorisations", result.factor.factorizations)),
+      solver(fmt::format("{} factorisations{}", result.factor.factorizations,
+                         text_of_ranks(result.factor))),
       initial_stiffness(result.initial_stiffness),
       largest_residual(result.largest_residual),
       broken_bonds(result.broken_bonds),
@@ -81,8 +90,7 @@ std::string solver_text(const ElasticResult& solution) {
   if (solution.displacement.empty()) return "no equilibrium found";
   if (solution.boxes == 0) return "1 factorisation";
   return fmt::format("{} iterations of conjugate gradients with {} boxes{}, error {:.1e}",
-                     solution.iterations, solution.boxes,
-                     solution.ranks > 1 ? fmt::format(" by {} ranks", solution.ranks) : "",
+                     solution.iterations, solution.boxes, text_of_ranks(solution.factor),
                      solution.error);
 }
 
@@ -167,6 +175,7 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   summary.add("notes", summary.notes);
   summary.add("factorizations", found.factor.factorizations);
   summary.add("factor_bytes", found.factor.bytes);
+  if (found.factor.ranks > 1) summary.add("ranks", found.factor.ranks);
   summary.line("solver", "{}, largest residual {:.1e}", found.solver, found.largest_residual);
   summary.outcome = fmt::format("{} broken bonds, {}, largest residual {:.2e}", found.broken_bonds,
                                 found.solver, found.largest_residual);

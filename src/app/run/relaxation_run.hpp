@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/dynamics/bonds/dynamic_relaxation.hpp"
+#include "analysis/dynamics/bonds/runs/dynamic_relaxation.hpp"
 #include "app/model/from_case/configure.hpp"
 
 namespace perilink {

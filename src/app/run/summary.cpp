@@ -47,8 +47,10 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
   summary.add("rows", files.rows());
   summary.add("time_step", result.time_step);
   summary.add("critical_time_step", result.critical_time_step);
-  summary.line("steps", "{} of {:.4g} (critical {:.4g}), {} rows", result.steps, result.time_step,
-               result.critical_time_step, files.rows());
+  if (result.ranks > 1) summary.add("ranks", result.ranks);
+  summary.line("steps", "{} of {:.4g} (critical {:.4g}), {} rows{}", result.steps, result.time_step,
+               result.critical_time_step, files.rows(),
+               result.ranks > 1 ? fmt::format(" by {} ranks", result.ranks) : "");
   if (extras.fundamental_period > 0.0) {
     summary.add("fundamental_period", extras.fundamental_period);
   }

@@ -21,16 +21,17 @@ constexpr std::size_t largest_message = 1 << 30;
 
 class PetscGhostLayer final : public GhostLayer {
  public:
-  PetscGhostLayer(Index owned, const Ghosts& ghosts, int width) : owned_(owned), width_(width) {
+  PetscGhostLayer(Index particles, const Ghosts& ghosts, int width) {
     const PetscInt count = static_cast<PetscInt>(ghosts.owners.size());
+    std::vector<PetscInt> places(ghosts.places.begin(), ghosts.places.end());
     std::vector<PetscSFNode> owners(ghosts.owners.size());
     for (std::size_t g = 0; g < owners.size(); ++g) {
       owners[g] = {ghosts.owners[g], ghosts.numbers[g]};
     }
     PetscCallAbort(PETSC_COMM_WORLD, PetscSFCreate(PETSC_COMM_WORLD, &forest_));
     PetscCallAbort(PETSC_COMM_WORLD,
-                   PetscSFSetGraph(forest_, owned, count, nullptr, PETSC_COPY_VALUES, owners.data(),
-                                   PETSC_COPY_VALUES));
+                   PetscSFSetGraph(forest_, particles, count, places.data(), PETSC_COPY_VALUES,
+                                   owners.data(), PETSC_COPY_VALUES));
     PetscCallAbort(PETSC_COMM_WORLD, PetscSFSetUp(forest_));
     MPI_Type_contiguous(width, MPI_DOUBLE, &particle_);
     MPI_Type_commit(&particle_);
@@ -43,16 +44,12 @@ class PetscGhostLayer final : public GhostLayer {
   PetscGhostLayer& operator=(const PetscGhostLayer&) = delete;
 
   void update(std::span<double> motion) override {
-    double* const ghosts = motion.data() + static_cast<std::size_t>(owned_) * width_;
-    PetscCallAbort(PETSC_COMM_WORLD,
-                   PetscSFBcastBegin(forest_, particle_, motion.data(), ghosts, MPI_REPLACE));
-    PetscCallAbort(PETSC_COMM_WORLD,
-                   PetscSFBcastEnd(forest_, particle_, motion.data(), ghosts, MPI_REPLACE));
+    double* const all = motion.data();
+    PetscCallAbort(PETSC_COMM_WORLD, PetscSFBcastBegin(forest_, particle_, all, all, MPI_REPLACE));
+    PetscCallAbort(PETSC_COMM_WORLD, PetscSFBcastEnd(forest_, particle_, all, all, MPI_REPLACE));
   }
 
  private:
-  Index owned_;
-  int width_;
   PetscSF forest_ = nullptr;
   MPI_Datatype particle_ = MPI_DATATYPE_NULL;
 };
@@ -60,6 +57,8 @@ class PetscGhostLayer final : public GhostLayer {
 class PetscRanks final : public Ranks {
  public:
   PetscRanks() {
+    // Ranks that wait for each other leave the processors to others; the user's word goes first.
+    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     char name[] = "perilink", own_options_alone[] = "-skip_petscrc";
     char* words[] = {name, own_options_alone, nullptr};
     char** argv = words;
@@ -108,9 +107,9 @@ class PetscRanks final : public Ranks {
     return message;
   }
 
-  std::unique_ptr<GhostLayer> make_ghost_layer(Index owned, const Ghosts& ghosts,
+  std::unique_ptr<GhostLayer> make_ghost_layer(Index particles, const Ghosts& ghosts,
                                                int width) override {
-    return std::make_unique<PetscGhostLayer>(owned, ghosts, width);
+    return std::make_unique<PetscGhostLayer>(particles, ghosts, width);
   }
 
   GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/dynamics/bonds/dynamic_relaxation.hpp"
+#include "analysis/dynamics/bonds/runs/dynamic_relaxation.hpp"
 #include "specimens.hpp"
 
 namespace perilink::verification {

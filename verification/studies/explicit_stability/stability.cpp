@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "app/model/from_case/lattice_case.hpp"
 #include "app/run/bond_run.hpp"
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "analysis/dynamics/fundamental_period.hpp"
 #include "analysis/dynamics/inertia.hpp"
 #include "analysis/quasistatic/elastic_analysis.hpp"

@@ -211,8 +211,11 @@ double Halves<Half>::stored(Index begin, Index end, double time_step,
 
 template <class Half>
 std::vector<double> Halves<Half>::secants() const {
-  std::vector<double> result(static_cast<std::size_t>(network_.num_elements()));
-  for (std::size_t half = 0; half < halves_.size(); ++half) result[element_[half]] = secant_[half];
+  std::vector<double> result(static_cast<std::size_t>(network_.num_elements()), 1.0);
+  for (std::size_t half = 0; half < halves_.size(); ++half) {
+    double& secant = result[element_[half]];
+    secant = std::min(secant, secant_[half]);  // only one of its halves may be moved
+  }
   return result;
 }
 
@@ -246,15 +249,20 @@ std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network, Stra
 }
 
 std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain) {
-  if (network.has_states() || network.carries_moments() || strain == Strain::green) {
-    return make_explicit_halves(network, strain);
-  }
-  BondStencil stencil = find_stencil(network);
+  return make_explicit_bonds(network, strain, stencil_for(network, strain));
+}
+
+BondStencil stencil_for(const Network& network, Strain strain) {
+  if (network.has_states() || network.carries_moments() || strain == Strain::green) return {};
+  return find_stencil(network);
+}
+
+std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain,
+                                                   BondStencil stencil) {
+  if (stencil.kinds.empty()) return make_explicit_halves(network, strain);
   std::unique_ptr<ExplicitBonds> rest;
   if (!stencil.rest.empty()) rest = make_halves<TrussHalf>(network, stencil.rest);
-  if (!stencil.kinds.empty()) {
-    rest = make_stencil_bonds(network, std::move(stencil), std::move(rest));
-  }
+  rest = make_stencil_bonds(network, std::move(stencil), std::move(rest));
   return with_anchored_ties(network, std::move(rest));
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "analysis/dynamics/bonds/bond_stencil.hpp"
 #include "analysis/dynamics/bonds/explicit_bonds.hpp"
 #include "material/strain.hpp"
 #include "network/network.hpp"
@@ -15,6 +16,13 @@ namespace perilink {
 /// with states (make_explicit_particles)
 std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network,
                                                    Strain strain = Strain::small);
+
+/// The stencil of these; without kinds where all bonds are held one by one.
+BondStencil stencil_for(const Network& network, Strain strain);
+
+/// make_explicit_bonds() where the stencil is known.
+std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain,
+                                                   BondStencil stencil);
 
 /// The same with every half of a bond by itself, whatever the body.
 std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network,

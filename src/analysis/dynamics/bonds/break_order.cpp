@@ -4,14 +4,18 @@
 
 namespace perilink {
 
-const std::vector<Index>& BreakOrder::so_far() {
-  std::vector<std::pair<Index, Index>> latest;
+std::vector<BreakOrder::Break> BreakOrder::take_latest() {
+  std::vector<Break> latest;
   for (auto& block : of_blocks_) {
     latest.insert(latest.end(), block.begin(), block.end());
     block.clear();
   }
   std::sort(latest.begin(), latest.end());
-  for (const auto& [step, number] : latest) {
+  return latest;
+}
+
+const std::vector<Index>& BreakOrder::so_far() {
+  for (const auto& [step, number] : take_latest()) {
     const auto place = static_cast<std::size_t>(number);
     if (place >= counted_.size()) counted_.resize(place + 1);
     if (counted_[place]) continue;

@@ -5,15 +5,14 @@
 #include <utility>
 
 namespace perilink {
-namespace {
 
-/// Component whose prescribed motion or load is the largest.
-int main_component(const Unknowns& unknowns, const Loads& loads) {
+int main_component(const LoadedNetwork& problem) {
+  const Unknowns& unknowns = problem.unknowns;
   std::vector<double> driven(unknowns.width, 0.0), loaded(unknowns.width, 0.0);
   for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
     double& largest = driven[slot % unknowns.width];
     largest = std::max(largest, std::abs(unknowns.prescribed[slot]));
-    loaded[slot % unknowns.width] += loads.forces[slot];
+    loaded[slot % unknowns.width] += problem.loads.forces[slot];
   }
   const auto motion = std::max_element(driven.begin(), driven.end());
   if (*motion > 0.0) return static_cast<int>(motion - driven.begin());
@@ -21,8 +20,6 @@ int main_component(const Unknowns& unknowns, const Loads& loads) {
                                       [](double a, double b) { return std::abs(a) < std::abs(b); });
   return static_cast<int>(force - loaded.begin());
 }
-
-}  // namespace
 
 MovingBonds::MovingBonds(const LoadedNetwork& problem, const Inertia& masses,
                          std::unique_ptr<ExplicitBonds> elements, double step_length)
@@ -33,7 +30,7 @@ MovingBonds::MovingBonds(const LoadedNetwork& problem, const Inertia& masses,
       mass(masses.mass),
       bonds(std::move(elements)),
       time_step(step_length),
-      component(main_component(unknowns, problem.loads)),
+      component(main_component(problem)),
       blocks(network.particles.size(), unknowns.width),
       broken(blocks.count()),
       force(unknowns.number.size(), 0.0),

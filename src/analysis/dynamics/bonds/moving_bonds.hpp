@@ -35,6 +35,9 @@ struct MotionSums {
   double supports = 0.0;  ///< reactions of supports along the load [force]
 };
 
+/// Component whose prescribed motion or load is the largest.
+int main_component(const LoadedNetwork& problem);
+
 /// A network of bonds in motion: what explicit runs through time and dynamic relaxations have in
 /// common. Blocks of particles may be worked on at once, each stage for all of them before the
 /// next begins.

@@ -14,6 +14,7 @@ class ParticleBlocks {
   ParticleBlocks(Index particles, int width) : particles_(particles), width_(width) {}
 
   Index count() const { return (particles_ + particles_per_block - 1) / particles_per_block; }
+  Index of(Index particle) const { return particle / particles_per_block; }
   Index begin(Index block) const { return block * particles_per_block; }
   Index end(Index block) const { return std::min(particles_, begin(block) + particles_per_block); }
 

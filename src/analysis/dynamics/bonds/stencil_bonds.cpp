@@ -320,9 +320,13 @@ template <int Dim>
 std::vector<double> StencilBonds<Dim>::secants() const {
   std::vector<double> result =
       rest_ ? rest_->secants() : std::vector<double>(static_cast<std::size_t>(elements_));
-  for (std::size_t slot = 0; slot < element_.size(); ++slot) {
-    if (element_[slot] != no_index) result[element_[slot]] = is_intact(slot) ? 1.0 : 0.0;
-  }
+  const auto set = [&](double secant, auto applies) {
+    for (std::size_t slot = 0; slot < element_.size(); ++slot) {
+      if (element_[slot] != no_index && applies(slot)) result[element_[slot]] = secant;
+    }
+  };
+  set(1.0, [](std::size_t) { return true; });
+  set(0.0, [&](std::size_t slot) { return !is_intact(slot); });  // one half does
   return result;
 }
 

@@ -337,6 +337,7 @@ FactorStatistics BoxFactor::statistics() const {
   // To begin anew costs two solutions: some hundred products of ten operations for each bond.
   result.flops = 1000.0 * static_cast<double>(network_.num_elements());
   result.factorizations = begun_;
+  result.ranks = solver_ ? solver_->num_ranks() : 1;
   return result;
 }
 

@@ -84,12 +84,13 @@ BoxSolver::BoxSolver(const Network& network, const Unknowns& unknowns, Secants s
   std::vector<Index> groups;
   for (Index b = 0; b < num_boxes(); ++b) groups.insert(groups.end(), motions, b);
   factor_->factorize(stiffness.coarse, groups);
-  if (options.ranks && ground == nullptr && can_be_shared(network, unknowns)) {
+  if (options.ranks && can_be_shared(network, unknowns)) {
     stiffness.blocks = blocks_;
-    team_ = std::make_unique<Team>(*options.ranks, network, unknowns, secants, motions_, stiffness);
+    team_ = std::make_unique<Team>(*options.ranks, network, unknowns, secants, motions_, stiffness,
+                                   ground);
   }
   require_resistance();
-  if (!options.blocks || !SingleBody::is_made_of(network)) return;
+  if (!options.blocks || team_ || !SingleBody::is_made_of(network)) return;
   single_ = std::make_unique<SingleBody>(network, unknowns, secants, motions_, blocks_);
 }
 
@@ -230,19 +231,21 @@ void BoxSolver::multiply_block(std::span<const double> motions, std::span<double
   }
 }
 
+GradientsReport BoxSolver::search_block(std::span<double> right, std::span<double> solution,
+                                        const BlockRow& sizes, double enough) {
+  if (team_) return team_->search_block(right, solution, sizes, enough, most_box_iterations);
+  if (single_) return search_in_single(right, solution, sizes, enough);
+  coarse_block_.resize(coarse_.size() * block_width);
+  return block_conjugate_gradients<double>(
+      [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
+      [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
+      solution, sizes, enough, most_box_iterations);
+}
+
 GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution,
                                        double enough) {
   const BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
-  GradientsReport report;
-  if (single_) {
-    report = search_in_single(right, solution, sizes, enough);
-  } else {
-    coarse_block_.resize(coarse_.size() * block_width);
-    report = block_conjugate_gradients<double>(
-        [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
-        [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
-        solution, sizes, enough, most_box_iterations);
-  }
+  const GradientsReport report = search_block(right, solution, sizes, enough);
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, enough);
   return report;

@@ -21,7 +21,7 @@ struct BoxSolverOptions {
   Index edge = 0;  ///< particles along an edge of a box; 0: as many as serve the body best
   /// Whether solve_block() is wanted; the errors of solve() then count each by its own energy.
   bool blocks = false;
-  Ranks* ranks = nullptr;  ///< that share the work of solve(), where there are several
+  Ranks* ranks = nullptr;  ///< that share the work, where there are several
 };
 
 /// Equilibrium without a factor of the stiffness: conjugate gradients on the network itself, with
@@ -31,7 +31,8 @@ class BoxSolver {
  public:
   /// \param unknowns  nothing may carry particles; kept by reference, as network and secants: the
   ///                  product is that of the secants as they are
-  /// \param ground    springs that hold unknowns, size n, or empty: may be filled later
+  /// \param ground    springs that hold unknowns, size n, or empty: may be filled later; null:
+  ///                  there are none, and secants do not change
   /// \throws NotPositiveDefinite where a part of the body can move without resistance
   BoxSolver(const Network& network, const Unknowns& unknowns, Secants secants,
             const BoxSolverOptions& options, const std::vector<double>* ground = nullptr);
@@ -67,6 +68,8 @@ class BoxSolver {
   void multiply(std::span<const double> q, std::span<double> result);
   GradientsReport search(std::span<const double> right, std::span<double> solution, double enough,
                          double scale, int most_steps);
+  GradientsReport search_block(std::span<double> right, std::span<double> solution,
+                               const BlockRow& sizes, double enough);
   void invert_blocks();
   void require_resistance();
   void precondition_block(std::span<const double> residuals, std::span<double> results);

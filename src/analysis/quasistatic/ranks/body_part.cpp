@@ -26,16 +26,19 @@ void for_each_member(Part& part, Visit visit) {
   visit(network.support_stiffness);
   visit(part.axial);
   visit(part.other);
+  visit(part.elements);
   visit(part.unknowns.width);
   visit(part.unknowns.count);
   visit(part.unknowns.number);
   visit(part.unknowns.prescribed);
+  visit(part.ghosts.places);
   visit(part.ghosts.owners);
   visit(part.ghosts.numbers);
   visit(part.blocks);
   visit(part.boxes);
   visit(part.rows);
   visit(part.motions);
+  visit(part.changes);
 }
 
 std::vector<int> owners_of(const Partition& partition, Index count) {
@@ -88,6 +91,7 @@ void cut_elements(const Network& network, Secants secants, const std::vector<int
     if (!network.hinged.empty()) own.hinged.push_back(network.hinged[e]);
     part.axial.push_back(secants.axial(e));
     part.other.push_back(secants[e]);
+    part.elements.push_back(GlobalIndex{e});
   }
 }
 
@@ -185,6 +189,7 @@ BodyPart cut_part(const Network& network, Secants secants, const Unknowns& unkno
     const GlobalIndex ghost = local.particles[k];
     const int owner = entry(owners, ghost);
     const std::vector<GlobalIndex>& there = partition.particles[owner];
+    part.ghosts.places.push_back(static_cast<Index>(k));
     part.ghosts.owners.push_back(owner);
     part.ghosts.numbers.push_back(
         static_cast<Index>(std::lower_bound(there.begin(), there.end(), ghost) - there.begin()));

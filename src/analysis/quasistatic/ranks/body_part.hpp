@@ -11,13 +11,18 @@
 
 namespace perilink {
 
+/// Number in the whole body of a particle, element or unknown; a plain one is that of a rank's
+/// part.
+enum class GlobalIndex : Index {};
+
 /// What a rank knows of a body: the particles that it owns, then those of other ranks that its
 /// elements reach, and these elements. Numbers are the part's own.
 struct BodyPart {
   /// Positions are left out: the products need directions and lengths alone.
   Network network;
-  std::vector<double> axial, other;  ///< secants of the elements
-  Unknowns unknowns;                 ///< owned particles have some, ghosts none
+  std::vector<double> axial, other;   ///< secants of the elements
+  std::vector<GlobalIndex> elements;  ///< their numbers, ascending
+  Unknowns unknowns;                  ///< owned particles have some, ghosts none
   Ghosts ghosts;
 
   /// Inverse stiffness of each owned particle alone, shape (owned, width, width).
@@ -26,16 +31,15 @@ struct BodyPart {
   std::vector<Index> boxes;                 ///< per owned particle
   std::vector<std::array<double, 6>> rows;  ///< rows of P, shape (owned, width)
   int motions = 3;                          ///< that a box has
+  bool changes = false;                     ///< whether elements do, and blocks are solved for
 
   Index owned() const { return static_cast<Index>(boxes.size()); }
+  Index particles() const { return owned() + static_cast<Index>(ghosts.owners.size()); }
   Secants secants() const { return {other, axial}; }
 
   Parcel pack() const;
   static BodyPart unpack(Parcel parcel);
 };
-
-/// Number in the whole body of a particle or unknown; a plain one is that of a rank's part.
-enum class GlobalIndex : Index {};
 
 /// Which rank owns each particle, and where its unknowns are in its part.
 struct Partition {

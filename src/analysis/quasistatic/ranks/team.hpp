@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "analysis/quasistatic/ranks/part_solver.hpp"
@@ -12,31 +13,52 @@ inline bool can_be_shared(const Network& network, const Unknowns& unknowns) {
   return !network.has_states() && !network.cells && !network.shell && !unknowns.carries();
 }
 
-/// All ranks at work on one body, seen from the one that leads. The others are in serve().
+/// All ranks at work on one body, seen from the one that leads. The others obey, to one team at a
+/// time.
 class Team {
  public:
   /// Cuts the body into parts and sends them.
   /// \param stiffness  its blocks inverted
+  /// \param ground     springs that hold unknowns, size n, or empty; null: neither these nor the
+  ///                   secants change. Both are kept by reference, and every search is that of
+  ///                   what they are by then
   Team(Ranks& ranks, const Network& network, const Unknowns& unknowns, Secants secants,
-       const BoxMotions& motions, const BoxStiffness& stiffness);
+       const BoxMotions& motions, const BoxStiffness& stiffness,
+       const std::vector<double>* ground = nullptr);
 
   /// conjugate_gradients() of the whole body; vectors have all its unknowns.
   GradientsReport search(std::span<const double> right, std::span<double> solution, double enough,
                          double scale, int most_iterations);
 
+  /// block_conjugate_gradients() of vectors of shape (particles, width, block_width), where changes
+  /// may come.
+  GradientsReport search_block(std::span<const double> right, std::span<double> solution,
+                               const BlockRow& sizes, double enough, int most_iterations);
+
   FactorStatistics coarse() const { return own_->coarse(); }
 
  private:
+  void tell_changes();
+
   Ranks& ranks_;
   Partition partition_;
+  std::size_t width_;
+  Secants secants_;
+  const std::vector<double>* ground_;
+  std::vector<double> told_axial_, told_other_, told_ground_;  ///< what the parts know
   std::unique_ptr<PartSolver> own_;
 };
 
-/// What the other ranks do until the first dismisses them. What goes wrong here ends all ranks with
-/// a message: the others would wait for ever.
-void serve(Ranks& ranks);
+/// What the other ranks do in a team.
+class TeamMember {
+ public:
+  explicit TeamMember(Ranks& ranks) : ranks_(ranks) {}
+  /// \param order  the team's, its Service read
+  void obey(Parcel& order);
 
-/// Lets the other ranks come back from serve().
-void dismiss(Ranks& ranks);
+ private:
+  Ranks& ranks_;
+  std::optional<PartSolver> solver_;
+};
 
 }  // namespace perilink

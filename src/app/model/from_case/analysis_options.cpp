@@ -25,6 +25,7 @@ DamageOptions damage_options(const CaseFile& input, int threads) {
   options.engine.route = input.analysis.factor;
   options.engine.solver = input.analysis.solver;
   options.engine.boxes.edge = input.analysis.coarse_box.value_or(0);
+  options.engine.boxes.ranks = ranks();
   const bool steps = input.analysis.control == LoadControl::steps;
   if (steps) options.load_factors = input.analysis.load_factors;
   options.stop = rules_of(input.stop);
@@ -43,7 +44,7 @@ ElasticOptions elastic_options(const CaseFile& input, int threads) {
   options.threads = threads;
   options.solver = input.analysis.solver;
   options.boxes.edge = input.analysis.coarse_box.value_or(0);
-  if (ranks() != nullptr && ranks()->count() > 1) options.boxes.ranks = ranks();
+  options.boxes.ranks = ranks();
   options.boxes.tolerance = input.analysis.tolerance.value_or(options.boxes.tolerance);
   return options;
 }

@@ -13,6 +13,7 @@
 #include "app/model/conditions/loads.hpp"
 #include "app/model/conditions/supports.hpp"
 #include "app/model/gauges.hpp"
+#include "app/process/ranks.hpp"
 #include "base/error.hpp"
 #include "io/case/sections/case_unused.hpp"
 
@@ -96,6 +97,7 @@ void choose_steps(const CaseFile& input, double critical_time_step, ExplicitOpti
   options.ramp = analysis.ramp_time;
   options.time_step = analysis.time_step.value_or(analysis.safety * critical_time_step);
   options.rows = analysis.rows;
+  options.ranks = ranks();
   if (options.time_step > critical_time_step) {
     throw InputError(input.where("analysis.time_step"),
                      fmt::format("is {:.6g}, larger than the critical time step {:.6g}",

@@ -32,5 +32,15 @@ TEST(BreakOrder, CountsBothHalvesOfABondOnce) {
   EXPECT_THAT(order.so_far(), ElementsAre(4, 8, 2));
 }
 
+TEST(BreakOrder, TellsWhatIsNew) {
+  BreakOrder order(2);
+  order.add(1, 3, std::vector<Index>{9, 4});
+  order.add(0, 3, std::vector<Index>{6});
+  const auto latest = order.take_latest();
+  EXPECT_THAT(latest, ElementsAre(BreakOrder::Break{3, 4}, BreakOrder::Break{3, 6},
+                                  BreakOrder::Break{3, 9}));
+  EXPECT_THAT(order.take_latest(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace perilink

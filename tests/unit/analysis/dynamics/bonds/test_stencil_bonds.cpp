@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "support/analysis_bodies.hpp"
 #include "support/stencil_bodies.hpp"
 

@@ -14,7 +14,7 @@ namespace {
 using namespace testing_support;
 
 /// Strains the whole body uniformly.
-void strain_body(const ExplicitModel& model, ExplicitState& state, const SymmetricTensor& strain) {
+void strain_by(const ExplicitModel& model, ExplicitState& state, const SymmetricTensor& strain) {
   const LatticeRows& lattice = model.lattice;
   for (const Index slot : lattice.particle_slot) {
     const double x = lattice.positions[slot], y = lattice.positions[lattice.at(1, slot)];
@@ -52,7 +52,7 @@ TEST(LatticeDamage, BeginsAtTheTensileStrength) {
     const Index middle = middle_slot(model.lattice);
     for (const double multiple : {0.99, 1.01}) {
       ExplicitState state(model);
-      strain_body(model, state, uniaxial(multiple));
+      strain_by(model, state, uniaxial(multiple));
       change(model, changes, state);
       EXPECT_EQ(state.damage[middle] > 0.0, multiple > 1.0);
     }
@@ -64,7 +64,7 @@ TEST(LatticeDamage, GrowsWithTheOpeningOfTheBand) {
   const LatticeChanges changes(model);
   const Index middle = middle_slot(model.lattice);
   ExplicitState state(model);
-  strain_body(model, state, uniaxial(3.0));
+  strain_by(model, state, uniaxial(3.0));
   change(model, changes, state);
   const double e = 25e9, strain = 3.0 * 2.62e6 / e;
   // The crack opens across a row: sqrt(3)/2 of a spacing; stretches are linear up to squares.
@@ -102,7 +102,7 @@ TEST(LatticeDamage, LeavesABodyThatIsDamagedEvenlyThatPartOfItsStressAndEnergy) 
     const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 17.0), material);
     const Index middle = middle_slot(model.lattice);
     ExplicitState state(model);
-    strain_body(model, state, {1e-5, 3e-5, 0.0, 4e-6, 0.0, 0.0});  // all bonds stretch
+    strain_by(model, state, {1e-5, 3e-5, 0.0, 4e-6, 0.0, 0.0});  // all bonds stretch
     const double stress = first_stress(model, state, middle), energy = stored_energy(state);
     for (const double damage : {0.3, 0.99}) {
       damage_body(model, state, std::vector<double>(state.damage.size(), damage));
@@ -117,7 +117,7 @@ TEST(LatticeDamage, LeavesABodyThatIsDamagedEvenlyThatPartOfItsStressAndEnergy) 
 TEST(LatticeDamage, LeavesAPressedBodyWhatDamageInCompressionLeaves) {
   const ExplicitModel model = breakable(LatticeRules::consistent);
   ExplicitState state(model);
-  strain_body(model, state, {-1e-5, -3e-5, 0.0, 0.0, 0.0, 0.0});
+  strain_by(model, state, {-1e-5, -3e-5, 0.0, 0.0, 0.0, 0.0});
   const double energy = stored_energy(state);
   for (const double damage : {0.3, 0.9}) {
     damage_body(model, state, std::vector<double>(state.damage.size(), damage));
@@ -180,8 +180,8 @@ TEST(LatticeDamage, FollowsTheStress) {
       // As slowly as damage needs that never shrinks and whose own growth changes the stress.
       const double increment = 4e-3;
       for (double pull = 0.99; pull < 2.2; pull += increment) {
-        strain_body(model, state,
-                    {(lateral - 0.2 * pull) * f / e, (pull - 0.2 * lateral) * f / e, 0.0});
+        strain_by(model, state,
+                  {(lateral - 0.2 * pull) * f / e, (pull - 0.2 * lateral) * f / e, 0.0});
         for (int n = 0; n < 6; ++n) change(model, changes, state);
         const double stress = first_stress(model, state, middle), damage = state.damage[middle];
         const double whole = stress / (1.0 - damage);
@@ -201,7 +201,7 @@ TEST(LatticeDamage, JumpsAsPrintedByTheRulesOf2018) {
   const LatticeChanges changes(model);
   const Index middle = middle_slot(model.lattice);
   ExplicitState state(model);
-  strain_body(model, state, uniaxial(1.01));
+  strain_by(model, state, uniaxial(1.01));
   change(model, changes, state);
   // Eq. 38 of a uniaxial stress: sqrt(1 + nu + nu^2) times the strain, times one spacing.
   const double crack = std::sqrt(1.24) * 1.01 * 2.62e6 / 25e9;
@@ -217,9 +217,8 @@ TEST(LatticeDamage, BeginsNowhereUnderLargeLateralCompression) {
   for (const double lateral : {-5.0, -7.0}) {  // stress over strength; the ratio is 6
     ExplicitState state(model);
     const double first = 1.05, second = lateral;
-    strain_body(
-        model, state,
-        {(second - 0.2 * first) * strength_strain, (first - 0.2 * second) * strength_strain});
+    strain_by(model, state,
+              {(second - 0.2 * first) * strength_strain, (first - 0.2 * second) * strength_strain});
     change(model, changes, state);
     EXPECT_EQ(state.damage[middle] > 0.0, lateral > -6.0) << lateral;
   }
@@ -229,7 +228,7 @@ TEST(LatticeDamage, StoredEnergyThatIsLostIsCountedAsFractured) {
   const ExplicitModel model = breakable(LatticeRules::consistent);
   const LatticeChanges changes(model);
   ExplicitState state(model);
-  strain_body(model, state, uniaxial(2.0));
+  strain_by(model, state, uniaxial(2.0));
   const double before = stored_energy(state);
   change(model, changes, state);
   double fractured = 0.0;

@@ -1,4 +1,4 @@
-#include "analysis/dynamics/bonds/dynamic_relaxation.hpp"
+#include "analysis/dynamics/bonds/runs/dynamic_relaxation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

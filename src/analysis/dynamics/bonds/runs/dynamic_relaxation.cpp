@@ -1,4 +1,4 @@
-#include "analysis/dynamics/bonds/dynamic_relaxation.hpp"
+#include "analysis/dynamics/bonds/runs/dynamic_relaxation.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 
 namespace perilink {
 

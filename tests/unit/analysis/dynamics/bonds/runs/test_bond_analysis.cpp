@@ -1,11 +1,13 @@
-#include "analysis/dynamics/bonds/bond_analysis.hpp"
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
 #include "analysis/dynamics/fundamental_period.hpp"
+#include "app/process/serve.hpp"
 #include "support/analysis_bodies.hpp"
+#include "support/thread_ranks.hpp"
 
 namespace perilink {
 namespace {
@@ -86,6 +88,9 @@ AnalysisBody overloaded(const AnalysisBody& body) {
   }
   return scaled(body, 2.0 / largest);
 }
+
+const LatticeCase square{"square", Pattern::rectangular, Surface::none};
+const LatticeCase cube{"cube", Pattern::cubic, Surface::none};
 
 class BondRuns : public testing::TestWithParam<BlockCase> {};
 
@@ -236,6 +241,87 @@ TEST(ExplicitBondAnalysis, VelocitiesAreConstant) {
   // The blow of the first step is accounted for as well.
   EXPECT_LT(outcome.result.largest_surplus, 1e-11);
 }
+
+/// Some hundred steps in which bonds break on a way that several ranks have parts of.
+class SharedBondRuns : public testing::TestWithParam<std::tuple<BlockCase, Strain>> {};
+
+void expect_the_same(const Outcome& found, const Outcome& alone) {
+  EXPECT_EQ(found.recorder.motion.displacement, alone.recorder.motion.displacement);
+  EXPECT_EQ(found.recorder.motion.velocity, alone.recorder.motion.velocity);
+  EXPECT_EQ(found.recorder.secants, alone.recorder.secants);
+  EXPECT_EQ(found.recorder.broken, alone.recorder.broken);
+  EXPECT_EQ(found.recorder.ends, 1);
+  EXPECT_EQ(found.result.peak_load, alone.result.peak_load);
+  EXPECT_EQ(found.result.peak_displacement, alone.result.peak_displacement);
+  EXPECT_EQ(found.result.ending, alone.result.ending);
+  ASSERT_EQ(found.recorder.rows.size(), alone.recorder.rows.size());
+  for (std::size_t r = 0; r < alone.recorder.rows.size(); ++r) {
+    const ExplicitRecord &own = found.recorder.rows[r], &row = alone.recorder.rows[r];
+    EXPECT_EQ(own.step, row.step);
+    EXPECT_EQ(own.load, row.load);
+    EXPECT_EQ(own.displacement, row.displacement);
+    EXPECT_EQ(own.support_reaction, row.support_reaction);
+    EXPECT_EQ(own.broken_bonds, row.broken_bonds);
+    EXPECT_EQ(own.energy.kinetic, row.energy.kinetic);
+    EXPECT_EQ(own.energy.stored, row.energy.stored);
+    EXPECT_EQ(own.energy.external_damping, row.energy.external_damping);
+    EXPECT_EQ(own.energy.fractured, row.energy.fractured);
+    EXPECT_EQ(own.energy.external_work, row.energy.external_work);
+  }
+}
+
+TEST_P(SharedBondRuns, RanksChangeNothing) {
+  const auto& [block, strain] = GetParam();
+  AnalysisBody body = make_block(block);
+  const double stretch =
+      *std::min_element(body.network.critical_stretch.begin(), body.network.critical_stretch.end());
+  body = scaled(body, block.driven ? 2.0 * stretch * block.columns : 600.0 * stretch);
+  const Inertia inertia = lumped_inertia(body.network, std::vector{1.0}, MassScaling::none, strain);
+  ExplicitOptions options;
+  options.duration = 400.0 * inertia.critical_time_step();
+  options.ramp = 0.8 * options.duration;
+  options.rows = 20;
+  const BondRunRules rules{.damping_rate = 0.1 / options.duration, .strain = strain};
+  for (const std::size_t stop_after : {0, 7}) {
+    const Outcome alone = run(body, options, rules, stop_after);
+    EXPECT_GT(alone.recorder.rows.back().broken_bonds, stop_after == 0 ? 20 : -1);
+    for (const int count : {2, 3}) {
+      with_thread_ranks(
+          count,
+          [&](Ranks& ranks) {
+            ExplicitOptions shared = options;
+            shared.ranks = &ranks;
+            const Outcome found = run(body, shared, rules, stop_after);
+            dismiss(ranks);
+            EXPECT_EQ(found.result.ranks, count);
+            expect_the_same(found, alone);
+          },
+          serve);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, SharedBondRuns,
+    testing::Values(
+        std::tuple{BlockCase{.lattice = square, .driven = true, .columns = 30}, Strain::small},
+        std::tuple{BlockCase{.lattice = square, .columns = 30, .scatter = 0.0}, Strain::small},
+        std::tuple{
+            BlockCase{
+                .lattice = cube, .driven = true, .columns = 9, .scatter = 0.0, .closing = true},
+            Strain::small},
+        std::tuple{BlockCase{.lattice = cube, .driven = true, .columns = 9, .scatter = 0.0},
+                   Strain::small},
+        std::tuple{BlockCase{.lattice = square,
+                             .driven = true,
+                             .columns = 30,
+                             .micropolar = true,
+                             .toothed = true},
+                   Strain::small},
+        std::tuple{BlockCase{.lattice = square, .driven = true, .columns = 30}, Strain::green}),
+    [](const auto& instance) {
+      return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
+    });
 
 TEST(ExplicitBondAnalysis, StopsWhenAsked) {
   const AnalysisBody body = make_chains(6, 2, true, 10.0, INFINITY);

@@ -1,0 +1,286 @@
+#include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "analysis/dynamics/bonds/runs/run_share.hpp"
+#include "analysis/dynamics/time_loop.hpp"
+
+namespace perilink {
+namespace {
+
+std::unique_ptr<ExplicitBonds> make_bonds(const Network& network, const BondRunRules& rules) {
+  if (!network.has_states()) return make_explicit_bonds(network, rules.strain);
+  const StateBody& states = rules.states;
+  return make_explicit_particles(network, states.problem, states.materials, states.thickness);
+}
+
+/// What this process does in a run that ranks share; both null: it is alone.
+struct Shares {
+  LeadingShare* leading = nullptr;
+  FollowingShare* following = nullptr;
+
+  RunShare* own() const { return leading != nullptr ? static_cast<RunShare*>(leading) : following; }
+};
+
+/// The bonds of the first rank, which asks the others what is left of theirs.
+class LeadingBonds final : public ExplicitBonds {
+ public:
+  LeadingBonds(std::unique_ptr<ExplicitBonds> own, LeadingShare& share)
+      : own_(std::move(own)), share_(share) {}
+
+  BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
+                    std::span<double> force) override {
+    return own_->forces(begin, end, time_step, motion, force);
+  }
+  double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override {
+    return own_->stored(begin, end, time_step, motion);
+  }
+  std::vector<double> secants() const override {
+    std::vector<double> secants = own_->secants();
+    share_.collect_secants(secants);
+    return secants;
+  }
+
+ private:
+  std::unique_ptr<ExplicitBonds> own_;
+  LeadingShare& share_;
+};
+
+class BondRun {
+ public:
+  BondRun(const LoadedNetwork& problem, const Inertia& inertia,
+          std::unique_ptr<ExplicitBonds> bonds, const BondRunRules& rules,
+          const ExplicitOptions& options, BondRunObserver& observer, const Shares& shares = {})
+      : options_(options),
+        observer_(observer),
+        loop_(options, inertia.critical_time_step()),
+        body_(problem, inertia, std::move(bonds), loop_.time_step()),
+        shares_(shares),
+        first_block_(shares.own() ? shares.own()->first_block() : 0),
+        past_block_(shares.own() ? shares.own()->past_block() : body_.blocks.count()),
+        motion_end_(rules.constant_velocity ? options.duration : 0.0),
+        rate_(rules.damping_rate) {
+    for (std::size_t slot = 0; slot < body_.force.size(); ++slot) {
+      if (body_.is_held(slot)) held_.push_back(slot);
+    }
+  }
+
+  ExplicitResult run() {
+    const int threads = shares_.own() ? 1 : body_.blocks.threads(options_.threads);
+    loop_.run(threads, [this](Index step) { one_step(step); });
+    if (shares_.leading) look_back();
+    if (shares_.following) shares_.following->report(body_);
+    return loop_.result();
+  }
+
+  MovingBonds& body() { return body_; }
+
+ private:
+  /// Part of the prescribed displacements that is reached.
+  double motion_factor(Index step) const {
+    return motion_end_ > 0.0 ? step * body_.time_step / motion_end_ : loop_.load_factor(step);
+  }
+
+  /// Run by every thread; loops end in barriers.
+  void one_step(Index step) {
+    const double factor = loop_.load_factor(step);
+    const double increment = motion_factor(step + 1) - motion_factor(step);
+    if (shares_.own()) shares_.own()->update_ghosts(body_.motion);  // by one thread
+    if (body_.bonds->has_states()) {
+#pragma omp for schedule(static)
+      for (Index b = first_block_; b < past_block_; ++b) body_.prepare(b, step);
+    }
+#pragma omp for schedule(static)
+    for (Index b = first_block_; b < past_block_; ++b) body_.find_forces(b, step);
+    if (body_.bonds->has_states()) {
+#pragma omp single nowait
+      body_.bonds->finish_step();  // read again behind the next barrier only
+    }
+    if (loop_.is_looked_at(step)) {
+#pragma omp for schedule(static)
+      for (Index b = first_block_; b < past_block_; ++b) measure(b);
+#pragma omp single
+      look(step);
+    }
+#pragma omp for schedule(static)
+    for (Index b = first_block_; b < past_block_; ++b) advance(b, factor, increment);
+      // Nobody waits for this: what it reads and writes is used again behind the next barrier only.
+#pragma omp single nowait
+    note_reactions(step);
+  }
+
+  void measure(Index block) {
+    MotionSums& sums = body_.sums[block];
+    sums.stored = body_.stored(body_.blocks.begin(block), body_.blocks.end(block));
+    sums.kinetic = sums.loaded = 0.0;
+    body_.blocks.for_slots(block, [&](std::size_t slot) {
+      const double v = body_.motion.velocity[slot];
+      sums.kinetic += 0.5 * body_.mass[slot] * v * v;
+      sums.loaded += body_.loads[slot] * body_.motion.displacement[slot];
+    });
+  }
+
+  void advance(Index block, double factor, double increment) {
+    MotionSums& sums = body_.sums[block];
+    sums.driven = sums.supports = 0.0;
+    std::size_t next = body_.blocks.first_slot(block);
+    const std::size_t last = body_.blocks.last_slot(block);
+    auto held = std::lower_bound(held_.begin(), held_.end(), next);
+    for (; held != held_.end() && *held < last; ++held) {
+      advance_free(next, *held, factor, sums);
+      advance_held(*held, factor, increment, sums);
+      next = *held + 1;
+    }
+    advance_free(next, last, factor, sums);
+  }
+
+  void advance_free(std::size_t first, std::size_t last, double factor, MotionSums& sums) {
+    const auto part = [&](auto& values) { return std::span(values).subspan(first, last - first); };
+    const MotionWork work =
+        move_freely({body_.time_step, factor, rate_}, part(body_.loads), part(body_.force),
+                    part(body_.mass), part(body_.motion.velocity), part(body_.motion.displacement));
+    sums.work.external += work.external;
+    sums.work.damping += work.damping;
+  }
+
+  void advance_held(std::size_t slot, double factor, double increment, MotionSums& sums) {
+    double& v = body_.motion.velocity[slot];
+    const double dt = body_.time_step, mass = body_.mass[slot];
+    const double applied = factor * body_.loads[slot];
+    const double faster = body_.unknowns.prescribed[slot] * increment / dt, twice = v + faster;
+    const double reaction =
+        mass * (faster - v) / dt + 0.5 * rate_ * mass * twice + body_.force[slot] - applied;
+    body_.add_reaction(slot, reaction, sums);
+    sums.work.external += 0.5 * dt * (applied + reaction) * twice;
+    sums.work.damping += 0.25 * dt * rate_ * mass * twice * twice;
+    v = faster;
+    body_.motion.displacement[slot] += dt * faster;
+  }
+
+  void note_reactions(Index step) {
+    if (shares_.own()) return shares_.own()->note_supports(body_);
+    const MotionSums all = body_.total();
+    body_.note_reactions(all, loop_.load_factor(step), record_);
+    note_peak(step, all.supports);
+  }
+
+  void note_peak(Index step, double supports) {
+    const ReferenceLoad& reference = body_.reference;
+    loop_.note_reaction(supports, reference.driven ? motion_factor(step) * reference.value : 0.0);
+  }
+
+  /// What note_reactions() does, for the steps in which the other ranks went by themselves.
+  void look_back() {
+    for (const double supports : shares_.leading->collect(body_)) note_peak(noted_++, supports);
+    if (noted_ > 0) {
+      body_.note_reactions(body_.total(), loop_.load_factor(noted_ - 1), record_);
+    }
+  }
+
+  void look(Index step) {
+    if (shares_.following) {
+      if (!shares_.following->meet(body_)) loop_.leave();
+      return;
+    }
+    if (shares_.leading) look_back();
+    const MotionSums all = body_.total();
+    record_.energy = {all.kinetic,      all.stored,    0.0,
+                      all.work.damping, all.fractured, all.work.external};
+    loop_.look(step, record_, observer_, body_.state(), [&](ExplicitRecord& record) {
+      body_.note_motion(all, motion_factor(step), record);
+      if (shares_.leading) shares_.leading->collect_motion(body_.motion);
+    });
+    if (shares_.leading) shares_.leading->tell(!loop_.is_done());
+  }
+
+  const ExplicitOptions& options_;
+  BondRunObserver& observer_;
+  ExplicitLoop loop_;
+  MovingBonds body_;
+  Shares shares_;
+  Index first_block_, past_block_;  ///< that this process moves
+  Index noted_ = 0;                 ///< steps that look_back() has seen
+  std::vector<std::size_t> held_;   ///< prescribed components, ascending
+  double motion_end_;               ///< when constant velocities end [time]; zero: there are none
+  double rate_;
+  ExplicitRecord record_;
+};
+
+/// Ties to anchors and sums of states reach farther than elements do.
+bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks) {
+  const Network& network = problem.network;
+  return ranks != nullptr && !network.has_states() && network.anchors.size() == 0 &&
+         ParticleBlocks(network.particles.size(), network.width()).count() >= ranks->count();
+}
+
+/// What the rules and options of a run are to another rank.
+struct RunOrder {
+  double damping_rate;
+  Strain strain;
+  bool constant_velocity;
+  double frequency_bound;
+  int component;
+  ExplicitOptions options;
+};
+
+ExplicitResult run_shared(const LoadedNetwork& problem, const Inertia& inertia,
+                          const BondRunRules& rules, const ExplicitOptions& options,
+                          BondRunObserver& observer) {
+  Ranks& ranks = *options.ranks;
+  BondStencil stencil = stencil_for(problem.network, rules.strain);
+  const BlockPartition partition(problem.network, ranks.count());
+  lead(ranks, [&] {
+    const RunOrder rest{rules.damping_rate,      rules.strain,
+                        rules.constant_velocity, inertia.frequency_bound,
+                        main_component(problem), options};
+    for (int rank = 1; rank < ranks.count(); ++rank) {
+      Parcel order;
+      order.put(Service::move_bonds);
+      order.put(rest);
+      ranks.send(rank, order.bytes());
+      ranks.send(rank, cut_part(problem, inertia.mass, stencil, partition, rank).pack().bytes());
+    }
+  });
+  LeadingShare share(ranks, problem, partition);
+  auto bonds = std::make_unique<LeadingBonds>(
+      make_explicit_bonds(problem.network, rules.strain, std::move(stencil)), share);
+  ExplicitResult result =
+      BondRun(problem, inertia, std::move(bonds), rules, options, observer, {&share}).run();
+  result.ranks = ranks.count();
+  return result;
+}
+
+}  // namespace
+
+ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& inertia,
+                                  const BondRunRules& rules, const ExplicitOptions& options,
+                                  BondRunObserver& observer) {
+  expect_nothing_carried(problem.unknowns);
+  if (can_be_shared(problem, options.ranks)) {
+    return run_shared(problem, inertia, rules, options, observer);
+  }
+  return BondRun(problem, inertia, make_bonds(problem.network, rules), rules, options, observer)
+      .run();
+}
+
+void move_bonds_along(Ranks& ranks, Parcel& order) {
+  auto rest = order.get<RunOrder>();
+  BondPart part = BondPart::unpack(Parcel(ranks.receive(0)));
+  BondRunRules rules;
+  rules.damping_rate = rest.damping_rate;
+  rules.strain = rest.strain;
+  rules.constant_velocity = rest.constant_velocity;
+  const Inertia inertia{std::move(part.mass), rest.frequency_bound};
+  FollowingShare share(ranks, part);
+  BondRunObserver nobody;
+  BondRun run(part.body, inertia,
+              make_explicit_bonds(part.body.network, rules.strain, std::move(part.stencil)), rules,
+              rest.options, nobody, {nullptr, &share});
+  run.body().component = rest.component;
+  run.run();
+}
+
+}  // namespace perilink

@@ -1,0 +1,219 @@
+#include "analysis/dynamics/bonds/runs/bond_part.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace perilink {
+namespace {
+
+/// Visits all that a rank has to know but what follows it in pack(), in one order for sender and
+/// receiver.
+template <class Part, class Visit>
+void for_each_member(Part& part, Visit visit) {
+  auto& network = part.body.network;
+  visit(network.particles.dim);
+  visit(network.particles.volumes);
+  visit(network.bonds.dim);
+  visit(network.bonds.first);
+  visit(network.bonds.second);
+  visit(network.bonds.lengths);
+  visit(network.bonds.directions);
+  visit(network.stiffness);
+  visit(network.bending);
+  visit(network.bending_ratio);
+  visit(network.inflection);
+  visit(network.torsion);
+  visit(network.law_of);
+  visit(network.critical_stretch);
+  visit(network.support_stiffness);
+  visit(network.cut_elements);
+  visit(part.body.unknowns.width);
+  visit(part.body.unknowns.number);
+  visit(part.body.unknowns.prescribed);
+  visit(part.body.loads.forces);
+  visit(part.body.reference);
+  visit(part.mass);
+  visit(part.stencil.kinds);
+  visit(part.stencil.groups);
+  visit(part.stencil.element);
+  visit(part.stencil.rest);
+  visit(part.elements);
+  visit(part.ghosts.places);
+  visit(part.ghosts.owners);
+  visit(part.ghosts.numbers);
+  visit(part.first_block);
+  visit(part.past_block);
+}
+
+template <class T>
+std::vector<T> slice(const std::vector<T>& all, Index begin, Index end, int width) {
+  if (all.empty()) return {};
+  return {all.begin() + static_cast<std::ptrdiff_t>(begin) * width,
+          all.begin() + static_cast<std::ptrdiff_t>(end) * width};
+}
+
+/// Elements with an end among the own particles.
+std::vector<Index> elements_of(const Network& network, Index begin, Index end) {
+  std::vector<Index> elements;
+  const auto is_own = [&](Index p) { return p >= begin && p < end; };
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (is_own(network.bonds.first[e]) || is_own(network.bonds.second[e])) elements.push_back(e);
+  }
+  return elements;
+}
+
+/// Numbers of elements in the part, of those that it has.
+std::vector<Index> in_part(const std::vector<Index>& all, const std::vector<Index>& elements) {
+  std::vector<Index> own;
+  for (const Index e : all) {
+    const auto at = std::lower_bound(elements.begin(), elements.end(), e);
+    if (at != elements.end() && *at == e) own.push_back(static_cast<Index>(at - elements.begin()));
+  }
+  return own;
+}
+
+Network cut_network(const Network& network, const std::vector<Index>& elements, Index first,
+                    Index past) {
+  Network own;
+  own.particles.dim = own.bonds.dim = network.dim();
+  own.particles.volumes = slice(network.particles.volumes, first, past, 1);
+  own.support_stiffness = slice(network.support_stiffness, first, past, network.width());
+  own.torsion = network.torsion;
+  own.laws = network.laws;
+  const auto pick = [&](const auto& all, auto& picked, std::size_t width = 1) {
+    if (all.empty()) return;
+    picked.reserve(elements.size() * width);
+    for (const Index e : elements) {
+      const auto from = all.begin() + static_cast<std::ptrdiff_t>(e * width);
+      picked.insert(picked.end(), from, from + static_cast<std::ptrdiff_t>(width));
+    }
+  };
+  pick(network.bonds.first, own.bonds.first);
+  pick(network.bonds.second, own.bonds.second);
+  for (Index& particle : own.bonds.first) particle -= first;
+  for (Index& particle : own.bonds.second) particle -= first;
+  pick(network.bonds.lengths, own.bonds.lengths);
+  pick(network.bonds.directions, own.bonds.directions, static_cast<std::size_t>(network.dim()));
+  pick(network.stiffness, own.stiffness);
+  pick(network.bending, own.bending);
+  pick(network.bending_ratio, own.bending_ratio);
+  pick(network.inflection, own.inflection);
+  pick(network.law_of, own.law_of);
+  pick(network.critical_stretch, own.critical_stretch);
+  own.cut_elements = in_part(network.cut_elements, elements);
+  return own;
+}
+
+/// Groups of ghosts are empty.
+BondStencil cut_stencil(const BondStencil& stencil, const std::vector<Index>& elements, Index first,
+                        Index own_begin, Index own_end) {
+  BondStencil own;
+  own.rest = in_part(stencil.rest, elements);
+  if (stencil.kinds.empty()) return own;
+  constexpr Index lanes = BondStencil::lanes;
+  own.kinds = stencil.kinds;
+  own.patterns = stencil.patterns;
+  own.patterns.emplace_back();
+  const int nothing = static_cast<int>(stencil.patterns.size());
+  own.groups.assign(static_cast<std::size_t>((own_begin - first) / lanes), {nothing, 0});
+  for (Index g = own_begin / lanes; g * lanes < own_end; ++g) {
+    const auto& [pattern, slot] = stencil.groups[g];
+    own.groups.push_back({pattern, own.element.size()});
+    const std::size_t slots = stencil.patterns[pattern].size() * BondStencil::line_slots;
+    for (std::size_t k = slot; k < slot + slots; ++k) {
+      const Index e = stencil.element[k];
+      const auto at = std::lower_bound(elements.begin(), elements.end(), e);
+      own.element.push_back(e == no_index ? e : static_cast<Index>(at - elements.begin()));
+    }
+  }
+  return own;
+}
+
+}  // namespace
+
+BlockPartition::BlockPartition(const Network& network, int ranks)
+    : blocks(network.particles.size(), network.width()) {
+  for (int rank = 0; rank <= ranks; ++rank) {
+    first_block.push_back(static_cast<Index>(std::int64_t{blocks.count()} * rank / ranks));
+  }
+  for (int rank = 0; rank < ranks; ++rank) {
+    first_particle.push_back(own_begin(rank));
+    past_particle.push_back(own_end(rank));
+  }
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const auto [lower, upper] = std::minmax(network.bonds.first[e], network.bonds.second[e]);
+    Index& past = past_particle[owner(lower)];
+    past = std::max(past, upper + 1);
+    Index& first = first_particle[owner(upper)];
+    first = std::min(first, blocks.begin(blocks.of(lower)));
+  }
+}
+
+int BlockPartition::owner(Index particle) const {
+  const auto next = std::upper_bound(first_block.begin(), first_block.end(), blocks.of(particle));
+  return static_cast<int>(next - first_block.begin()) - 1;
+}
+
+Ghosts BlockPartition::ghosts(const Network& network, int rank) const {
+  std::vector<Index> reached;
+  const auto is_own = [&](Index p) { return p >= own_begin(rank) && p < own_end(rank); };
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const Index i = network.bonds.first[e], j = network.bonds.second[e];
+    if (is_own(i) != is_own(j)) reached.push_back(is_own(i) ? j : i);
+  }
+  std::sort(reached.begin(), reached.end());
+  reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+  Ghosts ghosts;
+  for (const Index p : reached) {
+    ghosts.places.push_back(p - first_particle[rank]);
+    ghosts.owners.push_back(owner(p));
+    ghosts.numbers.push_back(p - first_particle[owner(p)]);
+  }
+  return ghosts;
+}
+
+BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
+                  const BondStencil& stencil, const BlockPartition& partition, int rank) {
+  const Index first = partition.first_particle[rank], past = partition.past_particle[rank];
+  const Index begin = partition.own_begin(rank), end = partition.own_end(rank);
+  const int width = body.unknowns.width;
+  BondPart part;
+  part.elements = elements_of(body.network, begin, end);
+  part.body.network = cut_network(body.network, part.elements, first, past);
+  part.body.unknowns.width = width;
+  part.body.unknowns.number = slice(body.unknowns.number, first, past, width);
+  part.body.unknowns.prescribed = slice(body.unknowns.prescribed, first, past, width);
+  part.body.loads.forces = slice(body.loads.forces, first, past, width);
+  part.body.reference = body.reference;
+  part.mass = slice(mass, first, past, width);
+  part.stencil = cut_stencil(stencil, part.elements, first, begin, end);
+  part.ghosts = partition.ghosts(body.network, rank);
+  part.first_block = partition.first_block[rank] - partition.blocks.of(first);
+  part.past_block = partition.first_block[rank + 1] - partition.blocks.of(first);
+  return part;
+}
+
+Parcel BondPart::pack() const {
+  Parcel parcel;
+  const auto put = [&](const auto& member) { parcel.put(member); };
+  for_each_member(*this, put);
+  parcel.put(body.network.laws.size());
+  for (const BondLaw& law : body.network.laws) BondLaw::for_each_member(law, put);
+  parcel.put(stencil.patterns.size());
+  for (const auto& pattern : stencil.patterns) parcel.put(pattern);
+  return parcel;
+}
+
+BondPart BondPart::unpack(Parcel parcel) {
+  BondPart part;
+  const auto get = [&](auto& member) { parcel.get(member); };
+  for_each_member(part, get);
+  part.body.network.laws.resize(parcel.get<std::size_t>(), BondLaw::brittle());
+  for (BondLaw& law : part.body.network.laws) BondLaw::for_each_member(law, get);
+  part.stencil.patterns.resize(parcel.get<std::size_t>());
+  for (auto& pattern : part.stencil.patterns) parcel.get(pattern);
+  return part;
+}
+
+}  // namespace perilink

@@ -1,0 +1,108 @@
+#include "analysis/dynamics/bonds/runs/bond_part.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/analysis_bodies.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+class BondPartTest : public testing::Test {
+ protected:
+  static constexpr int ranks = 3;
+  BondPartTest()
+      : body_(make_block({.lattice = {"square", Pattern::rectangular, Surface::none},
+                          .columns = 30,
+                          .scatter = 0.0,
+                          .toothed = true})),
+        stencil_(find_stencil(body_.network)),
+        partition_(body_.network, ranks) {
+    body_.network.cut_elements = {40, 41, 2000};
+    for (std::size_t slot = 0; slot < body_.unknowns.number.size(); ++slot) {
+      mass_.push_back(1.0 + static_cast<double>(slot));
+    }
+  }
+  BondPart part(int rank) const { return cut_part(body_, mass_, stencil_, partition_, rank); }
+  Index first(int rank) const { return partition_.first_particle[rank]; }
+
+  AnalysisBody body_;
+  BondStencil stencil_;
+  BlockPartition partition_;
+  std::vector<double> mass_;
+};
+
+TEST_F(BondPartTest, EveryParticleHasOneOwner) {
+  EXPECT_EQ(partition_.own_end(ranks - 1), body_.network.particles.size());
+  for (int rank = 0; rank < ranks; ++rank) {
+    EXPECT_LT(partition_.own_begin(rank), partition_.own_end(rank));
+    EXPECT_EQ(partition_.own_begin(rank), rank > 0 ? partition_.own_end(rank - 1) : 0);
+    for (Index p = partition_.own_begin(rank); p < partition_.own_end(rank); ++p) {
+      ASSERT_EQ(partition_.owner(p), rank);
+    }
+    const BondPart own = part(rank);
+    EXPECT_EQ(partition_.blocks.begin(own.first_block), partition_.own_begin(rank) - first(rank));
+  }
+}
+
+TEST_F(BondPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
+  const Bonds& all = body_.network.bonds;
+  for (int rank = 0; rank < ranks; ++rank) {
+    const BondPart own = part(rank);
+    std::vector<bool> is_known(own.body.network.particles.volumes.size(), false);
+    const auto is_own = [&](Index p) { return partition_.owner(p) == rank; };
+    for (Index p = partition_.own_begin(rank); p < partition_.own_end(rank); ++p) {
+      is_known[p - first(rank)] = true;
+    }
+    for (std::size_t g = 0; g < own.ghosts.places.size(); ++g) {
+      const Index ghost = own.ghosts.places[g] + first(rank);
+      EXPECT_EQ(own.ghosts.owners[g], partition_.owner(ghost));
+      EXPECT_EQ(own.ghosts.numbers[g] + first(own.ghosts.owners[g]), ghost);
+      is_known[own.ghosts.places[g]] = true;
+    }
+    std::size_t next = 0;
+    for (Index e = 0; e < all.size(); ++e) {
+      if (!is_own(all.first[e]) && !is_own(all.second[e])) continue;
+      ASSERT_EQ(own.elements.at(next), e);
+      EXPECT_EQ(own.body.network.bonds.first[next] + first(rank), all.first[e]);
+      EXPECT_EQ(own.body.network.bonds.second[next] + first(rank), all.second[e]);
+      EXPECT_TRUE(is_known[own.body.network.bonds.first[next]]);
+      EXPECT_TRUE(is_known[own.body.network.bonds.second[next]]);
+      EXPECT_EQ(own.body.network.stiffness[next], body_.network.stiffness[e]);
+      ++next;
+    }
+    EXPECT_EQ(own.elements.size(), next);
+    for (const Index e : own.body.network.cut_elements) {
+      EXPECT_TRUE(std::ranges::count(body_.network.cut_elements, own.elements[e]));
+    }
+  }
+}
+
+TEST_F(BondPartTest, ArrivesAsItWasSent) {
+  const BondPart sent = part(1);
+  const Parcel parcel = sent.pack();
+  const BondPart come = BondPart::unpack(Parcel({parcel.bytes().begin(), parcel.bytes().end()}));
+  const Network &network = come.body.network, &expected = sent.body.network;
+  EXPECT_EQ(network.bonds.first, expected.bonds.first);
+  EXPECT_EQ(network.bonds.directions, expected.bonds.directions);
+  EXPECT_EQ(network.critical_stretch, expected.critical_stretch);
+  EXPECT_EQ(network.cut_elements, expected.cut_elements);
+  ASSERT_EQ(network.laws.size(), 1u);
+  for (const int tooth : {0, 1, 2, 3}) {
+    EXPECT_EQ(network.laws[0].tooth(tooth).secant, expected.laws[0].tooth(tooth).secant);
+    EXPECT_EQ(network.laws[0].tooth(tooth).limit, expected.laws[0].tooth(tooth).limit);
+  }
+  EXPECT_EQ(come.body.unknowns.number, sent.body.unknowns.number);
+  EXPECT_EQ(come.mass, sent.mass);
+  EXPECT_EQ(come.stencil.patterns, sent.stencil.patterns);
+  EXPECT_EQ(come.stencil.element, sent.stencil.element);
+  EXPECT_EQ(come.elements, sent.elements);
+  EXPECT_EQ(come.ghosts.places, sent.ghosts.places);
+  EXPECT_EQ(come.past_block, sent.past_block);
+}
+
+}  // namespace
+}  // namespace perilink
