@@ -23,6 +23,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(network.bending);
   visit(network.bending_ratio);
   visit(network.inflection);
+  visit(network.hinged);
   visit(network.torsion);
   visit(network.law_of);
   visit(network.critical_stretch);
@@ -99,6 +100,7 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   pick(network.bending, own.bending);
   pick(network.bending_ratio, own.bending_ratio);
   pick(network.inflection, own.inflection);
+  pick(network.hinged, own.hinged);
   pick(network.law_of, own.law_of);
   pick(network.critical_stretch, own.critical_stretch);
   own.cut_elements = in_part(network.cut_elements, elements);

@@ -22,6 +22,9 @@ class BondPartTest : public testing::Test {
         stencil_(find_stencil(body_.network)),
         partition_(body_.network, ranks) {
     body_.network.cut_elements = {40, 41, 2000};
+    for (Index e = 0; e < body_.network.num_elements(); ++e) {
+      body_.network.hinged.push_back(static_cast<std::uint8_t>(e % 4));
+    }
     for (std::size_t slot = 0; slot < body_.unknowns.number.size(); ++slot) {
       mass_.push_back(1.0 + static_cast<double>(slot));
     }
@@ -72,6 +75,7 @@ TEST_F(BondPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
       EXPECT_TRUE(is_known[own.body.network.bonds.first[next]]);
       EXPECT_TRUE(is_known[own.body.network.bonds.second[next]]);
       EXPECT_EQ(own.body.network.stiffness[next], body_.network.stiffness[e]);
+      EXPECT_EQ(own.body.network.hinged[next], body_.network.hinged[e]);
       ++next;
     }
     EXPECT_EQ(own.elements.size(), next);
@@ -90,6 +94,7 @@ TEST_F(BondPartTest, ArrivesAsItWasSent) {
   EXPECT_EQ(network.bonds.directions, expected.bonds.directions);
   EXPECT_EQ(network.critical_stretch, expected.critical_stretch);
   EXPECT_EQ(network.cut_elements, expected.cut_elements);
+  EXPECT_EQ(network.hinged, expected.hinged);
   ASSERT_EQ(network.laws.size(), 1u);
   for (const int tooth : {0, 1, 2, 3}) {
     EXPECT_EQ(network.laws[0].tooth(tooth).secant, expected.laws[0].tooth(tooth).secant);
