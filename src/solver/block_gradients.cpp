@@ -179,6 +179,7 @@ GradientsReport block_conjugate_gradients(
   /// A residual so small, counted as an error, is none even where the body is soft.
   constexpr double gone = 1e-3;
   constexpr Number one{1};
+  constexpr double least_gain = 0.1;  // of the five digits between corrections, or they are too few
   std::vector<Number> z(right.size()), p(right.size()), q(right.size());
   std::ranges::fill(solution, Number{0});
   std::array<EnergyGains, width> gains;
@@ -209,7 +210,9 @@ GradientsReport block_conjugate_gradients(
       correct(solution, right);
       std::ranges::fill(solution, Number{0});
       precondition(right, z);
-      corrected_at = left;
+      const double before = corrected_at;
+      corrected_at = left_by(gram<Number>(right, z, sum), sizes);
+      if (!(corrected_at < least_gain * before)) break;
     }
     add_shares<Number>(z, -one, p, times(inverse, gram<Number>(q, z, sum)));
     p.swap(z);

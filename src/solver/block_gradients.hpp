@@ -29,9 +29,10 @@ using SumOverParts = std::function<void(std::span<double> parts)>;
 /// \param solution  from zero; what has come since the last correction
 /// \param sizes     energies that errors count by: each ends where the root of the energy that is
 ///                  missing is no larger than `enough` times the root of its own
-/// \param correct   where numbers have few digits: takes the solution away, to where there are
-///                  more, and leaves the right side that is missing. It is called whenever errors
-///                  have fallen by some digits; empty: never
+/// \param correct   where numbers have few digits: adds the solution to one of more digits and puts
+///                  the residual of that into the right side. It is called whenever errors seem to
+///                  have fallen by five digits; where they have not by one, the search ends
+///                  without an answer. Empty: never
 /// \param sum       where vectors here are parts of whole ones; empty: they are whole
 /// \return iterations, and the largest error of all, as it counts
 /// \throws NotPositiveDefinite where A is not

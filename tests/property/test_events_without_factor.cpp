@@ -105,6 +105,28 @@ TEST(EventsWithoutFactor, LooseBodiesBreakAlike) {
   EXPECT_LT(found.result.energy_error, 1e-9);
 }
 
+/// Loading plates: where stiff parts move as a whole, single precision has no digits left for what
+/// the soft ones do, and such blocks of columns are left to double precision.
+TEST(EventsWithoutFactor, BodiesWithStiffEndsBreakAlike) {
+  for (const double contrast : {1e2, 1e3, 1e5}) {
+    AnalysisBody body =
+        make_block({{"square", Pattern::rectangular, Surface::none}, false, false, 24});
+    Network& network = body.network;
+    const auto x_of = [&](Index i) { return network.particles.position(i)[0]; };
+    double end = 0.0;
+    for (Index i = 0; i < network.particles.size(); ++i) end = std::max(end, x_of(i));
+    for (Index b = 0; b < network.bonds.size(); ++b) {
+      if (x_of(network.bonds.first[b]) + x_of(network.bonds.second[b]) < 1.2 * end) continue;
+      network.stiffness[b] *= contrast;
+      network.critical_stretch[b] = infinity;
+    }
+    const Outcome expected = outcome_of(body, false, {}), found = outcome_of(body, true, {});
+    EXPECT_GT(expected.rows.size(), 50u);
+    SCOPED_TRACE(contrast);
+    expect_the_same(found, expected, contrast < 1e5 ? before_separation : 0.5);
+  }
+}
+
 const LatticeCase hexagonal{"hexagonal", Pattern::hexagonal, Surface::none};
 const LatticeCase square{"square", Pattern::rectangular, Surface::none};
 const LatticeCase cubic{"cubic", Pattern::cubic, Surface::none};

@@ -44,6 +44,10 @@ SolverError not_there(int iterations, double error, double tolerance) {
       iterations, error, tolerance));
 }
 
+/// By their lag (L-2) estimates leave more digits than they are asked for, and columns need some of
+/// them; behind a correction of single precision they lag less.
+constexpr double finer_in_single = 0.1;
+
 /// Energies of right sides where every particle gives way by itself, while all others stand still.
 /// \param blocks  inverse ones of the particles
 BlockRow local_energies(std::span<const double> blocks, int width, std::span<const double> right) {
@@ -180,15 +184,16 @@ void BoxSolver::solve(std::span<const double> right, std::span<double> solution)
 void BoxSolver::correct(std::span<const double> right, std::span<double> solution, double energy) {
   const double tolerance = options_.tolerance * finer;
   GradientsReport report;
-  if (single_) {
-    std::vector<double> block(unknowns_.number.size() * block_width, 0.0), found(block.size());
-    for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
-      if (unknowns_.number[slot] >= 0) block[slot * block_width] = right[unknowns_.number[slot]];
+  std::vector<double> block(single_ ? unknowns_.number.size() * block_width : 0),
+      found(block.size());
+  const auto for_each_unknown = [&](auto visit) {
+    for (std::size_t slot = 0; single_ && slot < unknowns_.number.size(); ++slot) {
+      if (unknowns_.number[slot] >= 0) visit(unknowns_.number[slot], slot * block_width);
     }
-    report = search_in_single(block, found, {energy}, tolerance);
-    for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
-      if (unknowns_.number[slot] >= 0) solution[unknowns_.number[slot]] = found[slot * block_width];
-    }
+  };
+  for_each_unknown([&](Index k, std::size_t place) { block[place] = right[k]; });
+  if (is_found_in_single(block, found, {energy}, tolerance, report)) {
+    for_each_unknown([&](Index k, std::size_t place) { solution[k] = found[place]; });
   } else {
     const std::vector<double> wanted(right.begin(), right.end());
     std::ranges::fill(solution, 0.0);
@@ -234,12 +239,27 @@ void BoxSolver::multiply_block(std::span<const double> motions, std::span<double
 GradientsReport BoxSolver::search_block(std::span<double> right, std::span<double> solution,
                                         const BlockRow& sizes, double enough) {
   if (team_) return team_->search_block(right, solution, sizes, enough, most_box_iterations);
-  if (single_) return search_in_single(right, solution, sizes, enough);
+  GradientsReport report;
+  if (is_found_in_single(right, solution, sizes, enough, report)) return report;
   coarse_block_.resize(coarse_.size() * block_width);
   return block_conjugate_gradients<double>(
       [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
       [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
       solution, sizes, enough, most_box_iterations);
+}
+
+/// Bodies that are stiff and soft by turns, or slender, may ask for more digits than single
+/// precision has: then blocks are left to double precision until boxes are made anew.
+bool BoxSolver::is_found_in_single(std::span<const double> right, std::span<double> solution,
+                                   const BlockRow& sizes, double enough, GradientsReport& report) {
+  if (!single_) return false;
+  try {
+    report = search_in_single(right, solution, sizes, enough);
+  } catch (const NotPositiveDefinite&) {
+    report.converged = false;  // double precision has the last word
+  }
+  if (!report.converged) single_.reset();
+  return report.converged;
 }
 
 GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution,
@@ -252,13 +272,19 @@ GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double
 }
 
 /// Steps in single precision; what they have found is added up in double precision, and so is what
-/// is left.
-/// \param right  is left as it is
-GradientsReport BoxSolver::search_in_single(std::span<double> right, std::span<double> solution,
-                                            const BlockRow& sizes, double enough) {
+/// is left. Right sides count by the root of their local energies, so that none is too small.
+GradientsReport BoxSolver::search_in_single(std::span<const double> right,
+                                            std::span<double> solution, const BlockRow& sizes,
+                                            double enough) {
   single_->follow(secants_, ground_ == nullptr ? std::span<const double>() : *ground_);
   const std::size_t row = static_cast<std::size_t>(unknowns_.width) * block_width;
   const double root = std::sqrt(single_->unit());
+  const BlockRow local = local_energies(blocks_, unknowns_.width, right);
+  BlockRow scaled{}, unit;  // sizes, and what a right side and its solution are divided by
+  for (int c = 0; c < block_width; ++c) {
+    unit[c] = local[c] > 0.0 ? std::sqrt(local[c]) : 1.0;
+    scaled[c] = sizes[c] / (unit[c] * unit[c]);
+  }
   std::vector<float> found(right.size()), missing(right.size());
   const auto for_each_particle = [&](auto visit) {
     for (Index p = 0; p < network_.particles.size(); ++p) {
@@ -267,13 +293,15 @@ GradientsReport BoxSolver::search_in_single(std::span<double> right, std::span<d
   };
   const auto add = [&](std::span<const float> part) {
     for_each_particle([&](std::size_t to, std::size_t from) {
-      for (std::size_t k = 0; k < row; ++k) solution[to + k] += part[from + k] / root;
+      for (std::size_t k = 0; k < row; ++k) {
+        solution[to + k] += part[from + k] / root * unit[k % block_width];
+      }
     });
   };
   const auto round = [&](std::span<const double> whole, std::span<float> rounded) {
     for_each_particle([&](std::size_t from, std::size_t to) {
       for (std::size_t k = 0; k < row; ++k) {
-        rounded[to + k] = static_cast<float>(whole[from + k] / root);
+        rounded[to + k] = static_cast<float>(whole[from + k] / (root * unit[k % block_width]));
       }
     });
   };
@@ -282,7 +310,7 @@ GradientsReport BoxSolver::search_in_single(std::span<double> right, std::span<d
   const GradientsReport report = block_conjugate_gradients<float>(
       [&](std::span<const float> q, std::span<float> result) { single_->multiply(q, result); },
       [&](std::span<const float> r, std::span<float> z) { single_->precondition(r, *factor_, z); },
-      missing, found, sizes, enough, most_box_iterations,
+      missing, found, scaled, finer_in_single * enough, most_box_iterations,
       [&](std::span<const float> part, std::span<float> left) {
         add(part);
         std::vector<double> residual(right.size());

@@ -74,7 +74,9 @@ class BoxSolver {
   void require_resistance();
   void precondition_block(std::span<const double> residuals, std::span<double> results);
   void multiply_block(std::span<const double> motions, std::span<double> results);
-  GradientsReport search_in_single(std::span<double> right, std::span<double> solution,
+  bool is_found_in_single(std::span<const double> right, std::span<double> solution,
+                          const BlockRow& sizes, double enough, GradientsReport& report);
+  GradientsReport search_in_single(std::span<const double> right, std::span<double> solution,
                                    const BlockRow& sizes, double enough);
 
   const Network& network_;
@@ -86,7 +88,7 @@ class BoxSolver {
   const std::vector<double>* ground_;
   std::unique_ptr<Factor> factor_;
   std::unique_ptr<Team> team_;          ///< null: this process works alone
-  std::unique_ptr<SingleBody> single_;  ///< null: blocks are solved for in double precision
+  std::unique_ptr<SingleBody> single_;  ///< null: double precision
   std::vector<double> coarse_;          // residual or motion of the boxes, shape (boxes, motions)
   std::vector<double> motion_;          // shape (particles, width), zero where it is prescribed
   std::vector<double> coarse_block_;

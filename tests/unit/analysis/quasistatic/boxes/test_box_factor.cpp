@@ -71,7 +71,8 @@ void expect_what_a_factor_says(const BlockCase& block) {
   }
   if (!body.network.carries_moments()) {
     EXPECT_EQ(followed, 60);
-    EXPECT_LE(boxes.columns_solved(), asked);  // some are made up of others
+    EXPECT_LE(boxes.columns_solved(), asked);      // some are made up of others ...
+    EXPECT_GT(boxes.columns_solved(), asked / 2);  // ... but most are not
     std::vector<double> again = body.unknowns.restrict(body.loads.forces), expected = again;
     boxes.solve(again, again);  // with the secants as they are now
     factor->solve(expected, expected);
