@@ -12,7 +12,8 @@ namespace perilink {
 
 /// Trusses in single precision, sixteen bytes for each in space, by an order of the particles in
 /// which neighbours are near each other: for searches whose residuals are computed from the network
-/// itself. Forces are those of block_forces() to seven digits.
+/// itself. Each bond's force is that of block_forces() to seven digits of the motions of its ends;
+/// where these move far together few are left of it.
 class PackedBonds {
  public:
   /// \param place  where each particle comes in the order

@@ -60,8 +60,8 @@ std::vector<StripCase> strips() {
 INSTANTIATE_TEST_SUITE_P(Curves, SofteningStrips, testing::ValuesIn(strips()),
                          [](const auto& test) { return test.param.name; });
 
-/// The last bond of this strip leaves bonds along the crack alone: both parts slide until nothing is
-/// strained but by round-off, which has no sign that damaged bonds could close by.
+/// The last bond of this strip leaves bonds along the crack alone: both parts slide until nothing
+/// is strained but by round-off, which has no sign that damaged bonds could close by.
 TEST(UnloadedStrips, SettleWhichBondsAreClosed) {
   SofteningStrip strip;
   strip.length = 140.0;

@@ -23,7 +23,8 @@ struct Make {
 };
 
 /// A strip 100 mm long and 50 mm wide (in space a bar 60 mm long and 40 mm square), driven apart
-/// along x until nothing resists, whose middle of two horizons and two spacings may soften, as the text of a case.
+/// along x until nothing resists, whose middle of two horizons and two spacings may soften, as the
+/// text of a case.
 std::string strip(const Make& make);
 
 /// Length of the part of strip() that may soften [mm].

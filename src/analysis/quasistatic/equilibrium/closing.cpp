@@ -300,13 +300,13 @@ void Equilibrium::settle_closing(EventOutcome& outcome) {
   changed_sides_.clear();
   std::vector<double> reached;  // on the way down
   for (int round = 0; round < most_rounds; ++round) {
-    if (round >= rounds_together)
-      noise_of_sides_ = closing_round_off * largest_of(telling_motion());
+    std::vector<double> aim;
+    if (round >= rounds_together) aim = telling_motion();
+    noise_of_sides_ = closing_round_off * largest_of(aim);
     std::vector<Index> wrong = on_wrong_side();
     noise_of_sides_ = 0.0;
     if (wrong.empty()) return;
-    if (round >= rounds_together) {
-      const std::vector<double> aim = telling_motion();
+    if (!aim.empty()) {
       if (reached.empty()) reached = aim;
       const double part = round == rounds_together ? 1.0 : line_minimum(reached, aim);
       for (std::size_t k = 0; k < aim.size(); ++k) reached[k] += part * (aim[k] - reached[k]);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "app/model/body/horizon_limits.hpp"
@@ -22,7 +23,7 @@ constexpr double longest_zone = 10.0;
 /// this, a crack has no room beside it.
 constexpr double longest_brittle_zone = 0.25;
 
-/// Moduli of bars over that of the stiffest material around them: bars of glass fibres in concrete
+/// Moduli of bars over that of the solid: bars of glass fibres in concrete
 /// have 1.3, steel in concrete 7, in wood 20, in soil 2000.
 constexpr double least_bar_modulus = 0.3, largest_bar_modulus = 5e3;
 
@@ -72,14 +73,16 @@ std::optional<std::string> note_of_zone(double zone, double horizon, double body
 }
 
 /// Bars whose numbers are far from all that is laid into solids.
-std::optional<std::string> note_of_bar(const RebarSection& bar, double around) {
-  const double share = bar.youngs_modulus / around;
-  if (share < least_bar_modulus || share > largest_bar_modulus) {
-    return fmt::format(
-        "Young's modulus {:.4g} is {:.2g} times that of the material around it, {:.4g}",
-        bar.youngs_modulus, share, around);
+/// \param softest,stiffest  moduli of the solid: which of its materials are around the bar is not
+///                          asked
+std::optional<std::string> note_of_bar(const RebarSection& bar, double softest, double stiffest) {
+  const bool is_soft = bar.youngs_modulus < least_bar_modulus * softest;
+  if (is_soft || bar.youngs_modulus > largest_bar_modulus * stiffest) {
+    const double solid = is_soft ? softest : stiffest;
+    return fmt::format("Young's modulus {:.4g} is {:.2g} times that of the solid, {:.4g}",
+                       bar.youngs_modulus, bar.youngs_modulus / solid, solid);
   }
-  if (!bar.yield_strength) return std::nullopt;
+  if (!bar.yield_strength || !bar.yields) return std::nullopt;
   const double strain = *bar.yield_strength / bar.youngs_modulus;
   if (strain >= least_yield_strain && strain <= largest_yield_strain) return std::nullopt;
   return fmt::format("it yields at {:.4g}, which is {:.2g} of its Young's modulus {:.4g}",
@@ -89,13 +92,14 @@ std::optional<std::string> note_of_bar(const RebarSection& bar, double around) {
 }  // namespace
 
 std::vector<std::string> bar_notes(const CaseFile& input) {
-  double around = 0.0;
+  double softest = std::numeric_limits<double>::infinity(), stiffest = 0.0;
   for (const MaterialSection& material : input.materials) {
-    around = std::max(around, material.youngs_modulus);
+    softest = std::min(softest, material.youngs_modulus);
+    stiffest = std::max(stiffest, material.youngs_modulus);
   }
   std::vector<std::string> notes;
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {
-    if (const auto note = note_of_bar(input.rebar[k], around)) {
+    if (const auto note = note_of_bar(input.rebar[k], softest, stiffest)) {
       notes.push_back(
           fmt::format("bar {}: {}: are the numbers in units of one system?", k + 1, *note));
     }

@@ -195,10 +195,13 @@ void refuse_idle_loads(const CaseFile& input, const Model& model, const std::str
 }
 
 /// Forces along what is driven move nothing: whatever drives it bears them.
-void note_borne_loads(const Loads& loads, const Prescription& prescription,
+void note_borne_loads(const Network& network, const Loads& loads, const Prescription& prescription,
                       std::vector<std::string>& notes) {
+  const auto width = static_cast<std::size_t>(network.width());
+  const auto dim = static_cast<std::size_t>(network.dim());
   double borne = 0.0, all = 0.0;
   for (std::size_t slot = 0; slot < loads.forces.size(); ++slot) {
+    if (slot % width >= dim) continue;  // a moment
     all += std::abs(loads.forces[slot]);
     if (prescription.value[slot] != 0.0) borne += std::abs(loads.forces[slot]);
   }
@@ -258,7 +261,7 @@ void collect_sets(const CaseFile& input, Model& model) {
     of_stage.network.support_stiffness = model.network.support_stiffness;
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
-    note_borne_loads(of_stage.loads, prescription, model.notes);
+    note_borne_loads(model.network, of_stage.loads, prescription, model.notes);
     refuse_mere_shift(input, of_stage, prescription, stage);
     of_stage.unknowns = unknowns_of(input, model.network, prescription);
     refuse_nothing_to_solve(input, of_stage);
@@ -280,7 +283,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
   model.network.support_stiffness = collect_springs(input, model);
   choose_axes(input, model, applied, prescription, first);
-  note_borne_loads(model.loads, prescription, model.notes);
+  note_borne_loads(model.network, model.loads, prescription, model.notes);
   refuse_mere_shift(input, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
   refuse_loose_particles(input, model, prescription);
