@@ -101,6 +101,8 @@ std::string driven(const std::string& text) {
 
 const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
 
+const std::string springs = "\n[[springs]]\nregion = \"bar\"\ntotal = [2e3, 5e3]\n";
+
 struct RankCase {
   std::string name, text;
 };
@@ -223,12 +225,13 @@ TEST_P(RankKills, EndAllTogether) {
   EXPECT_EQ(summary(out).at("status"), "running");
 }
 
-/// The first rank holds the whole body: where it has no room for a search the others do not wait.
-TEST_F(RankFolder, EndTogetherWhereTheFirstHasNoMemory) {
+class RankMemory : public RankFolder, public testing::WithParamInterface<RankCase> {};
+
+/// The first rank holds the whole body: where it has no room for a search, or for a run whose parts
+/// are sent already, the others do not wait.
+TEST_P(RankMemory, EndsTogetherWhereTheFirstHasNone) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
-  std::string text = bar_case(true, "");
-  text.replace(text.find("spacing = 1"), 11, "spacing = 0.3");
-  write_text(work() / "c.toml", text);
+  write_text(work() / "c.toml", GetParam().text);
   const std::string words = std::string("'") + PERILINK_PROGRAM + "' run c.toml --threads 1";
   for (const int megabytes : {550, 600, 650, 700}) {
     const std::string command = fmt::format(
@@ -271,9 +274,21 @@ INSTANTIATE_TEST_SUITE_P(
                                                   "rows = 30", "rows = 30000")}),
     [](const auto& instance) { return instance.param.name; });
 
+// The 40 501 particles of the second leave no room below some 670 MB once their parts are cut.
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, RankMemory,
+    testing::Values(
+        RankCase{"Elastic", replaced(bar_case(true, ""), "spacing = 1", "spacing = 0.3")},
+        RankCase{"Explicit",
+                 replaced(replaced(explicit_case("", ""), "spacing = 0.25", "spacing = 0.05"),
+                          "duration = 0.02\nramp_time = 0.01",
+                          "strain = \"green\"\nduration = 5e-4\nramp_time = 2e-4")}),
+    [](const auto& instance) { return instance.param.name; });
+
 INSTANTIATE_TEST_SUITE_P(Bodies, ExplicitRankRuns,
                          testing::Values(RankCase{"Brittle", explicit_case("", "")},
                                          RankCase{"Softening", explicit_case("", softening)},
+                                         RankCase{"OnSprings", explicit_case("", "") + springs},
                                          RankCase{"Micropolar",
                                                   explicit_case("model = \"micropolar\"\n", "")}),
                          [](const auto& instance) { return instance.param.name; });
