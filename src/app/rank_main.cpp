@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <csignal>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -37,6 +38,8 @@ int main(int argc, char** argv) {
   const std::unique_ptr<Ranks> ranks = start_petsc_ranks();
   require_one_command(*ranks, argc, argv);
   if (!ranks->leads()) {
+    // The first alone stops a run in good order, with all others at its side.
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
     serve(*ranks);
     return 0;
   }

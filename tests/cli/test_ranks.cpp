@@ -92,6 +92,12 @@ std::string explicit_case(const std::string& body, const std::string& law) {
   return replaced(text, "fracture_energy", "density = 1e-3\nfracture_energy");
 }
 
+/// With some seconds of work.
+std::string long_explicit_case() {
+  const std::string text = replaced(explicit_case("", ""), "duration = 0.02", "duration = 5");
+  return replaced(text, "rows = 30", "rows = 30000");
+}
+
 /// Driven in place of loaded.
 std::string driven(const std::string& text) {
   const std::size_t begin = text.find("[[tractions]]"), end = text.find("[analysis]");
@@ -100,6 +106,8 @@ std::string driven(const std::string& text) {
 }
 
 const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
+
+const std::string springs = "\n[[springs]]\nregion = \"bar\"\ntotal = [2e3, 5e3]\n";
 
 struct RankCase {
   std::string name, text;
@@ -223,12 +231,34 @@ TEST_P(RankKills, EndAllTogether) {
   EXPECT_EQ(summary(out).at("status"), "running");
 }
 
-/// The first rank holds the whole body: where it has no room for a search the others do not wait.
-TEST_F(RankFolder, EndTogetherWhereTheFirstHasNoMemory) {
+class RankStops : public RankFolder, public testing::WithParamInterface<std::string> {};
+
+/// mpiexec of Open MPI makes SIGTERM to all ranks of what stops it, and kills them a second later.
+/// Given more, on a busy machine, the first ends its run in good order, and the others go along.
+TEST_P(RankStops, KeepWhatTheyFound) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
-  std::string text = bar_case(true, "");
-  text.replace(text.find("spacing = 1"), 11, "spacing = 0.3");
-  write_text(work() / "c.toml", text);
+  write_text(work() / "c.toml", long_explicit_case());
+  const std::string out = "stopped_" + std::to_string(getpid()), words = "run c.toml --out " + out;
+  std::thread stopper([&] {
+    const std::string command = "cd '" + work().string() + "'; for k in $(seq 600); do [ $(cat " +
+                                out + "/history.csv 2>/dev/null | wc -l) -ge 3 ] && break; " +
+                                "sleep 0.05; done; pkill " + GetParam() + words + "$'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << "no process was stopped";
+  });
+  setenv("OMPI_MCA_odls_base_sigkill_timeout", "4", 1);
+  run_ranks(2, words);
+  unsetenv("OMPI_MCA_odls_base_sigkill_timeout");
+  stopper.join();
+  EXPECT_EQ(summary(out).at("status"), "interrupted");
+}
+
+class RankMemory : public RankFolder, public testing::WithParamInterface<RankCase> {};
+
+/// The first rank holds the whole body: where it has no room for a search, or for a run whose parts
+/// are sent already, the others do not wait.
+TEST_P(RankMemory, EndsTogetherWhereTheFirstHasNone) {
+  if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
+  write_text(work() / "c.toml", GetParam().text);
   const std::string words = std::string("'") + PERILINK_PROGRAM + "' run c.toml --threads 1";
   for (const int megabytes : {550, 600, 650, 700}) {
     const std::string command = fmt::format(
@@ -259,6 +289,13 @@ TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
   EXPECT_THAT(read_text(work() / "err"), HasSubstr("this build knows no MPI"));
 }
 
+// mpiexec, which is the oldest, or all ranks.
+INSTANTIATE_TEST_SUITE_P(Processes, RankStops,
+                         testing::Values("-TERM -o -f '", "-TERM -f '^[^ ]*perilink "),
+                         [](const auto& instance) {
+                           return instance.index == 0 ? "Mpiexec" : "All";
+                         });
+
 // Each has some seconds of work.
 INSTANTIATE_TEST_SUITE_P(
     Kinds, RankKills,
@@ -266,14 +303,24 @@ INSTANTIATE_TEST_SUITE_P(
                              replaced(bar_case(true, ""), "spacing = 1", "spacing = 0.3")},
                     RankCase{"Damage", replaced(breaking_case(true, "", "", ""), "spacing = 1",
                                                 "spacing = 0.5")},
-                    RankCase{"Explicit", replaced(replaced(explicit_case("", ""), "duration = 0.02",
-                                                           "duration = 5"),
-                                                  "rows = 30", "rows = 30000")}),
+                    RankCase{"Explicit", long_explicit_case()}),
+    [](const auto& instance) { return instance.param.name; });
+
+// The 40 501 particles of the second leave no room below some 670 MB once their parts are cut.
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, RankMemory,
+    testing::Values(
+        RankCase{"Elastic", replaced(bar_case(true, ""), "spacing = 1", "spacing = 0.3")},
+        RankCase{"Explicit",
+                 replaced(replaced(explicit_case("", ""), "spacing = 0.25", "spacing = 0.05"),
+                          "duration = 0.02\nramp_time = 0.01",
+                          "strain = \"green\"\nduration = 5e-4\nramp_time = 2e-4")}),
     [](const auto& instance) { return instance.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(Bodies, ExplicitRankRuns,
                          testing::Values(RankCase{"Brittle", explicit_case("", "")},
                                          RankCase{"Softening", explicit_case("", softening)},
+                                         RankCase{"OnSprings", explicit_case("", "") + springs},
                                          RankCase{"Micropolar",
                                                   explicit_case("model = \"micropolar\"\n", "")}),
                          [](const auto& instance) { return instance.param.name; });

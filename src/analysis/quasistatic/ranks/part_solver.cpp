@@ -32,19 +32,21 @@ PartSolver::PartSolver(Ranks& ranks, BodyPart part)
       layer_(ranks.make_ghost_layer(part_.particles(), part_.ghosts, part_.unknowns.width)),
       motion_(part_.unknowns.number.size(), 0.0),
       coarse_(static_cast<std::size_t>(part_.coarse.rows()), 0.0) {
+  if (part_.changes) {
+    block_layer_ =
+        ranks.make_ghost_layer(part_.particles(), part_.ghosts, part_.unknowns.width * block_width);
+    motions_.resize(motion_.size() * block_width);
+    block_forces_.resize(motions_.size());
+    coarse_sums_.resize(coarse_.size() * block_width);
+    coarse_columns_.resize(coarse_sums_.size());
+  }
+  // Last: where one rank alone has no memory for the factor the others wait in nothing.
   std::vector<Index> groups(coarse_.size());
   for (std::size_t k = 0; k < groups.size(); ++k) {
     groups[k] = static_cast<Index>(k) / part_.motions;
   }
   factor_->factorize(part_.coarse, groups);
   part_.coarse = {};
-  if (!part_.changes) return;
-  block_layer_ =
-      ranks.make_ghost_layer(part_.particles(), part_.ghosts, part_.unknowns.width * block_width);
-  motions_.resize(motion_.size() * block_width);
-  block_forces_.resize(motions_.size());
-  coarse_sums_.resize(coarse_.size() * block_width);
-  coarse_columns_.resize(coarse_sums_.size());
 }
 
 void PartSolver::follow(const BodyChanges& changes) {
@@ -71,7 +73,8 @@ GradientsReport PartSolver::search(std::span<const double> right, std::span<doub
 GradientsReport PartSolver::search_block(std::span<double> right, std::span<double> solution,
                                          const BlockRow& sizes, double enough,
                                          int most_iterations) {
-  // What fails in a map fails in this rank alone.
+  // What fails in a map fails in this rank alone, a factor without memory (a SolverError) as well;
+  // search() leaves that to Ranks::conjugate_gradients(). Errors of the search are those of all.
   const auto by = [&](auto map) {
     return [this, map](std::span<const double> from, std::span<double> to) {
       try {

@@ -19,9 +19,9 @@ class Team {
  public:
   /// Cuts the body into parts and sends them.
   /// \param stiffness  its blocks inverted
-  /// \param ground     springs that hold unknowns, size n, or empty; null: neither these nor the
-  ///                   secants change. Both are kept by reference, and every search is that of
-  ///                   what they are by then
+  /// \param ground     springs that hold unknowns, size n, or empty until there are some, and
+  ///                   never again; null: neither these nor the secants change. Both are kept by
+  ///                   reference, and every search is that of what they are by then
   Team(Ranks& ranks, const Network& network, const Unknowns& unknowns, Secants secants,
        const BoxMotions& motions, const BoxStiffness& stiffness,
        const std::vector<double>* ground = nullptr);

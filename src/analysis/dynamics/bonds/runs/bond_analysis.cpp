@@ -232,7 +232,7 @@ ExplicitResult run_shared(const LoadedNetwork& problem, const Inertia& inertia,
   Ranks& ranks = *options.ranks;
   BondStencil stencil = stencil_for(problem.network, rules.strain);
   const BlockPartition partition(problem.network, ranks.count());
-  lead(ranks, [&] {
+  return lead(ranks, [&] {
     const RunOrder rest{rules.damping_rate,      rules.strain,
                         rules.constant_velocity, inertia.frequency_bound,
                         main_component(problem), options};
@@ -243,14 +243,14 @@ ExplicitResult run_shared(const LoadedNetwork& problem, const Inertia& inertia,
       ranks.send(rank, order.bytes());
       ranks.send(rank, cut_part(problem, inertia.mass, stencil, partition, rank).pack().bytes());
     }
+    LeadingShare share(ranks, problem, partition);
+    auto bonds = std::make_unique<LeadingBonds>(
+        make_explicit_bonds(problem.network, rules.strain, std::move(stencil)), share);
+    ExplicitResult result =
+        BondRun(problem, inertia, std::move(bonds), rules, options, observer, {&share}).run();
+    result.ranks = ranks.count();
+    return result;
   });
-  LeadingShare share(ranks, problem, partition);
-  auto bonds = std::make_unique<LeadingBonds>(
-      make_explicit_bonds(problem.network, rules.strain, std::move(stencil)), share);
-  ExplicitResult result =
-      BondRun(problem, inertia, std::move(bonds), rules, options, observer, {&share}).run();
-  result.ranks = ranks.count();
-  return result;
 }
 
 }  // namespace

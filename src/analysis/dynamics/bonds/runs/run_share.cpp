@@ -1,6 +1,7 @@
 #include "analysis/dynamics/bonds/runs/run_share.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "base/parcel.hpp"
@@ -8,8 +9,8 @@
 namespace perilink {
 namespace {
 
-/// What the first rank asks for in a meeting.
-enum class Wish : int { motion, secants, go_on, leave };
+/// What the first rank asks for in a meeting; no number is that of a Service.
+enum class Wish : int { motion = 100, secants, go_on, leave };
 
 void ask(Ranks& ranks, Wish wish) {
   Parcel parcel;
@@ -90,15 +91,18 @@ void LeadingShare::collect_motion(BondMotion& motion) {
 }
 
 void LeadingShare::collect_secants(std::span<double> secants) {
-  ask(ranks_, Wish::secants);
-  for (int rank = 1; rank < ranks_.count(); ++rank) {
-    Parcel parcel(ranks_.receive(rank));
-    std::vector<Index> elements;
-    std::vector<double> own;
-    parcel.get(elements);
-    parcel.get(own);
-    for (std::size_t k = 0; k < own.size(); ++k) secants[elements[k]] = own[k];
-  }
+  // An observer asks: its failures end a run in good order, which answers left unread do not.
+  lead(ranks_, [&] {
+    ask(ranks_, Wish::secants);
+    for (int rank = 1; rank < ranks_.count(); ++rank) {
+      Parcel parcel(ranks_.receive(rank));
+      std::vector<Index> elements;
+      std::vector<double> own;
+      parcel.get(elements);
+      parcel.get(own);
+      for (std::size_t k = 0; k < own.size(); ++k) secants[elements[k]] = own[k];
+    }
+  });
 }
 
 void LeadingShare::tell(bool goes_on) { ask(ranks_, goes_on ? Wish::go_on : Wish::leave); }
@@ -131,9 +135,11 @@ bool FollowingShare::meet(MovingBonds& body) {
       for (const std::vector<double>* all : {&body.motion.displacement, &body.motion.velocity}) {
         answer.put(own_slots(body.blocks, first_block(), past_block(), *all));
       }
-    } else {
+    } else if (wish == Wish::secants) {
       answer.put(part_.elements);
       answer.put(body.bonds->secants());
+    } else {
+      throw std::logic_error("the first rank has left a run in which others wait for it");
     }
     ranks_.send(0, answer.bytes());
   }
