@@ -179,7 +179,7 @@ GradientsReport block_conjugate_gradients(
   /// A residual so small, counted as an error, is none even where the body is soft.
   constexpr double gone = 1e-3;
   constexpr Number one{1};
-  constexpr double least_gain = 0.1;  // of the five digits between corrections, or they are too few
+  constexpr double least_gain = 0.1;  // one of the five digits between corrections
   std::vector<Number> z(right.size()), p(right.size()), q(right.size());
   std::ranges::fill(solution, Number{0});
   std::array<EnergyGains, width> gains;
