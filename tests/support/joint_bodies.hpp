@@ -53,6 +53,7 @@ struct JointBody {
       body = make_mesh_body(mesh, material, 1.0);
       body.lattice.surface = Surface::calibrated;
       input.horizon = tested.ratio * body.lattice.spacing;
+      input.critical_stretch = Constants::continuum;  // as of every mesh in case files
     } else {
       LatticeInput lattice;
       lattice.pattern = tested.pattern;
