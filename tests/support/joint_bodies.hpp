@@ -63,6 +63,7 @@ struct JointBody {
       below.upper[last] = above.lower[last] = height_of_joint;
       lattice.solid = {below, above};
       lattice.material = {0, 1};
+      lattice.unlike_materials = true;
       lattice.horizon = tested.ratio * lattice.spacing;
       body = make_body(lattice);
       input.solid = lattice.solid;
