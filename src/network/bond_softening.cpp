@@ -311,20 +311,19 @@ MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const F
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
   const Particles& particles = network.particles;
   // Materials, and the stretch where bonds of the same take unlike energies: those of beams near
-  // ends, and those of layers beside other materials.
+  // ends, and those of layers beside other materials. Ties have none.
   struct Kind {
     std::pair<Index, Index> materials;
     double stretch;
     auto operator<=>(const Kind&) const = default;
   };
-  const bool by_layers = !network.materials_of.empty();
   const auto kind_of = [&](Index element) -> Kind {
     const Index j = network.bonds.second[element];
-    const double stretch = network.is_beam() || by_layers ? network.critical_stretch[element] : 0.0;
-    if (by_layers && element < static_cast<Index>(network.materials_of.size())) {
+    if (element < static_cast<Index>(network.materials_of.size())) {
       const auto& [a, b] = network.materials_of[element];
-      return {std::minmax(a, b), stretch};
+      return {std::minmax(a, b), network.critical_stretch[element]};
     }
+    const double stretch = network.is_beam() ? network.critical_stretch[element] : 0.0;
     // Between two spans of a beam stands a particle of the first one.
     const Index own = particles.material[network.is_beam() ? j : network.bonds.first[element]];
     const bool solid = particles.kind[j] == ParticleKind::solid;
@@ -360,10 +359,11 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
   for (Index e = 0; e < network.first_segment; ++e) {
     if (!network.has_limit(e)) continue;
     const Kind kind = kind_of(e);
-    const auto law = number.find(kind);
-    if (law == number.end()) continue;
+    // Ties are as tough as what lies beside no other material: the least stretch.
+    const auto law = kind.stretch > 0.0 ? number.find(kind) : number.lower_bound(kind);
+    if (law == number.end() || law->first.materials != kind.materials) continue;
     network.law_of[e] = law->second;
-    network.critical_stretch[e] = laws.at(kind).strength.first_stretch;
+    network.critical_stretch[e] = laws.at(law->first).strength.first_stretch;
   }
 }
 

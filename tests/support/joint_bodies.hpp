@@ -53,6 +53,7 @@ struct JointBody {
       body = make_mesh_body(mesh, material, 1.0);
       body.lattice.surface = Surface::calibrated;
       input.horizon = tested.ratio * body.lattice.spacing;
+      input.critical_stretch = Constants::continuum;  // as of every mesh in case files
     } else {
       LatticeInput lattice;
       lattice.pattern = tested.pattern;
@@ -62,6 +63,7 @@ struct JointBody {
       below.upper[last] = above.lower[last] = height_of_joint;
       lattice.solid = {below, above};
       lattice.material = {0, 1};
+      lattice.unlike_materials = true;
       lattice.horizon = tested.ratio * lattice.spacing;
       body = make_body(lattice);
       input.solid = lattice.solid;

@@ -57,6 +57,8 @@ struct LatticeInput {
   double thickness = 1.0;       ///< two-dimensional bodies only [length]
   std::vector<Box> solid;       ///< the body is the union of these boxes
   std::vector<Index> material;  ///< per box; where boxes overlap the last one counts
+  /// Whether these differ in stiffness: faces of boxes are joints then, in which rows should lie.
+  bool unlike_materials = false;
   double boundary_tolerance = 1e-6;  ///< for "inside a box", in spacings
 };
 

@@ -15,10 +15,10 @@ double even_step(const Box& bounds, int axis, double wanted, bool even_number = 
   return extent / std::max(1.0, std::round(extent / wanted));
 }
 
-/// Rows of calibrated hexagonal lattices: an even number. In a body of several materials there is
-/// one below every face, too, where rows of about the wanted height can be so.
+/// Rows of calibrated hexagonal lattices: an even number. Where materials of unlike stiffness meet
+/// there is one below every face, too, if rows of about the wanted height can be so.
 double height_of_paired_rows(const LatticeInput& input, const Box& bounds, double wanted) {
-  constexpr double most_stretched = 0.15, same_plane = 1e-6;
+  constexpr double most_stretched = 0.05, same_plane = 1e-6;
   const double extent = bounds.upper[1] - bounds.lower[1], pairs = 0.5 * extent / wanted;
   const auto has_below = [&](double number, double height) {
     const double below = (height - bounds.lower[1]) / extent * number;
@@ -30,10 +30,7 @@ double height_of_paired_rows(const LatticeInput& input, const Box& bounds, doubl
     });
   };
   double found = std::max(1.0, std::round(pairs));
-  if (std::count(input.material.begin(), input.material.end(), input.material.front()) ==
-      static_cast<std::ptrdiff_t>(input.material.size())) {
-    return extent / (2.0 * found);
-  }
+  if (!input.unlike_materials) return extent / (2.0 * found);
   double off = most_stretched * pairs;
   for (double number = 1.0; number < pairs + off; number += 1.0) {
     if (std::abs(number - pairs) > off || !has_below_faces(number)) continue;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "discretization/lattices/triangulate.hpp"
+#include "material/critical_stretch.hpp"
 
 namespace perilink {
 namespace {
@@ -149,8 +150,8 @@ void Cut::measure(LayerBody& cut) const {
   particles.volumes = shape_integrals(cells, particles.positions, input_.thickness);
 }
 
-/// With the moduli of the layer in place of the mean of their ends, and its volumes; where they
-/// carry moments, hinged at the particles in a plane.
+/// With the moduli of the layer in place of the mean of their ends, its volumes, and the critical
+/// stretches that its continuum has; where they carry moments, hinged at the particles in a plane.
 void Cut::add_bonds(LayerBody& cut) const {
   Network& layer = cut.network;
   layer.bonds.dim = joint_.dim;
@@ -163,6 +164,14 @@ void Cut::add_bonds(LayerBody& cut) const {
     const double mean = 0.5 * (moduli_[material[i]].*modulus + moduli_[material[j]].*modulus);
     return mean > 0.0 ? moduli_[joint_.layers[layer_]].*modulus / mean : 0.0;
   };
+  const auto stretch = [&](Index bond) {
+    const auto energy = [&](Index i) {
+      return input_.materials[layer.particles.material[i]].fracture_energy;
+    };
+    return continuum_critical_stretch(
+        input_.problem, 0.5 * (energy(layer.bonds.first[bond]) + energy(layer.bonds.second[bond])),
+        moduli_[joint_.layers[layer_]].micromodulus, input_.horizon, input_.thickness);
+  };
   for (Index b = 0; b < whole_.bonds.size(); ++b) {
     const Index i = whole_.bonds.first[b], j = whole_.bonds.second[b];
     if (number_[i] == no_index || number_[j] == no_index) continue;
@@ -170,7 +179,7 @@ void Cut::add_bonds(LayerBody& cut) const {
     const double part = share(i) * share(j);
     layer.stiffness.push_back(whole_.stiffness[b] * part *
                               over_mean(&MicropolarModuli::micromodulus, i, j));
-    layer.critical_stretch.push_back(whole_.critical_stretch[b]);
+    layer.critical_stretch.push_back(stretch(layer.bonds.size() - 1));
     if (!whole_.carries_moments()) continue;
     layer.bending.push_back(whole_.bending[b] * part *
                             over_mean(&MicropolarModuli::bending_modulus, i, j));

@@ -41,6 +41,12 @@ double continuum_modulus(const NetworkInput& input, double micromodulus) {
 /// to each of the 18 equations of a particle.
 constexpr std::size_t least_neighbours = 36;
 
+/// Whether the stretches of all bonds are given, whatever they take.
+bool have_stretches(const NetworkInput& input) {
+  return std::all_of(input.materials.begin(), input.materials.end(),
+                     [](const SolidMaterial& m) { return m.softening.stretches[0] > 0.0; });
+}
+
 bool can_break(const NetworkInput& input) {
   return std::any_of(input.materials.begin(), input.materials.end(),
                      [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); });
@@ -255,7 +261,9 @@ void Correction::set_strength(const LatticeFamilies* families) {
 bool Correction::calibrate_layers() {
   if (input_.materials.size() < 2 || !input_.interfaces.empty()) return false;
   if (input_.draft || input_.shell) return false;
-  if (can_break(input_) && input_.critical_stretch != Constants::lattice) return false;
+  if (can_break(input_) && on_lattice() && input_.critical_stretch != Constants::lattice) {
+    return false;
+  }
   if (micropolar() && on_lattice() && network_.dim() == 3 &&
       bulk_family(body_.lattice, input_.horizon).offsets.size() < least_neighbours) {
     return false;
@@ -267,7 +275,7 @@ bool Correction::calibrate_layers() {
       find_joint(network_.facets, network_.particles, constants, body_.lattice.spacing);
   const auto calibrate_layer = [&](std::size_t layer, const Body& body, Network& network) {
     Correction(body, input_, network).calibrate(true);
-    if (!can_break(input_)) return;
+    if (!can_break(input_) || have_stretches(input_)) return;
     toughen_glued_faces(*joint, layer, input_.horizon, body_.lattice.spacing, network);
   };
   if (!joint || !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {

@@ -255,6 +255,37 @@ TEST(SofteningBonds, TieBarsAsTheirSolidDoes) {
   }
 }
 
+/// In layers bonds beside the joint are tougher: ties are as those far from it.
+TEST(SofteningBonds, TieBarsInLayersAsTheInsideOfTheirLayer) {
+  LatticeInput lattice;
+  lattice.surface = Surface::calibrated;
+  lattice.spacing = 1.0 / 24.0;
+  lattice.solid = {{{0, 0, 0}, {1, 0.5, 0}}, {{0, 0.5, 0}, {1, 1, 0}}};
+  lattice.material = {0, 1};
+  lattice.horizon = 3.0 * lattice.spacing;
+  NetworkInput input;
+  input.solid = lattice.solid;
+  input.horizon = lattice.horizon;
+  input.materials = {{30.0, 0.02, 0.0, softening(Softening::linear, 0.6)},
+                     {120.0, 0.02, 0.0, softening(Softening::linear, 0.8)}};
+  input.bars = {{{0.1, 0.26, 0.0}, {0.9, 0.72, 0.0}}};
+  input.bar_materials = {{200.0, 0.01, infinity, true}};
+  const Network network = build_network(make_body(lattice), input);
+  ASSERT_FALSE(network.materials_of.empty()) << "not in layers";
+  int ties[2] = {0, 0};
+  for (Index e = network.first_tie; e < network.first_segment; ++e) {
+    const Index own = network.particles.material[network.bonds.first[e]];
+    ++ties[own];
+    int teeth = 0;
+    while (network.law(e).tooth(teeth).secant > 0.0) ++teeth;
+    EXPECT_EQ(teeth, network.strengths[own].teeth);
+    EXPECT_GT(teeth, 1);
+    EXPECT_EQ(network.critical_stretch[e], network.strengths[own].first_stretch);
+  }
+  EXPECT_GT(ties[0], 0);
+  EXPECT_GT(ties[1], 0);
+}
+
 TEST(SofteningBonds, AreRefusedWhereTheyWouldHoldMoreThanTheyMayDissipate) {
   const LatticeInput body_of = body_input({"", Pattern::rectangular, Surface::none}, 8);
   const Body body = make_body(body_of);

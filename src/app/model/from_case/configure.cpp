@@ -101,6 +101,13 @@ Body build_beam_body(const CaseFile& input, const LatticeInput& lattice, double&
   }
 }
 
+bool have_unlike_constants(const std::vector<MaterialSection>& materials) {
+  return std::any_of(materials.begin(), materials.end(), [&](const MaterialSection& m) {
+    return m.youngs_modulus != materials.front().youngs_modulus ||
+           m.poissons_ratio != materials.front().poissons_ratio;
+  });
+}
+
 Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   LatticeInput lattice;
   lattice.pattern = input.body.pattern;
@@ -112,6 +119,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
       lattice.material.push_back(static_cast<Index>(m));
     }
   }
+  lattice.unlike_materials = have_unlike_constants(input.materials);
   const Box box = bounding_box(lattice.solid);
   lattice.spacing = wanted_spacing(input.body, box.upper[0] - box.lower[0]);
   refuse_impossible_spacing(input, box, lattice.spacing, dim);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "discretization/lattices/make_body.hpp"
+#include "material/critical_stretch.hpp"
 #include "network/builder/network_builder.hpp"
 
 namespace perilink {
@@ -67,6 +68,22 @@ TEST(LayeredBody, ALayerIsABodyOfOneMaterialWithGluedFaces) {
     }
     EXPECT_EQ(glued, 8);
     EXPECT_NEAR(std::hypot(closed[0], closed[1]), 0.0, 1e-12);
+  }
+}
+
+/// Those in the plane, too, whose particles belong to the other material.
+TEST(LayeredBody, BondsBreakAsTheContinuumOfTheirLayer) {
+  TwoSquares squares;
+  squares.input.materials[0].fracture_energy = 1.0;
+  squares.input.materials[1].fracture_energy = 5.0;
+  for (const std::size_t k : {0, 1}) {
+    const LayerBody layer =
+        cut_layer(squares.body, squares.input, squares.network, squares.joint, k);
+    const SolidMaterial& own = squares.input.materials[squares.joint.layers[k]];
+    const double stretch = continuum_critical_stretch(
+        squares.input.problem, own.fracture_energy,
+        moduli_of(squares.body, squares.input, own).micromodulus, squares.input.horizon, 1.0);
+    for (const double s : layer.network.critical_stretch) EXPECT_NEAR(s, stretch, 1e-15);
   }
 }
 

@@ -1,8 +1,11 @@
 #include "app/model/body/mesh_input.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -10,6 +13,7 @@
 #include "app/model/model_regions.hpp"
 #include "base/error.hpp"
 #include "support/gmsh_texts.hpp"
+#include "support/halved_meshes.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink {
@@ -139,6 +143,34 @@ TEST_F(MeshInput, CracksCutBonds) {
   const Model model = build_model(input);
   EXPECT_EQ(model.network.bonds.size(), 10 - 1);
   EXPECT_THAT(model.network.cut_by_crack, ElementsAre(1));
+}
+
+/// Bonds of meshes that can break have the critical stretches of a continuum at first.
+TEST_F(MeshInput, BrittleMaterialsInLayersAreCalibratedLayerByLayer) {
+  test::write_text(directory_ / "halves.msh", test::halved_mesh_text(2, 16, 1.0));
+  std::string text = "[body]\nmesh = \"halves.msh\"\nhorizon_ratio = 2\n";
+  for (const char* group : {"first", "second", "left", "right"}) {
+    text += fmt::format("[[regions]]\nname = \"{0}\"\ngroup = \"{0}\"\n", group);
+  }
+  text +=
+      "[[materials]]\nregion = \"first\"\nyoungs_modulus = 100\nfracture_energy = 1\n"
+      "[[materials]]\nregion = \"second\"\nyoungs_modulus = 400\nfracture_energy = 1\n"
+      "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\"]\n"
+      "[[loads]]\nregion = \"right\"\nforce = [1, 0]\n";
+  const Model model = build_model(parse_case(text, (directory_ / "halves.toml").string()));
+  // Along the joint's normal, from the corner of the body about which it is turned.
+  const auto height = [&](Index i) {
+    const auto x = model.network.particles.position(i);
+    return x[0] * std::cos(std::numbers::pi / 6.0) + x[1] * std::sin(std::numbers::pi / 6.0) - 0.5;
+  };
+  int beside = 0;
+  for (Index b = 0; b < model.network.bonds.size(); ++b) {
+    const double from = height(model.network.bonds.first[b]);
+    const double to = height(model.network.bonds.second[b]);
+    EXPECT_FALSE(from * to < -1e-12) << "crosses the joint";  // round-off of the turn
+    beside += std::abs(from) < 0.1 && std::abs(to) < 0.1;
+  }
+  EXPECT_GT(beside, 0);
 }
 
 TEST_F(MeshInput, IsFoundFromTheFolderOfTheResults) {
