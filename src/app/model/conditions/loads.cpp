@@ -133,7 +133,7 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
                                     fmt::join(particles.position(nearest.particle), ", ")));
   }
   if (section.moment != Vector3{} && !resists_rotation(model.network, nearest.particle)) {
-    if (model.network.carries_moments() && !model.network.materials_of.empty()) {
+    if (!model.network.hinged.empty()) {
       throw InputError(input.where(item_key("point_loads", k, "moment")),
                        "acts on a particle that does not turn: it lies in the joint of two layers",
                        "move the moment to the next row of particles");
