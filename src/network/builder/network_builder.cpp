@@ -1,6 +1,7 @@
 #include "network/builder/network_builder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -112,13 +113,19 @@ void cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
   CutBonds cut =
       find_cut_bonds(network.particles, network.bonds, input.cracks, body.lattice.spacing);
   network.cut_by_crack = std::move(cut.count);
-  const auto closes = [&](Index particle) {
-    const Index material = network.particles.material[particle];
-    return material != no_index && input.materials[material].softening.closes;
+  const auto closes = [&](Index bond) {
+    const std::vector<Index>& material = network.particles.material;
+    const std::array<Index, 2> ends =
+        network.materials_of.empty()
+            ? std::array{material[network.bonds.first[bond]], material[network.bonds.second[bond]]}
+            : network.materials_of[bond];
+    return std::all_of(ends.begin(), ends.end(), [&](Index m) {
+      return m != no_index && input.materials[m].softening.closes;
+    });
   };
   Index number = 0;
   for (Index b = 0; b < network.bonds.size(); ++b) {
-    if (cut.keep[b] == 0 && closes(network.bonds.first[b]) && closes(network.bonds.second[b])) {
+    if (cut.keep[b] == 0 && closes(b)) {
       cut.keep[b] = 1;
       network.cut_elements.push_back(number);
     }

@@ -133,6 +133,11 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
                                     fmt::join(particles.position(nearest.particle), ", ")));
   }
   if (section.moment != Vector3{} && !resists_rotation(model.network, nearest.particle)) {
+    if (!model.network.hinged.empty()) {
+      throw InputError(input.where(item_key("point_loads", k, "moment")),
+                       "acts on a particle that does not turn: it lies in the joint of two layers",
+                       "move the moment to the next row of particles");
+    }
     throw InputError(input.where(item_key("point_loads", k, "moment")),
                      "acts on a particle whose bonds resist no rotation",
                      "a Poisson's ratio below that of bond-based solids gives the bonds bending "

@@ -61,6 +61,11 @@ void refuse_idle_rotation(const CaseFile& input, const Model& model,
   const std::vector<std::uint8_t> rotating = rotating_particles(model.network);
   const auto turns = [&](Index i) { return !rotating.empty() && rotating[i] != 0; };
   if (particles.empty() || std::any_of(particles.begin(), particles.end(), turns)) return;
+  if (!model.network.hinged.empty()) {
+    throw InputError(input.where(key),
+                     "drives particles that do not turn: they lie in the joint of two layers",
+                     "drive the next row of particles");
+  }
   throw InputError(input.where(key), "drives the rotation of particles whose bonds resist none",
                    "drive their displacements by formulas that turn the region");
 }

@@ -103,6 +103,25 @@ TEST(Configure, HorizonAsALengthStaysOnAStretchedLattice) {
   EXPECT_DOUBLE_EQ(model.horizon, 31.0);
 }
 
+/// A stiffer one adapts the rows: its face, at three quarters of the height, has 36 of 48 below.
+TEST(Configure, PadsOfEqualConstantsLeaveHexagonalLatticesAsTheyAre) {
+  CaseFile input = strip_case();
+  input.body.pattern = Pattern::hexagonal;
+  input.body.surface = Surface::calibrated;
+  input.body.spacing = 2.0;
+  input.body.horizon = 6.0;
+  const Vector3 alone = build_model(input).lattice.step;
+  Region pad = input.regions.front();
+  pad.name = "pad";
+  pad.box.lower[1] = 60.0;
+  input.regions.push_back(pad);
+  input.materials.push_back(input.materials.front());
+  input.materials.back().regions = {"pad"};
+  EXPECT_EQ(build_model(input).lattice.step, alone);
+  input.materials.back().youngs_modulus *= 2.0;
+  EXPECT_DOUBLE_EQ(build_model(input).lattice.step[1], 80.0 / 48.0);
+}
+
 /// The rows of a hexagonal body do not fit its height, so that the lattice is stretched or
 /// compressed; three spacings enclose shells of 6, 6, 6, 12 and 6 neighbours all the same.
 class HexagonalColumns : public testing::TestWithParam<int> {};
