@@ -210,8 +210,8 @@ struct NewBonds {
   std::vector<double> stretch;    // critical
 };
 
-/// Stiffnesses and shares of a layer are added to those of the body. Bonds with moments are those
-/// of one layer only.
+/// Stiffnesses and shares of a layer are added to those of the body. Each bond with moments
+/// belongs to a single layer.
 void put_back(const LayerBody& layer, NewBonds& made, Network& whole) {
   const Bonds& bonds = layer.network.bonds;
   Index at = 0;  // both are sorted by their ends

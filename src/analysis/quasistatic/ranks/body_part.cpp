@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "discretization/point_boxes.hpp"
+#include "network/stiffness_members.hpp"
 
 namespace perilink {
 namespace {
@@ -11,19 +12,7 @@ namespace {
 /// Visits all that a rank has to know, in one order for sender and receiver.
 template <class Part, class Visit>
 void for_each_member(Part& part, Visit visit) {
-  auto& network = part.network;
-  visit(network.particles.dim);
-  visit(network.torsion);
-  visit(network.bonds.dim);
-  visit(network.bonds.first);
-  visit(network.bonds.second);
-  visit(network.bonds.lengths);
-  visit(network.bonds.directions);
-  visit(network.stiffness);
-  visit(network.bending);
-  visit(network.inflection);
-  visit(network.hinged);
-  visit(network.support_stiffness);
+  for_each_stiffness_member(part.network, visit);
   visit(part.axial);
   visit(part.other);
   visit(part.elements);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "network/stiffness_members.hpp"
+
 namespace perilink {
 namespace {
 
@@ -12,22 +14,10 @@ namespace {
 template <class Part, class Visit>
 void for_each_member(Part& part, Visit visit) {
   auto& network = part.body.network;
-  visit(network.particles.dim);
+  for_each_stiffness_member(network, visit);
   visit(network.particles.volumes);
-  visit(network.bonds.dim);
-  visit(network.bonds.first);
-  visit(network.bonds.second);
-  visit(network.bonds.lengths);
-  visit(network.bonds.directions);
-  visit(network.stiffness);
-  visit(network.bending);
-  visit(network.bending_ratio);
-  visit(network.inflection);
-  visit(network.hinged);
-  visit(network.torsion);
   visit(network.law_of);
   visit(network.critical_stretch);
-  visit(network.support_stiffness);
   visit(network.cut_elements);
   visit(part.body.unknowns.width);
   visit(part.body.unknowns.number);

@@ -1,0 +1,25 @@
+#pragma once
+
+namespace perilink {
+
+/// Visits what tells the stiffness of a network's elements, in one order: what a process has to
+/// send that gives a part of them to another.
+/// \param network  a Network, constant or not
+template <class AnyNetwork, class Visit>
+void for_each_stiffness_member(AnyNetwork& network, Visit visit) {
+  visit(network.particles.dim);
+  visit(network.torsion);
+  visit(network.bonds.dim);
+  visit(network.bonds.first);
+  visit(network.bonds.second);
+  visit(network.bonds.lengths);
+  visit(network.bonds.directions);
+  visit(network.stiffness);
+  visit(network.bending);
+  visit(network.bending_ratio);
+  visit(network.inflection);
+  visit(network.hinged);
+  visit(network.support_stiffness);
+}
+
+}  // namespace perilink
