@@ -104,8 +104,10 @@ void PackedBonds::follow(Secants secants) {
 }
 
 template <int Dim>
-void PackedBonds::add_forces(const float* motions, float* forces) const {
+void PackedBonds::add_forces(const float* motions, float* forces, const PlacesDone& done) const {
+  constexpr std::size_t together = 64;
   const Packed<Dim>* bond = bonds<Dim>().data();
+  std::size_t told = 0;
   for (std::size_t place = 0; place + 1 < begin_.size(); ++place) {
     const LanesInMemory* own_motion = at<Dim>(motions, place);
     LanesInMemory* own_force = at<Dim>(forces, place);
@@ -126,13 +128,18 @@ void PackedBonds::add_forces(const float* motions, float* forces) const {
       }
     }
     for (int a = 0; a < Dim; ++a) own_force[a] = force[a];
+    // Bonds behind end at places behind.
+    if (place + 1 < told + together && place + 2 < begin_.size()) continue;
+    done(told, place + 1);
+    told = place + 1;
   }
 }
 
-void PackedBonds::forces(std::span<const float> motions, std::span<float> forces) const {
+void PackedBonds::forces(std::span<const float> motions, std::span<float> forces,
+                         const PlacesDone& done) const {
   std::ranges::fill(forces, 0.0F);
-  network_.dim() == 2 ? add_forces<2>(motions.data(), forces.data())
-                      : add_forces<3>(motions.data(), forces.data());
+  network_.dim() == 2 ? add_forces<2>(motions.data(), forces.data(), done)
+                      : add_forces<3>(motions.data(), forces.data(), done);
 }
 
 }  // namespace perilink

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -23,9 +24,13 @@ class PackedBonds {
   /// Takes over what has changed since: bonds that differ from then, one by one.
   void follow(Secants secants);
 
+  /// Told of the places [begin, end) whose forces are complete, one after the other.
+  using PlacesDone = std::function<void(std::size_t begin, std::size_t end)>;
+
   /// Forces without those of supports, over the unit.
   /// \param motions  by the order, shape (particles, dim, block_width), as `forces`
-  void forces(std::span<const float> motions, std::span<float> forces) const;
+  void forces(std::span<const float> motions, std::span<float> forces,
+              const PlacesDone& done) const;
 
  private:
   template <int Dim>
@@ -34,7 +39,7 @@ class PackedBonds {
   void set(Index element, double before, double now);
   void set_any(Index element, double before, double now);
   template <int Dim>
-  void add_forces(const float* motions, float* forces) const;
+  void add_forces(const float* motions, float* forces, const PlacesDone& done) const;
 
   /// n sqrt(k s) over the square root of the unit, and whose other end it is.
   template <int Dim>

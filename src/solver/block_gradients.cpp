@@ -43,24 +43,26 @@ LanesInMemory<Number>& at(Number* numbers) {
   return *reinterpret_cast<LanesInMemory<Number>*>(numbers);
 }
 
-/// a'b; parts of the sum have the digits of the numbers, the sum of the parts has more.
+/// sum += a'b of some rows; parts of the sum have the digits of the numbers, the sum of the parts
+/// has more.
 template <class Number>
-Square gram(std::span<const Number> a, std::span<const Number> b, const SumOverParts& sum_up) {
-  constexpr std::size_t part = 256 * width;
-  Square sum{};
-  for (std::size_t begin = 0; begin < a.size(); begin += part) {
-    const std::size_t end = std::min(begin + part, a.size());
-    Lanes<Number> rows[width] = {};
-    for (std::size_t k = begin; k < end; k += width) {
-      const Lanes<Number> row = at(b.data() + k);
-      for (int c = 0; c < width; ++c) rows[c] += a[k + c] * row;
-    }
-    for (int c = 0; c < width; ++c) {
-      for (int d = 0; d < width; ++d) sum[c][d] += static_cast<double>(rows[c][d]);
+void add_gram(std::span<const Number> a, std::span<const Number> b, std::size_t begin,
+              std::size_t end, Square& sum) {
+  constexpr std::size_t part = 256;
+  constexpr int together = width * 4 / static_cast<int>(sizeof(Number));  // sums stay in registers
+  for (std::size_t past = begin; begin < end; begin = past) {
+    past = std::min(begin + part, end);
+    for (int first = 0; first < width; first += together) {
+      Lanes<Number> rows[together] = {};
+      for (std::size_t k = begin * width; k < past * width; k += width) {
+        const Lanes<Number> row = at(b.data() + k);
+        for (int c = 0; c < together; ++c) rows[c] += a[k + first + c] * row;
+      }
+      for (int c = 0; c < together; ++c) {
+        for (int d = 0; d < width; ++d) sum[first + c][d] += static_cast<double>(rows[c][d]);
+      }
     }
   }
-  if (sum_up) sum_up({sum[0].data(), sizeof(sum) / sizeof(double)});
-  return sum;
 }
 
 /// Rows of a small matrix, ready to be added to those of blocks.
@@ -155,15 +157,52 @@ BlockRow gains_of(const Square& sides, const Square& steps) {
   return gains;
 }
 
-/// sum += sign block shares
+/// A step along the directions: solution += p steps, right -= q steps. \return p'right then
 template <class Number>
-void add_shares(std::span<Number> sum, Number sign, std::span<const Number> block,
-                const Square& shares) {
+Square take_step(std::span<const Number> p, std::span<const Number> q, const Square& steps,
+                 std::span<Number> solution, std::span<Number> right) {
+  constexpr std::size_t part = 256 * width;
+  const Shares<Number> share(steps);
+  Square sides{};
+  for (std::size_t begin = 0; begin < p.size(); begin += part) {
+    const std::size_t end = std::min(begin + part, p.size());
+    for (std::size_t k = begin; k < end; k += width) {
+      at(solution.data() + k) += share(p.data() + k);
+      at(right.data() + k) -= share(q.data() + k);
+    }
+    add_gram<Number>(p, right, begin / width, end / width, sides);
+  }
+  return sides;
+}
+
+/// p <- z - p shares
+template <class Number>
+void renew(std::span<Number> p, std::span<const Number> z, const Square& shares) {
   const Shares<Number> share(shares);
-  for (std::size_t k = 0; k < sum.size(); k += width) {
-    at(sum.data() + k) += sign * share(block.data() + k);
+  for (std::size_t k = 0; k < p.size(); k += width) {
+    at(p.data() + k) = at(z.data() + k) - share(p.data() + k);
   }
 }
+
+Square transposed(const Square& matrix) {
+  Square result;
+  for (int i = 0; i < width; ++i) {
+    for (int j = 0; j < width; ++j) result[i][j] = matrix[j][i];
+  }
+  return result;
+}
+
+/// a -= b
+void subtract(Square& a, const Square& b) {
+  for (int i = 0; i < width; ++i) {
+    for (int j = 0; j < width; ++j) a[i][j] -= b[i][j];
+  }
+}
+
+/// What conjugate gradients ask of residuals r, z behind the preconditioner and products q.
+struct Products {
+  Square pr, rz, qz;
+};
 
 }  // namespace
 
@@ -178,45 +217,63 @@ GradientsReport block_conjugate_gradients(
   constexpr double digits_between = 1e-5;
   /// A residual so small, counted as an error, is none even where the body is soft.
   constexpr double gone = 1e-3;
-  constexpr Number one{1};
   constexpr double least_gain = 0.1;  // one of the five digits between corrections
   std::vector<Number> z(right.size()), p(right.size()), q(right.size());
+  const std::size_t rows = right.size() / width;
   std::ranges::fill(solution, Number{0});
   std::array<EnergyGains, width> gains;
-  precondition(right, z);
+  Products now{};
+  const auto sum_up = [&](auto& squares) {
+    if (sum) sum({reinterpret_cast<double*>(&squares), sizeof(squares) / sizeof(double)});
+  };
+  const auto find_z = [&] {
+    now.rz = now.qz = {};
+    precondition(right, z, [&](std::size_t begin, std::size_t end) {
+      add_gram<Number>(right, z, begin, end, now.rz);
+      add_gram<Number>(q, z, begin, end, now.qz);
+    });
+    sum_up(now);
+  };
+  find_z();
   std::ranges::copy(z, p.begin());
-  Square sides = gram<Number>(p, right, sum);
-  double corrected_at = left_by(sides, sizes);
+  Square sides = transposed(now.rz);  // p'r
+  double corrected_at = left_by(now.rz, sizes);
   GradientsReport report;
   while (report.iterations < most_iterations) {
-    product(p, q);
-    const Square inverse = inverse_of(gram<Number>(p, q, sum), sides, same);
+    Square energies{};  // p'A p
+    product(p, q, [&](std::size_t begin, std::size_t end) {
+      add_gram<Number>(p, q, begin, end, energies);
+    });
+    sum_up(energies);
+    const Square inverse = inverse_of(energies, sides, same);
     const Square steps = times(inverse, sides);
     const BlockRow gained = gains_of(sides, steps);
     for (int c = 0; c < width; ++c) gains[c].add(std::max(gained[c], 0.0));
-    add_shares<Number>(solution, one, p, steps);
-    add_shares<Number>(right, -one, q, steps);
+    now.pr = take_step<Number>(p, q, steps, solution, right);
     ++report.iterations;
     report.error = largest(sizes, [&](int c) { return gains[c].error(); });
     const bool is_exact = !correct || 0.1 * digits_between * corrected_at <= enough;
     report.converged = report.error <= enough && is_exact;
     if (report.converged) break;
-    precondition(right, z);
-    const double left = left_by(gram<Number>(right, z, sum), sizes);
+    find_z();
+    const double left = left_by(now.rz, sizes);
     report.converged = left <= gone * enough && is_exact;
     if (report.converged) report.error = left;
     if (report.converged) break;
     if (correct && (left < digits_between * corrected_at || report.error <= enough)) {
       correct(solution, right);
       std::ranges::fill(solution, Number{0});
-      precondition(right, z);
+      now.pr = {};
+      add_gram<Number>(p, right, 0, rows, now.pr);
+      find_z();
       const double before = corrected_at;
-      corrected_at = left_by(gram<Number>(right, z, sum), sizes);
+      corrected_at = left_by(now.rz, sizes);
       if (!(corrected_at < least_gain * before)) break;
     }
-    add_shares<Number>(z, -one, p, times(inverse, gram<Number>(q, z, sum)));
-    p.swap(z);
-    sides = gram<Number>(p, right, sum);
+    const Square shares = times(inverse, now.qz);
+    renew<Number>(p, z, shares);
+    sides = transposed(now.rz);
+    subtract(sides, times(transposed(shares), now.pr));
   }
   return report;
 }

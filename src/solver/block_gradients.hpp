@@ -13,9 +13,23 @@ namespace perilink {
 /// One number for each of the vectors of a block.
 using BlockRow = std::array<double, block_width>;
 
-/// result = A x of a block of vectors, shape (n, block_width).
+/// Told of the rows [begin, end) of results as soon as they are there, all of them in order: they
+/// are still in the cache.
+using RowsDone = std::function<void(std::size_t begin, std::size_t end)>;
+
+/// results = A vectors of a block of vectors, shape (n, block_width).
 template <class Number>
-using BlockMap = std::function<void(std::span<const Number> vectors, std::span<Number> results)>;
+using BlockMap = std::function<void(std::span<const Number> vectors, std::span<Number> results,
+                                    const RowsDone& done)>;
+
+/// A map of vectors to results that tells of all rows at its end.
+template <class Number, class Map>
+BlockMap<Number> as_block_map(Map map) {
+  return [map](std::span<const Number> vectors, std::span<Number> results, const RowsDone& done) {
+    map(vectors, results);
+    done(0, results.size() / block_width);
+  };
+}
 
 /// Adds up numbers that several processes have their parts of.
 using SumOverParts = std::function<void(std::span<double> parts)>;

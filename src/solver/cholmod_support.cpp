@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <string>
@@ -151,6 +152,31 @@ void CholmodRoute::solve_all(std::span<double> columns) {
   if (x == nullptr) throw SolverError("out of memory while solving");
   std::copy_n(static_cast<const double*>(x->x), columns.size(), columns.begin());
   cholmod_free_dense(&x, session_.get());
+}
+
+SingleFactor CholmodRoute::in_single(double unit) const {
+  const auto ints = [](const void* numbers) { return static_cast<const Index*>(numbers); };
+  const double root = 1.0 / std::sqrt(unit);
+  SingleFactor single;
+  single.place = invert({ints(factor_->Perm), factor_->n});
+  for (std::size_t s = 0; s < factor_->nsuper; ++s) {
+    SingleFactor::Supernode& node = single.supernodes.emplace_back();
+    node.first = ints(factor_->super)[s];
+    node.columns = ints(factor_->super)[s + 1] - node.first;
+    const Index* own = ints(factor_->s);
+    node.rows.assign(own + ints(factor_->pi)[s] + node.columns, own + ints(factor_->pi)[s + 1]);
+    const Index count = node.columns + static_cast<Index>(node.rows.size());
+    const double* column = static_cast<const double*>(factor_->x) + ints(factor_->px)[s];
+    node.values.resize(static_cast<std::size_t>(count) * node.columns, 0.0F);
+    for (Index k = 0; k < node.columns; ++k, column += count) {
+      float* value = node.values.data() + k;
+      value[static_cast<std::size_t>(k) * node.columns] = static_cast<float>(1.0 / (root * column[k]));
+      for (Index r = k + 1; r < count; ++r) {
+        value[static_cast<std::size_t>(r) * node.columns] = static_cast<float>(root * column[r]);
+      }
+    }
+  }
+  return single;
 }
 
 std::vector<double> CholmodRoute::columns(std::span<const SparseVector> x) {

@@ -57,6 +57,7 @@ class CholmodRoute : public Factor {
  public:
   void solve(std::span<const double> rhs, std::span<double> solution) override;
   void solve_all(std::span<double> columns) override;
+  SingleFactor in_single(double unit) const override;
   std::vector<double> columns(std::span<const SparseVector> x) override;
   void compliance(std::span<const SparseVector> x, std::span<double> result) override;
   int factorizations() const override { return factorizations_; }

@@ -1,5 +1,7 @@
 #include "solver/factor.hpp"
 
+#include <stdexcept>
+
 namespace perilink {
 
 double Factor::pivot(const SparseVector& x) {
@@ -14,6 +16,10 @@ void Factor::solve_all(std::span<double> columns) {
     const std::span<double> column = columns.subspan(begin, size);
     solve(column, column);
   }
+}
+
+SingleFactor Factor::in_single(double /*unit*/) const {
+  throw std::logic_error("the factor is not made of supernodes that can be copied");
 }
 
 SparseVector combine(std::span<const SparseVector> x, std::span<const double> weights) {

@@ -8,6 +8,7 @@
 
 #include "base/sparse_vector.hpp"
 #include "base/types.hpp"
+#include "solver/single_factor.hpp"
 
 namespace perilink {
 
@@ -48,6 +49,10 @@ class Factor {
 
   /// Many right sides at once, solved where they are: one column after the other, each of size n.
   virtual void solve_all(std::span<double> columns);
+
+  /// A copy of the factor of K / unit for preconditioners.
+  /// \throws std::logic_error  where the route keeps no supernodes
+  virtual SingleFactor in_single(double unit) const;
 
   /// Says which entries of the solution a downdate has to keep current, size n; it may leave the
   /// others as they are. A route may ignore it.

@@ -7,6 +7,9 @@
 #include <stdexcept>
 
 #include "solver/block_gradients.hpp"
+#include <cstdio>
+#include <ctime>
+#include "base/timer.hpp"
 
 namespace perilink {
 namespace {
@@ -84,7 +87,9 @@ void BoxFactor::solve(std::span<const double> rhs, std::span<double> solution) {
 }
 
 void BoxFactor::correct(std::vector<double>& residual, double energy) {
+  Timer dbg;
   energy > 0.0 ? solver_->correct(residual, residual, energy) : solver_->solve(residual, residual);
+  fprintf(stderr, "DBG correct its %d s %.3f\n", solver_->iterations(), dbg.seconds());
 }
 
 /// What the vector is made of in the window, if it is.
@@ -217,7 +222,9 @@ void BoxFactor::take_in(std::span<const SparseVector> x) {
   }
   blocks_.emplace_back(right.size());
   const double enough = coarser * options_.tolerance;
-  const int iterations = solver_->solve_block(right, blocks_.back(), enough).iterations;
+  const double dbg0 = (double)clock() / CLOCKS_PER_SEC;
+  const GradientsReport rep = solver_->solve_block(right, blocks_.back(), enough); const int iterations = rep.iterations;
+  fprintf(stderr, "DBG block cols %zu window %zu its %d s %.3f err %.2e\n", x.size(), window_.size(), iterations, (double)clock() / CLOCKS_PER_SEC - dbg0, rep.error);
   if (first_iterations_ == 0) first_iterations_ = iterations;
   if (iterations > slower * first_iterations_) make_solver();
   columns_solved_ += static_cast<Index>(x.size());

@@ -95,7 +95,7 @@ BoxSolver::BoxSolver(const Network& network, const Unknowns& unknowns, Secants s
   }
   require_resistance();
   if (!options.blocks || team_ || !SingleBody::is_made_of(network)) return;
-  single_ = std::make_unique<SingleBody>(network, unknowns, secants, motions_, blocks_);
+  single_ = std::make_unique<SingleBody>(network, unknowns, secants, motions_, blocks_, *factor_);
 }
 
 /// What moves without resistance shows under forces of any kind; the loads may not stir it. With
@@ -243,9 +243,9 @@ GradientsReport BoxSolver::search_block(std::span<double> right, std::span<doubl
   if (is_found_in_single(right, solution, sizes, enough, report)) return report;
   coarse_block_.resize(coarse_.size() * block_width);
   return block_conjugate_gradients<double>(
-      [&](std::span<const double> q, std::span<double> result) { multiply_block(q, result); },
-      [&](std::span<const double> r, std::span<double> z) { precondition_block(r, z); }, right,
-      solution, sizes, enough, most_box_iterations);
+      as_block_map<double>([&](auto q, auto result) { multiply_block(q, result); }),
+      as_block_map<double>([&](auto r, auto z) { precondition_block(r, z); }), right, solution,
+      sizes, enough, most_box_iterations);
 }
 
 /// Bodies that are stiff and soft by turns, or slender, may ask for more digits than single
@@ -308,8 +308,8 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
   std::ranges::fill(solution, 0.0);
   round(right, missing);
   const GradientsReport report = block_conjugate_gradients<float>(
-      [&](std::span<const float> q, std::span<float> result) { single_->multiply(q, result); },
-      [&](std::span<const float> r, std::span<float> z) { single_->precondition(r, *factor_, z); },
+      [&](auto q, auto result, const RowsDone& done) { single_->multiply(q, result, done); },
+      [&](auto r, auto z, const RowsDone& done) { single_->precondition(r, z, done); },
       missing, found, scaled, finer_in_single * enough, most_box_iterations,
       [&](std::span<const float> part, std::span<float> left) {
         add(part);

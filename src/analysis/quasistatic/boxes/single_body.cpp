@@ -39,13 +39,15 @@ bool SingleBody::is_made_of(const Network& network) {
 }
 
 SingleBody::SingleBody(const Network& network, const Unknowns& unknowns, Secants secants,
-                       const BoxMotions& motions, std::span<const double> blocks)
+                       const BoxMotions& motions, std::span<const double> blocks,
+                       const Factor& coarse)
     : network_(network),
       unknowns_(unknowns),
       place_(places_by_box(motions, network.particles.size())),
       unit_(largest_stiffness(network)),
       bonds_(network, secants, place_, unit_),
-      blocks_(blocks.size()) {
+      blocks_(blocks.size()),
+      factor_(coarse.in_single(unit_)) {
   const auto dim = static_cast<std::size_t>(network.dim());
   const auto count = static_cast<std::size_t>(motions.num_motions());
   moves_.resize(place_.size() * dim * count);
@@ -87,49 +89,45 @@ void SingleBody::follow(Secants secants, std::span<const double> ground) {
   }
 }
 
-void SingleBody::multiply(std::span<const float> motions, std::span<float> forces) const {
-  bonds_.forces(motions, forces);
-  for (std::size_t k = 0; k < springs_.size(); ++k) {
-    if (springs_[k] != 0.0F) at(forces.data())[k] += springs_[k] * at(motions.data())[k];
-  }
+void SingleBody::multiply(std::span<const float> motions, std::span<float> forces,
+                          const RowsDone& done) const {
+  const auto dim = static_cast<std::size_t>(network_.dim());
+  bonds_.forces(motions, forces, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin * dim; k < end * dim && !springs_.empty(); ++k) {
+      if (springs_[k] != 0.0F) at(forces.data())[k] += springs_[k] * at(motions.data())[k];
+    }
+    done(begin * dim, end * dim);
+  });
 }
 
 template <int Dim>
 void SingleBody::restrict_to_boxes(const float* residuals) {
   constexpr int count = num_motions<Dim>;
-  const std::size_t size = box_end_.size() * count;
   const LanesInMemory* residual = at(residuals);
   const float* move = moves_.data();
   const float* end = move;
+  const Index* place = factor_.place.data();
   for (std::size_t b = 0; b < box_end_.size(); ++b) {
     Lanes sums[count] = {};
     for (end = moves_.data() + box_end_[b] * Dim * count; move < end; move += count, ++residual) {
       for (int m = 0; m < count; ++m) sums[m] += move[m] * *residual;
     }
-    for (int k = 0; k < block_width; ++k) {
-      for (int m = 0; m < count; ++m) {
-        coarse_[k * size + b * count + m] = unit_ * static_cast<double>(sums[m][k]);
-      }
-    }
+    for (int m = 0; m < count; ++m) at(coarse_.data())[*place++] = sums[m];
   }
 }
 
 template <int Dim>
-void SingleBody::add_motions(const float* residuals, float* motions) const {
+void SingleBody::add_motions(const float* residuals, float* motions, const RowsDone& done) const {
   constexpr int count = num_motions<Dim>;
-  const std::size_t size = box_end_.size() * count;
   const LanesInMemory* residual = at(residuals);
   LanesInMemory* motion = at(motions);
+  const Index* from = factor_.place.data();
   const float* move = moves_.data();
   const float* block = blocks_.data();
-  std::size_t place = 0;
+  std::size_t place = 0, told = 0;
   for (std::size_t b = 0; b < box_end_.size(); ++b) {
     Lanes values[count];
-    for (int k = 0; k < block_width; ++k) {
-      for (int m = 0; m < count; ++m) {
-        values[m][k] = static_cast<float>(coarse_[k * size + b * count + m]);
-      }
-    }
+    for (int m = 0; m < count; ++m) values[m] = at(coarse_.data())[*from++];
     for (; place < box_end_[b]; ++place, residual += Dim) {
       for (int a = 0; a < Dim; ++a, move += count, block += Dim, ++motion) {
         Lanes sum = block[0] * residual[0];
@@ -138,16 +136,18 @@ void SingleBody::add_motions(const float* residuals, float* motions) const {
         *motion = sum;
       }
     }
+    done(told * Dim, place * Dim);
+    told = place;
   }
 }
 
-void SingleBody::precondition(std::span<const float> residuals, Factor& coarse,
-                              std::span<float> motions) {
+void SingleBody::precondition(std::span<const float> residuals, std::span<float> motions,
+                              const RowsDone& done) {
   const bool plane = network_.dim() == 2;
   plane ? restrict_to_boxes<2>(residuals.data()) : restrict_to_boxes<3>(residuals.data());
-  coarse.solve_all(coarse_);
-  plane ? add_motions<2>(residuals.data(), motions.data())
-        : add_motions<3>(residuals.data(), motions.data());
+  factor_.solve(coarse_);
+  plane ? add_motions<2>(residuals.data(), motions.data(), done)
+        : add_motions<3>(residuals.data(), motions.data(), done);
 }
 
 }  // namespace perilink

@@ -7,6 +7,7 @@
 #include "assembly/packed_bonds.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
+#include "solver/block_gradients.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -22,18 +23,20 @@ class SingleBody {
   static bool is_made_of(const Network& network);
 
   /// \param blocks  inverse ones of the particles, shape (particles, dim, dim)
+  /// \param coarse  factor of P'K P
   /// \param motions, unknowns  kept by reference, as the network
   SingleBody(const Network& network, const Unknowns& unknowns, Secants secants,
-             const BoxMotions& motions, std::span<const double> blocks);
+             const BoxMotions& motions, std::span<const double> blocks, const Factor& coarse);
 
   /// Takes over what has changed since.
   /// \param ground  springs that hold unknowns, or empty
   void follow(Secants secants, std::span<const double> ground);
 
   /// forces = K motions; where something is held they are those that hold it, and motions zero.
-  void multiply(std::span<const float> motions, std::span<float> forces) const;
-  /// \param coarse  factor of P'K P
-  void precondition(std::span<const float> residuals, Factor& coarse, std::span<float> motions);
+  void multiply(std::span<const float> motions, std::span<float> forces,
+                const RowsDone& done) const;
+  void precondition(std::span<const float> residuals, std::span<float> motions,
+                    const RowsDone& done);
 
   /// Where a particle comes in the order.
   Index place(Index particle) const { return place_[particle]; }
@@ -43,7 +46,7 @@ class SingleBody {
   template <int Dim>
   void restrict_to_boxes(const float* residuals);
   template <int Dim>
-  void add_motions(const float* residuals, float* motions) const;
+  void add_motions(const float* residuals, float* motions, const RowsDone& done) const;
 
   const Network& network_;
   const Unknowns& unknowns_;
@@ -54,7 +57,8 @@ class SingleBody {
   std::vector<float> blocks_;         ///< inverse ones, by the order, zero where something is held
   std::vector<float> moves_;          ///< rows of P, by the order, shape (particles, dim, motions)
   std::vector<std::size_t> box_end_;  ///< places up to which the particles of each box go
-  std::vector<double> coarse_;        ///< shape (block_width, boxes, motions)
+  SingleFactor factor_;               ///< of P'K P over the unit
+  std::vector<float> coarse_;         ///< shape (boxes, motions, block_width), by its order
 };
 
 }  // namespace perilink

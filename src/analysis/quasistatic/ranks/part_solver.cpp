@@ -76,13 +76,13 @@ GradientsReport PartSolver::search_block(std::span<double> right, std::span<doub
   // What fails in a map fails in this rank alone, a factor without memory (a SolverError) as well;
   // search() leaves that to Ranks::conjugate_gradients(). Errors of the search are those of all.
   const auto by = [&](auto map) {
-    return [this, map](std::span<const double> from, std::span<double> to) {
+    return as_block_map<double>([this, map](std::span<const double> from, std::span<double> to) {
       try {
         (this->*map)(from, to);
       } catch (const std::exception& error) {
         ranks_.abandon(error.what());
       }
-    };
+    });
   };
   return block_conjugate_gradients<double>(
       by(&PartSolver::multiply_block), by(&PartSolver::precondition_block), right, solution, sizes,

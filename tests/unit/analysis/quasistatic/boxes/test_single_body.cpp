@@ -33,7 +33,8 @@ struct Boxed {
       block = block.inverse().eval();
     }
     blocks = std::move(stiffness.blocks);
-    single = std::make_unique<SingleBody>(body.network, body.unknowns, secants, *motions, blocks);
+    single = std::make_unique<SingleBody>(body.network, body.unknowns, secants, *motions, blocks,
+                                          *factor);
   }
   /// Numbers of every particle in the order of the body.
   std::vector<float> ordered(const std::vector<double>& values) const {
@@ -108,7 +109,7 @@ TEST(SingleBody, PreconditionsByParticlesAndBoxes) {
     boxed.motions->add_block(coarse, expected);
     for (double& value : expected) value *= boxed.single->unit();
     std::vector<float> found(residual.size());
-    boxed.single->precondition(boxed.ordered(residual), *boxed.factor, found);
+    boxed.single->precondition(boxed.ordered(residual), found);
     expect_near(found, boxed.ordered(expected));
   }
 }
