@@ -31,10 +31,11 @@ class Rows {
   void eliminate(Index row, Index columns) const {
     Lanes sums[Count] = {};
     const float* value = values(row);
+    const std::ptrdiff_t next = node_.columns;
     const LanesInMemory* solved = sides_ + node_.first;
     for (Index k = 0; k < columns; ++k) {
       const Lanes own = solved[k];
-      for (Index r = 0; r < Count; ++r) sums[r] += value[r * node_.columns + k] * own;
+      for (Index r = 0; r < Count; ++r) sums[r] += value[r * next + k] * own;
     }
     for (Index r = 0; r < Count; ++r) side(row + r) -= sums[r];
   }
@@ -45,10 +46,11 @@ class Rows {
     Lanes solved[Count];
     for (Index r = 0; r < Count; ++r) solved[r] = side(row + r);
     const float* value = values(row);
+    const std::ptrdiff_t next = node_.columns;
     LanesInMemory* own = sides_ + node_.first;
     for (Index k = 0; k < columns; ++k) {
       Lanes sum = own[k];
-      for (Index r = 0; r < Count; ++r) sum -= value[r * node_.columns + k] * solved[r];
+      for (Index r = 0; r < Count; ++r) sum -= value[r * next + k] * solved[r];
       own[k] = sum;
     }
   }

@@ -32,7 +32,12 @@ void expect_forces(const PackedBonds& bonds, const Network& network, Secants sec
   for (std::size_t k = 0; k < motions.size(); ++k) {
     packed[place[k / row] * row + k % row] = static_cast<float>(motions[k]);
   }
-  bonds.forces(packed, forces);
+  std::size_t complete = 0;
+  bonds.forces(packed, forces, [&](std::size_t begin, std::size_t end) {
+    EXPECT_EQ(begin, complete);
+    complete = end;
+  });
+  EXPECT_EQ(complete * network.dim() * block_width, forces.size());
   double size = 0.0;
   for (const double force : expected) size = std::max(size, std::abs(force));
   for (std::size_t k = 0; k < motions.size(); ++k) {

@@ -25,15 +25,16 @@ MatrixXd block_matrix(int size, double shift) {
 }
 
 BlockMap<double> block_product(const MatrixXd& matrix) {
-  return [&matrix](std::span<const double> x, std::span<double> result) {
+  return as_block_map<double>([&matrix](std::span<const double> x, std::span<double> result) {
     Eigen::Map<Rows>(result.data(), matrix.rows(), block_width) =
         matrix * Eigen::Map<const Rows>(x.data(), matrix.rows(), block_width);
-  };
+  });
 }
 
-const BlockMap<double> block_identity = [](std::span<const double> x, std::span<double> result) {
-  std::copy(x.begin(), x.end(), result.begin());
-};
+const BlockMap<double> block_identity =
+    as_block_map<double>([](std::span<const double> x, std::span<double> result) {
+      std::copy(x.begin(), x.end(), result.begin());
+    });
 
 /// x'A x of every column.
 BlockRow energies_of(const MatrixXd& matrix, const Rows& columns) {
@@ -83,6 +84,29 @@ TEST(BlockGradients, CountErrorsByTheSizesThatTheyAreGiven) {
   for (int c = 0; c < block_width; ++c) EXPECT_LE(std::sqrt(missing[c] / sizes[c]), 1e-6) << c;
 }
 
+/// Results that come row after row count as those that come at once.
+TEST(BlockGradients, TakeResultsInParts) {
+  constexpr int size = 60;
+  const MatrixXd matrix = block_matrix(size, 0.1);
+  const Rows exact = Rows::Random(size, block_width);
+  const auto solve = [&](const BlockMap<double>& product) {
+    Rows right = matrix * exact, solution(size, block_width);
+    const GradientsReport report = block_conjugate_gradients<double>(
+        product, block_identity, {right.data(), std::size_t(right.size())},
+        {solution.data(), std::size_t(solution.size())}, energies_of(matrix, exact), 1e-9, 1000);
+    return std::pair(report.iterations, solution);
+  };
+  const auto whole = solve(block_product(matrix));
+  const auto parts = solve([&](auto x, auto result, const RowsDone& done) {
+    block_product(matrix)(x, result, [](std::size_t, std::size_t) {});
+    for (std::size_t begin = 0; begin < size; begin += 7) {
+      done(begin, std::min<std::size_t>(begin + 7, size));
+    }
+  });
+  EXPECT_EQ(parts.first, whole.first);
+  EXPECT_LT((parts.second - whole.second).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 /// Fewer steps than tell how they go on, and then none to take.
 TEST(BlockGradients, EndWhereNothingIsMissing) {
   constexpr int size = 5;
@@ -105,13 +129,13 @@ class SingleSearch {
   GradientsReport run(const BlockRow& sizes, double enough) {
     SingleRows missing = right_.cast<float>(), found(right_.rows(), block_width);
     const GradientsReport report = block_conjugate_gradients<float>(
-        [&](std::span<const float> x, std::span<float> result) {
+        as_block_map<float>([&](std::span<const float> x, std::span<float> result) {
           rows_of(result) =
               rough_ * Eigen::Map<const SingleRows>(x.data(), right_.rows(), block_width);
-        },
-        [](std::span<const float> x, std::span<float> result) {
+        }),
+        as_block_map<float>([](std::span<const float> x, std::span<float> result) {
           std::ranges::copy(x, result.begin());
-        },
+        }),
         numbers(missing), numbers(found), sizes, enough, 3000,
         [&](std::span<const float> part, std::span<float> left) {
           ++corrections;

@@ -46,6 +46,10 @@ double share_of(const SparseVector& x, const SparseVector& held) {
   return share;
 }
 
+std::span<const double> numbers_of(const Eigen::VectorXd& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
 }  // namespace
 
 BoxFactor::BoxFactor(const Network& network, const BoxSolverOptions& options)
@@ -56,6 +60,7 @@ BoxFactor::BoxFactor(const Network& network, const BoxSolverOptions& options)
 void BoxFactor::begin(const Unknowns& unknowns, Secants secants,
                       const std::vector<double>& ground) {
   unknowns_ = &unknowns;
+  if (deferred_) deferred_->unknowns = &unknowns;
   secants_ = secants;
   ground_ = &ground;
   slot_of_ = unknowns.slots();
@@ -109,6 +114,11 @@ auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vect
 }
 
 void BoxFactor::forget() {
+  if (deferred_) {
+    deferred_->steps.clear();
+    deferred_->moved.clear();
+    ++deferred_->renewals;
+  }
   std::ranges::fill(place_of_, no_index);
   span_.clear();
   window_.clear();
@@ -120,6 +130,7 @@ void BoxFactor::forget() {
 
 /// Half of the blocks are made free: the columns that were used last go over to what they are now.
 void BoxFactor::keep_latest() {
+  if (is_behind()) throw std::logic_error("columns go while a solution still needs them");
   const std::size_t kept = std::min(blocks_.size() / 2 * block_width, window_.size());
   std::vector<Eigen::Index> places(window_.size());
   std::iota(places.begin(), places.end(), 0);
@@ -134,6 +145,11 @@ void BoxFactor::keep_latest() {
   compliance_ = Eigen::MatrixXd(compliance_(places, places));
   shares_ = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(columns),
                                       static_cast<Eigen::Index>(kept));
+  if (deferred_) {
+    deferred_->steps.clear();
+    deferred_->moved.clear();
+    ++deferred_->renewals;
+  }
   const std::vector<SparseVector> window = std::move(window_);
   const std::vector<int> used = std::move(used_);
   window_.clear();
@@ -266,10 +282,10 @@ Eigen::VectorXd BoxFactor::in_window(const SparseVector& x) {
 }
 
 /// Blocks times weights, per unknown.
-std::vector<double> BoxFactor::motion_of(const Eigen::VectorXd& weights) const {
+std::vector<double> BoxFactor::motion_of(std::span<const double> weights) const {
   std::vector<double> motion(unknowns_->number.size(), 0.0);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const std::span<const double> own(weights.data() + b * block_width, block_width);
+  for (std::size_t b = 0; b * block_width < weights.size(); ++b) {
+    const std::span<const double> own = weights.subspan(b * block_width, block_width);
     if (std::ranges::all_of(own, [](double weight) { return weight == 0.0; })) continue;
     add_combination(blocks_[b], own, motion);
   }
@@ -282,7 +298,7 @@ std::vector<double> BoxFactor::columns(std::span<const SparseVector> x) {
   hold(x);
   std::vector<double> result;
   for (const SparseVector& column : x) {
-    const std::vector<double> motion = motion_of(shares_ * in_window(column));
+    const std::vector<double> motion = motion_of(numbers_of(shares_ * in_window(column)));
     result.insert(result.end(), motion.begin(), motion.end());
   }
   return result;
@@ -318,15 +334,66 @@ void BoxFactor::downdate(std::span<const SparseVector> x, std::span<const double
     if (!holds(column)) throw std::logic_error("columns are solved for before a change");
   }
   if (!solution.empty()) {
-    const std::vector<double> shares = extensions(x, load_changes, solution);
+    const std::vector<double> shares = present_extensions(x, load_changes, solution);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
     for (std::size_t a = 0; a < x.size(); ++a) sum += shares[a] / pivots[a] * in_window(x[a]);
-    const std::vector<double> motion = motion_of(shares_ * sum);
-    for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
+    move(shares_ * sum, solution);
   }
   for (std::size_t a = 0; a < x.size(); ++a) change(in_window(x[a]), pivots[a], 1.0);
   // Errors of columns grow by as much as the motions do.
-  if (std::ranges::any_of(pivots, [](double pivot) { return pivot < small_pivot; })) forget();
+  if (std::ranges::any_of(pivots, [](double pivot) { return pivot < small_pivot; })) {
+    catch_up(solution);
+    forget();
+  }
+}
+
+/// solution += blocks times weights, now or when it is asked for.
+void BoxFactor::move(const Eigen::VectorXd& weights, std::span<double> solution) {
+  if (!deferred_) {
+    const std::vector<double> motion = motion_of(numbers_of(weights));
+    for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
+    return;
+  }
+  deferred_->steps.resize(static_cast<std::size_t>(weights.size()), 0.0);
+  deferred_->moved.resize(static_cast<std::size_t>(weights.size()), 0.0);
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    deferred_->steps[k] += weights[k];
+    deferred_->moved[k] += std::abs(weights[k]);
+  }
+  ++deferred_->changes;
+}
+
+DeferredMotion& BoxFactor::defer() {
+  deferred_.emplace();
+  deferred_->unknowns = unknowns_;
+  deferred_->blocks = &blocks_;
+  return *deferred_;
+}
+
+void BoxFactor::defer_no_more() {
+  if (is_behind()) throw std::logic_error("steps that a solution lacks are given up");
+  deferred_.reset();
+}
+
+void BoxFactor::catch_up(std::span<double> solution) {
+  if (!is_behind()) return;
+  const std::vector<double> motion = motion_of(deferred_->steps);
+  for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
+  std::ranges::fill(deferred_->steps, 0.0);
+}
+
+/// extensions() of the solution with the steps that it lacks.
+std::vector<double> BoxFactor::present_extensions(std::span<const SparseVector> x,
+                                                  std::span<const double> load_changes,
+                                                  std::span<const double> solution) const {
+  std::vector<double> result = extensions(x, load_changes, solution);
+  for (std::size_t a = 0; is_behind() && a < x.size(); ++a) {
+    for (int k = 0; k < x[a].size(); ++k) {
+      const std::size_t slot = slot_of_[x[a].rows[k]];
+      result[a] += x[a].values[k] * deferred_->step_at(slot);
+    }
+  }
+  return result;
 }
 
 void BoxFactor::update(const SparseVector& x) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/boxes/box_solver.hpp"
+#include "analysis/quasistatic/boxes/deferred_motion.hpp"
 #include "base/vector_span.hpp"
 #include "network/network.hpp"
 #include "solver/factor.hpp"
@@ -40,6 +41,19 @@ class BoxFactor final : public Factor {
   /// for.
   void forget();
 
+  /// Downdates note the steps of a solution from now on, and leave the solution as it is until
+  /// catch_up().
+  DeferredMotion& defer();
+  /// \throws std::logic_error while the solution lacks steps
+  void defer_no_more();
+  bool is_behind() const { return deferred_ && deferred_->is_behind(); }
+  /// Adds all noted steps.
+  void catch_up(std::span<double> solution);
+  /// The solution has changed in another way.
+  void note_restart() {
+    if (deferred_) ++deferred_->restarts;
+  }
+
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
   void refactorize(const SparseMatrix& matrix) override;
   void solve(std::span<const double> rhs, std::span<double> solution) override;
@@ -63,8 +77,12 @@ class BoxFactor final : public Factor {
   void put_in_window(const SparseVector& x, int used);
   void take_in(std::span<const SparseVector> x);
   Eigen::VectorXd in_window(const SparseVector& x);
-  std::vector<double> motion_of(const Eigen::VectorXd& weights) const;
+  std::vector<double> motion_of(std::span<const double> weights) const;
   void change(const Eigen::VectorXd& d, double pivot, double sign);
+  void move(const Eigen::VectorXd& weights, std::span<double> solution);
+  std::vector<double> present_extensions(std::span<const SparseVector> x,
+                                         std::span<const double> load_changes,
+                                         std::span<const double> solution) const;
   std::size_t most_columns() const;
 
   const Network& network_;
@@ -86,6 +104,7 @@ class BoxFactor final : public Factor {
   std::vector<std::vector<double>> blocks_;
   Eigen::MatrixXd shares_;      ///< F: the present columns are those of the blocks times F
   Eigen::MatrixXd compliance_;  ///< H: e' K^-1 e of the present columns
+  std::optional<DeferredMotion> deferred_;
   int begun_ = 0;
   Index columns_solved_ = 0;
 };

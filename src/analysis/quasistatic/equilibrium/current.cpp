@@ -73,7 +73,9 @@ void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
 
 /// The displacements that events keep current, by the unknowns as they are.
 void Equilibrium::scatter_current() {
-  if (dozing_) {
+  if (boxes_ != nullptr && boxes_->is_behind()) {
+    spread_ = false;
+  } else if (dozing_) {
     unknowns_->expand(solution_, awake_slots_, displacement_);
     spread_ = false;
   } else if (partial_ && unknowns_->carries()) {
@@ -86,8 +88,19 @@ void Equilibrium::scatter_current() {
 /// What dozes is made current.
 void Equilibrium::spread() {
   if (spread_) return;
+  if (boxes_ != nullptr) {
+    boxes_->catch_up(solution_);
+    return scatter_solution();
+  }
   unknowns_->expand(solution_, partial_ ? current_slots_ : moving_slots_, displacement_);
   spread_ = true;
+}
+
+const DeferredMotion& Equilibrium::defer() {
+  DeferredMotion& motion = boxes_->defer();
+  motion.solution = &solution_;
+  motion.displacement = &displacement_;
+  return motion;
 }
 
 /// Work is summed at loaded and driven particles, and damaged bonds may close.

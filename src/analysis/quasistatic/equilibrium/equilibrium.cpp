@@ -208,6 +208,7 @@ std::vector<double> Equilibrium::present_load() const {
 /// Solves for all displacements with the factor as it stands.
 void Equilibrium::refresh() {
   factor_->solve(present_load(), solution_);
+  if (boxes_ != nullptr) boxes_->note_restart();
   scatter_solution();
   stale_ = false;
   force_work_ = work_of_forces();
@@ -224,6 +225,7 @@ double Equilibrium::work_of_forces() const {
 void Equilibrium::refine(std::vector<double>& residual) {
   if (boxes_ != nullptr) {
     boxes_->correct(residual, 2.0 * internal_.energy);
+    boxes_->note_restart();
   } else {
     factor_->solve(residual, residual);
   }
@@ -254,7 +256,8 @@ void Equilibrium::scatter_solution() {
 /// Extensions at driven particles summed over all elements there, unless the growth of the
 /// compliance tells the same.
 LoadWork Equilibrium::work() {
-  if (partial_) return {force_work_, 0.0};
+  // Work grows with the compliance.
+  if (partial_ || (!spread_ && driven_elements_.empty())) return {force_work_, 0.0};
   const double forces = work_of_forces();
   if (driven_elements_.empty()) return {forces, 0.0};
   LoadWork work{forces, forces - followed_compliance_};
@@ -271,6 +274,7 @@ LoadWork Equilibrium::work() {
 }
 
 LoadWork Equilibrium::sum_work() {
+  spread();
   LoadWork work{work_of_forces(), driven_spring_work_};
   double sizes = driven_spring_work_;
   for (const Index e : driven_elements_) {

@@ -114,6 +114,14 @@ class Equilibrium {
   bool may_doze() const { return unknowns_->carries() && !constant_ && boxes_ == nullptr; }
   /// \param awake  per particle: its displacements are kept current all the same
   void doze(std::vector<std::uint8_t> awake);
+  /// Whether the search may keep current what it looks at alone, while columns tell the rest.
+  bool may_defer() const {
+    return boxes_ != nullptr && !constant_ && axial_.empty() && !network_.carries_moments() &&
+           (driven_elements_.empty() || loaded_slots_.empty());
+  }
+  /// Events leave it to the search from now on.
+  const DeferredMotion& defer();
+  void defer_no_more() { boxes_->defer_no_more(); }
 
   /// The same, right everywhere: costs a solve where some are not.
   std::span<const double> displacement();

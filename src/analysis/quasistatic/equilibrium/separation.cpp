@@ -135,7 +135,7 @@ double Equilibrium::pivot_by_energy(const SparseVector& x, Index element, double
 /// held it before.
 bool Equilibrium::hangs_on_weak_supports(double compliance_growth) const {
   if (!supports_alone_ || !driven_elements_.empty()) return false;
-  const double before = partial_ ? force_work_ : work_of_forces();
+  const double before = partial_ || !spread_ ? force_work_ : work_of_forces();
   return before < least_support * (before + compliance_growth);
 }
 
@@ -177,6 +177,7 @@ Balance Equilibrium::polish() {
   for (std::size_t k = 0; k < solution_.size(); ++k) {
     solution_[k] = static_cast<double>(motion.unknowns[k]);
   }
+  if (boxes_ != nullptr) boxes_->note_restart();
   scatter_solution();
   force_work_ = work_of_forces();
   factor_error_ = refined.factor_error;

@@ -36,9 +36,9 @@ inline double largest_or_nan(double largest, double zero_times_all) {
 /// \param value_at          value at one position
 /// \throws SolverError where a value is not finite
 /// \param seminorm_in       bound of the values whatever their signs, see DozingBlocks
-template <typename LargestIn, typename ValueAt, typename SeminormIn>
+template <typename Dozing, typename LargestIn, typename ValueAt, typename SeminormIn>
 BreakSearch::Hit find_first_largest(const std::vector<Index>& elements,
-                                    std::vector<double>& block_largest, DozingBlocks& dozing,
+                                    std::vector<double>& block_largest, Dozing& dozing,
                                     double share, int threads, Index fewest_parallel,
                                     const LargestIn& largest_in, const ValueAt& value_at,
                                     const SeminormIn& seminorm_in) {
@@ -54,13 +54,17 @@ BreakSearch::Hit find_first_largest(const std::vector<Index>& elements,
   }
   double largest = 0.0;
   for (Index b = 0; dozing.any() && b < blocks; ++b) largest = std::max(largest, block_largest[b]);
-  for (Index b = 0; dozing.any() && b < blocks; ++b) {
-    // Written so that a bound that is not a number is looked into.
-    if (!dozing.may_doze(b) || dozing.bound(b) < largest * share) continue;
+  const auto wake_up = [&](Index b) {
     dozing.look(b);
     block_largest[b] = largest_in(b * search_block_size, end_of(b));
     dozing.remember(b, seminorm_in(b * search_block_size, end_of(b)));
     largest = std::max(largest, block_largest[b]);
+  };
+  if (const Index likeliest = dozing.likeliest(); likeliest != no_index) wake_up(likeliest);
+  for (Index b = 0; dozing.any() && b < blocks; ++b) {
+    // Written so that a bound that is not a number is looked into.
+    if (!dozing.may_doze(b) || dozing.bound(b) < largest * share) continue;
+    wake_up(b);
   }
   largest = 0.0;
   for (Index b = 0; b < blocks; ++b) {

@@ -14,6 +14,7 @@
 namespace perilink {
 
 struct CarriedParticles;
+struct DeferredMotion;
 
 /// Finds the element that is nearest to the limit of its law.
 class BreakSearch {
@@ -45,6 +46,11 @@ class BreakSearch {
   /// \param carried  kept by reference
   /// \return per particle, whether its displacements must be current at each find()
   virtual std::vector<std::uint8_t> doze(const CarriedParticles& carried) = 0;
+  /// From now on displacements follow by columns: find() makes those current that it looks at, and
+  /// looks where bounds say so alone (DozingColumns). Elsewhere they are those of earlier events.
+  /// \param motion  kept by reference
+  /// \return false where this search must have all
+  virtual bool doze_by_columns(const DeferredMotion& /*motion*/) { return false; }
   /// All elements are looked at again.
   virtual void wake() = 0;
 };

@@ -51,6 +51,8 @@ class DozingBlocks {
 
   bool any() const { return !group_of_.empty(); }
   bool may_doze(Index block) const { return any() && group_of_[block] != no_index; }
+  /// A block to look at first, so that others can be left out; no_index: any order will do.
+  Index likeliest() const { return no_index; }
   /// Largest ratio that a bond of the block can have now.
   double bound(Index block);
   /// Makes the displacements of the block's particles current, for a look.

@@ -83,10 +83,15 @@ LimitSearch::Hit LimitSearch::find_in(Group& group, const double* u, double tole
   const auto largest_in = [&](Index begin, Index end) {
     return largest_between<Dim, sense>(group, u, begin, end);
   };
-  return find_first_largest(
-      group.elements, group.block_largest, group.dozing, 1.0 - tolerance, threads,
-      fewest_parallel_bonds, largest_in,
-      [&](Index place) { return ratio_at<Dim, sense>(group, u, place); }, largest_in);
+  const auto find_with = [&](auto& dozing) {
+    return find_first_largest(
+        group.elements, group.block_largest, dozing, 1.0 - tolerance, threads,
+        fewest_parallel_bonds, largest_in,
+        [&](Index place) { return ratio_at<Dim, sense>(group, u, place); }, largest_in);
+  };
+  if (!group.by_columns.any()) return find_with(group.dozing);
+  group.by_columns.follow();
+  return find_with(group.by_columns);
 }
 
 template <int Dim>
@@ -138,8 +143,13 @@ void LimitSearch::set_limit(Index element, double limit) {
   Group& group = network_.law(element).sense() == Sense::both ? strained_ : pulled_;
   const auto found = std::lower_bound(group.elements.begin(), group.elements.end(), element);
   const auto place = static_cast<std::size_t>(found - group.elements.begin());
+  const auto size = [&] {
+    return std::hypot(group.gradient[0][place], group.gradient[1][place], group.gradient[2][place]);
+  };
+  const double before = size();
   set_gradient(group, place, limit);
   group.dozing.wake(place);
+  group.by_columns.wake(static_cast<Index>(place) / search_block_size, size() > before);
 }
 
 std::vector<std::uint8_t> LimitSearch::doze(const CarriedParticles& carried) {
@@ -155,6 +165,49 @@ std::vector<std::uint8_t> LimitSearch::doze(const CarriedParticles& carried) {
     group->dozing.mark_awake(network_, group->elements, awake);
   }
   return awake;
+}
+
+bool LimitSearch::doze_by_columns(const DeferredMotion& motion) {
+  if (!strained_.elements.empty()) return false;  // ties across groups look at all
+  const Group& group = pulled_;
+  const auto places_of = [&group](Index block) {
+    const std::size_t begin = static_cast<std::size_t>(block) * search_block_size;
+    return std::pair(begin, std::min(begin + search_block_size, group.elements.size()));
+  };
+  pulled_.by_columns = DozingColumns(
+      motion, static_cast<Index>(group.block_largest.size()), dim_,
+      [this, places_of](Index block, const double* columns) {
+        const auto [begin, end] = places_of(block);
+        return largest_of_columns(begin, end, columns);
+      },
+      [&group, places_of](Index block, const std::function<void(std::size_t)>& visit) {
+        const auto [begin, end] = places_of(block);
+        for (std::size_t k = begin; k < end; ++k) {
+          visit(group.first[k]);
+          visit(group.second[k]);
+        }
+      });
+  return true;
+}
+
+std::array<float, block_width> LimitSearch::largest_of_columns(std::size_t begin, std::size_t end,
+                                                               const double* columns) const {
+  const Group& group = pulled_;
+  double most[block_width] = {};
+  for (std::size_t k = begin; k < end; ++k) {
+    double ratio[block_width] = {};
+    for (int a = 0; a < dim_; ++a) {
+      const double* first = columns + (group.first[k] + a) * block_width;
+      const double* second = columns + (group.second[k] + a) * block_width;
+      for (int c = 0; c < block_width; ++c) {
+        ratio[c] += group.gradient[a][k] * (second[c] - first[c]);
+      }
+    }
+    for (int c = 0; c < block_width; ++c) most[c] = std::max(most[c], std::abs(ratio[c]));
+  }
+  std::array<float, block_width> result;
+  for (int c = 0; c < block_width; ++c) result[c] = static_cast<float>(most[c]);
+  return result;
 }
 
 void LimitSearch::set_limits(Index /*element*/, double /*tension*/, double /*compression*/) {

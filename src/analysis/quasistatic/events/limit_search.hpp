@@ -5,6 +5,7 @@
 
 #include "analysis/quasistatic/events/break_search.hpp"
 #include "analysis/quasistatic/events/dozing_blocks.hpp"
+#include "analysis/quasistatic/events/dozing_columns.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
@@ -23,6 +24,7 @@ class LimitSearch final : public BreakSearch {
   void set_limit(Index element, double limit) override;
   void set_limits(Index element, double tension, double compression) override;
   std::vector<std::uint8_t> doze(const CarriedParticles& carried) override;
+  bool doze_by_columns(const DeferredMotion& motion) override;
   void wake() override { pulled_.dozing = strained_.dozing = {}; }
 
  private:
@@ -33,9 +35,12 @@ class LimitSearch final : public BreakSearch {
     std::vector<double> gradient[3];   ///< g, one array per component
     std::vector<double> block_largest;
     DozingBlocks dozing;
+    DozingColumns by_columns;
   };
   void add(Index element, Group& group);
   void set_gradient(Group& group, std::size_t place, double limit);
+  std::array<float, block_width> largest_of_columns(std::size_t begin, std::size_t end,
+                                                    const double* columns) const;
   template <int Dim, Sense sense>
   static double ratio_at(const Group& group, const double* displacement, Index place);
   template <int Dim, Sense sense>

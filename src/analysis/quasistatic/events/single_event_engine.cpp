@@ -19,6 +19,8 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
       closes_(network_.has_closing()),
       teeth_(static_cast<std::size_t>(network_.num_elements()), 0) {
   if (network_.has_crushing()) crushing_.emplace(network_);
+  if (!problem.sets.empty() || !equilibrium_.may_defer()) return;
+  if (!search_->doze_by_columns(equilibrium_.defer())) equilibrium_.defer_no_more();
 }
 
 Event SingleEventEngine::next_event() {

@@ -84,7 +84,7 @@ TEST(SingleBody, MultipliesWithSpringsAsInDoublePrecision) {
     expected[k] /= boxed.single->unit();
   }
   std::vector<float> found(motion.size());
-  boxed.single->multiply(boxed.ordered(motion), found);
+  boxed.single->multiply(boxed.ordered(motion), found, [](std::size_t, std::size_t) {});
   expect_near(found, boxed.ordered(expected));
 }
 
@@ -109,7 +109,10 @@ TEST(SingleBody, PreconditionsByParticlesAndBoxes) {
     boxed.motions->add_block(coarse, expected);
     for (double& value : expected) value *= boxed.single->unit();
     std::vector<float> found(residual.size());
-    boxed.single->precondition(boxed.ordered(residual), found);
+    std::size_t complete = 0;
+    boxed.single->precondition(boxed.ordered(residual), found,
+                               [&](std::size_t, std::size_t end) { complete = end; });
+    EXPECT_EQ(complete * block_width, found.size());
     expect_near(found, boxed.ordered(expected));
   }
 }
