@@ -143,13 +143,15 @@ void LimitSearch::set_limit(Index element, double limit) {
   Group& group = network_.law(element).sense() == Sense::both ? strained_ : pulled_;
   const auto found = std::lower_bound(group.elements.begin(), group.elements.end(), element);
   const auto place = static_cast<std::size_t>(found - group.elements.begin());
-  const auto size = [&] {
-    return std::hypot(group.gradient[0][place], group.gradient[1][place], group.gradient[2][place]);
+  const auto square_of_gradient = [&] {
+    double square = 0.0;
+    for (int a = 0; a < dim_; ++a) square += group.gradient[a][place] * group.gradient[a][place];
+    return square;
   };
-  const double before = size();
+  const double before = square_of_gradient();
   set_gradient(group, place, limit);
   group.dozing.wake(place);
-  group.by_columns.wake(static_cast<Index>(place) / search_block_size, size() > before);
+  group.by_columns.wake(static_cast<Index>(place) / search_block_size, square_of_gradient() > before);
 }
 
 std::vector<std::uint8_t> LimitSearch::doze(const CarriedParticles& carried) {
