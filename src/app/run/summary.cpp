@@ -80,8 +80,9 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
 
 namespace {
 
-Index bonds_and_ties(const Network& network) {
-  return network.first_segment - network.num_edges_of_cells();
+Index bonds_and_ties(const Model& model) {
+  if (model.pattern) return static_cast<Index>(model.pattern->num_bonds());
+  return model.network.first_segment - model.network.num_edges_of_cells();
 }
 
 std::string cells_text(const Network& network) {
@@ -121,7 +122,7 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
 void tell_body(Summary& summary, const Model& model, const std::string& more) {
   const Network& network = model.network;
   summary.add("particles", network.particles.size());
-  summary.add("bonds", model.elements ? 0 : bonds_and_ties(network));
+  summary.add("bonds", model.elements ? 0 : bonds_and_ties(model));
   if (model.elements) summary.add("cells", model.elements->cells.size());
   if (network.cells) summary.add("cells", network.cells->cells.size());
   summary.add("unknowns", model.unknowns.count);
@@ -137,7 +138,7 @@ std::string size_text(const Model& model) {
   return model.elements ? fmt::format("{} particles, {} linear elements", particles,
                                       model.elements->cells.size())
                         : fmt::format("{} particles, {} bonds{}", particles,
-                                      bonds_and_ties(model.network), cells_text(model.network));
+                                      bonds_and_ties(model), cells_text(model.network));
 }
 
 double peak_memory_bytes() {
