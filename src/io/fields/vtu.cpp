@@ -291,8 +291,10 @@ VtuGrid read_pieces(const std::string& path) {
   const VtuReader reader(path, "PUnstructuredGrid");
   VtuGrid grid;
   for (pugi::xml_node node : reader.file().child("PUnstructuredGrid").children("Piece")) {
+    const std::string piece = reader.neighbour(node, "Source");
+    if (piece.ends_with(".pvtu")) reader.fail("names '" + piece + "', which has pieces itself");
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    append_piece(reader, read_vtu((folder / reader.neighbour(node, "Source")).string()), grid);
+    append_piece(reader, read_vtu((folder / piece).string()), grid);
   }
   return grid;
 }

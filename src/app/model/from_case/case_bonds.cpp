@@ -167,21 +167,10 @@ void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkI
   build_gauges(input, draft);
 }
 
-/// Whether ranks know enough to make the bonds of a case by themselves.
-bool can_be_made_in_parts(const CaseFile& input, const NetworkInput& network) {
-  const auto is_of_stress = [](const GaugeSection& gauge) { return gauge.stress.has_value(); };
-  return input.analysis.type == AnalysisType::elastic &&
-         input.analysis.solver != LinearSolver::direct &&
-         network.model == BondModel::bond_based && !network.shell && network.cracks.empty() &&
-         network.interfaces.empty() && network.bars.empty() && !input.elements &&
-         input.stages.empty() && !have_unlike_constants(input.materials) &&
-         std::none_of(input.gauges.begin(), input.gauges.end(), is_of_stress);
-}
-
 /// The bonds of a box, calibrated in a smaller one; none where a part of it is not like another.
 std::optional<LatticePattern> find_pattern(const CaseFile& input, const BondOptions& options,
                                            const Body& body, NetworkInput network) {
-  if (options.parts < 2 || !can_be_made_in_parts(input, network)) return std::nullopt;
+  if (options.parts < 2 || !can_be_made_in_parts(input)) return std::nullopt;
   const std::optional<LatticeGrid> grid = grid_of(body);
   if (!grid || split_grid(*grid, options.parts).empty()) return std::nullopt;
   LatticePattern pattern = pattern_of(*grid, network.horizon);
@@ -199,6 +188,19 @@ bool have_unlike_constants(const std::vector<MaterialSection>& materials) {
     return m.youngs_modulus != materials.front().youngs_modulus ||
            m.poissons_ratio != materials.front().poissons_ratio;
   });
+}
+
+bool can_be_made_in_parts(const CaseFile& input) {
+  const BodySection& body = input.body;
+  const auto is_of_stress = [](const GaugeSection& gauge) { return gauge.stress.has_value(); };
+  const bool is_plane = dimension_of(body) == 2;
+  return input.analysis.type == AnalysisType::elastic &&
+         input.analysis.solver != LinearSolver::direct && !body.mesh &&
+         body.method == BodyMethod::bonds && body.model == BodyModel::bond_based &&
+         !is_shell(body) && !is_beam(body) && !(is_plane && body.surface == Surface::calibrated) &&
+         input.cracks.empty() && input.interfaces.empty() && input.rebar.empty() &&
+         !input.elements && !have_unlike_constants(input.materials) &&
+         std::none_of(input.gauges.begin(), input.gauges.end(), is_of_stress);
 }
 
 void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {
@@ -222,6 +224,10 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
                     "of a box of {} steps, in which they were calibrated or made",
                     options.parts, fmt::join(model.pattern->small.count, " by ")));
     return;
+  }
+  if (options.parts > 1 && can_be_made_in_parts(input)) {  // but is not: one process has to hold them all
+    refuse_impossible_horizon(
+        input, reach_of(body.particles, model.horizon, body.lattice.spacing));
   }
   if (!options.draft) refuse_before_calibration(input, body, network, model);
   model.network = build_case_network(input, body, network);

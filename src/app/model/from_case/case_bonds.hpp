@@ -20,6 +20,9 @@ struct BondOptions {
 
 bool have_unlike_constants(const std::vector<MaterialSection>& materials);
 
+/// Whether ranks can make the bonds of a case by themselves, if its body is one box.
+bool can_be_made_in_parts(const CaseFile& input);
+
 /// Puts the bonds and bars of a case between the particles of its body.
 /// \throws InputError where the case makes no sense for its body
 void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model);

@@ -93,7 +93,7 @@ Body build_beam_body(const CaseFile& input, const LatticeInput& lattice, double&
   }
 }
 
-Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
+Body build_lattice_body(const CaseFile& input, int dim, double& horizon, int parts) {
   LatticeInput lattice;
   lattice.pattern = input.body.pattern;
   lattice.surface = input.body.surface;
@@ -112,7 +112,9 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   if (is_beam(input.body)) return build_beam_body(input, lattice, horizon);
   if (bonds) {
     lattice.horizon = horizon_of(input.body, lattice.spacing);
-    refuse_impossible_horizon(input, reach_of(box, dim, lattice.horizon, lattice.spacing));
+    HorizonReach reach = reach_of(box, dim, lattice.horizon, lattice.spacing);
+    if (can_be_made_in_parts(input)) reach.parts = parts;
+    refuse_impossible_horizon(input, reach);
   } else {
     lattice.surface = Surface::calibrated;  // the same particles
   }
@@ -131,8 +133,9 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   }
 }
 
-Body build_body(const CaseFile& input, int dim, double& horizon, std::vector<std::string>& notes) {
-  if (!input.body.mesh) return build_lattice_body(input, dim, horizon);
+Body build_body(const CaseFile& input, int dim, double& horizon, int parts,
+                std::vector<std::string>& notes) {
+  if (!input.body.mesh) return build_lattice_body(input, dim, horizon, parts);
   Body body = read_mesh_body(input, dim, notes);
   if (!has_horizon(input.body)) return body;
   body.lattice.surface = input.body.surface;
@@ -162,7 +165,7 @@ Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
   model.problem =
       is_shell(input.body) || is_beam(input.body) ? Problem::plane_stress : input.body.problem;
   const int dim = dimension_of(model.problem);
-  Body body = build_body(input, dim, model.horizon, model.notes);
+  Body body = build_body(input, dim, model.horizon, options.parts, model.notes);
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
   if (has_horizon(input.body)) {
