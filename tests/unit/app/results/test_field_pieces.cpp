@@ -20,21 +20,21 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A strip without surface correction, as elastic case.
-CaseFile elastic_strip() {
+CaseFile strip_for_ranks() {
   CaseFile input = test::strip_case();
   input.body.surface = Surface::none;
   input.analysis.type = AnalysisType::elastic;
   return input;
 }
 
-ElasticAnswer solve_by(Ranks& ranks, const Model& model) {
+ElasticAnswer answer_by(Ranks& ranks, const Model& model) {
   ElasticOptions options;
   options.boxes = {.tolerance = 1e-12, .ranks = &ranks};
   return solve_elastic(model, options);
 }
 
 /// Rows of all fields of points, by position.
-std::map<std::vector<double>, std::vector<double>> rows_of(const VtuGrid& grid) {
+std::map<std::vector<double>, std::vector<double>> rows_by_position(const VtuGrid& grid) {
   std::map<std::vector<double>, std::vector<double>> rows;
   for (std::size_t i = 0; i < grid.points.size() / 3; ++i) {
     const auto at = grid.points.begin() + static_cast<std::ptrdiff_t>(3 * i);
@@ -48,7 +48,7 @@ std::map<std::vector<double>, std::vector<double>> rows_of(const VtuGrid& grid) 
 }
 
 TEST(FieldPieces, HoldTheFieldsOfTheWholeBody) {
-  const CaseFile input = elastic_strip();
+  const CaseFile input = strip_for_ranks();
   const Model whole = build_model(input), shared = build_model(input, {}, 3);
   ASSERT_TRUE(shared.pattern);
   const ElasticAnswer alone = solve_elastic(whole, {});
@@ -64,7 +64,7 @@ TEST(FieldPieces, HoldTheFieldsOfTheWholeBody) {
   test::with_thread_ranks(
       3,
       [&](Ranks& ranks) {
-        const ElasticAnswer answer = solve_by(ranks, shared);
+        const ElasticAnswer answer = answer_by(ranks, shared);
         write_pieces(*answer.solution.team, stem, {moment, shared.problem, shared.hooke});
         dismiss(ranks);
       },
@@ -73,8 +73,8 @@ TEST(FieldPieces, HoldTheFieldsOfTheWholeBody) {
   EXPECT_EQ(found.field_data, expected.field_data);
   EXPECT_EQ(found.types, expected.types);
   ASSERT_EQ(found.point_data.size(), expected.point_data.size());
-  const auto rows = rows_of(found);
-  for (const auto& [position, row] : rows_of(expected)) {
+  const auto rows = rows_by_position(found);
+  for (const auto& [position, row] : rows_by_position(expected)) {
     const auto own = rows.find(position);
     ASSERT_NE(own, rows.end());
     // Displacements by a factor and to 1e-12 in energy; stresses are some 10, strains some 1e-3.
@@ -83,14 +83,14 @@ TEST(FieldPieces, HoldTheFieldsOfTheWholeBody) {
 }
 
 TEST(FieldPieces, TellWhichRankCouldNotWrite) {
-  const Model shared = build_model(elastic_strip(), {}, 2);
+  const Model shared = build_model(strip_for_ranks(), {}, 2);
   const test::TemporaryDirectory folder;
   const fs::path stem = folder / "fields_000001";
   fs::create_directories(stem.string() + "_0001.vtu/occupied");
   test::with_thread_ranks(
       2,
       [&](Ranks& ranks) {
-        const ElasticAnswer answer = solve_by(ranks, shared);
+        const ElasticAnswer answer = answer_by(ranks, shared);
         try {
           write_pieces(*answer.solution.team, stem.string(), {{}, shared.problem, shared.hooke});
           ADD_FAILURE() << "written";

@@ -25,7 +25,7 @@ struct PartCase {
 
 std::ostream& operator<<(std::ostream& out, const PartCase& own) { return out << own.name; }
 
-LatticeInput input_of(const PartCase& own) {
+LatticeInput bar_input(const PartCase& own) {
   LatticeInput input = body_input(own.lattice, 4);
   for (int a = 0; a < 3; ++a) input.solid[0].upper[a] = own.size[a] * input.spacing;
   input.horizon = 2.0 * input.spacing;
@@ -59,8 +59,8 @@ struct TwoBodies {
   AnalysisBody whole, places;
 };
 
-TwoBodies make_bodies(const PartCase& own) {
-  const LatticeInput input = input_of(own);
+TwoBodies make_two_bodies(const PartCase& own) {
+  const LatticeInput input = bar_input(own);
   const NetworkInput constants = network_input(input);
   const Body body = make_body(input);
   Network particles;
@@ -74,21 +74,12 @@ TwoBodies make_bodies(const PartCase& own) {
   return bodies;
 }
 
-double difference_of(const std::vector<double>& a, const std::vector<double>& b) {
-  double size = 0.0, difference = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    size = std::max(size, std::abs(a[k]));
-    difference = std::max(difference, std::abs(a[k] - b[k]));
-  }
-  return difference / size;
-}
-
 class LatticeParts : public testing::TestWithParam<std::tuple<PartCase, int>> {};
 
 /// Both searches end at 1e-12 in the norm of energy; stiffnesses are the same to 1e-12 or so.
 TEST_P(LatticeParts, HaveTheAnswerOfTheWholeBody) {
   const auto& [own, count] = GetParam();
-  const TwoBodies bodies = make_bodies(own);
+  const TwoBodies bodies = make_two_bodies(own);
   ElasticOptions options;
   options.solver = LinearSolver::iterative;
   options.boxes = {.tolerance = 1e-12, .edge = 3};
@@ -128,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(LatticePart, KeepsItsBondsAndThoseAcrossItsFaces) {
   const PartCase own{"", {"cubic", Pattern::cubic, Surface::none}, false, {5, 3, 3}};
-  const TwoBodies bodies = make_bodies(own);
+  const TwoBodies bodies = make_two_bodies(own);
   const std::vector<GridWindow> windows = split_grid(bodies.places.pattern->grid, 2);
   const auto share = [&](int rank) {
     Parcel parcel;
@@ -158,7 +149,7 @@ TEST(LatticePart, KeepsItsBondsAndThoseAcrossItsFaces) {
 }
 
 TEST(LatticePart, OfABodyThatNothingHoldsIsRefusedByAllRanks) {
-  TwoBodies bodies = make_bodies({"", calibrated, false, {6, 4, 4}});
+  TwoBodies bodies = make_two_bodies({"", calibrated, false, {6, 4, 4}});
   bodies.places.network.support_stiffness.clear();
   number(bodies.places, [](Index, int) { return false; });
   with_thread_ranks(

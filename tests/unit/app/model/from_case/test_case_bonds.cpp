@@ -11,7 +11,7 @@ namespace perilink {
 namespace {
 
 /// A strip whose bonds ranks can make.
-CaseFile elastic_strip() {
+CaseFile strip_in_parts() {
   CaseFile input = test::strip_case();
   input.body.surface = Surface::none;
   input.analysis.type = AnalysisType::elastic;
@@ -19,7 +19,7 @@ CaseFile elastic_strip() {
 }
 
 TEST(CaseBonds, OfABoxAreLeftToRanks) {
-  const CaseFile input = elastic_strip();
+  const CaseFile input = strip_in_parts();
   const Model alone = build_model(input), shared = build_model(input, {}, 2);
   EXPECT_FALSE(alone.pattern);
   ASSERT_TRUE(shared.pattern);
@@ -34,7 +34,7 @@ TEST(CaseBonds, OfABoxAreLeftToRanks) {
 }
 
 TEST(CaseBonds, AreRefusedAloneAndByRanksForTheSameReasons) {
-  CaseFile input = elastic_strip();
+  CaseFile input = strip_in_parts();
   input.supports.clear();
   for (const int parts : {1, 2}) {
     EXPECT_THROW(build_model(input, {}, parts), InputError) << parts;
@@ -52,7 +52,10 @@ TEST(CaseBonds, AreMadeByOneProcessWhereRanksDoNotKnowEnough) {
       },
       [](CaseFile& input) { input.cracks.push_back({{{-1, 45, 0}, {15, 45, 0}}}); },
       [](CaseFile& input) {
-        input.gauges.push_back({.name = "s", .at = Vector3{20, 40, 0}, .stress = {{0, 0}}});
+        GaugeSection& gauge = input.gauges.emplace_back();
+        gauge.name = "stress";
+        gauge.at = Vector3{20, 40, 0};
+        gauge.stress = {0, 0};
       },
       [](CaseFile& input) {
         input.materials.push_back(input.materials[0]);
@@ -60,7 +63,7 @@ TEST(CaseBonds, AreMadeByOneProcessWhereRanksDoNotKnowEnough) {
         input.materials[1].youngs_modulus *= 2.0;
       }};
   for (std::size_t k = 0; k < changes.size(); ++k) {
-    CaseFile input = elastic_strip();
+    CaseFile input = strip_in_parts();
     changes[k](input);
     const Model model = build_model(input, {}, 2);
     EXPECT_FALSE(model.pattern) << k;
