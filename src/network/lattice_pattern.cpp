@@ -43,8 +43,7 @@ LatticePattern pattern_of(const LatticeGrid& grid, double horizon) {
   LatticePattern pattern;
   pattern.grid = pattern.small = grid;
   for (int a = 0; a < grid.dim; ++a) {
-    pattern.reach[a] =
-        static_cast<Index>(horizon * (1.0 + horizon_tolerance) / grid.step[a]);
+    pattern.reach[a] = static_cast<Index>(horizon * (1.0 + horizon_tolerance) / grid.step[a]);
     pattern.depth[a] = counted_reaches * pattern.reach[a];
     const Index enough = 2 * pattern.depth[a] + 2 + grid.count[a] % 2;
     if (grid.count[a] <= enough) continue;

@@ -32,7 +32,8 @@ std::vector<double> sorted_values(const VtuGrid& grid, const VtuArray& array) {
   return values;
 }
 
-/// Searches end at 1e-10 in energy; where principal values are equal their directions may be any.
+/// Searches end at 1e-10 in energy. Where principal values are nearly equal their directions may be
+/// any, and they themselves are found to the root of round-off, 1.5e-8, in both bodies.
 void expect_same_fields(const VtuGrid& expected, const VtuGrid& found) {
   ASSERT_EQ(found.point_data.size(), expected.point_data.size());
   for (const VtuArray& array : expected.point_data) {
@@ -45,7 +46,8 @@ void expect_same_fields(const VtuGrid& expected, const VtuGrid& found) {
       size = std::max(size, std::abs(a[k]));
       difference = std::max(difference, std::abs(a[k] - b[k]));
     }
-    EXPECT_LE(difference, 1e-9 * size) << array.name;
+    const double tolerance = array.name.starts_with("principal_") ? 3e-8 : 1e-9;
+    EXPECT_LE(difference, tolerance * size) << array.name;
   }
 }
 
@@ -88,16 +90,19 @@ TEST_F(RankFolder, PiecesAreDrawnAndGoWithTheirRun) {
   EXPECT_FALSE(fs::exists(work() / "r/fields_000001_0002.vtu"));
 }
 
+const std::string springs_in_space = "\n[[springs]]\nregion = \"bar\"\ntotal = [2e3, 5e3, 1e3]\n";
+
 const std::string gauges =
     "\n[[gauges]]\nname = \"tip\"\nregion = \"right\"\naxis = \"y\"\n"
-    "\n[[gauges]]\nname = \"longer\"\nbetween = [[0, 2, 2], [20, 2, 2]]\n";
+    "\n[[gauges]]\nname = \"longer\"\nbetween = [[0, 2, 2], [20, 2, 2]]\n"
+    "\n[[gauges]]\nname = \"stress\"\nregion = \"right\"\nstress = \"xx\"\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, OwnParts,
-    testing::Values(RankCase{"Loaded", bar_case(true, "") + springs + gauges},
+    testing::Values(RankCase{"Loaded", bar_case(true, "") + springs_in_space + gauges},
                     RankCase{"Driven", driven(bar_case(true, "")) + gauges},
                     RankCase{"FaceCentred", replaced(bar_case(true, "pattern = \"face_centred\"\n"),
-                                                     "_ratio = 3", "_ratio = 1.5")},
+                                                     "_ratio = 3", "_ratio = 2")},
                     RankCase{"ByEnergy", bar_case(true, "surface = \"energy\"\n")},
                     RankCase{"PlaneUncorrected", bar_case(false, "surface = \"none\"\n")}),
     [](const auto& instance) { return instance.param.name; });

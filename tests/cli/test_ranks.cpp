@@ -45,6 +45,8 @@ std::string long_explicit_case() {
 
 const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
 
+const std::string springs = "\n[[springs]]\nregion = \"bar\"\ntotal = [2e3, 5e3]\n";
+
 class RankRuns : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
 TEST_P(RankRuns, FindTheSameAnswer) {

@@ -78,8 +78,6 @@ inline std::string driven(const std::string& text) {
          text.substr(end);
 }
 
-inline const std::string springs = "\n[[springs]]\nregion = \"bar\"\ntotal = [2e3, 5e3]\n";
-
 struct RankCase {
   std::string name, text;
 };

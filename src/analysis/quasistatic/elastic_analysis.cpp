@@ -184,10 +184,9 @@ ElasticResult solve_by_ranks(const LoadedNetwork& problem, const BoxSolverOption
   const auto solver =
       std::make_shared<BoxSolver>(*problem.pattern, problem.network, problem.unknowns, options);
   const double seconds = timer.seconds();
-  ElasticResult result =
-      solve_elastic(&problem.network, problem.unknowns, problem.loads,
-                    by_boxes([&] { return solver; }),
-                    [&](std::span<const double> u) { return solver->team()->internal(u); });
+  ElasticResult result = solve_elastic(
+      &problem.network, problem.unknowns, problem.loads, by_boxes([&] { return solver; }),
+      [&](std::span<const double> u) { return solver->team()->internal(u); });
   result.seconds.factorization += seconds;
   result.team = solver->team();
   return result;
@@ -204,11 +203,9 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
     return internal_force(network, secants, u);
   };
   if (is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)) {
-    return solve_elastic(&network, unknowns, problem.loads,
-                         by_boxes([&] {
-                           return std::make_shared<BoxSolver>(network, unknowns, secants,
-                                                              options.boxes);
-                         }),
+    return solve_elastic(&network, unknowns, problem.loads, by_boxes([&] {
+      return std::make_shared<BoxSolver>(network, unknowns, secants, options.boxes);
+    }),
                          internal_of);
   }
   return solve_elastic(&network, unknowns, problem.loads,

@@ -16,6 +16,8 @@ struct ModelState {
   std::span<const double> set_factors = {};
   /// Forces that hold the particles so, where they are known (InternalForce::forces); else empty.
   std::span<const double> internal = {};
+  /// Stresses at the particles, where they are known, shape (particles, 6); else empty.
+  std::span<const double> stresses = {};
 };
 
 }  // namespace perilink

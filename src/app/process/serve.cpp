@@ -18,7 +18,7 @@ void serve(Ranks& ranks) {
       switch (order.get<Service>()) {
         case Service::end: return;
         case Service::solve: member.obey(order); break;
-        case Service::write_piece: write_piece_along(ranks, member.own(), order); break;
+        case Service::show_fields: show_fields_along(ranks, member.own(), order); break;
         case Service::move_bonds: move_bonds_along(ranks, order); break;
       }
     }

@@ -21,8 +21,12 @@ struct PieceInput {
 /// \throws SolverError where one of them cannot, FileError where the latter is not written
 void write_pieces(const Team& team, const std::string& stem, const PieceInput& input);
 
+/// Stresses at all particles at that motion, shape (particles, 6).
+/// \param particles  that the body has
+std::vector<double> stresses_of_parts(const Team& team, Index particles, const PieceInput& input);
+
 /// What the other ranks do meanwhile.
-/// \param order  of write_pieces(), its Service read
-void write_piece_along(Ranks& ranks, const PartSolver& own, Parcel& order);
+/// \param order  its Service read
+void show_fields_along(Ranks& ranks, const PartSolver& own, Parcel& order);
 
 }  // namespace perilink

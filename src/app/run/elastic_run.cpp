@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "app/model/gauges.hpp"
@@ -29,6 +30,11 @@ VtuGrid make_grid(const Model& model, const Csr& families, std::span<const doubl
   return grid;
 }
 
+bool has_stress_gauges(const Model& model) {
+  return std::any_of(model.gauges.begin(), model.gauges.end(),
+                     [](const Gauge& gauge) { return gauge.stress.has_value(); });
+}
+
 /// A run with type = "elastic".
 class ElasticRun final : public NetworkRun {
  public:
@@ -53,6 +59,13 @@ class ElasticRun final : public NetworkRun {
     }
     ModelState state{{}, displacement};
     state.internal = answer_.solution.forces;
+    const FieldMoment moment = moment_of(row, input, model_);
+    const PieceInput pieces{moment, model_.problem, model_.hooke};
+    std::vector<double> stresses;
+    if (model_.pattern && has_stress_gauges(model_)) {
+      state.stresses = stresses =
+          stresses_of_parts(*answer_.solution.team, model_.network.particles.size(), pieces);
+    }
     files_->add_row(row, gauge_values(model_, state, families_));
     if (const auto places = held_places(input, model_); !places.empty()) {
       files_->write_table("reactions", row.step, reaction_table(places, model_, state));
@@ -64,10 +77,9 @@ class ElasticRun final : public NetworkRun {
       bars = bar_state(model_.network, intact, displacement);
       files_->write_table("bars", row.step, bar_table(model_.network, *bars));
     }
-    const FieldMoment moment = moment_of(row, input, model_);
     if (model_.pattern) {
       files_->write_pieces(row.step, row.step, [&](const std::string& stem) {
-        write_pieces(*answer_.solution.team, stem, {moment, model_.problem, model_.hooke});
+        write_pieces(*answer_.solution.team, stem, pieces);
       });
       return;
     }

@@ -138,8 +138,8 @@ std::string size_text(const Model& model) {
   const Index particles = model.network.particles.size();
   return model.elements ? fmt::format("{} particles, {} linear elements", particles,
                                       model.elements->cells.size())
-                        : fmt::format("{} particles, {} bonds{}", particles,
-                                      bonds_and_ties(model), cells_text(model.network));
+                        : fmt::format("{} particles, {} bonds{}", particles, bonds_and_ties(model),
+                                      cells_text(model.network));
 }
 
 double peak_memory_bytes() {

@@ -91,15 +91,13 @@ std::optional<LatticeGrid> grid_of(const Body& body) {
       grid.upper[a] = std::max(grid.upper[a], particles.position(i)[a]);
     }
     grid.step[a] = lattice.step[a];
-    grid.count[a] =
-        static_cast<Index>(std::lround((grid.upper[a] - grid.lower[a]) / grid.step[a]));
+    grid.count[a] = static_cast<Index>(std::lround((grid.upper[a] - grid.lower[a]) / grid.step[a]));
   }
   if (grid.size(grid.all()) != particles.size()) return std::nullopt;
   // All cells: less than half a one may be missing, round-off is far below.
   double cells = grid.alternate ? 0.5 : 1.0;
   for (int a = 0; a < grid.dim; ++a) cells *= grid.count[a];
-  const double filled =
-      std::accumulate(particles.volumes.begin(), particles.volumes.end(), 0.0);
+  const double filled = std::accumulate(particles.volumes.begin(), particles.volumes.end(), 0.0);
   if (std::abs(filled / lattice.cell_volume - cells) > 0.1) return std::nullopt;
   bool same = true;
   Index i = 0;

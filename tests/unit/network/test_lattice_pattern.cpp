@@ -18,7 +18,7 @@ struct PatternCase {
   std::string name;
   Pattern pattern;
   Surface surface;
-  Vector3 size;  // in spacings
+  Vector3 size;    // in spacings
   double horizon;  // in spacings
 };
 
@@ -41,8 +41,7 @@ LatticeInput input_of(const PatternCase& own) {
 
 LatticePattern make_pattern(const Body& body, const NetworkInput& input) {
   LatticePattern pattern = pattern_of(*grid_of(body), input.horizon);
-  pattern.sample =
-      build_network(body_of(pattern.small, body.lattice, input.thickness), input);
+  pattern.sample = build_network(body_of(pattern.small, body.lattice, input.thickness), input);
   return pattern;
 }
 
@@ -98,8 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
         PatternCase{"CubicUncorrected", Pattern::cubic, Surface::none, {16, 17, 3}, 2},
         PatternCase{"CubicByEnergy", Pattern::cubic, Surface::energy, {26, 4, 4}, 3},
         PatternCase{"FaceCentred", Pattern::face_centred, Surface::calibrated, {16, 5, 3}, 1.5},
-        PatternCase{"FaceCentredUncorrected", Pattern::face_centred, Surface::none, {15.7, 5, 3},
-                    1.5}),
+        PatternCase{
+            "FaceCentredUncorrected", Pattern::face_centred, Surface::none, {15.7, 5, 3}, 1.5}),
     [](const auto& instance) { return instance.param.name; });
 
 TEST(Pattern, DoesNotRepeatWhatIsNotAlike) {

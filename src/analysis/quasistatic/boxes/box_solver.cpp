@@ -91,16 +91,16 @@ BoxSolver::BoxSolver(const Network& network, const Unknowns& unknowns, Secants s
   factor_->factorize(stiffness.coarse, groups);
   if (options.ranks && can_be_shared(network, unknowns)) {
     stiffness.blocks = blocks_;
-    team_ = std::make_shared<Team>(*options.ranks, network, unknowns, secants, *motions_,
-                                   stiffness, ground);
+    team_ = std::make_shared<Team>(*options.ranks, network, unknowns, secants, *motions_, stiffness,
+                                   ground);
   }
   require_resistance();
   if (!options.blocks || team_ || !SingleBody::is_made_of(network)) return;
   single_ = std::make_unique<SingleBody>(network, unknowns, secants, *motions_, blocks_);
 }
 
-BoxSolver::BoxSolver(const LatticePattern& pattern, const Network& places,
-                     const Unknowns& unknowns, const BoxSolverOptions& options)
+BoxSolver::BoxSolver(const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
+                     const BoxSolverOptions& options)
     : network_(places),
       unknowns_(unknowns),
       options_(options),

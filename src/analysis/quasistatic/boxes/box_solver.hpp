@@ -91,7 +91,7 @@ class BoxSolver {
   Secants secants_;
   BoxSolverOptions options_;
   std::optional<BoxMotions> motions_;  ///< none where ranks have made the body
-  std::vector<double> blocks_;  // inverse, shape (particles, width, width)
+  std::vector<double> blocks_;         // inverse, shape (particles, width, width)
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<Factor> factor_;
   std::shared_ptr<Team> team_;          ///< null: this process works alone

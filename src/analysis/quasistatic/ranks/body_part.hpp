@@ -25,7 +25,7 @@ struct BodyPart {
   std::vector<GlobalIndex> elements;  ///< their numbers, ascending, where they may change
   /// Elements whose first end another rank owns, in parts that ranks make.
   std::vector<Index> others_elements;
-  Unknowns unknowns;                  ///< owned particles have some, ghosts none
+  Unknowns unknowns;  ///< owned particles have some, ghosts none
   Ghosts ghosts;
 
   /// Inverse stiffness of each owned particle alone, shape (owned, width, width).
@@ -38,9 +38,7 @@ struct BodyPart {
 
   Index owned() const { return static_cast<Index>(boxes.size()); }
   Index particles() const { return owned() + static_cast<Index>(ghosts.owners.size()); }
-  Secants secants() const {
-    return axial.empty() ? Secants(other) : Secants(other, axial);
-  }
+  Secants secants() const { return axial.empty() ? Secants(other) : Secants(other, axial); }
 
   Parcel pack() const;
   static BodyPart unpack(Parcel parcel);

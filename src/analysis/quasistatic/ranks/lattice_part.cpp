@@ -63,8 +63,7 @@ class PartMaker {
       network.bonds.append(network.particles, i, j);
       network.stiffness.push_back(share_.pattern.sample.stiffness[element]);
     });
-    network.first_tie = network.first_anchored_tie = network.first_segment =
-        network.num_elements();
+    network.first_tie = network.first_anchored_tie = network.first_segment = network.num_elements();
     part_.other.assign(count, 1.0);
   }
 
@@ -154,13 +153,11 @@ void add_boxes(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns
   std::vector<std::vector<Index>> own =
       split_into_boxes({particles.positions.data(), positions}, particles.dim, particles_of_box);
   const auto [before, all] = before_and_in_all(ranks, static_cast<Index>(own.size()));
-  const BoxMotions motions(particles, unknowns, std::move(own), before, all,
-                           [&](std::span<double> known, int numbers) {
-                             ranks.make_ghost_layer(particles.size(), part.ghosts, numbers)
-                                 ->update(known);
-                           });
-  BoxStiffness stiffness =
-      assemble_box_stiffness(part.network, part.secants(), unknowns, motions);
+  const BoxMotions motions(
+      particles, unknowns, std::move(own), before, all, [&](std::span<double> known, int numbers) {
+        ranks.make_ghost_layer(particles.size(), part.ghosts, numbers)->update(known);
+      });
+  BoxStiffness stiffness = assemble_box_stiffness(part.network, part.secants(), unknowns, motions);
   stiffness.blocks.resize(positions * width);
   double faults = stiffness.invert_blocks(width) ? 0.0 : 1.0;
   ranks.sum({&faults, 1});

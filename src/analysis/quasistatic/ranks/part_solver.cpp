@@ -110,9 +110,10 @@ InternalForce PartSolver::internal(std::span<const double> motion) {
   InternalForce others;
   internal_force(part_.network, part_.secants(), last_motion_, part_.others_elements, others);
   internal_force(part_.network, part_.secants(), last_motion_, forces_);
-  return {{forces_.forces.begin(), forces_.forces.begin() + static_cast<std::ptrdiff_t>(motion.size())},
-          forces_.energy - others.energy,
-          forces_.support_energy};
+  return {
+      {forces_.forces.begin(), forces_.forces.begin() + static_cast<std::ptrdiff_t>(motion.size())},
+      forces_.energy - others.energy,
+      forces_.support_energy};
 }
 
 void PartSolver::multiply_block(std::span<const double> motions, std::span<double> results) {

@@ -181,6 +181,11 @@ GradientsReport Team::search_block(std::span<const double> right, std::span<doub
   });
 }
 
+void Team::put_in_place(int rank, std::span<const double> own, std::size_t width,
+                        std::span<double> all) const {
+  add(all, partition_.particles[rank], own, width);
+}
+
 InternalForce Team::internal(std::span<const double> motion) {
   return lead(ranks_, [&] {
     for (int rank = 1; rank < ranks_.count(); ++rank) {

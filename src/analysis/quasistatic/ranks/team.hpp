@@ -30,8 +30,8 @@ class Team {
   /// Lets every rank make its own part of a box of a lattice, which has as many planes at least.
   /// \param places  particles and springs of the whole body; no bonds
   /// \throws SolverError on all ranks
-  Team(Ranks& ranks, const LatticePattern& pattern, const Network& places,
-       const Unknowns& unknowns, Index particles_of_box);
+  Team(Ranks& ranks, const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
+       Index particles_of_box);
 
   /// conjugate_gradients() of the whole body; vectors have all its unknowns.
   GradientsReport search(std::span<const double> right, std::span<double> solution, double enough,
@@ -44,6 +44,12 @@ class Team {
 
   /// internal_force() of parts that the ranks have made; motion of shape (particles, width).
   InternalForce internal(std::span<const double> motion);
+
+  /// Puts what a rank has found of its own particles among what is known of all.
+  /// \param own  shape (owned, width)
+  /// \param all  shape (particles, width), zero there before
+  void put_in_place(int rank, std::span<const double> own, std::size_t width,
+                    std::span<double> all) const;
 
   FactorStatistics coarse() const { return own_->coarse(); }
   Index num_boxes() const { return own_->num_boxes(); }

@@ -79,7 +79,7 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
 }
 
 void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription) {
-  const std::vector<Fragment> fragments = 
+  const std::vector<Fragment> fragments =
       find_fragments(model.network, prescription.held, model.pattern.has_value());
   const bool pin = input.analysis.rigid_body_modes == RigidBodyModes::pin;
   if (fragments.size() > 1) {

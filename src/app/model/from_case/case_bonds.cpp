@@ -192,15 +192,13 @@ bool have_unlike_constants(const std::vector<MaterialSection>& materials) {
 
 bool can_be_made_in_parts(const CaseFile& input) {
   const BodySection& body = input.body;
-  const auto is_of_stress = [](const GaugeSection& gauge) { return gauge.stress.has_value(); };
   const bool is_plane = dimension_of(body) == 2;
   return input.analysis.type == AnalysisType::elastic &&
          input.analysis.solver != LinearSolver::direct && !body.mesh &&
          body.method == BodyMethod::bonds && body.model == BodyModel::bond_based &&
          !is_shell(body) && !is_beam(body) && !(is_plane && body.surface == Surface::calibrated) &&
          input.cracks.empty() && input.interfaces.empty() && input.rebar.empty() &&
-         !input.elements && !have_unlike_constants(input.materials) &&
-         std::none_of(input.gauges.begin(), input.gauges.end(), is_of_stress);
+         !input.elements && !have_unlike_constants(input.materials);
 }
 
 void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {
@@ -225,9 +223,9 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
                     options.parts, fmt::join(model.pattern->small.count, " by ")));
     return;
   }
-  if (options.parts > 1 && can_be_made_in_parts(input)) {  // but is not: one process has to hold them all
-    refuse_impossible_horizon(
-        input, reach_of(body.particles, model.horizon, body.lattice.spacing));
+  if (options.parts > 1 &&
+      can_be_made_in_parts(input)) {  // but is not: one process has to hold them all
+    refuse_impossible_horizon(input, reach_of(body.particles, model.horizon, body.lattice.spacing));
   }
   if (!options.draft) refuse_before_calibration(input, body, network, model);
   model.network = build_case_network(input, body, network);

@@ -33,13 +33,14 @@ ElasticAnswer answer_by(Ranks& ranks, const Model& model) {
   return solve_elastic(model, options);
 }
 
-/// Rows of all fields of points, by position.
+/// Rows of the fields of points, by position; directions have any sign.
 std::map<std::vector<double>, std::vector<double>> rows_by_position(const VtuGrid& grid) {
   std::map<std::vector<double>, std::vector<double>> rows;
   for (std::size_t i = 0; i < grid.points.size() / 3; ++i) {
     const auto at = grid.points.begin() + static_cast<std::ptrdiff_t>(3 * i);
     std::vector<double>& row = rows[{at, at + 3}];
     for (const VtuArray& array : grid.point_data) {
+      if (array.name.ends_with("_direction")) continue;
       const auto first = array.values.begin() + static_cast<std::ptrdiff_t>(i * array.components);
       row.insert(row.end(), first, first + array.components);
     }

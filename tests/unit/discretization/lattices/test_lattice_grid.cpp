@@ -96,7 +96,9 @@ TEST(Grid, IsNoneOfBodiesThatAreNoBox) {
   EXPECT_FALSE(grid_of(make_body(corner)));
   // A hole of one cell, around which all particles are there.
   LatticeInput hole = box_of(Pattern::cubic, {3, 3, 1});
-  hole.solid = {{{0, 0, 0}, {3, 1, 1}}, {{0, 1, 0}, {1, 3, 1}}, {{2, 1, 0}, {3, 3, 1}},
+  hole.solid = {{{0, 0, 0}, {3, 1, 1}},
+                {{0, 1, 0}, {1, 3, 1}},
+                {{2, 1, 0}, {3, 3, 1}},
                 {{1, 2, 0}, {2, 3, 1}}};
   hole.material = {0, 0, 0, 0};
   EXPECT_FALSE(grid_of(make_body(hole)));

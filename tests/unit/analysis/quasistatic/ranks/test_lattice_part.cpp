@@ -69,8 +69,7 @@ TwoBodies make_two_bodies(const PartCase& own) {
                    held_bar(own, std::move(particles))};
   LatticePattern& pattern =
       bodies.places.pattern.emplace(pattern_of(*grid_of(body), constants.horizon));
-  pattern.sample =
-      build_network(body_of(pattern.small, body.lattice, input.thickness), constants);
+  pattern.sample = build_network(body_of(pattern.small, body.lattice, input.thickness), constants);
   return bodies;
 }
 

@@ -50,12 +50,8 @@ TEST(CaseBonds, AreMadeByOneProcessWhereRanksDoNotKnowEnough) {
         input.body.model = BodyModel::micropolar;
         input.materials[0].poissons_ratio = 0.2;
       },
-      [](CaseFile& input) { input.cracks.push_back({{{-1, 45, 0}, {15, 45, 0}}}); },
       [](CaseFile& input) {
-        GaugeSection& gauge = input.gauges.emplace_back();
-        gauge.name = "stress";
-        gauge.at = Vector3{20, 40, 0};
-        gauge.stress = {0, 0};
+        input.cracks.push_back({{{-1, 45, 0}, {15, 45, 0}}});
       },
       [](CaseFile& input) {
         input.materials.push_back(input.materials[0]);
