@@ -67,7 +67,7 @@ class PartMaker {
     part_.other.assign(count, 1.0);
   }
 
-  /// Slots that nothing holds.
+  /// Whether components are held, of all particles of the part, shape (particles, dim).
   std::vector<std::uint8_t> held() const {
     std::vector<std::uint8_t> held(part_.network.particles.positions.size());
     const std::size_t dim = static_cast<std::size_t>(grid_.dim);
@@ -113,15 +113,15 @@ class PartMaker {
   std::vector<Index> number_;  // in the part, of the particles of known_
 };
 
-/// Numbers of one per rank, before that of a rank and in all.
+/// Of a number that each rank has one of: the sum of those of the ranks before, and of all.
 std::pair<Index, Index> before_and_in_all(Ranks& ranks, Index own) {
   std::vector<double> counts(static_cast<std::size_t>(ranks.count()), 0.0);
   counts[ranks.own()] = own;
   ranks.sum(counts);
-  const auto end = counts.begin() + ranks.own();
-  return {static_cast<Index>(std::accumulate(counts.begin(), end, 0.0)),
-          static_cast<Index>(std::accumulate(end, counts.end(), 0.0) +
-                             std::accumulate(counts.begin(), end, 0.0))};
+  const auto sum_to = [&](auto end) {
+    return static_cast<Index>(std::accumulate(counts.begin(), end, 0.0));
+  };
+  return {sum_to(counts.begin() + ranks.own()), sum_to(counts.end())};
 }
 
 /// The sum of the matrices of all ranks, for all.
