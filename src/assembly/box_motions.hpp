@@ -26,7 +26,7 @@ class BoxMotions {
   /// Boxes of the first particles of a body without cracks, which this process owns; those of the
   /// others are known by their numbers and centres.
   /// \param first_box  boxes of the processes before
-  /// \param unknowns   of all particles
+  /// \param unknowns   those of all particles
   BoxMotions(const Particles& particles, const Unknowns& unknowns,
              std::vector<std::vector<Index>> own, Index first_box, Index num_boxes,
              const Exchange& exchange);

@@ -12,9 +12,9 @@ namespace perilink {
 /// lie alike under the faces are alike, as calibration makes them (calibration/bond_orbits.hpp).
 /// So a process can make the bonds of any part of the box by itself.
 struct LatticePattern {
-  LatticeGrid grid;              ///< of the box
-  LatticeGrid small;             ///< of the sample
-  std::array<Index, 3> reach{};  ///< of bonds, along each axis [steps]
+  LatticeGrid grid;              ///< the box
+  LatticeGrid small;             ///< the smaller one
+  std::array<Index, 3> reach{};  ///< farthest that bonds go along each axis [steps]
   std::array<Index, 3> depth{};  ///< under a face from which on all places are alike [steps]
   /// Particles and trusses of the smaller box.
   Network sample;

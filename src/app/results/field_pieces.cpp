@@ -17,7 +17,7 @@ std::string piece_name(const std::string& stem, int rank) {
   return fmt::format("{}_{:04}.vtu", stem, rank);
 }
 
-/// Of all particles that a rank knows.
+/// Stresses at all particles that a rank knows.
 std::vector<double> stresses_of(const PartSolver& solver, const Csr& families,
                                 const PieceInput& input) {
   return particle_stresses({solver.part().network, families, input.problem, input.hooke},

@@ -6,8 +6,9 @@
 #include <vector>
 
 /// \file
-/// VTK unstructured grids (.vtu, XML, zlib-compressed inline binary), what names their pieces
-/// (.pvtu) and their time series (.pvd), as ParaView opens them, and the reading back of files that this program wrote.
+/// VTK unstructured grids (.vtu, XML, zlib-compressed inline binary), files that name the pieces of
+/// one (.pvtu) and time series (.pvd), as ParaView opens them, and the reading back of files that
+/// this program wrote.
 
 namespace perilink {
 

@@ -38,7 +38,7 @@ class BoxSolver {
   BoxSolver(const Network& network, const Unknowns& unknowns, Secants secants,
             const BoxSolverOptions& options, const std::vector<double>* ground = nullptr);
 
-  /// Of a box of a lattice whose parts the ranks of the options make.
+  /// For a box of a lattice whose parts the ranks of the options make.
   /// \param places    particles and springs, no bonds; kept by reference, as unknowns
   BoxSolver(const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
             const BoxSolverOptions& options);

@@ -18,7 +18,7 @@ enum class GlobalIndex : Index {};
 /// What a rank knows of a body: the particles that it owns, then those of other ranks that its
 /// elements reach, and these elements. Numbers are the part's own.
 struct BodyPart {
-  /// Of parts that are sent, positions are left out: products need directions and lengths alone.
+  /// Parts that are sent have no positions: products need directions and lengths alone.
   Network network;
   /// Secants of the elements; where no element changes the first may be empty, as the second.
   std::vector<double> axial, other;

@@ -113,7 +113,7 @@ class PartMaker {
   std::vector<Index> number_;  // in the part, of the particles of known_
 };
 
-/// Of a number that each rank has one of: the sum of those of the ranks before, and of all.
+/// Sums of a number that each rank has: over the ranks before this one, and over all.
 std::pair<Index, Index> before_and_in_all(Ranks& ranks, Index own) {
   std::vector<double> counts(static_cast<std::size_t>(ranks.count()), 0.0);
   counts[ranks.own()] = own;
@@ -144,7 +144,7 @@ SparseMatrix sum_of(Ranks& ranks, SparseMatrix own) {
 }
 
 /// Boxes of the own particles and their stiffness, and that of the particles.
-/// \param unknowns  of all particles of the part
+/// \param unknowns  those of all particles of the part, ghosts too
 void add_boxes(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns& unknowns,
                BodyPart& part) {
   const Particles& particles = part.network.particles;

@@ -14,11 +14,10 @@ struct LatticeShare {
   LatticePattern pattern;
   std::vector<GridWindow> windows;  ///< particles that each rank owns
   Index particles_of_box = 0;       ///< at most, of the coarse space
-  /// Of the particles of the window and around it, in their order: whether components are held,
-  /// shape (particles, dim), and the materials.
+  /// Whether components are held, in the window and around it, shape (particles, dim).
   std::vector<std::uint8_t> held;
-  std::vector<Index> materials;
-  /// Of its own particles, shape (own, dim) [force/length]; empty: there are none.
+  std::vector<Index> materials;  ///< per particle there
+  /// Springs at its own particles, shape (own, dim) [force/length]; empty: there are none.
   std::vector<double> springs;
 
   void pack(Parcel& parcel) const;
@@ -26,7 +25,7 @@ struct LatticeShare {
 };
 
 /// Particles and unknowns of the windows.
-/// \param unknowns  of the whole body
+/// \param unknowns  those of the whole body
 Partition share_out(const LatticeGrid& grid, const std::vector<GridWindow>& windows,
                     const Unknowns& unknowns);
 

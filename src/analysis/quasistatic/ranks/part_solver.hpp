@@ -43,7 +43,7 @@ class PartSolver {
 
   /// Collective. What internal_force() finds, of the own particles, and the energy of the elements
   /// whose first end is one of them.
-  /// \param motion  of the own particles, shape (owned, width)
+  /// \param motion  that of the own particles, shape (owned, width)
   InternalForce internal(std::span<const double> motion);
 
   const BodyPart& part() const { return part_; }
