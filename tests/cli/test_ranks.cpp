@@ -161,17 +161,20 @@ TEST_P(RankMemory, EndsTogetherWhereOneHasNone) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
   write_text(work() / "c.toml", GetParam().text);
   const std::string words = std::string("'") + PERILINK_PROGRAM + "' run c.toml --threads 1";
+  const std::string free = fmt::format("-n 1 {} --force", words);
+  const auto limited = [&](int megabytes) {
+    return fmt::format("-n 1 sh -c \"ulimit -v {}; exec {} --force\"", 1000 * megabytes, words);
+  };
+  std::vector<std::string> pairs = {free + " : " + limited(600)};
   for (const int megabytes : {550, 600, 650, 700}) {
-    const std::string limited =
-        fmt::format("-n 1 sh -c \"ulimit -v {}; exec {} --force\"", 1000 * megabytes, words);
-    const std::string other = fmt::format("-n 1 {} --force", words);
-    for (const std::string& both : {limited + " : " + other, other + " : " + limited}) {
-      const std::string command = fmt::format(
-          "cd '{}' && timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-          "OMPI_MCA_rmaps_base_oversubscribe=1 mpiexec {} >out 2>&1",
-          work().string(), both);
-      EXPECT_NE(WEXITSTATUS(std::system(command.c_str())), 124) << both << ": they wait";
-    }
+    pairs.push_back(limited(megabytes) + " : " + free);
+  }
+  for (const std::string& both : pairs) {
+    const std::string command = fmt::format(
+        "cd '{}' && timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "OMPI_MCA_rmaps_base_oversubscribe=1 mpiexec {} >out 2>&1",
+        work().string(), both);
+    EXPECT_NE(WEXITSTATUS(std::system(command.c_str())), 124) << both << ": they wait";
   }
 }
 
