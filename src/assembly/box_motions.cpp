@@ -43,7 +43,35 @@ BoxMotions::BoxMotions(const Network& network, Secants secants, const Unknowns& 
       boxes_(split_into_boxes(network.particles.positions, network.dim(), most)),
       box_of_(static_cast<std::size_t>(network.particles.size())) {
   split_by_cracks(network, secants);
-  find_centres(network);
+  find_centres(network.particles);
+}
+
+BoxMotions::BoxMotions(const Particles& particles, const Unknowns& unknowns,
+                       std::vector<std::vector<Index>> own, Index first_box, Index num_boxes,
+                       const Exchange& exchange)
+    : dim_(particles.dim),
+      unknowns_(unknowns),
+      boxes_(static_cast<std::size_t>(num_boxes)),
+      box_of_(static_cast<std::size_t>(particles.size()), no_index) {
+  for (std::size_t b = 0; b < own.size(); ++b) {
+    for (const Index p : own[b]) box_of_[p] = first_box + static_cast<Index>(b);
+    boxes_[first_box + b] = std::move(own[b]);
+  }
+  find_centres(particles);
+  const std::size_t dim = static_cast<std::size_t>(dim_), width = dim + 2;
+  std::vector<double> known(box_of_.size() * width, 0.0);
+  for (std::size_t p = 0; p < box_of_.size(); ++p) {
+    if (box_of_[p] == no_index) continue;
+    known[p * width] = box_of_[p];
+    known[p * width + 1] = size_[box_of_[p]];
+    std::copy_n(arms_.begin() + p * dim, dim, known.begin() + p * width + 2);
+  }
+  exchange(known, static_cast<int>(width));
+  for (std::size_t p = 0; p < box_of_.size(); ++p) {
+    box_of_[p] = static_cast<Index>(known[p * width]);
+    size_[box_of_[p]] = known[p * width + 1];
+    std::copy_n(known.begin() + p * width + 2, dim, arms_.begin() + p * dim);
+  }
 }
 
 /// Parts of a box that no element inside joins become boxes of their own.
@@ -85,9 +113,9 @@ void BoxMotions::split_by_cracks(const Network& network, Secants secants) {
   number();
 }
 
-void BoxMotions::find_centres(const Network& network) {
+void BoxMotions::find_centres(const Particles& particles) {
   const std::size_t dim = static_cast<std::size_t>(dim_);
-  arms_ = network.particles.positions;
+  arms_ = particles.positions;
   for (const std::vector<Index>& box : boxes_) {
     for (std::size_t a = 0; a < dim; ++a) {
       double centre = 0.0;
@@ -317,6 +345,17 @@ SparseMatrix coarse_matrix(std::vector<BoxRow>& rows, const BoxMotions& boxes, i
 }
 
 }  // namespace
+
+bool BoxStiffness::invert_blocks(int width) {
+  const std::size_t size = static_cast<std::size_t>(width) * width;
+  for (std::size_t begin = 0; begin < blocks.size(); begin += size) {
+    Eigen::Map<Eigen::MatrixXd> block(blocks.data() + begin, width, width);
+    const Eigen::LLT<Eigen::MatrixXd> factor(block);
+    if (factor.info() != Eigen::Success) return false;
+    block = factor.solve(Eigen::MatrixXd::Identity(width, width));
+  }
+  return true;
+}
 
 BoxStiffness assemble_box_stiffness(const Network& network, Secants secants,
                                     const Unknowns& unknowns, const BoxMotions& motions) {

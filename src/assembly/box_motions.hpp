@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,17 @@ class BoxMotions {
  public:
   /// \param most  particles of a box, at most
   BoxMotions(const Network& network, Secants secants, const Unknowns& unknowns, Index most);
+
+  /// Brings what is known of particles that other processes own up to date: numbers of shape
+  /// (particles, width).
+  using Exchange = std::function<void(std::span<double> known, int width)>;
+  /// Boxes of the first particles of a body without cracks, which this process owns; those of the
+  /// others are known by their numbers and centres.
+  /// \param first_box  boxes of the processes before
+  /// \param unknowns   those of all particles
+  BoxMotions(const Particles& particles, const Unknowns& unknowns,
+             std::vector<std::vector<Index>> own, Index first_box, Index num_boxes,
+             const Exchange& exchange);
 
   Index num_boxes() const { return static_cast<Index>(boxes_.size()); }
   /// Motions of a box: three in the plane, six in space.
@@ -43,7 +55,7 @@ class BoxMotions {
   template <class Visit>
   void for_each_move(Index particle, Visit visit) const;
   void split_by_cracks(const Network& network, Secants secants);
-  void find_centres(const Network& network);
+  void find_centres(const Particles& particles);
 
   int dim_;
   const Unknowns& unknowns_;
@@ -58,6 +70,8 @@ struct BoxStiffness {
   SparseMatrix coarse;         ///< P' K P, lower triangle
   std::vector<double> blocks;  ///< K of each particle alone, one where a component is held; shape
                                ///< (particles, width, width)
+  /// Puts inverses in place of the blocks. \return whether all are positive definite
+  bool invert_blocks(int width);
 };
 BoxStiffness assemble_box_stiffness(const Network& network, Secants secants,
                                     const Unknowns& unknowns, const BoxMotions& motions);

@@ -283,6 +283,7 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
   CalibrationEquations whole(input, options.least_weight, facets, stiffness);
   whole.report_balance(report);
   report.residual_before = report.residual_after;
+  report.alike = true;
   CalibrationEquations::State state = whole.save();
   if (!spread(sample, calibration.result().stiffness, orbits, state.stiffness)) {
     return std::nullopt;

@@ -35,6 +35,7 @@ struct CalibrationInput {
 /// its cell.
 struct CalibrationReport {
   Index free_bonds = 0;
+  bool alike = false;            ///< bonds that lie alike in a box were made alike
   double residual_before = 0.0;  ///< largest force out of balance at the start ...
   double residual_after = 0.0;   ///< ... and at the end
   double moment_after = 0.0;  ///< largest moment out of balance of bonds that carry moments, over

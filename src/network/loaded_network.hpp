@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "network/carried_motion.hpp"
+#include "network/lattice_pattern.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
 
@@ -39,6 +40,9 @@ struct LoadedNetwork {
   std::vector<LoadSet> sets = {};
   /// Where finite elements carry particles; `unknowns` is the motion that they begin with.
   std::optional<CarriedBody> carried = {};
+  /// Where processes make the bonds of their parts by themselves: what they make them from. The
+  /// network then has particles alone.
+  std::optional<LatticePattern> pattern = {};
 };
 
 }  // namespace perilink

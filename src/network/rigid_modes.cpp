@@ -159,10 +159,11 @@ std::vector<std::uint8_t> unbreakable_particles(const Network& network) {
 
 }  // namespace
 
-std::vector<Fragment> find_fragments(const Network& network,
-                                     const std::vector<std::uint8_t>& held) {
+std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
+                                     bool in_one_piece) {
   const Index num_particles = network.particles.size();
   UnionFind parts(num_particles);
+  for (Index i = 1; in_one_piece && i < num_particles; ++i) parts.join(0, i);
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (network.stiffness[e] > 0.0) parts.join(network.bonds.first[e], network.bonds.second[e]);
   }

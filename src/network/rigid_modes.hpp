@@ -19,7 +19,9 @@ struct Fragment {
 /// Connected parts of the network (elements of zero stiffness do not connect) with the number of
 /// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of
 /// particles that no bond turns hold nothing.
-std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held);
+/// \param in_one_piece  it is known that all particles hold together
+std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
+                                     bool in_one_piece = false);
 
 /// The rigid-body motions of a fragment that `held` leaves free, each of shape (particles, width)
 /// with zeros at other particles and at what is held; linearly independent, not scaled. Springs of

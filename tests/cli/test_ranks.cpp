@@ -7,69 +7,14 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
-#include <sstream>
 #include <thread>
 
-#include "support/process.hpp"
-#include "support/program_cases.hpp"
-#include "support/replaced.hpp"
+#include "support/rank_runs.hpp"
 
 namespace perilink::test {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-fs::path mpi_program() { return fs::path(PERILINK_PROGRAM).parent_path() / "perilink-mpi"; }
-
-/// A bar of 20 by 5 (by 5) under tension and shear at its end, held at the other.
-std::string bar_case(bool in_space, const std::string& body) {
-  const std::string depth = in_space ? "z = [0, 5]\n" : "";
-  return fmt::format(R"([body]
-problem = "{}"
-spacing = 1
-horizon_ratio = 3
-{}
-[[regions]]
-name = "bar"
-x = [0, 20]
-y = [0, 5]
-{}
-[[regions]]
-name = "left"
-x = [0, 0]
-y = [0, 5]
-{}
-[[regions]]
-name = "right"
-x = [20, 20]
-y = [0, 5]
-{}
-[[materials]]
-region = "bar"
-youngs_modulus = 30e3
-poissons_ratio = {}
-fracture_energy = "infinite"
-
-[[supports]]
-region = "left"
-fix = [{}]
-
-[[tractions]]
-region = "right"
-traction = [{}]
-
-[analysis]
-type = "elastic"
-solver = "iterative"
-)",
-                     in_space ? "three_dimensional" : "plane_stress", body, depth, depth, depth,
-                     !body.empty() ? "0.1"
-                     : in_space    ? "0.25"
-                                   : "0.3333333333333333",
-                     in_space ? R"("x", "y", "z")" : R"("x", "y")", in_space ? "3, 1, 0" : "3, 1");
-}
 
 /// The bar with a notch from below that runs half through it, in which bonds fail.
 std::string breaking_case(bool in_space, const std::string& body, const std::string& law,
@@ -98,60 +43,11 @@ std::string long_explicit_case() {
   return replaced(text, "rows = 30", "rows = 30000");
 }
 
-/// Driven in place of loaded.
-std::string driven(const std::string& text) {
-  const std::size_t begin = text.find("[[tractions]]"), end = text.find("[analysis]");
-  return text.substr(0, begin) + "[[displacements]]\nregion = \"right\"\nx = 1\n\n" +
-         text.substr(end);
-}
-
 const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
 
 const std::string springs = "\n[[springs]]\nregion = \"bar\"\ntotal = [2e3, 5e3]\n";
 
-struct RankCase {
-  std::string name, text;
-};
-
-class RankFolder : public testing::Test {
- protected:
-  RankFolder() { fs::create_directories(work()); }
-  fs::path work() const { return temporary_ / "work"; }
-  /// mpiexec gives the shell's status. Root may start it in containers, where tests run.
-  ProcessEnd run_ranks(int count, const std::string& words) const {
-    const std::string command =
-        "exec env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-        "OMPI_MCA_rmaps_base_oversubscribe=1 mpiexec -n " +
-        std::to_string(count) + " '" + PERILINK_PROGRAM + "' " + words;
-    const fs::path out = work().string() + ".out", err = work().string() + ".err";
-    const int status = std::system(("cd '" + work().string() + "' && " + command + " >'" +
-                                    out.string() + "' 2>'" + err.string() + "'")
-                                       .c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0, read_text(out), read_text(err)};
-  }
-  std::string history(const std::string& directory) const {
-    return read_text(work() / directory / "history.csv");
-  }
-  nlohmann::json summary(const std::string& directory) const {
-    return nlohmann::json::parse(read_text(work() / directory / "summary.json"));
-  }
-
-  TemporaryDirectory temporary_;
-};
-
 class RankRuns : public RankFolder, public testing::WithParamInterface<RankCase> {};
-
-/// Numbers of all rows.
-std::vector<double> numbers_of(const std::string& history) {
-  std::istringstream rows(history.substr(history.find('\n') + 1));
-  std::vector<double> values;
-  std::string row, value;
-  while (std::getline(rows, row)) {
-    std::istringstream line(row);
-    while (std::getline(line, value, ',')) values.push_back(std::atof(value.c_str()));
-  }
-  return values;
-}
 
 TEST_P(RankRuns, FindTheSameAnswer) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
@@ -199,12 +95,17 @@ TEST_P(ExplicitRankRuns, WriteTheSameBytes) {
 
 TEST_F(RankFolder, SayWhatIsWrongOnce) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
-  const ProcessEnd end = run_ranks(3, "run missing.toml");
-  EXPECT_EQ(end.exit_status, 2);
-  const std::size_t first = end.err.find("missing.toml");
-  EXPECT_NE(first, std::string::npos) << end.err;
-  EXPECT_EQ(end.err.find("perilink: ", end.err.find("perilink: ") + 1), std::string::npos)
-      << end.err;
+  // No case, a body that can turn, a support beside it.
+  const std::string held = bar_case(true, "");
+  write_text(work() / "free.toml", replaced(held, R"("x", "y", "z")", R"("x")"));
+  write_text(work() / "beside.toml", replaced(held, "x = [0, 0]", "x = [-2, -1]"));
+  for (const std::string name : {"missing.toml", "free.toml", "beside.toml"}) {
+    const ProcessEnd end = run_ranks(3, "run " + name);
+    EXPECT_EQ(end.exit_status, 2) << name;
+    EXPECT_NE(end.err.find(name), std::string::npos) << end.err;
+    EXPECT_EQ(end.err.find("perilink: ", end.err.find("perilink: ") + 1), std::string::npos)
+        << end.err;
+  }
 }
 
 class RankKills : public RankFolder, public testing::WithParamInterface<RankCase> {};
@@ -254,20 +155,26 @@ TEST_P(RankStops, KeepWhatTheyFound) {
 
 class RankMemory : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
-/// The first rank holds the whole body: where it has no room for a search, or for a run whose parts
-/// are sent already, the others do not wait.
-TEST_P(RankMemory, EndsTogetherWhereTheFirstHasNone) {
+/// Where a rank has no room for its part, a search, or a run whose parts are sent already, the
+/// others do not wait.
+TEST_P(RankMemory, EndsTogetherWhereOneHasNone) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
   write_text(work() / "c.toml", GetParam().text);
   const std::string words = std::string("'") + PERILINK_PROGRAM + "' run c.toml --threads 1";
+  const std::string free = fmt::format("-n 1 {} --force", words);
+  const auto limited = [&](int megabytes) {
+    return fmt::format("-n 1 sh -c \"ulimit -v {}; exec {} --force\"", 1000 * megabytes, words);
+  };
+  std::vector<std::string> pairs = {free + " : " + limited(600)};
   for (const int megabytes : {550, 600, 650, 700}) {
+    pairs.push_back(limited(megabytes) + " : " + free);
+  }
+  for (const std::string& both : pairs) {
     const std::string command = fmt::format(
-        "cd '{}' && timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 "
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-        "mpiexec -n 1 sh -c \"ulimit -v {}; exec {} --force\" : -n 1 {} --force "
-        ">out 2>&1",
-        work().string(), 1000 * megabytes, words, words);
-    EXPECT_NE(WEXITSTATUS(std::system(command.c_str())), 124) << megabytes << " MB: they wait";
+        "cd '{}' && timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "OMPI_MCA_rmaps_base_oversubscribe=1 mpiexec {} >out 2>&1",
+        work().string(), both);
+    EXPECT_NE(WEXITSTATUS(std::system(command.c_str())), 124) << both << ": they wait";
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <barrier>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -122,6 +124,17 @@ inline void with_thread_ranks(int count, const std::function<void(Ranks&)>& lead
   }
   ThreadRanks first(world, 0);
   lead(first);
+}
+
+/// How far the answer of ranks is from that of one process: the largest difference over the largest
+/// number of the latter.
+inline double difference_of(const std::vector<double>& alone, const std::vector<double>& shared) {
+  double size = 0.0, difference = 0.0;
+  for (std::size_t k = 0; k < alone.size(); ++k) {
+    size = std::max(size, std::abs(alone[k]));
+    difference = std::max(difference, std::abs(alone[k] - shared[k]));
+  }
+  return difference / size;
 }
 
 }  // namespace perilink::test

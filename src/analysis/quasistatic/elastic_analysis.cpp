@@ -108,7 +108,7 @@ ElasticResult solve_elastic(const Network* network, const Unknowns& unknowns, co
   for (const double value : load) load_norm += value * value;
   for (int pass = 0; pass < 2; ++pass) {
     result.displacement = unknowns.expand(solution);
-    const InternalForce internal = internal_of(result.displacement);
+    InternalForce internal = internal_of(result.displacement);
     std::vector<double> missing(loads.forces.size());
     for (std::size_t slot = 0; slot < missing.size(); ++slot) {
       missing[slot] = loads.forces[slot] - internal.forces[slot];
@@ -119,6 +119,7 @@ ElasticResult solve_elastic(const Network* network, const Unknowns& unknowns, co
     result.strain_energy = internal.energy;
     result.residual = load_norm > 0.0 ? std::sqrt(square / load_norm) : std::sqrt(square);
     if (pass == 1) {
+      result.forces = std::move(internal.forces);
       result.work = work_of(result, network, unknowns, solution, load, residual);
       break;
     }
@@ -148,12 +149,13 @@ auto by_factor(const Unknowns& unknowns, int threads, Assemble assemble) {
   };
 }
 
-auto by_boxes(const LoadedNetwork& problem, Secants secants, const BoxSolverOptions& options) {
-  return [&problem, secants, options](ElasticResult& result) {
+/// \param make  makes the solver, a shared_ptr
+template <class Make>
+auto by_boxes(Make make) {
+  return [make](ElasticResult& result) {
     const Timer timer;
-    const auto solver =
-        std::make_shared<BoxSolver>(problem.network, problem.unknowns, secants, options);
-    result.seconds.factorization = timer.seconds();
+    const std::shared_ptr<BoxSolver> solver = make();
+    result.seconds.factorization += timer.seconds();
     result.factor = solver->coarse();
     result.factor.factorizations = 0;  // none of the stiffness
     result.boxes = solver->num_boxes();
@@ -175,7 +177,25 @@ bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver, bool has_ra
   return !problem.unknowns.carries() && problem.unknowns.count > (is_sheet ? 20000 : 3000);
 }
 
+namespace {
+
+ElasticResult solve_by_ranks(const LoadedNetwork& problem, const BoxSolverOptions& options) {
+  const Timer timer;
+  const auto solver =
+      std::make_shared<BoxSolver>(*problem.pattern, problem.network, problem.unknowns, options);
+  const double seconds = timer.seconds();
+  ElasticResult result = solve_elastic(
+      &problem.network, problem.unknowns, problem.loads, by_boxes([&] { return solver; }),
+      [&](std::span<const double> u) { return solver->team()->internal(u); });
+  result.seconds.factorization += seconds;
+  result.team = solver->team();
+  return result;
+}
+
+}  // namespace
+
 ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOptions& options) {
+  if (problem.pattern) return solve_by_ranks(problem, options.boxes);
   const Network& network = problem.network;
   const Unknowns& unknowns = problem.unknowns;
   const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
@@ -183,8 +203,10 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
     return internal_force(network, secants, u);
   };
   if (is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)) {
-    return solve_elastic(&network, unknowns, problem.loads,
-                         by_boxes(problem, secants, options.boxes), internal_of);
+    return solve_elastic(&network, unknowns, problem.loads, by_boxes([&] {
+      return std::make_shared<BoxSolver>(network, unknowns, secants, options.boxes);
+    }),
+                         internal_of);
   }
   return solve_elastic(&network, unknowns, problem.loads,
                        by_factor(unknowns, options.threads,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "analysis/quasistatic/boxes/box_solver.hpp"
@@ -32,6 +33,7 @@ struct ElasticSeconds {
 /// Static equilibrium at load factor 1.
 struct ElasticResult {
   std::vector<double> displacement;  ///< shape (particles, width) [length], rotations [-]
+  std::vector<double> forces;        ///< that hold the particles so, InternalForce::forces
   double strain_energy = 0.0;        ///< summed over the elements [force length]
   double work = 0.0;                 ///< that loads and reactions do [force length]
   double residual = 0.0;             ///< |f - K u| / |f| after one step of refinement
@@ -40,6 +42,7 @@ struct ElasticResult {
   int iterations = 0;                ///< conjugate gradients
   double error = 0.0;                ///< they leave, over the solution, in the norm of energy
   ElasticSeconds seconds;
+  std::shared_ptr<const Team> team = {};  ///< whose ranks have made the body; null: none have
 };
 
 /// One assembly, one factorisation, one solve; or conjugate gradients.

@@ -117,14 +117,21 @@ std::vector<double> gauge_values(const Model& model, const ModelState& state, Cs
                        }));
       continue;
     }
+    const std::size_t component = number_of(*gauge.stress);
+    double value = 0.0;
+    if (!state.stresses.empty()) {
+      for (const Gauge::Term& term : gauge.terms) {
+        value += term.weight * state.stresses[term.particle * Stress{}.size() + component];
+      }
+      values.push_back(value);
+      continue;
+    }
     if (families.rows() == 0) {
       families = bonds_of_particles(model.network.bonds, model.network.particles.size());
     }
     const StressInput input = stress_input(model, families, state.secants);
-    double value = 0.0;
     for (const Gauge::Term& term : gauge.terms) {
-      value +=
-          term.weight * stress_at(input, state.motion, term.particle)[number_of(*gauge.stress)];
+      value += term.weight * stress_at(input, state.motion, term.particle)[component];
     }
     values.push_back(state.scale * value);
   }

@@ -92,8 +92,11 @@ std::vector<double> holding_forces(const Model& model, const ModelState& state) 
   for (double& u : motion) u *= state.scale;
   const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
   const Secants secants = state.secants.size() > 0 ? state.secants : Secants(intact);
-  std::vector<double> forces = model.elements ? internal_force(*model.elements, motion).forces
-                                              : internal_force(network, secants, motion).forces;
+  std::vector<double> forces(state.internal.begin(), state.internal.end());
+  if (forces.empty()) {
+    forces = model.elements ? internal_force(*model.elements, motion).forces
+                            : internal_force(network, secants, motion).forces;
+  }
   load_particles(network, forces);
   const std::vector<double> loads = present_loads(model, state);
   const std::vector<std::uint8_t> held = held_slots(model);

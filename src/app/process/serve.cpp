@@ -4,6 +4,7 @@
 
 #include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "analysis/quasistatic/ranks/team.hpp"
+#include "app/results/field_pieces.hpp"
 #include "base/memory.hpp"
 #include "base/parcel.hpp"
 
@@ -17,6 +18,7 @@ void serve(Ranks& ranks) {
       switch (order.get<Service>()) {
         case Service::end: return;
         case Service::solve: member.obey(order); break;
+        case Service::show_fields: show_fields_along(ranks, member.own(), order); break;
         case Service::move_bonds: move_bonds_along(ranks, order); break;
       }
     }

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <optional>
 
 #include "app/model/gauges.hpp"
 #include "app/model/reactions.hpp"
+#include "app/process/ranks.hpp"
 #include "app/results/bar_file.hpp"
+#include "app/results/field_pieces.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "discretization/bonds.hpp"
@@ -27,11 +30,16 @@ VtuGrid make_grid(const Model& model, const Csr& families, std::span<const doubl
   return grid;
 }
 
+bool has_stress_gauges(const Model& model) {
+  return std::any_of(model.gauges.begin(), model.gauges.end(),
+                     [](const Gauge& gauge) { return gauge.stress.has_value(); });
+}
+
 /// A run with type = "elastic".
 class ElasticRun final : public NetworkRun {
  public:
   ElasticRun(const CaseFile& of_case, int on_threads, bool quiet)
-      : NetworkRun(of_case, on_threads, quiet) {
+      : NetworkRun(of_case, on_threads, quiet, ranks() != nullptr ? ranks()->count() : 1) {
     plan += fmt::format(", {} unknowns", model_.unknowns.count);
   }
 
@@ -46,9 +54,18 @@ class ElasticRun final : public NetworkRun {
     if (has_several_places(model_) && row.load != 0.0) {
       const std::vector<double> intact(static_cast<std::size_t>(model_.network.num_elements()),
                                        1.0);
-      places_ = place_forces(model_, row.load_factor, intact, displacement);
+      places_ =
+          place_forces(model_, row.load_factor, intact, displacement, answer_.solution.forces);
     }
-    const ModelState state{{}, displacement};
+    ModelState state{{}, displacement};
+    state.internal = answer_.solution.forces;
+    const FieldMoment moment = moment_of(row, input, model_);
+    const PieceInput pieces{moment, model_.problem, model_.hooke};
+    std::vector<double> stresses;
+    if (model_.pattern && has_stress_gauges(model_)) {
+      state.stresses = stresses =
+          stresses_of_parts(*answer_.solution.team, model_.network.particles.size(), pieces);
+    }
     files_->add_row(row, gauge_values(model_, state, families_));
     if (const auto places = held_places(input, model_); !places.empty()) {
       files_->write_table("reactions", row.step, reaction_table(places, model_, state));
@@ -60,11 +77,17 @@ class ElasticRun final : public NetworkRun {
       bars = bar_state(model_.network, intact, displacement);
       files_->write_table("bars", row.step, bar_table(model_.network, *bars));
     }
+    if (model_.pattern) {
+      files_->write_pieces(row.step, row.step, [&](const std::string& stem) {
+        write_pieces(*answer_.solution.team, stem, pieces);
+      });
+      return;
+    }
     files_->write_fields(row.step, row.step, [&] {
       if (families_.rows() == 0) {
         families_ = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
       }
-      return make_grid(model_, families_, displacement, bars, moment_of(row, input, model_));
+      return make_grid(model_, families_, displacement, bars, moment);
     });
   }
 

@@ -37,7 +37,7 @@ ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options) {
 }
 
 std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Secants secants,
-                                     std::span<const double> motion) {
+                                     std::span<const double> motion, std::vector<double> forces) {
   const std::size_t dim = model.network.dim(), width = model.network.width();
   std::vector<PlaceForce> places;
   for (const LoadedPlace& place : model.loaded_places) {
@@ -45,15 +45,17 @@ std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Sec
     for (std::size_t a = 0; a < dim; ++a) at.force.push_back(load_factor * place.force[a]);
   }
   if (model.driven_places.empty()) return places;
-  InternalForce internal = model.elements ? internal_force(*model.elements, motion)
-                                          : internal_force(model.network, secants, motion);
-  load_particles(model.network, internal.forces);
+  if (forces.empty()) {
+    forces = model.elements ? internal_force(*model.elements, motion).forces
+                            : internal_force(model.network, secants, motion).forces;
+  }
+  load_particles(model.network, forces);
   for (const DrivenPlace& place : model.driven_places) {
     PlaceForce& at = places.emplace_back(PlaceForce{place.name, std::vector<double>(dim, 0.0)});
     double sum = 0.0;
     for (const std::size_t slot : place.slots) {
       if (slot % width >= dim) continue;  // a moment
-      const double reaction = internal.forces[slot] - model.loads.forces[slot];
+      const double reaction = forces[slot] - model.loads.forces[slot];
       at.force[slot % width] += load_factor * reaction;
       sum += std::abs(load_factor * reaction);
     }

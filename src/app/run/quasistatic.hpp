@@ -41,8 +41,10 @@ inline bool has_several_places(const Model& model) {
 /// Forces of all places at a load factor.
 /// \param secants  one per element; this and the next only looked at where places are driven
 /// \param motion   at load factor 1, shape (particles, width) [length]
+/// \param forces   that hold the particles so, where they are known (InternalForce::forces)
 std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Secants secants,
-                                     std::span<const double> motion);
+                                     std::span<const double> motion,
+                                     std::vector<double> forces = {});
 
 /// What equilibria tell.
 struct Equilibria {

@@ -73,9 +73,20 @@ bool RunFiles::fields_are_due(double time) {
 
 void RunFiles::write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid) {
   const std::string name = fmt::format("fields_{:06}.vtu", step);
+  add_to_series(at, name, [&] { write_vtu((directory_ / name).string(), make_grid()); });
+}
+
+void RunFiles::write_pieces(Index step, double at,
+                            const std::function<void(const std::string&)>& write) {
+  const std::string stem = fmt::format("fields_{:06}", step);
+  add_to_series(at, stem + ".pvtu", [&] { write((directory_ / stem).string()); });
+}
+
+void RunFiles::add_to_series(double at, const std::string& name,
+                             const std::function<void()>& write) {
   if (!series_.empty() && series_.back().file == name) return;
   const Timer timer;
-  write_vtu((directory_ / name).string(), make_grid());
+  write();
   series_.push_back({at, name});
   write_pvd((directory_ / "fields.pvd").string(), series_);
   seconds_writing_ += timer.seconds();

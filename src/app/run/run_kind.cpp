@@ -7,8 +7,8 @@
 
 namespace perilink {
 
-NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, bool quiet)
-    : RunKind(of_case, on_threads), model_(build_model_visibly(of_case, quiet)) {
+NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, bool quiet, int parts)
+    : RunKind(of_case, on_threads), model_(build_model_visibly(of_case, quiet, parts)) {
   plan = size_text(model_);
   notes = model_.notes;
   if (!model_.network.calibration) return;
@@ -54,10 +54,10 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   return summary;
 }
 
-Model build_model_visibly(const CaseFile& input, bool quiet) {
+Model build_model_visibly(const CaseFile& input, bool quiet, int parts) {
   CalibrationProgress progress(quiet);
-  return build_model(input,
-                     [&](int search, double unbalanced) { progress.update(search, unbalanced); });
+  return build_model(
+      input, [&](int search, double unbalanced) { progress.update(search, unbalanced); }, parts);
 }
 
 }  // namespace perilink

@@ -60,7 +60,8 @@ class RunKind {
 /// A run on a network of bonds, or on linear elements.
 class NetworkRun : public RunKind {
  public:
-  NetworkRun(const CaseFile& of_case, int on_threads, bool quiet);
+  /// \param parts  see build_model()
+  NetworkRun(const CaseFile& of_case, int on_threads, bool quiet, int parts = 1);
 
  protected:
   /// "3.2 M bond-steps/s".
@@ -87,6 +88,6 @@ std::string rate_text(double count, double seconds, const std::string& unit);
 Summary summary_of(RunKind& run, const std::filesystem::path& directory);
 
 /// build_model(), while people at a terminal see how the calibration of the bonds comes along.
-Model build_model_visibly(const CaseFile& input, bool quiet);
+Model build_model_visibly(const CaseFile& input, bool quiet, int parts = 1);
 
 }  // namespace perilink

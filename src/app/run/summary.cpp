@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "app/model/body/particle_model.hpp"
 #include "app/results/calibration_text.hpp"
@@ -80,8 +81,9 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
 
 namespace {
 
-Index bonds_and_ties(const Network& network) {
-  return network.first_segment - network.num_edges_of_cells();
+std::int64_t bonds_and_ties(const Model& model) {
+  if (model.pattern) return static_cast<std::int64_t>(model.pattern->num_bonds());
+  return model.network.first_segment - model.network.num_edges_of_cells();
 }
 
 std::string cells_text(const Network& network) {
@@ -121,7 +123,7 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
 void tell_body(Summary& summary, const Model& model, const std::string& more) {
   const Network& network = model.network;
   summary.add("particles", network.particles.size());
-  summary.add("bonds", model.elements ? 0 : bonds_and_ties(network));
+  summary.add("bonds", model.elements ? std::int64_t{0} : bonds_and_ties(model));
   if (model.elements) summary.add("cells", model.elements->cells.size());
   if (network.cells) summary.add("cells", network.cells->cells.size());
   summary.add("unknowns", model.unknowns.count);
@@ -136,8 +138,8 @@ std::string size_text(const Model& model) {
   const Index particles = model.network.particles.size();
   return model.elements ? fmt::format("{} particles, {} linear elements", particles,
                                       model.elements->cells.size())
-                        : fmt::format("{} particles, {} bonds{}", particles,
-                                      bonds_and_ties(model.network), cells_text(model.network));
+                        : fmt::format("{} particles, {} bonds{}", particles, bonds_and_ties(model),
+                                      cells_text(model.network));
 }
 
 double peak_memory_bytes() {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <pugixml.hpp>
 #include <span>
 #include <sstream>
@@ -121,6 +122,15 @@ class VtuReader {
 
   pugi::xml_node file() const { return file_; }
 
+  /// The file in the same folder that an attribute names.
+  std::string neighbour(pugi::xml_node node, const char* attribute) const {
+    const std::string file = node.attribute(attribute).as_string();
+    if (file.empty() || file == "." || file == ".." || file.find('/') != std::string::npos) {
+      fail("names the file '" + file + "'; only files of its own folder are read");
+    }
+    return file;
+  }
+
   template <class T>
   std::vector<T> values(pugi::xml_node array, const char* type) const {
     const std::string name = array.attribute("Name").as_string();
@@ -225,7 +235,74 @@ void write_vtu(const std::string& path, const VtuGrid& grid) {
   save(path, document);
 }
 
+void write_pvtu(const std::string& path, const VtuGrid& like,
+                const std::vector<std::string>& pieces) {
+  pugi::xml_document document;
+  pugi::xml_node file = append_file_node(document, "PUnstructuredGrid");
+  file.append_attribute("compressor") = "vtkZLibDataCompressor";
+  pugi::xml_node body = file.append_child("PUnstructuredGrid");
+  body.append_attribute("GhostLevel") = 0;
+  const auto describe = [](pugi::xml_node parent, const std::string& name, int components) {
+    pugi::xml_node node = parent.append_child("PDataArray");
+    node.append_attribute("type") = "Float64";
+    node.append_attribute("Name") = name.c_str();
+    node.append_attribute("NumberOfComponents") = components;
+  };
+  pugi::xml_node points = body.append_child("PPointData"), cells = body.append_child("PCellData");
+  for (const VtuArray& array : like.point_data) describe(points, array.name, array.components);
+  for (const VtuArray& array : like.cell_data) describe(cells, array.name, array.components);
+  describe(body.append_child("PPoints"), "Points", 3);
+  for (const std::string& piece : pieces) {
+    body.append_child("Piece").append_attribute("Source") = piece.c_str();
+  }
+  save(path, document);
+}
+
+namespace {
+
+/// Appends arrays of one more piece.
+void append_rows(const VtuReader& reader, const std::vector<VtuArray>& more,
+                 std::vector<VtuArray>& arrays) {
+  if (more.size() != arrays.size()) reader.fail("has pieces with unlike arrays");
+  for (std::size_t k = 0; k < more.size(); ++k) {
+    if (more[k].name != arrays[k].name || more[k].components != arrays[k].components) {
+      reader.fail("has pieces with unlike arrays");
+    }
+    arrays[k].values.insert(arrays[k].values.end(), more[k].values.begin(), more[k].values.end());
+  }
+}
+
+void append_piece(const VtuReader& reader, const VtuGrid& piece, VtuGrid& grid) {
+  if (grid.points.empty()) {
+    grid = piece;
+    return;
+  }
+  const auto points = static_cast<std::int32_t>(grid.points.size() / 3);
+  const auto end = static_cast<std::int32_t>(grid.connectivity.size());
+  grid.points.insert(grid.points.end(), piece.points.begin(), piece.points.end());
+  grid.types.insert(grid.types.end(), piece.types.begin(), piece.types.end());
+  for (const std::int32_t point : piece.connectivity) grid.connectivity.push_back(points + point);
+  for (const std::int32_t offset : piece.offsets) grid.offsets.push_back(end + offset);
+  append_rows(reader, piece.point_data, grid.point_data);
+  append_rows(reader, piece.cell_data, grid.cell_data);
+}
+
+VtuGrid read_pieces(const std::string& path) {
+  const VtuReader reader(path, "PUnstructuredGrid");
+  VtuGrid grid;
+  for (pugi::xml_node node : reader.file().child("PUnstructuredGrid").children("Piece")) {
+    const std::string piece = reader.neighbour(node, "Source");
+    if (piece.ends_with(".pvtu")) reader.fail("names '" + piece + "', which has pieces itself");
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    append_piece(reader, read_vtu((folder / piece).string()), grid);
+  }
+  return grid;
+}
+
+}  // namespace
+
 VtuGrid read_vtu(const std::string& path) {
+  if (path.ends_with(".pvtu")) return read_pieces(path);
   const VtuReader reader(path, "UnstructuredGrid");
   if (reader.file().attribute("compressor").as_string() != std::string("vtkZLibDataCompressor") ||
       reader.file().attribute("header_type").as_string() != std::string("UInt64")) {
@@ -261,11 +338,7 @@ std::vector<PvdEntry> read_pvd(const std::string& path) {
   const VtuReader reader(path, "Collection");
   std::vector<PvdEntry> entries;
   for (pugi::xml_node node : reader.file().child("Collection").children("DataSet")) {
-    std::string file = node.attribute("file").as_string();
-    if (file.empty() || file == "." || file == ".." || file.find('/') != std::string::npos) {
-      reader.fail("names the file '" + file + "'; only files of its own folder are read");
-    }
-    entries.push_back({node.attribute("timestep").as_double(), std::move(file)});
+    entries.push_back({node.attribute("timestep").as_double(), reader.neighbour(node, "file")});
   }
   return entries;
 }

@@ -6,8 +6,9 @@
 #include <vector>
 
 /// \file
-/// VTK unstructured grids (.vtu, XML, zlib-compressed inline binary) and their time series (.pvd),
-/// as ParaView opens them, and the reading back of files that this program wrote.
+/// VTK unstructured grids (.vtu, XML, zlib-compressed inline binary), files that name the pieces of
+/// one (.pvtu) and time series (.pvd), as ParaView opens them, and the reading back of files that
+/// this program wrote.
 
 namespace perilink {
 
@@ -46,7 +47,14 @@ struct VtuGrid {
 /// \throws FileError
 void write_vtu(const std::string& path, const VtuGrid& grid);
 
-/// Reads a file written by write_vtu.
+/// Writes a file that names pieces of one grid (.pvtu), which lie beside it.
+/// \param like  with the arrays of all pieces
+/// \throws FileError
+void write_pvtu(const std::string& path, const VtuGrid& like,
+                const std::vector<std::string>& pieces);
+
+/// Reads a file written by write_vtu, or where it is called .pvtu all pieces that it names, one
+/// after the other.
 /// \throws FileError naming the file and what is wrong with it
 VtuGrid read_vtu(const std::string& path);
 

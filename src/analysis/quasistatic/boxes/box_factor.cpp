@@ -5,11 +5,9 @@
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
-#include "solver/block_gradients.hpp"
-#include <cstdio>
-#include <ctime>
-#include "base/timer.hpp"
+#include "solver/blocks/block_gradients.hpp"
 
 namespace perilink {
 namespace {
@@ -92,9 +90,7 @@ void BoxFactor::solve(std::span<const double> rhs, std::span<double> solution) {
 }
 
 void BoxFactor::correct(std::vector<double>& residual, double energy) {
-  Timer dbg;
   energy > 0.0 ? solver_->correct(residual, residual, energy) : solver_->solve(residual, residual);
-  fprintf(stderr, "DBG correct its %d s %.3f\n", solver_->iterations(), dbg.seconds());
 }
 
 /// What the vector is made of in the window, if it is.
@@ -181,7 +177,7 @@ std::vector<SparseVector> BoxFactor::missing_of(std::span<const SparseVector> x)
 }
 
 /// Takes what these vectors need into the window, and with it what is expected.
-void BoxFactor::hold(std::span<const SparseVector> x) {
+void BoxFactor::hold(std::span<const SparseVector> x, Correction* correction) {
   const std::vector<SparseVector> missing = missing_of(x);
   if (missing.empty()) return;
   ++now_;
@@ -190,20 +186,31 @@ void BoxFactor::hold(std::span<const SparseVector> x) {
       if (place_of_[unknown] != no_index) used_[place_of_[unknown]] = now_;
     }
   }
-  std::vector<SparseVector> chosen = choose(missing);
+  const std::size_t reserved = correction != nullptr ? 1 : 0;
+  std::vector<SparseVector> chosen = choose(missing, reserved);
   if ((blocks_.size() + blocks_of(chosen.size())) * block_width > most_columns()) {
     keep_latest();
-    chosen = choose(missing_of(x));  // some may have gone
+    chosen = choose(missing_of(x), reserved);  // some may have gone
   }
   const std::span<const SparseVector> all(chosen);
   for (std::size_t begin = 0; begin < all.size(); begin += block_width) {
-    take_in(all.subspan(begin, std::min<std::size_t>(block_width, all.size() - begin)));
+    const std::size_t count = std::min<std::size_t>(block_width, all.size() - begin);
+    take_in(all.subspan(begin, count), count < block_width ? correction : nullptr);
   }
+}
+
+bool BoxFactor::hold_and_correct(std::span<const SparseVector> x, std::vector<double>& residual,
+                                 double energy) {
+  Correction correction{residual, energy};
+  hold(x, &correction);
+  return correction.is_done;
 }
 
 /// The vectors that are missing and, as far as blocks have room, those that are expected. Modes of
 /// an element that carries moments are asked for combined with each other: of them the unknowns.
-std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& missing) const {
+/// \param reserved  columns of the last block to leave free if they are
+std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& missing,
+                                            std::size_t reserved) const {
   std::vector<SparseVector> chosen;
   VectorSpan span = span_;
   const auto list = [&](const SparseVector& x) {
@@ -217,7 +224,7 @@ std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& mis
     for (const Index unknown : x.rows) list({{unknown}, {1.0}});
   };
   std::ranges::for_each(missing, list_what_it_needs);
-  const std::size_t room = blocks_of(chosen.size()) * block_width;
+  const std::size_t room = std::max(chosen.size(), blocks_of(chosen.size()) * block_width - reserved);
   for (const SparseVector& x : expected_) {
     if (chosen.size() < room) list_what_it_needs(x);
   }
@@ -226,7 +233,7 @@ std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& mis
 }
 
 /// Solves for columns and puts them at the end of the window.
-void BoxFactor::take_in(std::span<const SparseVector> x) {
+void BoxFactor::take_in(std::span<const SparseVector> x, Correction* correction) {
   const auto before = static_cast<Eigen::Index>(window_.size());
   const auto size = before + static_cast<Eigen::Index>(x.size());
   std::vector<double> right(unknowns_->number.size() * block_width, 0.0);
@@ -236,14 +243,20 @@ void BoxFactor::take_in(std::span<const SparseVector> x) {
     }
     put_in_window(x[c], now_);
   }
+  for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
+    right[slot_of_[k] * block_width + block_width - 1] = correction->residual[k];
+  }
   blocks_.emplace_back(right.size());
   const double enough = coarser * options_.tolerance;
-  const double dbg0 = (double)clock() / CLOCKS_PER_SEC;
-  const GradientsReport rep = solver_->solve_block(right, blocks_.back(), enough); const int iterations = rep.iterations;
-  fprintf(stderr, "DBG block cols %zu window %zu its %d s %.3f err %.2e\n", x.size(), window_.size(), iterations, (double)clock() / CLOCKS_PER_SEC - dbg0, rep.error);
+  const int iterations = solver_->solve_block(right, blocks_.back(), enough, correction != nullptr ? correction->energy : 0.0).iterations;
   if (first_iterations_ == 0) first_iterations_ = iterations;
   if (iterations > slower * first_iterations_) make_solver();
   columns_solved_ += static_cast<Index>(x.size());
+  for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
+    correction->residual[k] =
+        std::exchange(blocks_.back()[slot_of_[k] * block_width + block_width - 1], 0.0);
+    correction->is_done = true;
+  }
 
   // Places in the window go on behind those of full blocks alone: unused columns stay zero.
   compliance_.conservativeResize(size, size);

@@ -31,7 +31,12 @@ class BoxFactor final : public Factor {
   bool holds(const SparseVector& x) const { return parts_of(x).has_value(); }
   /// From now on it is, of these vectors. Called before the secants change: a downdate by vectors
   /// that are not held would take the change twice.
-  void hold(std::span<const SparseVector> x);
+  void hold(std::span<const SparseVector> x) { hold(x, nullptr); }
+  /// The same where they are not held; with their columns a solution is corrected.
+  /// \param residual  goes over to K^-1 residual, as exact as a solution of this energy is to be
+  /// \return whether it has: blocks may have no room for it
+  bool hold_and_correct(std::span<const SparseVector> x, std::vector<double>& residual,
+                        double energy);
   /// Vectors that are likely to be asked for next, the likeliest first: they go into the window
   /// where blocks have room beside what is asked for.
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
@@ -73,9 +78,16 @@ class BoxFactor final : public Factor {
   void keep_latest();
   void make_solver();
   std::vector<SparseVector> missing_of(std::span<const SparseVector> x) const;
-  std::vector<SparseVector> choose(const std::vector<SparseVector>& missing) const;
+  struct Correction {
+    std::vector<double>& residual;
+    double energy;
+    bool is_done = false;
+  };
+  void hold(std::span<const SparseVector> x, Correction* correction);
+  std::vector<SparseVector> choose(const std::vector<SparseVector>& missing,
+                                   std::size_t reserved) const;
   void put_in_window(const SparseVector& x, int used);
-  void take_in(std::span<const SparseVector> x);
+  void take_in(std::span<const SparseVector> x, Correction* correction);
   Eigen::VectorXd in_window(const SparseVector& x);
   std::vector<double> motion_of(std::span<const double> weights) const;
   void change(const Eigen::VectorXd& d, double pivot, double sign);

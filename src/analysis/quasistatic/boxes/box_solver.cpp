@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,27 +74,39 @@ BoxSolver::BoxSolver(const Network& network, const Unknowns& unknowns, Secants s
       unknowns_(unknowns),
       secants_(secants),
       options_(options),
-      motions_(network, secants, unknowns, particles_of_box(network, options)),
+      motions_(std::in_place, network, secants, unknowns, particles_of_box(network, options)),
       ground_(ground),
       factor_(make_factor(options.blocks ? FactorRoute::refactorize : FactorRoute::in_place, 1)),
       motion_(unknowns.number.size(), 0.0) {
   expect_nothing_carried(unknowns);
-  BoxStiffness stiffness = assemble_box_stiffness(network, secants, unknowns, motions_);
+  BoxStiffness stiffness = assemble_box_stiffness(network, secants, unknowns, *motions_);
+  if (!stiffness.invert_blocks(unknowns.width)) {
+    throw NotPositiveDefinite("the stiffness of a particle is not positive definite");
+  }
   blocks_ = std::move(stiffness.blocks);
-  invert_blocks();
-  const int motions = motions_.num_motions();
+  const int motions = motions_->num_motions();
   coarse_.resize(static_cast<std::size_t>(num_boxes()) * motions);
   std::vector<Index> groups;
   for (Index b = 0; b < num_boxes(); ++b) groups.insert(groups.end(), motions, b);
   factor_->factorize(stiffness.coarse, groups);
   if (options.ranks && can_be_shared(network, unknowns)) {
     stiffness.blocks = blocks_;
-    team_ = std::make_unique<Team>(*options.ranks, network, unknowns, secants, motions_, stiffness,
+    team_ = std::make_shared<Team>(*options.ranks, network, unknowns, secants, *motions_, stiffness,
                                    ground);
   }
   require_resistance();
   if (!options.blocks || team_ || !SingleBody::is_made_of(network)) return;
-  single_ = std::make_unique<SingleBody>(network, unknowns, secants, motions_, blocks_, *factor_);
+  single_ = std::make_unique<SingleBody>(network, unknowns, secants, *motions_, blocks_, *factor_);
+}
+
+BoxSolver::BoxSolver(const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
+                     const BoxSolverOptions& options)
+    : network_(places),
+      unknowns_(unknowns),
+      options_(options),
+      team_(std::make_shared<Team>(*options.ranks, pattern, places, unknowns,
+                                   particles_of_box(places, options))) {
+  require_resistance();
 }
 
 /// What moves without resistance shows under forces of any kind; the loads may not stir it. With
@@ -124,19 +135,6 @@ GradientsReport BoxSolver::search(std::span<const double> right, std::span<doubl
       enough, scale, most_steps);
 }
 
-void BoxSolver::invert_blocks() {
-  const int width = unknowns_.width;
-  const std::size_t size = static_cast<std::size_t>(width) * width;
-  for (std::size_t begin = 0; begin < blocks_.size(); begin += size) {
-    Eigen::Map<Eigen::MatrixXd> block(blocks_.data() + begin, width, width);
-    const Eigen::LLT<Eigen::MatrixXd> factor(block);
-    if (factor.info() != Eigen::Success) {
-      throw NotPositiveDefinite("the stiffness of a particle is not positive definite");
-    }
-    block = factor.solve(Eigen::MatrixXd::Identity(width, width));
-  }
-}
-
 void BoxSolver::precondition(std::span<const double> residual, std::span<double> result) {
   const int width = unknowns_.width;
   const double* block = blocks_.data();
@@ -150,9 +148,9 @@ void BoxSolver::precondition(std::span<const double> residual, std::span<double>
       result[unknowns_.at(p, a)] = sum;
     }
   }
-  motions_.restrict(residual, coarse_);
+  motions_->restrict(residual, coarse_);
   factor_->solve(coarse_, coarse_);
-  motions_.add(coarse_, result);
+  motions_->add(coarse_, result);
 }
 
 /// result = K q
@@ -217,9 +215,9 @@ void BoxSolver::precondition_block(std::span<const double> residuals, std::span<
       std::copy(sums.begin(), sums.end(), results.data() + begin + a * block_width);
     }
   }
-  motions_.restrict_block(residuals, coarse_block_);
+  motions_->restrict_block(residuals, coarse_block_);
   factor_->solve_all(coarse_block_);
-  motions_.add_block(coarse_block_, results);
+  motions_->add_block(coarse_block_, results);
 }
 
 void BoxSolver::multiply_block(std::span<const double> motions, std::span<double> results) {
@@ -263,8 +261,12 @@ bool BoxSolver::is_found_in_single(std::span<const double> right, std::span<doub
 }
 
 GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution,
-                                       double enough) {
-  const BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
+                                       double enough, double energy_of_last) {
+  BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
+  if (energy_of_last > 0.0) {
+    const double finer_than_others = options_.tolerance * finer / enough;
+    sizes.back() = energy_of_last * finer_than_others * finer_than_others;
+  }
   const GradientsReport report = search_block(right, solution, sizes, enough);
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, enough);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,7 +11,7 @@
 #include "assembly/internal_force.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
-#include "solver/block_gradients.hpp"
+#include "solver/blocks/block_gradients.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -37,6 +38,11 @@ class BoxSolver {
   BoxSolver(const Network& network, const Unknowns& unknowns, Secants secants,
             const BoxSolverOptions& options, const std::vector<double>* ground = nullptr);
 
+  /// For a box of a lattice whose parts the ranks of the options make.
+  /// \param places    particles and springs, no bonds; kept by reference, as unknowns
+  BoxSolver(const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
+            const BoxSolverOptions& options);
+
   /// Both of size n; they may be the same memory. What is solved later may correct what was solved
   /// before: the error counts by the largest energy so far.
   /// \throws SolverError where the iterations do not get there
@@ -48,9 +54,12 @@ class BoxSolver {
   /// motions of the whole body.
   /// \param right   used up
   /// \param enough  error that each is to have, as the tolerance counts
+  /// \param energy_of_last  zero, or the last right side is what is left of another solution, with
+  ///                        this energy: as correct()
   /// \return iterations, and the largest error
   /// \throws SolverError as solve()
-  GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough);
+  GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough,
+                              double energy_of_last = 0.0);
 
   /// A solution less exact, of what is left of another one.
   /// \param energy  that the error counts by, of the whole solution; positive
@@ -59,9 +68,11 @@ class BoxSolver {
 
   int iterations() const { return iterations_; }  ///< in all solves
   double error() const { return error_; }         ///< the last solve left, as the tolerance counts
-  Index num_boxes() const { return motions_.num_boxes(); }
+  Index num_boxes() const { return motions_ ? motions_->num_boxes() : team_->num_boxes(); }
   int num_ranks() const { return team_ ? options_.ranks->count() : 1; }
-  FactorStatistics coarse() const { return factor_->statistics(); }
+  FactorStatistics coarse() const { return factor_ ? factor_->statistics() : team_->coarse(); }
+  /// The ranks that share the work; null: there are none.
+  const std::shared_ptr<Team>& team() const { return team_; }
 
  private:
   void precondition(std::span<const double> residual, std::span<double> result);
@@ -70,7 +81,6 @@ class BoxSolver {
                          double scale, int most_steps);
   GradientsReport search_block(std::span<double> right, std::span<double> solution,
                                const BlockRow& sizes, double enough);
-  void invert_blocks();
   void require_resistance();
   void precondition_block(std::span<const double> residuals, std::span<double> results);
   void multiply_block(std::span<const double> motions, std::span<double> results);
@@ -83,11 +93,11 @@ class BoxSolver {
   const Unknowns& unknowns_;
   Secants secants_;
   BoxSolverOptions options_;
-  BoxMotions motions_;
-  std::vector<double> blocks_;  // inverse, shape (particles, width, width)
-  const std::vector<double>* ground_;
+  std::optional<BoxMotions> motions_;  ///< none where ranks have made the body
+  std::vector<double> blocks_;         // inverse, shape (particles, width, width)
+  const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<Factor> factor_;
-  std::unique_ptr<Team> team_;          ///< null: this process works alone
+  std::shared_ptr<Team> team_;          ///< null: this process works alone
   std::unique_ptr<SingleBody> single_;  ///< null: double precision
   std::vector<double> coarse_;          // residual or motion of the boxes, shape (boxes, motions)
   std::vector<double> motion_;          // shape (particles, width), zero where it is prescribed

@@ -7,7 +7,7 @@
 #include "assembly/packed_bonds.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
-#include "solver/block_gradients.hpp"
+#include "solver/blocks/block_gradients.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 
@@ -159,22 +160,29 @@ void Equilibrium::find_largest_motion() {
   largest_motion_ = largest_of(displacement_);
 }
 
-/// Takes away what errors of columns have left in the displacements. Where that is much, the
-/// columns do not serve any more: with every event that moves the same particles further apart
-/// their errors grow.
+/// Where a correction is much, the columns do not serve any more: with every event that moves the
+/// same particles further apart their errors grow.
+void Equilibrium::judge_columns(std::span<const double> missing,
+                                std::span<const double> correction) {
+  const double error =
+      std::inner_product(missing.begin(), missing.end(), correction.begin(), 0.0);
+  // Written so that an energy that is not a number is too much.
+  if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) boxes_->forget();
+}
+
+/// Takes away what errors of columns have left in the displacements, unless new columns have taken
+/// it away not long ago.
 /// \param size      norm of the residual over that of the load
 /// \param residual  the same per unknown, used up
 /// \return norm of what is left, over that of the load
 double Equilibrium::refine_followed(double size, std::vector<double>& residual) {
-  if (size <= fine_residual) return size;
+  const bool is_large = !(size <= options_.residual_tolerance);
+  if (size <= fine_residual || (std::exchange(is_corrected_, false) && !is_large)) return size;
   const std::vector<double> missing = residual;
   refine(residual);  // which is then the correction
-  const double error = std::inner_product(missing.begin(), missing.end(), residual.begin(), 0.0);
-  const double left = measure_residual(residual);
-  // Written so that an energy that is not a number is too much.
-  if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) boxes_->forget();
-  if (!(size <= options_.residual_tolerance)) look_closer_ = true;
-  return left;
+  judge_columns(missing, residual);
+  if (is_large) look_closer_ = true;
+  return measure_residual(residual);
 }
 
 bool Equilibrium::is_prepared(Index element) const {
@@ -184,13 +192,25 @@ bool Equilibrium::is_prepared(Index element) const {
                      [&](const SparseVector& x) { return boxes_->holds(x); });
 }
 
-void Equilibrium::expect(std::span<const Index> elements) {
-  std::vector<SparseVector> expected;
-  for (const Index element : elements) {
-    const ElementVectors parts = element_vectors(network_, *unknowns_, element, 1.0);
-    expected.insert(expected.end(), parts.x.begin(), parts.x.begin() + parts.count);
-  }
-  boxes_->expect(std::move(expected));
+void Equilibrium::prepare(Index element, std::span<const Index> expected) {
+  const auto vectors_of = [&](Index of, std::vector<SparseVector>& vectors) {
+    const ElementVectors parts = element_vectors(network_, *unknowns_, of, 1.0);
+    vectors.insert(vectors.end(), parts.x.begin(), parts.x.begin() + parts.count);
+  };
+  std::vector<SparseVector> own, next;
+  vectors_of(element, own);
+  for (const Index other : expected) vectors_of(other, next);
+  boxes_->expect(std::move(next));
+  std::vector<double> residual;
+  measure_residual(residual);
+  const std::vector<double> missing = residual;
+  if (!boxes_->hold_and_correct(own, residual, 2.0 * internal_.energy)) return;
+  for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
+  boxes_->note_restart();
+  scatter_solution();
+  force_work_ = work_of_forces();
+  is_corrected_ = true;
+  judge_columns(missing, residual);
 }
 
 }  // namespace perilink

@@ -182,8 +182,10 @@ class Equilibrium {
 
   /// Whether an event of the element costs no solution by conjugate gradients.
   bool is_prepared(Index element) const;
-  /// Elements that are likely to have events next, the likeliest first.
-  void expect(std::span<const Index> elements);
+  /// Solves for what an event of the element costs, with what is expected next, and takes away what
+  /// earlier events have left.
+  /// \param expected  elements that are likely to have events next, the likeliest first
+  void prepare(Index element, std::span<const Index> expected);
 
   // Constant loads beside those that grow: constant_loads.cpp.
 
@@ -238,6 +240,7 @@ class Equilibrium {
   void find_largest_motion();
   double largest_of(std::span<const double> displacement) const;
   double refine_followed(double size, std::vector<double>& residual);
+  void judge_columns(std::span<const double> missing, std::span<const double> correction);
   void scatter_current();
   void spread();
   double work_of_forces() const;
@@ -361,6 +364,7 @@ class Equilibrium {
   std::vector<std::size_t> moving_slots_, current_slots_, awake_slots_;
   std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;
+  bool is_corrected_ = false;  ///< with new columns, since check() was last asked for
   double noise_of_sides_ = 0.0;   ///< extensions below it are on neither side [length]
   double largest_motion_ = 0.0;   ///< by displacement_, see noise()
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_

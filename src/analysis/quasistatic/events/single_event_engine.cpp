@@ -97,10 +97,10 @@ void SingleEventEngine::prepare(const Event& event) {
   std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
   std::vector<Index> expected;
   for (const BreakSearch::Hit& hit : hits) {
-    if (expected.size() == block_width) break;
+    if (expected.size() == block_width - 1) break;
     if (!equilibrium_.is_prepared(hit.element)) expected.push_back(hit.element);
   }
-  equilibrium_.expect(expected);
+  equilibrium_.prepare(event.element, expected);
 }
 
 EventOutcome SingleEventEngine::apply(const Event& event) {

@@ -109,41 +109,51 @@ void cut_slots(const Network& network, const Unknowns& unknowns,
 
 }  // namespace
 
-Parcel BodyPart::pack() const {
-  Parcel parcel;
-  for_each_member(*this, [&](const auto& member) { parcel.put(member); });
-  parcel.put(coarse.rows());
-  std::vector<Index> rows_of, columns;
+void pack(const SparseMatrix& matrix, Parcel& parcel) {
+  parcel.put(matrix.rows());
+  std::vector<Index> rows, columns;
   std::vector<double> values;
-  for (Index column = 0; column < static_cast<Index>(coarse.outerSize()); ++column) {
-    for (SparseMatrix::InnerIterator entry(coarse, column); entry; ++entry) {
-      rows_of.push_back(static_cast<Index>(entry.row()));
+  for (Index column = 0; column < static_cast<Index>(matrix.outerSize()); ++column) {
+    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
+      rows.push_back(static_cast<Index>(entry.row()));
       columns.push_back(column);
       values.push_back(entry.value());
     }
   }
-  parcel.put(rows_of);
+  parcel.put(rows);
   parcel.put(columns);
   parcel.put(values);
+}
+
+SparseMatrix unpack_matrix(Parcel& parcel) {
+  SparseMatrix matrix;
+  const auto size = parcel.get<decltype(matrix.rows())>();
+  std::vector<Index> rows, columns;
+  std::vector<double> values;
+  parcel.get(rows);
+  parcel.get(columns);
+  parcel.get(values);
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  entries.reserve(values.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    entries.emplace_back(rows[k], columns[k], values[k]);
+  }
+  matrix.resize(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+Parcel BodyPart::pack() const {
+  Parcel parcel;
+  for_each_member(*this, [&](const auto& member) { parcel.put(member); });
+  perilink::pack(coarse, parcel);
   return parcel;
 }
 
 BodyPart BodyPart::unpack(Parcel parcel) {
   BodyPart part;
   for_each_member(part, [&](auto& member) { parcel.get(member); });
-  const auto size = parcel.get<decltype(part.coarse.rows())>();
-  std::vector<Index> rows_of, columns;
-  std::vector<double> values;
-  parcel.get(rows_of);
-  parcel.get(columns);
-  parcel.get(values);
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  entries.reserve(values.size());
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    entries.emplace_back(rows_of[k], columns[k], values[k]);
-  }
-  part.coarse.resize(size, size);
-  part.coarse.setFromTriplets(entries.begin(), entries.end());
+  part.coarse = unpack_matrix(parcel);
   return part;
 }
 

@@ -18,11 +18,14 @@ enum class GlobalIndex : Index {};
 /// What a rank knows of a body: the particles that it owns, then those of other ranks that its
 /// elements reach, and these elements. Numbers are the part's own.
 struct BodyPart {
-  /// Positions are left out: the products need directions and lengths alone.
+  /// Parts that are sent have no positions: products need directions and lengths alone.
   Network network;
-  std::vector<double> axial, other;   ///< secants of the elements
-  std::vector<GlobalIndex> elements;  ///< their numbers, ascending
-  Unknowns unknowns;                  ///< owned particles have some, ghosts none
+  /// Secants of the elements; where no element changes the first may be empty, as the second.
+  std::vector<double> axial, other;
+  std::vector<GlobalIndex> elements;  ///< their numbers, ascending, where they may change
+  /// Elements whose first end another rank owns, in parts that ranks make.
+  std::vector<Index> others_elements;
+  Unknowns unknowns;  ///< owned particles have some, ghosts none
   Ghosts ghosts;
 
   /// Inverse stiffness of each owned particle alone, shape (owned, width, width).
@@ -35,11 +38,14 @@ struct BodyPart {
 
   Index owned() const { return static_cast<Index>(boxes.size()); }
   Index particles() const { return owned() + static_cast<Index>(ghosts.owners.size()); }
-  Secants secants() const { return {other, axial}; }
+  Secants secants() const { return axial.empty() ? Secants(other) : Secants(other, axial); }
 
   Parcel pack() const;
   static BodyPart unpack(Parcel parcel);
 };
+
+void pack(const SparseMatrix& matrix, Parcel& parcel);
+SparseMatrix unpack_matrix(Parcel& parcel);
 
 /// Which rank owns each particle, and where its unknowns are in its part.
 struct Partition {

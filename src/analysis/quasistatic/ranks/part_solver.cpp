@@ -103,6 +103,19 @@ void PartSolver::multiply(std::span<const double> q, std::span<double> result) {
   for (std::size_t k = 0; k < ground_.size(); ++k) result[k] += ground_[k] * q[k];
 }
 
+InternalForce PartSolver::internal(std::span<const double> motion) {
+  last_motion_.assign(motion_.size(), 0.0);
+  std::copy(motion.begin(), motion.end(), last_motion_.begin());
+  layer_->update(last_motion_);
+  InternalForce others;
+  internal_force(part_.network, part_.secants(), last_motion_, part_.others_elements, others);
+  internal_force(part_.network, part_.secants(), last_motion_, forces_);
+  return {
+      {forces_.forces.begin(), forces_.forces.begin() + static_cast<std::ptrdiff_t>(motion.size())},
+      forces_.energy - others.energy,
+      forces_.support_energy};
+}
+
 void PartSolver::multiply_block(std::span<const double> motions, std::span<double> results) {
   std::copy(motions.begin(), motions.end(), motions_.begin());
   block_layer_->update(motions_);

@@ -7,7 +7,7 @@
 #include "analysis/quasistatic/ranks/body_part.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/parcel.hpp"
-#include "solver/block_gradients.hpp"
+#include "solver/blocks/block_gradients.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -41,8 +41,18 @@ class PartSolver {
   GradientsReport search_block(std::span<double> right, std::span<double> solution,
                                const BlockRow& sizes, double enough, int most_iterations);
 
+  /// Collective. What internal_force() finds, of the own particles, and the energy of the elements
+  /// whose first end is one of them.
+  /// \param motion  that of the own particles, shape (owned, width)
+  InternalForce internal(std::span<const double> motion);
+
+  const BodyPart& part() const { return part_; }
+  /// What internal() was asked for last, and the same of ghosts; shape (owned + ghosts, width).
+  std::span<const double> last_motion() const { return last_motion_; }
+
   std::size_t size() const { return static_cast<std::size_t>(part_.unknowns.count); }
   FactorStatistics coarse() const { return factor_->statistics(); }
+  Index num_boxes() const { return static_cast<Index>(coarse_.size()) / part_.motions; }
 
  private:
   void multiply(std::span<const double> q, std::span<double> result);
@@ -59,6 +69,7 @@ class PartSolver {
   std::vector<double> motion_;  ///< shape (owned + ghosts, width), zero where it is prescribed
   std::vector<double> coarse_;  ///< residual or motion of the boxes, shape (boxes, motions)
   InternalForce forces_;
+  std::vector<double> last_motion_;
 
   // Each number of the above block_width times.
   std::unique_ptr<GhostLayer> block_layer_;

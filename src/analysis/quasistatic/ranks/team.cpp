@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "solver/not_positive_definite.hpp"
 
 namespace perilink {
 namespace {
 
-enum class Job : int { take_part, follow, search, search_block };
+enum class Job : int { take_part, make_part, follow, search, search_block, find_forces };
 
 Parcel order_for(Job job) {
   Parcel order;
@@ -93,6 +94,24 @@ Team::Team(Ranks& ranks, const Network& network, const Unknowns& unknowns, Secan
   for (Index e = 0; e < network.num_elements(); ++e) told_axial_.push_back(secants.axial(e));
 }
 
+Team::Team(Ranks& ranks, const LatticePattern& pattern, const Network& places,
+           const Unknowns& unknowns, Index particles_of_box)
+    : ranks_(ranks), width_(static_cast<std::size_t>(unknowns.width)) {
+  const std::vector<GridWindow> windows = split_grid(pattern.grid, ranks.count());
+  partition_ = share_out(pattern.grid, windows, unknowns);
+  const auto share = [&](int rank) {
+    return share_of(pattern, windows, places, unknowns, particles_of_box, rank);
+  };
+  own_ = lead(ranks, [&] {
+    for (int rank = 1; rank < ranks.count(); ++rank) {
+      Parcel order = order_for(Job::make_part);
+      share(rank).pack(order);
+      ranks.send(rank, order.bytes());
+    }
+    return std::make_unique<PartSolver>(ranks, make_part(ranks, share(0)));
+  });
+}
+
 /// To look at all elements takes nothing beside a search.
 void Team::tell_changes() {
   BodyChanges changes;
@@ -162,12 +181,57 @@ GradientsReport Team::search_block(std::span<const double> right, std::span<doub
   });
 }
 
+void Team::put_in_place(int rank, std::span<const double> own, std::size_t width,
+                        std::span<double> all) const {
+  add(all, partition_.particles[rank], own, width);
+}
+
+InternalForce Team::internal(std::span<const double> motion) {
+  return lead(ranks_, [&] {
+    for (int rank = 1; rank < ranks_.count(); ++rank) {
+      Parcel order = order_for(Job::find_forces);
+      order.put(take(motion, partition_.particles[rank], width_));
+      ranks_.send(rank, order.bytes());
+    }
+    InternalForce part = own_->internal(take(motion, partition_.particles[0], width_));
+    InternalForce all{std::vector<double>(motion.size(), 0.0), part.energy, part.support_energy};
+    add(all.forces, partition_.particles[0], part.forces, width_);
+    for (int rank = 1; rank < ranks_.count(); ++rank) {
+      Parcel answer(ranks_.receive(rank));
+      all.energy += answer.get<double>();
+      all.support_energy += answer.get<double>();
+      answer.get(part.forces);
+      add(all.forces, partition_.particles[rank], part.forces, width_);
+    }
+    return all;
+  });
+}
+
+void TeamMember::find_forces(Parcel& order) {
+  std::vector<double> motion;
+  order.get(motion);
+  const InternalForce found = solver_->internal(motion);
+  Parcel answer;
+  answer.put(found.energy);
+  answer.put(found.support_energy);
+  answer.put(found.forces);
+  ranks_.send(0, answer.bytes());
+}
+
 void TeamMember::obey(Parcel& order) {
   switch (order.get<Job>()) {
     case Job::take_part:
       solver_.reset();
       solver_.emplace(ranks_, BodyPart::unpack(Parcel(ranks_.receive(0))));
       break;
+    case Job::make_part:
+      solver_.reset();
+      try {
+        solver_.emplace(ranks_, make_part(ranks_, LatticeShare::unpack(order)));
+      } catch (const NotPositiveDefinite&) {  // the same in all ranks: the first tells it
+      }
+      break;
+    case Job::find_forces: find_forces(order); break;
     case Job::follow: solver_->follow(BodyChanges::unpack(order)); break;
     case Job::search:
       search_along<SearchOrder>(ranks_, order, [&](const SearchOrder& how, auto& b, auto& x) {

@@ -47,8 +47,8 @@ void refuse_too_many_bonds(const CaseFile& input, const HorizonReach& reach) {
   const double neighbours = neighbours_of(reach);
   const double bonds = 0.5 * neighbours * reach.particles;
   const double bytes = bytes_per_bond * bonds;
-  const bool numbered = bonds <= std::numeric_limits<Index>::max();
-  if (numbered && bytes <= reach.memory) return;
+  const bool numbered = bonds / reach.parts <= std::numeric_limits<Index>::max();
+  if (numbered && bytes / reach.parts <= reach.memory) return;
   throw InputError(
       input.where(horizon_key(input.body)),
       fmt::format("makes the horizon {:.6g}, {:.4g} spacings: each of about {:.3g} particles would "

@@ -79,7 +79,8 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
 }
 
 void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription) {
-  const std::vector<Fragment> fragments = find_fragments(model.network, prescription.held);
+  const std::vector<Fragment> fragments =
+      find_fragments(model.network, prescription.held, model.pattern.has_value());
   const bool pin = input.analysis.rigid_body_modes == RigidBodyModes::pin;
   if (fragments.size() > 1) {
     model.notes.push_back(
@@ -286,7 +287,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   note_borne_loads(model.network, model.loads, prescription, model.notes);
   refuse_mere_shift(input, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
-  refuse_loose_particles(input, model, prescription);
+  if (!model.pattern) refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);
   model.unknowns = unknowns_of(input, model.network, prescription);
   model.gripped = std::move(prescription.gripped);

@@ -131,6 +131,38 @@ TEST_F(Vtu, SeriesDoNotLeaveTheirFolder) {
   }
 }
 
+TEST_F(Vtu, PiecesComeBackAsOneGrid) {
+  const std::string stem = path_.substr(0, path_.size() - 4);
+  const std::string name = std::filesystem::path(stem).filename().string();
+  const std::string whole = stem + ".pvtu", second = stem + "_1.vtu";
+  VtuGrid grid = make_grid(2);
+  write_vtu(path_, grid);
+  write_vtu(second, make_grid(1));
+  write_pvtu(whole, grid, {name + ".vtu", name + "_1.vtu"});
+  const VtuGrid back = read_vtu(whole);
+  EXPECT_EQ(back.points.size(), 3u * 9u);
+  EXPECT_EQ(back.field_data, grid.field_data);
+  EXPECT_EQ(back.types.size(), 7u + 4u);
+  EXPECT_EQ(back.offsets[7], grid.offsets.back() + 1);
+  // The line of the second piece, between its own points.
+  EXPECT_EQ(back.connectivity[back.connectivity.size() - 2], 6);
+  EXPECT_EQ(back.connectivity.back(), 8);
+  EXPECT_EQ(back.find_point_data("damage")->values.size(), 9u);
+
+  for (const std::string fault : {"../other.vtu", "", "absent.vtu"}) {
+    write_pvtu(whole, grid, {fault});
+    EXPECT_THROW(read_vtu(whole), FileError) << fault;
+  }
+  write_pvtu(whole, grid, {name + ".pvtu"});  // itself
+  EXPECT_THROW(read_vtu(whole), FileError);
+  grid.point_data.pop_back();
+  write_vtu(second, grid);
+  write_pvtu(whole, grid, {name + ".vtu", name + "_1.vtu"});
+  EXPECT_THROW(read_vtu(whole), FileError);
+  std::filesystem::remove(whole);
+  std::filesystem::remove(second);
+}
+
 TEST_F(Vtu, NumbersThatAreNotFiniteAreRefused) {
   for (const double value : {HUGE_VAL, std::nan("")}) {
     VtuGrid grid;

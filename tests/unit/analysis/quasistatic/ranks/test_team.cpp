@@ -31,16 +31,6 @@ std::vector<double> solve(const AnalysisBody& body, Secants secants, Ranks* rank
   return body.unknowns.expand(solution);
 }
 
-/// The larger difference over the largest number of the first.
-double difference_of(const std::vector<double>& a, const std::vector<double>& b) {
-  double size = 0.0, difference = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    size = std::max(size, std::abs(a[k]));
-    difference = std::max(difference, std::abs(a[k] - b[k]));
-  }
-  return difference / size;
-}
-
 /// Eight columns of the inverse and the answer to loads, one after the other, by a solver that was
 /// made before elements failed, one shed its stiffness against shear, and springs were added.
 std::vector<double> solve_after_changes(const AnalysisBody& body, Ranks* ranks) {

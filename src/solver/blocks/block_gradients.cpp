@@ -1,4 +1,4 @@
-#include "solver/block_gradients.hpp"
+#include "solver/blocks/block_gradients.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,244 @@
+#include "app/model/from_case/case_bonds.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "app/model/body/bar_layout.hpp"
+#include "app/model/body/fracture_rule.hpp"
+#include "app/model/body/horizon_limits.hpp"
+#include "app/model/body/mesh_input.hpp"
+#include "app/model/body/shell_rules.hpp"
+#include "app/model/body/solid_boxes.hpp"
+#include "app/model/body/strength_notes.hpp"
+#include "app/model/body/weak_faces.hpp"
+#include "app/model/conditions/boundary_conditions.hpp"
+#include "app/model/gauges.hpp"
+#include "app/results/calibration_text.hpp"
+#include "base/error.hpp"
+#include "io/case/sections/case_kinds.hpp"
+#include "io/case/sections/laws/case_softening.hpp"
+#include "network/bond_softening.hpp"
+#include "network/builder/network_builder.hpp"
+
+namespace perilink {
+namespace {
+
+/// A lattice of few neighbours reaches smaller Poisson's ratios than the infinite body.
+void refuse_poissons_ratios(const CaseFile& input, const Body& body, const NetworkInput& network) {
+  if (network.model != BondModel::micropolar) return;
+  for (std::size_t m = 0; m < input.materials.size(); ++m) {
+    try {
+      moduli_of(body, network, network.materials[m]);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(input.where(item_key("materials", m, "poissons_ratio")),
+                       fmt::format("is {}: {}", network.materials[m].poissons_ratio, error.what()),
+                       "the bonds of this lattice alone have that ratio: enlarge the horizon, use "
+                       "another pattern, or set body.micromodulus = \"continuum\"");
+    }
+  }
+}
+
+std::string crack_key(std::size_t crack, int dim) {
+  return item_key("cracks", crack, dim == 2 ? "points" : "corners");
+}
+
+void refuse_impossible_cracks(const CaseFile& input, int dim) {
+  for (std::size_t k = 0; k < input.cracks.size(); ++k) {
+    try {
+      check_crack({input.cracks[k].points}, dim);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(input.where(crack_key(k, dim)), error.what(), "");
+    }
+  }
+}
+
+void refuse_cracks_without_bonds(const CaseFile& input, const Network& network) {
+  refuse_interfaces_without_bonds(input, network);
+  for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
+    if (network.cut_by_crack[k] > 0) continue;
+    throw InputError(input.where(crack_key(k, dimension_of(input.body))),
+                     "crosses no bond of the body", "move the crack into the body, or delete it");
+  }
+}
+
+NetworkInput network_input(const CaseFile& input, Problem problem, double horizon,
+                           const LaidBars& bars) {
+  NetworkInput network;
+  network.problem = problem;
+  if (input.body.model == BodyModel::micropolar) network.model = BondModel::micropolar;
+  network.torsion = input.body.torsion;
+  network.horizon = horizon;
+  network.thickness = input.body.thickness;
+  network.shell = is_shell(input.body);
+  network.radius = input.body.radius.value_or(0.0);
+  network.micromodulus = input.body.micromodulus;
+  const CriticalStretch rule = input.body.critical_stretch;
+  const bool on_lattice =
+      rule == CriticalStretch::lattice || (rule == CriticalStretch::dissipated && !input.body.mesh);
+  network.critical_stretch = on_lattice ? Constants::lattice : Constants::continuum;
+  for (std::size_t m = 0; m < input.materials.size() && !input.body.mesh; ++m) {
+    const std::vector<Box> boxes = boxes_of(input, m);
+    network.solid.insert(network.solid.end(), boxes.begin(), boxes.end());
+  }
+  for (const MaterialSection& material : input.materials) {
+    // Stretches need no energy: any will do, and the network says what they take.
+    const double energy = has_stretches(material.softening) ? 1.0 : material.fracture_energy;
+    const bool elastic = input.analysis.type == AnalysisType::elastic;
+    network.materials.push_back({material.youngs_modulus, energy,
+                                 material.poissons_ratio.value_or(0.0),
+                                 elastic ? SofteningMaterial{} : material.softening});
+  }
+  for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
+  network.bars = bars.lines;
+  network.bar_materials = bars.materials;
+  return network;
+}
+
+void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
+  if (input.analysis.type != AnalysisType::damage) return;
+  auto finite = [](double value) { return std::isfinite(value); };
+  if (std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite)) return;
+  throw InputError(input.where("materials[1].fracture_energy"),
+                   "is infinite in every material: nothing can break in a damage analysis",
+                   "give a material a finite fracture energy, or set analysis.type = \"elastic\"");
+}
+
+/// Next to the ratio of bonds that do not bend, nothing is left for bending.
+void refuse_unbending_materials(const CaseFile& input, const NetworkInput& network) {
+  if (network.model != BondModel::micropolar) return;
+  const double largest = bond_poissons_ratio(network.problem);
+  for (std::size_t m = 0; m < input.materials.size(); ++m) {
+    const double ratio = network.materials[m].poissons_ratio;
+    if (ratio <= 0.999 * largest) continue;
+    throw InputError(
+        input.where(item_key("materials", m, "poissons_ratio")),
+        fmt::format("is {}, next to {:.6g}, which bonds have that do not bend: no stiffnesses of "
+                    "bonds that bend are found for it",
+                    ratio, largest),
+        fmt::format(
+            "set model = \"bond_based\" in [body] and delete the key, or give at most {:.4f}",
+            0.999 * largest));
+  }
+}
+
+Network build_case_network(const CaseFile& input, const Body& body, const NetworkInput& network) {
+  try {
+    return build_network(body, network);
+  } catch (const TooStrong& error) {
+    refuse_strong_interface(input, network, error);
+    const double strength = network.materials[error.material].softening.tensile_strength;
+    throw InputError(
+        input.where(item_key("materials", error.material, "tensile_strength")),
+        fmt::format("is {:.6g}, but with a horizon of {:.6g} a bond would hold {:.3g} times the "
+                    "energy at this stress that fracture_energy lets it dissipate",
+                    strength, network.horizon, 1.0 / error.share),
+        fmt::format("take a horizon below {:.4g}, a strength below {:.4g} or a larger "
+                    "fracture_energy; brittle bonds have no strength of their own",
+                    network.horizon * error.share, strength * std::sqrt(error.share)));
+  } catch (const std::invalid_argument& error) {
+    refuse_unbending_materials(input, network);
+    throw InputError(input.where(horizon_key(input.body)), error.what(),
+                     "use two to four spacings, or set surface = \"none\"");
+  }
+}
+
+/// The calibration of clouds, of bodies in space and of micropolar bonds can take minutes. What it
+/// does not change (regions, loads, whether the body is held, gauges) is looked at before. Trusses
+/// on lattices in the plane are calibrated in less time than their matrix is factorised.
+void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkInput network,
+                               const Model& model) {
+  if (body.lattice.surface != Surface::calibrated || !body.spans.empty()) return;
+  const bool lattice = body.lattice.pattern != Pattern::irregular;
+  if (lattice && body.particles.dim == 2 && network.model == BondModel::bond_based) return;
+  network.draft = true;
+  Model draft = model;
+  draft.network = build_case_network(input, body, network);
+  draft.facets = draft.network.shell ? draft.network.facets : body.facets;
+  draft.cells = body.cells;
+  draft.groups = body.groups;
+  refuse_cracks_without_bonds(input, draft.network);
+  refuse_unbreakable_bodies(input, draft.network);
+  apply_boundary_conditions(input, draft);
+  build_gauges(input, draft);
+}
+
+/// The bonds of a box, calibrated in a smaller one; none where a part of it is not like another.
+std::optional<LatticePattern> find_pattern(const CaseFile& input, const BondOptions& options,
+                                           const Body& body, NetworkInput network) {
+  if (options.parts < 2 || !can_be_made_in_parts(input)) return std::nullopt;
+  const std::optional<LatticeGrid> grid = grid_of(body);
+  if (!grid || split_grid(*grid, options.parts).empty()) return std::nullopt;
+  LatticePattern pattern = pattern_of(*grid, network.horizon);
+  network.solid = {{pattern.small.lower, pattern.small.upper}};
+  const Body sample = body_of(pattern.small, body.lattice, network.thickness);
+  pattern.sample = build_case_network(input, sample, network);
+  if (!can_repeat(pattern.sample)) return std::nullopt;
+  return pattern;
+}
+
+}  // namespace
+
+bool have_unlike_constants(const std::vector<MaterialSection>& materials) {
+  return std::any_of(materials.begin(), materials.end(), [&](const MaterialSection& m) {
+    return m.youngs_modulus != materials.front().youngs_modulus ||
+           m.poissons_ratio != materials.front().poissons_ratio;
+  });
+}
+
+bool can_be_made_in_parts(const CaseFile& input) {
+  const BodySection& body = input.body;
+  const bool is_plane = dimension_of(body) == 2;
+  return input.analysis.type == AnalysisType::elastic &&
+         input.analysis.solver != LinearSolver::direct && !body.mesh &&
+         body.method == BodyMethod::bonds && body.model == BodyModel::bond_based &&
+         !is_shell(body) && !is_beam(body) && !(is_plane && body.surface == Surface::calibrated) &&
+         input.cracks.empty() && input.interfaces.empty() && input.rebar.empty() &&
+         !input.elements && !have_unlike_constants(input.materials);
+}
+
+void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {
+  const LaidBars bars = lay_bars(input, body);
+  refuse_bars_outside(input, body, bars);
+  model.entry_of_bar = bars.sections;
+  NetworkInput network = network_input(input, model.problem, model.horizon, bars);
+  network.on_search = options.on_search;
+  network.interfaces = weak_interfaces(input, body);
+  network.draft = options.draft;
+  if (body.spans.empty()) refuse_poissons_ratios(input, body, network);
+  if (network.shell) refuse_impossible_shell(input, body, network);
+  refuse_impossible_cracks(input, body.particles.dim);
+  model.crack_cost = count_on_the_path(input, body, network);
+  model.pattern = find_pattern(input, options, body, network);
+  if (model.pattern) {
+    model.network.particles = std::move(body.particles);
+    model.network.calibration = model.pattern->sample.calibration;
+    model.notes.push_back(
+        fmt::format("each of {} processes makes its own part of the body: its bonds are like those "
+                    "of a box of {} steps, in which they were calibrated or made",
+                    options.parts, fmt::join(model.pattern->small.count, " by ")));
+    return;
+  }
+  if (options.parts > 1 &&
+      can_be_made_in_parts(input)) {  // but is not: one process has to hold them all
+    refuse_impossible_horizon(input, reach_of(body.particles, model.horizon, body.lattice.spacing));
+  }
+  if (!options.draft) refuse_before_calibration(input, body, network, model);
+  model.network = build_case_network(input, body, network);
+  refuse_cracks_without_bonds(input, model.network);
+  refuse_unbreakable_bodies(input, model.network);
+  if (input.analysis.type == AnalysisType::elastic) model.network.strengths.clear();
+  for (const auto& text : {short_horizon_note(input, model), unmeasured_cost_note(input, model),
+                           calibration_shortfall(model.network)}) {
+    if (text) model.notes.push_back(*text);
+  }
+  for (const std::string& text : strength_notes(input, model)) model.notes.push_back(text);
+  for (const std::string& text : bar_notes(input)) model.notes.push_back(text);
+  body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
+}
+
+}  // namespace perilink

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "app/model/model.hpp"
+#include "calibration/calibration.hpp"
+#include "discretization/lattices/lattice.hpp"
+#include "io/case/case_file.hpp"
+
+namespace perilink {
+
+/// How the bonds of a model are made.
+struct BondOptions {
+  bool draft = false;  ///< not calibrated at all
+  CalibrationObserver on_search;
+  /// Processes that can make their parts of the bonds: where the body lets them, the model has a
+  /// pattern in place of bonds.
+  int parts = 1;
+};
+
+bool have_unlike_constants(const std::vector<MaterialSection>& materials);
+
+/// Whether ranks can make the bonds of a case by themselves, if its body is one box.
+bool can_be_made_in_parts(const CaseFile& input);
+
+/// Puts the bonds and bars of a case between the particles of its body.
+/// \throws InputError where the case makes no sense for its body
+void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model);
+
+}  // namespace perilink

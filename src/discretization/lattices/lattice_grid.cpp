@@ -1,0 +1,135 @@
+#include "discretization/lattices/lattice_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "discretization/lattices/lattice_parts.hpp"
+
+namespace perilink {
+namespace {
+
+/// Halves a window until each part has one. \return whether there were planes enough
+bool split(const LatticeGrid& grid, const GridWindow& window, int parts,
+           std::vector<GridWindow>& found) {
+  if (parts == 1) {
+    found.push_back(window);
+    return grid.size(window) > 0;
+  }
+  int axis = 0;
+  double longest = -1.0;
+  for (int a = 0; a < grid.dim; ++a) {
+    const double side = (window.last[a] - window.first[a]) * grid.step[a];
+    if (side <= longest) continue;
+    longest = side;
+    axis = a;
+  }
+  const Index planes = window.last[axis] - window.first[axis] + 1;
+  const int lower_parts = parts / 2;
+  const auto lower_planes =
+      static_cast<Index>(std::lround(1.0 * planes * lower_parts / static_cast<double>(parts)));
+  if (lower_planes == 0 || lower_planes == planes) return false;
+  GridWindow lower = window, upper = window;
+  upper.first[axis] = window.first[axis] + lower_planes;
+  lower.last[axis] = upper.first[axis] - 1;
+  return split(grid, lower, lower_parts, found) && split(grid, upper, parts - lower_parts, found);
+}
+
+}  // namespace
+
+Index LatticeGrid::number(const GridWindow& window, const GridPoint& point) const {
+  // So many of `count` numbers in a row are even, where the first is even (0) or odd (1).
+  const auto evens = [&](Index count, Index odd) {
+    return alternate ? (count + 1 - odd) / 2 : count;
+  };
+  const Index columns = window.last[0] - window.first[0] + 1;
+  const Index rows = window.last[1] - window.first[1] + 1;
+  const auto in_rows = [&](Index count, Index odd) {
+    const Index even = evens(count, odd);
+    return even * evens(columns, 0) + (count - even) * evens(columns, 1);
+  };
+  const Index layers = point[2] - window.first[2], before = point[1] - window.first[1];
+  Index odd = (window.first[0] + window.first[1] + window.first[2]) % 2;
+  const Index even_layers = evens(layers, odd);
+  Index number = even_layers * in_rows(rows, 0) + (layers - even_layers) * in_rows(rows, 1);
+  odd = (odd + layers) % 2;
+  number += in_rows(before, odd);
+  odd = (odd + before) % 2;
+  return number + evens(point[0] - window.first[0], odd);
+}
+
+Vector3 LatticeGrid::position(const GridPoint& point) const {
+  Vector3 x{};
+  for (int a = 0; a < dim; ++a) {
+    x[a] = point[a] == count[a] ? upper[a] : lower[a] + step[a] * point[a];
+  }
+  return x;
+}
+
+GridWindow LatticeGrid::grown(const GridWindow& window, const std::array<Index, 3>& steps) const {
+  GridWindow wide = window;
+  for (int a = 0; a < 3; ++a) {
+    wide.first[a] = std::max(0, window.first[a] - steps[a]);
+    wide.last[a] = std::min(count[a], window.last[a] + steps[a]);
+  }
+  return wide;
+}
+
+std::optional<LatticeGrid> grid_of(const Body& body) {
+  const Particles& particles = body.particles;
+  const Lattice& lattice = body.lattice;
+  const bool fits = lattice.pattern == Pattern::rectangular || lattice.pattern == Pattern::cubic ||
+                    lattice.pattern == Pattern::face_centred;
+  if (!fits || lattice.surface == Surface::ghost || particles.size() == 0) return std::nullopt;
+  LatticeGrid grid;
+  grid.dim = particles.dim;
+  grid.alternate = lattice.pattern == Pattern::face_centred;
+  for (int a = 0; a < grid.dim; ++a) {
+    grid.lower[a] = grid.upper[a] = particles.position(0)[a];
+    for (Index i = 0; i < particles.size(); ++i) {
+      grid.lower[a] = std::min(grid.lower[a], particles.position(i)[a]);
+      grid.upper[a] = std::max(grid.upper[a], particles.position(i)[a]);
+    }
+    grid.step[a] = lattice.step[a];
+    grid.count[a] = static_cast<Index>(std::lround((grid.upper[a] - grid.lower[a]) / grid.step[a]));
+  }
+  if (grid.size(grid.all()) != particles.size()) return std::nullopt;
+  // All cells: less than half a one may be missing, round-off is far below.
+  double cells = grid.alternate ? 0.5 : 1.0;
+  for (int a = 0; a < grid.dim; ++a) cells *= grid.count[a];
+  const double filled = std::accumulate(particles.volumes.begin(), particles.volumes.end(), 0.0);
+  if (std::abs(filled / lattice.cell_volume - cells) > 0.1) return std::nullopt;
+  bool same = true;
+  Index i = 0;
+  grid.for_each(grid.all(), [&](const GridPoint& point) {
+    const Vector3 x = grid.position(point);
+    same = same && std::equal(x.begin(), x.begin() + grid.dim, particles.position(i).begin());
+    ++i;
+  });
+  return same ? std::optional(grid) : std::nullopt;
+}
+
+Body body_of(const LatticeGrid& grid, const Lattice& lattice, double thickness) {
+  LatticeInput input;
+  input.pattern = lattice.pattern;
+  input.surface = lattice.surface;
+  input.spacing = lattice.spacing;
+  input.thickness = thickness;
+  input.solid = {{grid.lower, grid.upper}};
+  input.material = {0};
+  const Outline outline =
+      make_outline(input.solid, grid.dim, input.boundary_tolerance * input.spacing);
+  Body body;
+  body.lattice = lattice;
+  body.particles = fill_conforming_grid(input, lattice, outline);
+  body.facets = grid_facets(input, lattice, outline, body.particles);
+  return body;
+}
+
+std::vector<GridWindow> split_grid(const LatticeGrid& grid, int parts) {
+  std::vector<GridWindow> found;
+  if (!split(grid, grid.all(), parts, found)) found.clear();
+  return found;
+}
+
+}  // namespace perilink

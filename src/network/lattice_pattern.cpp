@@ -1,0 +1,84 @@
+#include "network/lattice_pattern.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace perilink {
+namespace {
+
+/// Depths of places that count, over the reach of bonds.
+constexpr Index counted_reaches = 3;
+
+}  // namespace
+
+GridPoint LatticePattern::place(const GridPoint& point) const {
+  GridPoint like = point;
+  for (int a = 0; a < 3; ++a) {
+    const Index above = grid.count[a] - point[a];
+    if (small.count[a] == grid.count[a] || point[a] < depth[a]) continue;
+    // In the middle there are two places: points of a face-centred lattice are even or odd.
+    like[a] = above < depth[a] ? small.count[a] - above : depth[a] + (point[a] - depth[a]) % 2;
+  }
+  return like;
+}
+
+double LatticePattern::num_bonds() const {
+  std::array<std::vector<double>, 3> times;  // that a plane of the sample is found in the box
+  for (int a = 0; a < 3; ++a) {
+    times[a].assign(static_cast<std::size_t>(small.count[a]) + 1, 0.0);
+    GridPoint point{};
+    for (point[a] = 0; point[a] <= grid.count[a]; ++point[a]) times[a][place(point)[a]] += 1.0;
+  }
+  double bonds = 0.0;
+  std::vector<double> starting(static_cast<std::size_t>(sample.particles.size()), 0.0);
+  for (const Index i : sample.bonds.first) starting[i] += 1.0;
+  std::size_t i = 0;
+  small.for_each(small.all(), [&](const GridPoint& p) {
+    bonds += starting[i++] * times[0][p[0]] * times[1][p[1]] * times[2][p[2]];
+  });
+  return bonds;
+}
+
+LatticePattern pattern_of(const LatticeGrid& grid, double horizon) {
+  LatticePattern pattern;
+  pattern.grid = pattern.small = grid;
+  for (int a = 0; a < grid.dim; ++a) {
+    pattern.reach[a] = static_cast<Index>(horizon * (1.0 + horizon_tolerance) / grid.step[a]);
+    pattern.depth[a] = counted_reaches * pattern.reach[a];
+    const Index enough = 2 * pattern.depth[a] + 2 + grid.count[a] % 2;
+    if (grid.count[a] <= enough) continue;
+    pattern.small.count[a] = enough;
+    pattern.small.upper[a] = grid.lower[a] + grid.step[a] * enough;
+  }
+  return pattern;
+}
+
+bool can_repeat(const Network& sample) {
+  const bool alike = !sample.calibration || sample.calibration->alike;
+  const bool trusses = !sample.carries_moments() && !sample.has_states() && !sample.cells &&
+                       sample.first_tie == sample.num_elements();
+  const Index particles = sample.particles.size();
+  const std::vector<Index> parts = connected_parts(sample.bonds, particles);
+  const auto loose = loosely_held(sample.bonds, particles, sample.stiffness);
+  const auto any = [](const auto& flags) {
+    return std::any_of(flags.begin(), flags.end(), [](auto flag) { return flag != 0; });
+  };
+  return alike && trusses && !any(parts) && !any(loose);
+}
+
+PatternBonds::PatternBonds(const LatticePattern& pattern)
+    : pattern_(pattern),
+      families_(bonds_of_particles(pattern.sample.bonds, pattern.sample.particles.size())) {
+  pattern.small.for_each(pattern.small.all(),
+                         [&](const GridPoint& point) { points_.push_back(point); });
+}
+
+Index PatternBonds::element_between(const GridPoint& first, const GridPoint& second) const {
+  Index element = no_index;
+  for_each_of(first, [&](const GridPoint& other, Index e, bool comes_first) {
+    if (comes_first && other == second) element = e;
+  });
+  return element;
+}
+
+}  // namespace perilink
