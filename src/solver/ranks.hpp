@@ -9,13 +9,14 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/parcel.hpp"
 #include "base/types.hpp"
 #include "solver/conjugate_gradients.hpp"
 
 namespace perilink {
 
 /// What the first rank asks the others for, the first word of every order.
-enum class Service : int { end, solve, move_bonds };
+enum class Service : int { end, solve, move_bonds, move_rows };
 
 /// Particles that other ranks own and this one needs to know the motion of.
 struct Ghosts {
@@ -33,6 +34,12 @@ class GhostLayer {
   virtual void update(std::span<double> motion) = 0;
 };
 
+/// What goes to a rank and what comes from it.
+struct Exchange {
+  int rank = 0;
+  Parcel out, in;
+};
+
 /// Processes that work on one body, each on its part of the particles. The first leads: it knows
 /// the whole body, sends the others their parts and takes back what they find.
 class Ranks {
@@ -47,6 +54,8 @@ class Ranks {
 
   virtual void send(int to, std::span<const std::byte> message) = 0;
   virtual std::vector<std::byte> receive(int from) = 0;
+  /// One message each way, with ranks that do the same.
+  virtual void exchange(std::span<Exchange> with) = 0;
 
   /// Collective. \param particles  that this rank knows, its own and ghosts
   /// \param width  components of the motion of a particle

@@ -61,6 +61,11 @@ class ThreadRanks final : public Ranks {
     return message;
   }
 
+  void exchange(std::span<Exchange> with) override {
+    for (const Exchange& each : with) send(each.rank, each.out.bytes());
+    for (Exchange& each : with) each.in = Parcel(receive(each.rank));
+  }
+
   std::unique_ptr<GhostLayer> make_ghost_layer(Index, const Ghosts& ghosts, int width) override {
     return std::make_unique<Layer>(*this, ghosts, width);
   }

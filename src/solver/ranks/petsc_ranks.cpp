@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
+#include <utility>
 
 #include "base/error.hpp"
 #include "solver/ranks/petsc_gradients.hpp"
@@ -69,6 +70,8 @@ class PetscRanks final : public Ranks {
     PetscCallAbort(PETSC_COMM_WORLD, PetscPopSignalHandler());  // the program has its own
     MPI_Comm_size(PETSC_COMM_WORLD, &count_);
     MPI_Comm_rank(PETSC_COMM_WORLD, &own_);
+    PetscCallAbort(PETSC_COMM_WORLD,
+                   PetscLogEventRegister("Exchange", PETSC_OBJECT_CLASSID, &exchange_));
   }
   ~PetscRanks() override { PetscFinalize(); }
   PetscRanks(const PetscRanks&) = delete;
@@ -107,6 +110,29 @@ class PetscRanks final : public Ranks {
     return message;
   }
 
+  void exchange(std::span<Exchange> with) override {
+    constexpr int tag = 1;
+    PetscLogEventBegin(exchange_, 0, 0, 0, 0);
+    std::vector<MPI_Request> sent(with.size());
+    for (std::size_t k = 0; k < with.size(); ++k) {
+      const std::span<const std::byte> out = with[k].out.bytes();
+      if (out.size() > INT_MAX) abandon("a message is larger than MPI can count");
+      MPI_Isend(out.data(), static_cast<int>(out.size()), MPI_BYTE, with[k].rank, tag,
+                PETSC_COMM_WORLD, &sent[k]);
+    }
+    for (Exchange& each : with) {
+      MPI_Status status;
+      int size = 0;
+      MPI_Probe(each.rank, tag, PETSC_COMM_WORLD, &status);
+      MPI_Get_count(&status, MPI_BYTE, &size);
+      std::vector<std::byte> in(static_cast<std::size_t>(size));
+      MPI_Recv(in.data(), size, MPI_BYTE, each.rank, tag, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
+      each.in = Parcel(std::move(in));
+    }
+    MPI_Waitall(static_cast<int>(sent.size()), sent.data(), MPI_STATUSES_IGNORE);
+    PetscLogEventEnd(exchange_, 0, 0, 0, 0);
+  }
+
   std::unique_ptr<GhostLayer> make_ghost_layer(Index particles, const Ghosts& ghosts,
                                                int width) override {
     return std::make_unique<PetscGhostLayer>(particles, ghosts, width);
@@ -141,6 +167,7 @@ class PetscRanks final : public Ranks {
   }
 
   int count_ = 1, own_ = 0;
+  PetscLogEvent exchange_ = 0;  ///< for -log_view
 };
 
 }  // namespace

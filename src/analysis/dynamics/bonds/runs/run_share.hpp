@@ -6,13 +6,14 @@
 
 #include "analysis/dynamics/bonds/moving_bonds.hpp"
 #include "analysis/dynamics/bonds/runs/bond_part.hpp"
+#include "analysis/dynamics/meetings.hpp"
 #include "solver/ranks.hpp"
 
 namespace perilink {
 
 /// How a rank takes part in a run of moving bonds: it moves its own blocks, and ranks know of each
-/// other's particles what their elements reach. Every few steps they meet: the first rank then
-/// takes the sums of all blocks, and what has broken, and tells the others whether to go on.
+/// other's particles what their elements reach. In meetings the first rank takes the sums of all
+/// blocks, and what has broken.
 class RunShare {
  public:
   /// \param unknowns  those of the particles that the rank numbers
@@ -28,19 +29,13 @@ class RunShare {
     layer_->update(motion.velocity);
   }
 
-  /// Once in every step: reactions of supports in the own blocks, which the first rank looks at
-  /// when they meet.
-  void note_supports(const MovingBonds& body);
-
- protected:
-  void forget_supports() {
-    supports_.clear();
-    steps_ = 0;
+  /// Once in every step.
+  void note_supports(const MovingBonds& body) {
+    meetings_.note_step(held_blocks_, [&](Index b) { return body.sums[b].supports; });
   }
 
-  Ranks& ranks_;
-  Index steps_ = 0;               ///< since they met last
-  std::vector<double> supports_;  ///< in these, shape (steps, blocks in which something is held)
+ protected:
+  Meetings meetings_;
 
  private:
   Index first_block_, past_block_;
@@ -61,11 +56,9 @@ class LeadingShare final : public RunShare {
   /// During a meeting. \param secants  of all elements; those of other ranks are overwritten
   void collect_secants(std::span<double> secants);
   /// Ends a meeting.
-  void tell(bool goes_on);
+  void tell(bool goes_on) { meetings_.tell(goes_on); }
 
  private:
-  static void add_supports(std::span<const double> of_rank, std::span<double> of_steps);
-
   BlockPartition partition_;
 };
 
