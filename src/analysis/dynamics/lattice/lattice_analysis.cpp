@@ -95,7 +95,7 @@ class ExplicitRun {
 
   /// Damage and flow, between stretches and forces; nothing in bodies that never change.
   auto changes(double dt) {
-    const Index reach = model_.lattice.reach;
+    const Index reach = model_.lattice.reach, flow = model_.material.yields ? reach : 0;
     const auto stage = [this](Index behind, Index ahead, const auto& work) {
       return RowStage{changes_ ? behind : 0, changes_ ? ahead : 0, [this, work](Index r) {
                         if (changes_) work(r);
@@ -104,8 +104,8 @@ class ExplicitRun {
     return std::tuple{
         stage(reach, reach, [this](Index r) { changes_->look(state_, r); }),
         stage(reach, reach, [this, dt](Index r) { changes_->commit(state_, r, dt); }),
-        stage(0, reach, [this](Index r) { changes_->update_plastic_bonds(state_, r); }),
-        stage(reach, 0, [this, dt](Index r) { changes_->update_plastic_sums(state_, r, dt); }),
+        stage(0, flow, [this](Index r) { changes_->update_plastic_bonds(state_, r); }),
+        stage(flow, 0, [this, dt](Index r) { changes_->update_plastic_sums(state_, r, dt); }),
         stage(0, reach, [this](Index r) { changes_->update_factors(state_, r); }),
         stage(reach, 0, [this, dt](Index r) { changes_->update_sums(state_, r, dt); })};
   }

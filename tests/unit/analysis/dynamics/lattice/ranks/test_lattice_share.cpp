@@ -93,6 +93,7 @@ TEST_P(SharedLatticeRuns, RanksChangeNothing) {
   const ExplicitModel model = changing_body(kind);
   ExplicitOptions options = short_run(model, 40);
   options.rows = 8;
+  const bool in_space = kind.problem == Problem::three_dimensional;
   for (const std::size_t stop_after : {100, 3}) {
     const Outcome alone = run(model, options, stop_after);
     const ExplicitRecord& last = alone.watcher.rows.back();
@@ -108,7 +109,7 @@ TEST_P(SharedLatticeRuns, RanksChangeNothing) {
             shared.ranks = &ranks;
             const Outcome found = run(model, shared, stop_after);
             dismiss(ranks);
-            EXPECT_EQ(found.result.ranks, count);
+            EXPECT_EQ(found.result.ranks, in_space && model.alters() ? 2 : count) << "of many rows";
             expect_the_same(found, alone, model);
           },
           serve);
