@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <exception>
-#include <memory>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,15 +23,6 @@ struct Ghosts {
   std::vector<Index> places;   ///< number of each among the particles that this rank knows
   std::vector<int> owners;     ///< rank that owns it
   std::vector<Index> numbers;  ///< its number among the particles that this rank knows
-};
-
-/// Brings the motion of ghosts up to date.
-class GhostLayer {
- public:
-  virtual ~GhostLayer() = default;
-  /// Collective. \param motion  of the particles that the rank knows, shape (particles, width):
-  ///                            those of ghosts are overwritten
-  virtual void update(std::span<double> motion) = 0;
 };
 
 /// What goes to a rank and what comes from it.
@@ -57,11 +48,6 @@ class Ranks {
   /// One message each way, with ranks that do the same.
   virtual void exchange(std::span<Exchange> with) = 0;
 
-  /// Collective. \param particles  that this rank knows, its own and ghosts
-  /// \param width  components of the motion of a particle
-  virtual std::unique_ptr<GhostLayer> make_ghost_layer(Index particles, const Ghosts& ghosts,
-                                                       int width) = 0;
-
   /// Collective: perilink::conjugate_gradients() of a system whose unknowns the ranks share out;
   /// vectors are the own parts, and so are those that both maps are given.
   virtual GradientsReport conjugate_gradients(const LinearMap& product,
@@ -72,6 +58,28 @@ class Ranks {
 
   /// Ends all ranks at once: others may be waiting for this one.
   [[noreturn]] virtual void abandon(const std::string& reason) = 0;
+};
+
+/// Brings what ranks know of each other's particles up to date.
+class GhostLayer {
+ public:
+  /// Collective. \param ranks  have to outlive this
+  GhostLayer(Ranks& ranks, const Ghosts& ghosts);
+
+  /// Collective: one message to each neighbour. \param width  numbers of a particle in a field
+  /// \param fields  of the particles that the rank knows, shape (particles, width): those of ghosts
+  ///                are overwritten
+  void update(int width, std::initializer_list<std::span<double>> fields);
+
+ private:
+  /// Particles that a neighbour has to know, and its own ones that are ghosts here.
+  struct Border {
+    std::vector<Index> out, in;
+  };
+
+  Ranks& ranks_;
+  std::vector<Border> borders_;
+  std::vector<Exchange> messages_;  ///< one for each border
 };
 
 /// What the first rank does for all: what goes wrong in it alone ends all ranks, which else would

@@ -1,7 +1,6 @@
 #include "solver/ranks/petsc_ranks.hpp"
 
 #include <petscksp.h>
-#include <petscsf.h>
 
 #include <algorithm>
 #include <chrono>
@@ -19,41 +18,6 @@ namespace {
 
 /// MPI counts in int.
 constexpr std::size_t largest_message = 1 << 30;
-
-class PetscGhostLayer final : public GhostLayer {
- public:
-  PetscGhostLayer(Index particles, const Ghosts& ghosts, int width) {
-    const PetscInt count = static_cast<PetscInt>(ghosts.owners.size());
-    std::vector<PetscInt> places(ghosts.places.begin(), ghosts.places.end());
-    std::vector<PetscSFNode> owners(ghosts.owners.size());
-    for (std::size_t g = 0; g < owners.size(); ++g) {
-      owners[g] = {ghosts.owners[g], ghosts.numbers[g]};
-    }
-    PetscCallAbort(PETSC_COMM_WORLD, PetscSFCreate(PETSC_COMM_WORLD, &forest_));
-    PetscCallAbort(PETSC_COMM_WORLD,
-                   PetscSFSetGraph(forest_, particles, count, places.data(), PETSC_COPY_VALUES,
-                                   owners.data(), PETSC_COPY_VALUES));
-    PetscCallAbort(PETSC_COMM_WORLD, PetscSFSetUp(forest_));
-    MPI_Type_contiguous(width, MPI_DOUBLE, &particle_);
-    MPI_Type_commit(&particle_);
-  }
-  ~PetscGhostLayer() override {
-    MPI_Type_free(&particle_);
-    PetscSFDestroy(&forest_);
-  }
-  PetscGhostLayer(const PetscGhostLayer&) = delete;
-  PetscGhostLayer& operator=(const PetscGhostLayer&) = delete;
-
-  void update(std::span<double> motion) override {
-    double* const all = motion.data();
-    PetscCallAbort(PETSC_COMM_WORLD, PetscSFBcastBegin(forest_, particle_, all, all, MPI_REPLACE));
-    PetscCallAbort(PETSC_COMM_WORLD, PetscSFBcastEnd(forest_, particle_, all, all, MPI_REPLACE));
-  }
-
- private:
-  PetscSF forest_ = nullptr;
-  MPI_Datatype particle_ = MPI_DATATYPE_NULL;
-};
 
 class PetscRanks final : public Ranks {
  public:
@@ -131,11 +95,6 @@ class PetscRanks final : public Ranks {
     }
     MPI_Waitall(static_cast<int>(sent.size()), sent.data(), MPI_STATUSES_IGNORE);
     PetscLogEventEnd(exchange_, 0, 0, 0, 0);
-  }
-
-  std::unique_ptr<GhostLayer> make_ghost_layer(Index particles, const Ghosts& ghosts,
-                                               int width) override {
-    return std::make_unique<PetscGhostLayer>(particles, ghosts, width);
   }
 
   GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,

@@ -17,9 +17,11 @@ std::vector<double> own_slots(const ParticleBlocks& blocks, Index first_block, I
 
 RunShare::RunShare(Ranks& ranks, const Unknowns& unknowns, const ParticleBlocks& blocks,
                    Index first_block, Index past_block, const Ghosts& ghosts)
-    : meetings_(ranks, ranks.count()), first_block_(first_block), past_block_(past_block) {
-  const auto particles = static_cast<Index>(unknowns.number.size() / unknowns.width);
-  layer_ = ranks.make_ghost_layer(particles, ghosts, unknowns.width);
+    : meetings_(ranks, ranks.count()),
+      first_block_(first_block),
+      past_block_(past_block),
+      width_(unknowns.width),
+      layer_(ranks, ghosts) {
   for (Index b = first_block; b < past_block; ++b) {
     bool is_held = false;
     blocks.for_slots(b, [&](std::size_t slot) { is_held |= unknowns.number[slot] == no_index; });

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -25,8 +24,7 @@ class RunShare {
 
   /// Collective. Bonds that break need the velocities, too.
   void update_ghosts(BondMotion& motion) {
-    layer_->update(motion.displacement);
-    layer_->update(motion.velocity);
+    layer_.update(width_, {motion.displacement, motion.velocity});
   }
 
   /// Once in every step.
@@ -40,7 +38,8 @@ class RunShare {
  private:
   Index first_block_, past_block_;
   std::vector<Index> held_blocks_;
-  std::unique_ptr<GhostLayer> layer_;
+  int width_;
+  GhostLayer layer_;
 };
 
 /// The first rank's share. Its numbers are those of the whole body.
