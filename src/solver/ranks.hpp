@@ -67,8 +67,7 @@ class GhostLayer {
   GhostLayer(Ranks& ranks, const Ghosts& ghosts);
 
   /// Collective: one message to each neighbour. \param width  numbers of a particle in a field
-  /// \param fields  of the particles that the rank knows, shape (particles, width): those of ghosts
-  ///                are overwritten
+  /// \param fields  shape (particles that the rank knows, width): those of ghosts are overwritten
   void update(int width, std::initializer_list<std::span<double>> fields);
 
  private:

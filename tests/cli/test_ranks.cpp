@@ -277,18 +277,19 @@ TEST_P(RankKills, EndAllTogether) {
   EXPECT_EQ(summary(out).at("status"), "running");
 }
 
-class RankStops : public RankFolder, public testing::WithParamInterface<std::string> {};
+/// Cases are named by the words of the signal.
+class RankStops : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
 /// mpiexec of Open MPI makes SIGTERM to all ranks of what stops it, and kills them a second later.
 /// Given more, on a busy machine, the first ends its run in good order, and the others go along.
 TEST_P(RankStops, KeepWhatTheyFound) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
-  write_text(work() / "c.toml", prolonged(explicit_case("", "")));
+  write_text(work() / "c.toml", GetParam().text);
   const std::string out = "stopped_" + std::to_string(getpid()), words = "run c.toml --out " + out;
   std::thread stopper([&] {
     const std::string command = "cd '" + work().string() + "'; for k in $(seq 600); do [ $(cat " +
                                 out + "/history.csv 2>/dev/null | wc -l) -ge 3 ] && break; " +
-                                "sleep 0.05; done; pkill " + GetParam() + words + "$'";
+                                "sleep 0.05; done; pkill " + GetParam().name + words + "$'";
     EXPECT_EQ(std::system(command.c_str()), 0) << "no process was stopped";
   });
   setenv("OMPI_MCA_odls_base_sigkill_timeout", "4", 1);
@@ -336,11 +337,12 @@ TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
 }
 
 // mpiexec, which is the oldest, or all ranks.
-INSTANTIATE_TEST_SUITE_P(Processes, RankStops,
-                         testing::Values("-TERM -o -f '", "-TERM -f '^[^ ]*perilink "),
-                         [](const auto& instance) {
-                           return instance.index == 0 ? "Mpiexec" : "All";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Processes, RankStops,
+    testing::Values(RankCase{"-TERM -o -f '", prolonged(explicit_case("", ""))},
+                    RankCase{"-TERM -f '^[^ ]*perilink ",
+                             prolonged(lattice_case(false, 0.25, cracking))}),
+    [](const auto& instance) { return instance.index == 0 ? "Mpiexec" : "All"; });
 
 // Each has some seconds of work.
 INSTANTIATE_TEST_SUITE_P(

@@ -116,7 +116,7 @@ inline ExplicitModel changing_body(const LatticeKind& kind) {
   return perforated(kind.problem, kind.rules, material);
 }
 
-/// Of that body; moves are asked for three times.
+/// So many steps, with three rows.
 inline ExplicitOptions short_run(const ExplicitModel& model, Index steps) {
   ExplicitOptions options;
   options.time_step = 0.9 * critical_time_step(model);

@@ -28,7 +28,7 @@ struct RowPart {
 /// others.
 class RowPartition {
  public:
-  /// \param reach  of all stages of a step
+  /// \param reach  that all stages of a step have together
   /// \param ranks  how many there are: fewer take part, or one alone, where rows are too few for
   ///               each to have as many of its own as it would have from others
   RowPartition(const LatticeRows& lattice, const SweepReach& reach, int ranks);

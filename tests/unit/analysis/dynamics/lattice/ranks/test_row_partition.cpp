@@ -18,7 +18,7 @@ ExplicitModel plate() {
   return changing_body({Problem::plane_stress, LatticeRules::consistent, true, true});
 }
 
-/// Of stages that need three rows before them and two after.
+/// Stages that need three rows before them and two after.
 constexpr SweepReach reach{2, 3, 1};
 
 TEST(RowPartition, SharesOutAllRowsAndTellsNeighboursOfTheSame) {
