@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 std::unique_ptr<EventEngine> engine_for(const AnalysisBody& body,
-                                         FactorRoute route = FactorRoute::in_place) {
+                                        FactorRoute route = FactorRoute::in_place) {
   EquilibriumOptions options;
   options.route = route;
   return make_event_engine(body, options);
