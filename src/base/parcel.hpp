@@ -15,6 +15,11 @@ class Parcel {
  public:
   Parcel() = default;
   explicit Parcel(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+  /// For other values, in the same memory.
+  void clear() {
+    bytes_.clear();
+    next_ = 0;
+  }
 
   template <class T>
   void put(const T& value) {
@@ -26,6 +31,13 @@ class Parcel {
     static_assert(std::is_trivially_copyable_v<T>);
     put(values.size());
     put_bytes(values.data(), values.size() * sizeof(T));
+  }
+
+  /// As many as the receiver knows that there are.
+  template <class T>
+  void put_values(std::span<const T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put_bytes(values.data(), values.size_bytes());
   }
 
   template <class T>
@@ -44,14 +56,17 @@ class Parcel {
     get_bytes(values.data(), values.size() * sizeof(T));
   }
 
+  template <class T>
+  void get_values(std::span<T> values) {
+    get_bytes(values.data(), values.size_bytes());
+  }
+
   std::span<const std::byte> bytes() const { return bytes_; }
 
  private:
   void put_bytes(const void* from, std::size_t count) {
-    if (count == 0) return;
-    const std::size_t end = bytes_.size();
-    bytes_.resize(end + count);
-    std::memcpy(bytes_.data() + end, from, count);
+    const auto* const first = static_cast<const std::byte*>(from);
+    bytes_.insert(bytes_.end(), first, first + count);
   }
   void get_bytes(void* to, std::size_t count) {
     if (count == 0) return;

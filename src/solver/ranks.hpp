@@ -2,20 +2,21 @@
 
 #include <cstddef>
 #include <exception>
-#include <memory>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/parcel.hpp"
 #include "base/types.hpp"
 #include "solver/conjugate_gradients.hpp"
 
 namespace perilink {
 
 /// What the first rank asks the others for, the first word of every order.
-enum class Service : int { end, solve, move_bonds, show_fields };
+enum class Service : int { end, solve, move_bonds, move_rows, show_fields };
 
 /// Particles that other ranks own and this one needs to know the motion of.
 struct Ghosts {
@@ -24,13 +25,10 @@ struct Ghosts {
   std::vector<Index> numbers;  ///< its number among the particles that this rank knows
 };
 
-/// Brings the motion of ghosts up to date.
-class GhostLayer {
- public:
-  virtual ~GhostLayer() = default;
-  /// Collective. \param motion  of the particles that the rank knows, shape (particles, width):
-  ///                            those of ghosts are overwritten
-  virtual void update(std::span<double> motion) = 0;
+/// What goes to a rank and what comes from it.
+struct Exchange {
+  int rank = 0;
+  Parcel out, in;
 };
 
 /// Processes that work on one body, each on its part of the particles. The first leads: it knows
@@ -47,11 +45,8 @@ class Ranks {
 
   virtual void send(int to, std::span<const std::byte> message) = 0;
   virtual std::vector<std::byte> receive(int from) = 0;
-
-  /// Collective. \param particles  that this rank knows, its own and ghosts
-  /// \param width  components of the motion of a particle
-  virtual std::unique_ptr<GhostLayer> make_ghost_layer(Index particles, const Ghosts& ghosts,
-                                                       int width) = 0;
+  /// One message each way, with ranks that do the same.
+  virtual void exchange(std::span<Exchange> with) = 0;
 
   /// Collective: perilink::conjugate_gradients() of a system whose unknowns the ranks share out;
   /// vectors are the own parts, and so are those that both maps are given.
@@ -63,6 +58,27 @@ class Ranks {
 
   /// Ends all ranks at once: others may be waiting for this one.
   [[noreturn]] virtual void abandon(const std::string& reason) = 0;
+};
+
+/// Brings what ranks know of each other's particles up to date.
+class GhostLayer {
+ public:
+  /// Collective. \param ranks  have to outlive this
+  GhostLayer(Ranks& ranks, const Ghosts& ghosts);
+
+  /// Collective: one message to each neighbour. \param width  numbers of a particle in a field
+  /// \param fields  shape (particles that the rank knows, width): those of ghosts are overwritten
+  void update(int width, std::initializer_list<std::span<double>> fields);
+
+ private:
+  /// Particles that a neighbour has to know, and its own ones that are ghosts here.
+  struct Border {
+    std::vector<Index> out, in;
+  };
+
+  Ranks& ranks_;
+  std::vector<Border> borders_;
+  std::vector<Exchange> messages_;  ///< one for each border
 };
 
 /// What the first rank does for all: what goes wrong in it alone ends all ranks, which else would

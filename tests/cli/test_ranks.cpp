@@ -37,10 +37,56 @@ std::string explicit_case(const std::string& body, const std::string& law) {
   return replaced(text, "fracture_energy", "density = 1e-3\nfracture_energy");
 }
 
+/// A bar of lattice particles, held at one end and driven at the other.
+std::string lattice_case(bool in_space, double spacing, const std::string& material) {
+  const std::string depth = in_space ? "z = [0, 5]\n" : "";
+  const auto region = [&](const char* name, const char* along) {
+    return fmt::format("[[regions]]\nname = \"{}\"\nx = {}\ny = [0, 5]\n{}\n", name, along, depth);
+  };
+  return fmt::format(R"([body]
+problem = "{}"
+model = "lattice"
+spacing = {}
+rotation = 90
+
+{}{}{}[[materials]]
+region = "bar"
+youngs_modulus = 30e3
+poissons_ratio = 0.2
+density = 1e-3
+internal_damping = 0.1
+{}
+[[supports]]
+region = "left"
+fix = ["x", "y"]
+
+[[displacements]]
+region = "right"
+x = 0.01
+
+[analysis]
+type = "explicit"
+duration = 0.02
+ramp_time = 0.01
+rows = 30
+
+[output]
+fields_times = [0.007]
+)",
+                     in_space ? "three_dimensional" : "plane_strain", spacing,
+                     region("bar", "[0, 20]"), region("left", "[0, 1]"),
+                     region("right", "[19, 20]"), material);
+}
+
+const std::string cracking = "tensile_strength = 3\nfracture_energy = 0.01\n";
+const std::string flowing =
+    "yield_strength = 4\nultimate_strength = 5\nultimate_plastic_strain = 0.01\n"
+    "crushing_energy = \"infinite\"\n";
+const std::string unbreakable = "fracture_energy = \"infinite\"\n";
+
 /// With some seconds of work.
-std::string long_explicit_case() {
-  const std::string text = replaced(explicit_case("", ""), "duration = 0.02", "duration = 5");
-  return replaced(text, "rows = 30", "rows = 30000");
+std::string prolonged(const std::string& text) {
+  return replaced(replaced(text, "duration = 0.02", "duration = 5"), "rows = 30", "rows = 30000");
 }
 
 const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
@@ -78,7 +124,7 @@ TEST_P(ExplicitRankRuns, WriteTheSameBytes) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
   write_text(work() / "c.toml", GetParam().text);
   ASSERT_EQ(run_program(work(), {"run", "c.toml", "--out", "r1"}).exit_status, 0);
-  EXPECT_GT(summary("r1").at("broken_bonds"), 20);
+  EXPECT_GT(summary("r1").at(GetParam().many), 20);
   for (const int count : {2, 4}) {
     const std::string directory = "r" + std::to_string(count);
     const ProcessEnd end = run_ranks(count, "run c.toml --out " + directory);
@@ -132,18 +178,19 @@ TEST_P(RankKills, EndAllTogether) {
   EXPECT_EQ(summary(out).at("status"), "running");
 }
 
-class RankStops : public RankFolder, public testing::WithParamInterface<std::string> {};
+/// Cases are named by the words of the signal.
+class RankStops : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
 /// mpiexec of Open MPI makes SIGTERM to all ranks of what stops it, and kills them a second later.
 /// Given more, on a busy machine, the first ends its run in good order, and the others go along.
 TEST_P(RankStops, KeepWhatTheyFound) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
-  write_text(work() / "c.toml", long_explicit_case());
+  write_text(work() / "c.toml", GetParam().text);
   const std::string out = "stopped_" + std::to_string(getpid()), words = "run c.toml --out " + out;
   std::thread stopper([&] {
     const std::string command = "cd '" + work().string() + "'; for k in $(seq 600); do [ $(cat " +
                                 out + "/history.csv 2>/dev/null | wc -l) -ge 3 ] && break; " +
-                                "sleep 0.05; done; pkill " + GetParam() + words + "$'";
+                                "sleep 0.05; done; pkill " + GetParam().name + words + "$'";
     EXPECT_EQ(std::system(command.c_str()), 0) << "no process was stopped";
   });
   setenv("OMPI_MCA_odls_base_sigkill_timeout", "4", 1);
@@ -197,11 +244,12 @@ TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
 }
 
 // mpiexec, which is the oldest, or all ranks.
-INSTANTIATE_TEST_SUITE_P(Processes, RankStops,
-                         testing::Values("-TERM -o -f '", "-TERM -f '^[^ ]*perilink "),
-                         [](const auto& instance) {
-                           return instance.index == 0 ? "Mpiexec" : "All";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Processes, RankStops,
+    testing::Values(RankCase{"-TERM -o -f '", prolonged(explicit_case("", ""))},
+                    RankCase{"-TERM -f '^[^ ]*perilink ",
+                             prolonged(lattice_case(false, 0.25, cracking))}),
+    [](const auto& instance) { return instance.index == 0 ? "Mpiexec" : "All"; });
 
 // Each has some seconds of work.
 INSTANTIATE_TEST_SUITE_P(
@@ -210,7 +258,8 @@ INSTANTIATE_TEST_SUITE_P(
                              replaced(bar_case(true, ""), "spacing = 1", "spacing = 0.3")},
                     RankCase{"Damage", replaced(breaking_case(true, "", "", ""), "spacing = 1",
                                                 "spacing = 0.5")},
-                    RankCase{"Explicit", long_explicit_case()}),
+                    RankCase{"Explicit", prolonged(explicit_case("", ""))},
+                    RankCase{"Lattice", prolonged(lattice_case(false, 0.25, cracking))}),
     [](const auto& instance) { return instance.param.name; });
 
 // The 40 501 particles of the second leave no room below some 670 MB once their parts are cut.
@@ -224,13 +273,17 @@ INSTANTIATE_TEST_SUITE_P(
                           "strain = \"green\"\nduration = 5e-4\nramp_time = 2e-4")}),
     [](const auto& instance) { return instance.param.name; });
 
-INSTANTIATE_TEST_SUITE_P(Bodies, ExplicitRankRuns,
-                         testing::Values(RankCase{"Brittle", explicit_case("", "")},
-                                         RankCase{"Softening", explicit_case("", softening)},
-                                         RankCase{"OnSprings", explicit_case("", "") + springs},
-                                         RankCase{"Micropolar",
-                                                  explicit_case("model = \"micropolar\"\n", "")}),
-                         [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, ExplicitRankRuns,
+    testing::Values(RankCase{"Brittle", explicit_case("", "")},
+                    RankCase{"Softening", explicit_case("", softening)},
+                    RankCase{"OnSprings", explicit_case("", "") + springs},
+                    RankCase{"Micropolar", explicit_case("model = \"micropolar\"\n", "")},
+                    RankCase{"Lattice", lattice_case(false, 0.25, cracking), "cracked_particles"},
+                    RankCase{"FlowingLattice", lattice_case(false, 0.25, unbreakable + flowing),
+                             "yielded_particles"},
+                    RankCase{"LatticeInSpace", lattice_case(true, 0.6, unbreakable), "steps"}),
+    [](const auto& instance) { return instance.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, RankRuns,

@@ -18,6 +18,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/commands/converge_command.cpp", "a command: tests/cli runs the program"},
       {"app/commands/run_command.cpp", "a command: tests/cli runs the program"},
       {"analysis/dynamics/bonds/runs/run_share.cpp", "a part of runs: test_bond_analysis.cpp"},
+      {"analysis/dynamics/meetings.cpp", "a part of shares: test_lattice_share.cpp"},
       {"analysis/quasistatic/ranks/part_solver.cpp", "a part of a team: test_team.cpp"},
       {"app/main.cpp", "only starts the program; tests/cli runs it"},
       {"app/memory_at_start.cpp", "runs before main: tests/cli/test_memory.cpp"},

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
-#include "analysis/dynamics/lattice/body/lattice_body.hpp"
+#include "analysis/dynamics/explicit_run.hpp"
+#include "analysis/dynamics/lattice/body/lattice_state.hpp"
 
 /// \file
 /// Small lattice bodies for tests of explicit runs.
@@ -68,6 +71,59 @@ inline void grip_ends(ExplicitModel& model, double depth, double amplitude) {
     if (y >= high - depth) motions.push_back({slot, 1, amplitude});
   }
   prescribe(model, motions);
+}
+
+/// Velocities without any pattern, so that every mode moves.
+inline void shake_velocities(const ExplicitModel& model, ExplicitState& state) {
+  for (const Index slot : model.lattice.particle_slot) {
+    state.velocity[slot] = 1e-3 * std::sin(12.9898 * slot);
+    state.velocity[model.lattice.at(1, slot)] = 1e-3 * std::cos(7.31 * slot);
+  }
+}
+
+/// A plate or a block, both with a hole and driven at one end.
+inline ExplicitModel perforated(Problem problem, LatticeRules rules,
+                                const LatticeMaterial& material) {
+  const bool space = problem == Problem::three_dimensional;
+  const double half = space ? 0.1 : 0.5;
+  LatticeCut cut = rectangle(half, half, 0.01, 17.0, 1.0);
+  cut.lower[2] = -half;
+  cut.upper[2] = half;
+  cut.inside = [half](const Vector3& x) {
+    return std::hypot(x[0] - 0.2 * half, x[1]) > 0.3 * half;
+  };
+  LatticeRows lattice = space ? face_centred_rows(cut) : hexagonal_rows(cut);
+  ExplicitModel model =
+      make_explicit_model(problem, rules, std::move(lattice), material, cut.thickness);
+  grip_ends(model, 0.01, 1e-6);
+  return model;
+}
+
+struct LatticeKind {
+  Problem problem;
+  LatticeRules rules;
+  bool breakable, yields;
+};
+
+/// One in which some particles crack and flow at once, where they can.
+inline ExplicitModel changing_body(const LatticeKind& kind) {
+  LatticeMaterial material = paper_concrete();
+  material.breakable = kind.breakable;
+  material.yields = kind.yields;
+  material.softening.strength = 2.62e3;
+  material.yielding = {6e3, 9e3, 1e-3, 0.0};
+  material.crushing_energy = std::numeric_limits<double>::infinity();
+  return perforated(kind.problem, kind.rules, material);
+}
+
+/// So many steps, with three rows.
+inline ExplicitOptions short_run(const ExplicitModel& model, Index steps) {
+  ExplicitOptions options;
+  options.time_step = 0.9 * critical_time_step(model);
+  options.duration = (steps - 0.5) * options.time_step;
+  options.ramp = 0.5 * options.duration;
+  options.rows = 3;
+  return options;
 }
 
 }  // namespace perilink::testing_support

@@ -24,10 +24,9 @@ class ThreadRanks final : public Ranks {
   /// What they share.
   class World {
    public:
-    explicit World(int size) : count(size), meeting(size), motions(size), values(size) {}
+    explicit World(int size) : count(size), meeting(size), values(size) {}
     const int count;
     std::barrier<> meeting;
-    std::vector<std::span<double>> motions;   // by rank, while ghosts are updated
     std::vector<std::vector<double>> values;  // by rank, while sums are taken
     std::mutex mutex;
     std::condition_variable arrived;
@@ -63,8 +62,9 @@ class ThreadRanks final : public Ranks {
     return message;
   }
 
-  std::unique_ptr<GhostLayer> make_ghost_layer(Index, const Ghosts& ghosts, int width) override {
-    return std::make_unique<Layer>(*this, ghosts, width);
+  void exchange(std::span<Exchange> with) override {
+    for (const Exchange& each : with) send(each.rank, each.out.bytes());
+    for (Exchange& each : with) each.in = Parcel(receive(each.rank));
   }
 
   GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
@@ -84,29 +84,6 @@ class ThreadRanks final : public Ranks {
   }
 
  private:
-  class Layer final : public GhostLayer {
-   public:
-    Layer(ThreadRanks& ranks, Ghosts ghosts, int width)
-        : ranks_(ranks), ghosts_(std::move(ghosts)), width_(width) {}
-    void update(std::span<double> motion) override {
-      World& world = ranks_.world_;
-      world.motions[ranks_.own_] = motion;
-      world.meeting.arrive_and_wait();
-      for (std::size_t g = 0; g < ghosts_.owners.size(); ++g) {
-        const double* from = world.motions[ghosts_.owners[g]].data() +
-                             static_cast<std::size_t>(ghosts_.numbers[g]) * width_;
-        std::copy_n(from, width_,
-                    motion.data() + static_cast<std::size_t>(ghosts_.places[g]) * width_);
-      }
-      world.meeting.arrive_and_wait();
-    }
-
-   private:
-    ThreadRanks& ranks_;
-    Ghosts ghosts_;
-    int width_;
-  };
-
   World& world_;
   int own_;
 };

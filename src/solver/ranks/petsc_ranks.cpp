@@ -1,7 +1,6 @@
 #include "solver/ranks/petsc_ranks.hpp"
 
 #include <petscksp.h>
-#include <petscsf.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
+#include <utility>
 
 #include "base/error.hpp"
 #include "solver/ranks/petsc_gradients.hpp"
@@ -18,41 +18,6 @@ namespace {
 
 /// MPI counts in int.
 constexpr std::size_t largest_message = 1 << 30;
-
-class PetscGhostLayer final : public GhostLayer {
- public:
-  PetscGhostLayer(Index particles, const Ghosts& ghosts, int width) {
-    const PetscInt count = static_cast<PetscInt>(ghosts.owners.size());
-    std::vector<PetscInt> places(ghosts.places.begin(), ghosts.places.end());
-    std::vector<PetscSFNode> owners(ghosts.owners.size());
-    for (std::size_t g = 0; g < owners.size(); ++g) {
-      owners[g] = {ghosts.owners[g], ghosts.numbers[g]};
-    }
-    PetscCallAbort(PETSC_COMM_WORLD, PetscSFCreate(PETSC_COMM_WORLD, &forest_));
-    PetscCallAbort(PETSC_COMM_WORLD,
-                   PetscSFSetGraph(forest_, particles, count, places.data(), PETSC_COPY_VALUES,
-                                   owners.data(), PETSC_COPY_VALUES));
-    PetscCallAbort(PETSC_COMM_WORLD, PetscSFSetUp(forest_));
-    MPI_Type_contiguous(width, MPI_DOUBLE, &particle_);
-    MPI_Type_commit(&particle_);
-  }
-  ~PetscGhostLayer() override {
-    MPI_Type_free(&particle_);
-    PetscSFDestroy(&forest_);
-  }
-  PetscGhostLayer(const PetscGhostLayer&) = delete;
-  PetscGhostLayer& operator=(const PetscGhostLayer&) = delete;
-
-  void update(std::span<double> motion) override {
-    double* const all = motion.data();
-    PetscCallAbort(PETSC_COMM_WORLD, PetscSFBcastBegin(forest_, particle_, all, all, MPI_REPLACE));
-    PetscCallAbort(PETSC_COMM_WORLD, PetscSFBcastEnd(forest_, particle_, all, all, MPI_REPLACE));
-  }
-
- private:
-  PetscSF forest_ = nullptr;
-  MPI_Datatype particle_ = MPI_DATATYPE_NULL;
-};
 
 class PetscRanks final : public Ranks {
  public:
@@ -69,6 +34,8 @@ class PetscRanks final : public Ranks {
     PetscCallAbort(PETSC_COMM_WORLD, PetscPopSignalHandler());  // the program has its own
     MPI_Comm_size(PETSC_COMM_WORLD, &count_);
     MPI_Comm_rank(PETSC_COMM_WORLD, &own_);
+    PetscCallAbort(PETSC_COMM_WORLD,
+                   PetscLogEventRegister("Exchange", PETSC_OBJECT_CLASSID, &exchange_));
   }
   ~PetscRanks() override { PetscFinalize(); }
   PetscRanks(const PetscRanks&) = delete;
@@ -107,9 +74,27 @@ class PetscRanks final : public Ranks {
     return message;
   }
 
-  std::unique_ptr<GhostLayer> make_ghost_layer(Index particles, const Ghosts& ghosts,
-                                               int width) override {
-    return std::make_unique<PetscGhostLayer>(particles, ghosts, width);
+  void exchange(std::span<Exchange> with) override {
+    constexpr int tag = 1;
+    PetscLogEventBegin(exchange_, 0, 0, 0, 0);
+    std::vector<MPI_Request> sent(with.size());
+    for (std::size_t k = 0; k < with.size(); ++k) {
+      const std::span<const std::byte> out = with[k].out.bytes();
+      if (out.size() > INT_MAX) abandon("a message is larger than MPI can count");
+      MPI_Isend(out.data(), static_cast<int>(out.size()), MPI_BYTE, with[k].rank, tag,
+                PETSC_COMM_WORLD, &sent[k]);
+    }
+    for (Exchange& each : with) {
+      MPI_Status status;
+      int size = 0;
+      MPI_Probe(each.rank, tag, PETSC_COMM_WORLD, &status);
+      MPI_Get_count(&status, MPI_BYTE, &size);
+      std::vector<std::byte> in(static_cast<std::size_t>(size));
+      MPI_Recv(in.data(), size, MPI_BYTE, each.rank, tag, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
+      each.in = Parcel(std::move(in));
+    }
+    MPI_Waitall(static_cast<int>(sent.size()), sent.data(), MPI_STATUSES_IGNORE);
+    PetscLogEventEnd(exchange_, 0, 0, 0, 0);
   }
 
   GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
@@ -141,6 +126,7 @@ class PetscRanks final : public Ranks {
   }
 
   int count_ = 1, own_ = 0;
+  PetscLogEvent exchange_ = 0;  ///< for -log_view
 };
 
 }  // namespace

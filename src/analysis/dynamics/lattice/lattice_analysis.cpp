@@ -13,6 +13,8 @@
 
 #include "analysis/dynamics/lattice/body/lattice_loads.hpp"
 #include "analysis/dynamics/lattice/lattice_changes.hpp"
+#include "analysis/dynamics/lattice/ranks/lattice_share.hpp"
+#include "analysis/dynamics/lattice/ranks/row_partition.hpp"
 #include "analysis/dynamics/lattice/rows/row_energy.hpp"
 #include "analysis/dynamics/lattice/rows/row_kernels.hpp"
 #include "analysis/dynamics/lattice/rows/row_sweep.hpp"
@@ -23,46 +25,77 @@ namespace {
 
 constexpr Index particles_per_thread = 4000;
 
-Index yielded_particles(const ExplicitState& state) {
-  const LatticeFlow& flow = state.flow;
-  if (flow.stretch.empty()) return 0;
-  const std::size_t slots = state.damage.size();
-  Index count = 0;
-  for (std::size_t slot = 0; slot < slots; ++slot) {
+/// The numbers of a row that steps which are looked at have.
+void measure_row(const ExplicitModel& model, ExplicitState& state, Index r, double dt) {
+  RowSums& sums = state.sums[r];
+  sums.stored = half_step_energy(model, state, r, dt);
+  sums.kinetic = kinetic_energy(model, state, r);
+  sums.cracked = sums.yielded = 0;
+  const LatticeRow& row = model.lattice.rows[r];
+  const std::vector<double>& stretch = state.flow.stretch;
+  for (Index slot = row.first; slot < row.first + row.size; ++slot) {
+    sums.cracked += state.damage[slot] > 0.0 ? 1 : 0;
     bool yielded = false;
-    for (std::size_t at = slot; at < flow.stretch.size() && !yielded; at += slots) {
-      yielded = flow.stretch[at] != 0.0;
+    for (std::size_t at = slot; at < stretch.size() && !yielded; at += state.damage.size()) {
+      yielded = stretch[at] != 0.0;
     }
-    count += yielded ? 1 : 0;
+    sums.yielded += yielded ? 1 : 0;
   }
-  return count;
+}
+
+EnergyBalance energy_balance(const std::vector<RowSums>& rows) {
+  EnergyBalance energy;
+  for (const RowSums& row : rows) {
+    energy.kinetic += row.kinetic;
+    energy.stored += row.stored;
+    energy.internal_damping += row.internal_damping;
+    energy.external_damping += row.external_damping;
+    energy.fractured += row.fractured;
+    energy.plastic += row.plastic;
+    energy.external_work += row.external_work;
+  }
+  return energy;
 }
 
 class ExplicitRun {
  public:
   ExplicitRun(const ExplicitModel& model, ExplicitState& state, const ExplicitOptions& options,
-              ExplicitObserver& observer)
+              double critical, ExplicitObserver& observer)
       : model_(model),
         state_(state),
         options_(options),
         observer_(observer),
-        rows_(static_cast<Index>(model.lattice.rows.size())),
-        loop_(options, critical_time_step(model)) {
+        own_{0, static_cast<Index>(model.lattice.rows.size())},
+        swept_{0, own_.end},
+        loop_(options, critical) {
     if (model.alters()) changes_.emplace(model);
   }
 
   ExplicitResult run() {
     // Three barriers per step: a thread pays only with enough particles of its own.
     const Index useful = std::max<Index>(1, model_.lattice.particles() / particles_per_thread);
-    const Index threads = std::min<Index>(options_.threads, useful);
+    return run_on(std::min<Index>(options_.threads, useful));
+  }
+
+  /// Together with other ranks.
+  ExplicitResult run(LatticeShare& share) {
+    share_ = &share;
+    own_ = share.part().own;
+    swept_ = share.part().swept;
+    run_on(1);
+    share.leads() ? look_back() : share.report(state_);
+    return loop_.result();
+  }
+
+ private:
+  ExplicitResult run_on(Index threads) {
     prepare_passing(threads);
     return loop_.run(threads, [this](Index step) { one_step(step); });
   }
 
- private:
   /// Damage and flow, between stretches and forces; nothing in bodies that never change.
   auto changes(double dt) {
-    const Index reach = model_.lattice.reach;
+    const Index reach = model_.lattice.reach, flow = model_.material.yields ? reach : 0;
     const auto stage = [this](Index behind, Index ahead, const auto& work) {
       return RowStage{changes_ ? behind : 0, changes_ ? ahead : 0, [this, work](Index r) {
                         if (changes_) work(r);
@@ -71,8 +104,8 @@ class ExplicitRun {
     return std::tuple{
         stage(reach, reach, [this](Index r) { changes_->look(state_, r); }),
         stage(reach, reach, [this, dt](Index r) { changes_->commit(state_, r, dt); }),
-        stage(0, reach, [this](Index r) { changes_->update_plastic_bonds(state_, r); }),
-        stage(reach, 0, [this, dt](Index r) { changes_->update_plastic_sums(state_, r, dt); }),
+        stage(0, flow, [this](Index r) { changes_->update_plastic_bonds(state_, r); }),
+        stage(flow, 0, [this, dt](Index r) { changes_->update_plastic_sums(state_, r, dt); }),
         stage(0, reach, [this](Index r) { changes_->update_factors(state_, r); }),
         stage(reach, 0, [this, dt](Index r) { changes_->update_sums(state_, r, dt); })};
   }
@@ -97,9 +130,14 @@ class ExplicitRun {
     return std::tuple_cat(stretches(dt), changes(dt), motion(dt, factor, increment));
   }
 
+ public:
+  /// How far apart the rows are that depend on each other in a step.
+  SweepReach reach() { return reach_of(all_stages(0.0, 0.0, 0.0)); }
+
+ private:
   /// Steps that nobody looks at keep their numbers in the cache.
   void prepare_passing(Index threads) {
-    const SweepReach reach = reach_of(all_stages(0.0, 0.0, 0.0));
+    const SweepReach reach = this->reach();
     PassingRows passing;
     passing.blocks = threads;
     passing.alive = reach.ahead + reach.widest + 1;
@@ -120,17 +158,20 @@ class ExplicitRun {
     const double dt = loop_.time_step();
     const double factor = loop_.load_factor(step);
     const double increment = loop_.load_factor(step + 1) - factor;
+    if (share_ != nullptr) share_->update_rows(state_);  // by one thread
     const bool passes = is_passing(step);
     if (passes != passed_) {
 #pragma omp single
       std::swap(state_.now, passing_);
     }
     if (loop_.is_looked_at(step)) {
-      sweep_rows(rows_, stretches(dt));
+      const auto first = stretches(dt);
+      sweep_rows(swept_, first);
       look(step);
-      sweep_rows(rows_, std::tuple_cat(changes(dt), motion(dt, factor, increment)));
+      sweep_rows(swept_.after(reach_of(first)),
+                 std::tuple_cat(changes(dt), motion(dt, factor, increment)));
     } else {
-      sweep_rows(rows_, all_stages(dt, factor, increment));
+      sweep_rows(swept_, all_stages(dt, factor, increment));
     }
 #pragma omp single
     note_reactions(step, passes);
@@ -138,6 +179,13 @@ class ExplicitRun {
 
   void note_reactions(Index step, bool passes) {
     passed_ = passes;
+    state_.step = step + 1;
+    if (share_ != nullptr) return share_->note_step(state_);
+    note_peak(step, note_loads(step));
+  }
+
+  /// Loads of a step into the record. \return reactions of supports
+  double note_loads(Index step) {
     double driven = 0.0, supports = 0.0;
     for (const RowReactions& row : state_.reactions) {
       driven += row.driven;
@@ -146,36 +194,56 @@ class ExplicitRun {
     const double factor = loop_.load_factor(step);
     record_.load = options_.driven ? driven / options_.reference : factor * options_.reference;
     record_.support_reaction = supports;
+    return supports;
+  }
+
+  void note_peak(Index step, double supports) {
+    const double factor = loop_.load_factor(step);
     loop_.note_reaction(supports, options_.driven ? factor * options_.reference : 0.0);
-    state_.step = step + 1;
+  }
+
+  /// What note_reactions() does, for the steps in which the other ranks went by themselves.
+  void look_back() {
+    for (const double supports : share_->collect(state_)) note_peak(noted_++, supports);
+    if (noted_ > 0) note_loads(noted_ - 1);
   }
 
   void look(Index step) {
     const double dt = loop_.time_step();
 #pragma omp for schedule(static)
-    for (Index r = 0; r < rows_; ++r) {
-      state_.sums[r].stored = half_step_energy(model_, state_, r, dt);
-    }
+    for (Index r = own_.begin; r < own_.end; ++r) measure_row(model_, state_, r, dt);
 #pragma omp single
     note_row(step);
   }
 
   void note_row(Index step) {
-    record_.energy = energy_balance(model_, state_);
+    if (share_ != nullptr && !share_->leads()) {
+      if (!share_->meet(state_)) loop_.leave();
+      return;
+    }
+    if (share_ != nullptr) look_back();
+    record_.energy = energy_balance(state_.sums);
     loop_.look(step, record_, observer_, state_, [this](ExplicitRecord& record) {
+      if (share_ != nullptr) share_->collect_fields(state_);
       record.displacement = options_.driven ? record.load_factor * options_.reference
                                             : loaded_work(model_, state_) / options_.reference;
-      record.cracked_particles = static_cast<Index>(std::count_if(
-          state_.damage.begin(), state_.damage.end(), [](double damage) { return damage > 0.0; }));
-      record.yielded_particles = yielded_particles(state_);
+      record.cracked_particles = record.yielded_particles = 0;
+      for (const RowSums& row : state_.sums) {
+        record.cracked_particles += row.cracked;
+        record.yielded_particles += row.yielded;
+      }
     });
+    if (share_ != nullptr) share_->tell(!loop_.is_done());
   }
 
   const ExplicitModel& model_;
   ExplicitState& state_;
   const ExplicitOptions& options_;
   ExplicitObserver& observer_;
-  Index rows_;
+  LatticeShare* share_ = nullptr;  ///< null: this process is alone
+  RowRange own_;                   ///< that this process moves
+  SweptRows swept_;
+  Index noted_ = 0;  ///< steps that look_back() has seen
   std::optional<LatticeChanges> changes_;
   ExplicitLoop loop_;
   ExplicitRecord record_;
@@ -184,30 +252,55 @@ class ExplicitRun {
   bool passed_ = false;       ///< in the last step; rounds of steps may differ in their threads
 };
 
-}  // namespace
+/// What the options of a run are to another rank, and its part of the rows.
+struct RowOrder {
+  ExplicitOptions options;
+  double critical_time_step;
+  RowPart part;
+};
 
-EnergyBalance energy_balance(const ExplicitModel& model, const ExplicitState& state) {
-  EnergyBalance energy;
-  for (const RowSums& row : state.sums) {
-    energy.stored += row.stored;
-    energy.internal_damping += row.internal_damping;
-    energy.external_damping += row.external_damping;
-    energy.fractured += row.fractured;
-    energy.plastic += row.plastic;
-    energy.external_work += row.external_work;
-  }
-  for (const Index slot : model.lattice.particle_slot) {
-    for (int c = 0; c < model.lattice.dim; ++c) {
-      const double v = state.velocity[model.lattice.at(c, slot)];
-      energy.kinetic += 0.5 * model.mass[slot] * v * v;
-    }
-  }
-  return energy;
-}
+}  // namespace
 
 ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
                                      const ExplicitOptions& options, ExplicitObserver& observer) {
-  return ExplicitRun(model, state, options, observer).run();
+  const double critical = critical_time_step(model);
+  ExplicitRun run(model, state, options, critical, observer);
+  if (options.ranks == nullptr || state.step != 0) return run.run();
+  Ranks& ranks = *options.ranks;
+  const RowPartition partition(model.lattice, run.reach(), ranks.count());
+  if (partition.count() == 1) return run.run();
+  return lead(ranks, [&] {
+    std::vector<RowRange> own_of{partition.own(0)};
+    for (int rank = 1; rank < partition.count(); ++rank) {
+      const RowRange known = partition.known(rank);
+      Parcel order, part;
+      order.put(Service::move_rows);
+      order.put(RowOrder{options, critical, partition.part(rank)});
+      ranks.send(rank, order.bytes());
+      pack(cut_rows(model, known), part);
+      part.put(cut_field(state.displacement, model.lattice, known));
+      part.put(cut_field(state.velocity, model.lattice, known));
+      ranks.send(rank, part.bytes());
+      own_of.push_back(partition.own(rank));
+    }
+    LatticeShare share(ranks, partition.part(0), model, std::move(own_of));
+    ExplicitResult result = run.run(share);
+    result.ranks = partition.count();
+    return result;
+  });
+}
+
+void move_rows_along(Ranks& ranks, Parcel& order) {
+  const auto rest = order.get<RowOrder>();
+  Parcel parcel(ranks.receive(0));
+  const ExplicitModel model = unpack_model(parcel);
+  ExplicitState state(model);
+  parcel.get(state.displacement);
+  parcel.get(state.velocity);
+  parcel = {};
+  LatticeShare share(ranks, rest.part, model);
+  ExplicitObserver nobody;
+  ExplicitRun(model, state, rest.options, rest.critical_time_step, nobody).run(share);
 }
 
 }  // namespace perilink

@@ -17,8 +17,9 @@ void LatticeChanges::flow_at(ExplicitState& state, Index row, Index slot) const 
 }
 
 void LatticeChanges::look(ExplicitState& state, Index row) const {
-  state.row_changes[row] &= static_cast<std::uint8_t>(~changed);
+  state.row_changes[row] &= RowChanges::cracked;
   if (!is_scan_due(model_, state, row)) return;
+  state.row_changes[row] |= RowChanges::scanned;
   thread_local DueParticles due;
   scan_row(model_, particles_, state, row, due);
   // Both see the stretches that were there before.

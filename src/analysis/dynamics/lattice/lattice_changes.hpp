@@ -22,10 +22,11 @@ class LatticeChanges {
   /// stages do nothing. Damage becomes what was noted, and the energy before the change is
   /// counted. Needs rows on both sides.
   void commit(ExplicitState& state, Index row, double time_step) const;
-  /// Own bonds take the plastic stretches of their particles. Needs rows after it.
+  /// Own bonds take the plastic stretches of their particles. Needs rows after it, where the body
+  /// yields.
   void update_plastic_bonds(ExplicitState& state, Index row) const;
   /// Sums take the plastic stretches, and the energy that flow cost is counted. Needs rows before
-  /// it.
+  /// it, where the body yields.
   void update_plastic_sums(ExplicitState& state, Index row, double time_step) const;
   /// Own bonds take the factors of the damage of their particles. Needs rows after it.
   void update_factors(ExplicitState& state, Index row) const;

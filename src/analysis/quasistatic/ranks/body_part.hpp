@@ -37,7 +37,6 @@ struct BodyPart {
   bool changes = false;                     ///< whether elements do, and blocks are solved for
 
   Index owned() const { return static_cast<Index>(boxes.size()); }
-  Index particles() const { return owned() + static_cast<Index>(ghosts.owners.size()); }
   Secants secants() const { return axial.empty() ? Secants(other) : Secants(other, axial); }
 
   Parcel pack() const;

@@ -29,12 +29,10 @@ PartSolver::PartSolver(Ranks& ranks, BodyPart part)
     : ranks_(ranks),
       part_(std::move(part)),
       factor_(make_factor(part_.changes ? FactorRoute::refactorize : FactorRoute::in_place, 1)),
-      layer_(ranks.make_ghost_layer(part_.particles(), part_.ghosts, part_.unknowns.width)),
+      layer_(ranks, part_.ghosts),
       motion_(part_.unknowns.number.size(), 0.0),
       coarse_(static_cast<std::size_t>(part_.coarse.rows()), 0.0) {
   if (part_.changes) {
-    block_layer_ =
-        ranks.make_ghost_layer(part_.particles(), part_.ghosts, part_.unknowns.width * block_width);
     motions_.resize(motion_.size() * block_width);
     block_forces_.resize(motions_.size());
     coarse_sums_.resize(coarse_.size() * block_width);
@@ -95,7 +93,7 @@ void PartSolver::multiply(std::span<const double> q, std::span<double> result) {
   for (std::size_t slot = 0; slot < number.size(); ++slot) {
     if (number[slot] >= 0) motion_[slot] = q[number[slot]];
   }
-  layer_->update(motion_);
+  layer_.update(part_.unknowns.width, {motion_});
   internal_force(part_.network, part_.secants(), motion_, forces_);
   for (std::size_t slot = 0; slot < number.size(); ++slot) {
     if (number[slot] >= 0) result[number[slot]] = forces_.forces[slot];
@@ -118,7 +116,7 @@ InternalForce PartSolver::internal(std::span<const double> motion) {
 
 void PartSolver::multiply_block(std::span<const double> motions, std::span<double> results) {
   std::copy(motions.begin(), motions.end(), motions_.begin());
-  block_layer_->update(motions_);
+  layer_.update(part_.unknowns.width * block_width, {motions_});
   block_forces(part_.network, part_.secants(), motions_, block_forces_);
   const std::vector<Index>& number = part_.unknowns.number;
   for (std::size_t slot = 0; slot < part_.rows.size(); ++slot) {

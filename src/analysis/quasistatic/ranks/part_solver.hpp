@@ -65,14 +65,13 @@ class PartSolver {
   BodyPart part_;
   std::vector<double> ground_;  ///< springs of the own unknowns, or empty
   std::unique_ptr<Factor> factor_;
-  std::unique_ptr<GhostLayer> layer_;
+  GhostLayer layer_;
   std::vector<double> motion_;  ///< shape (owned + ghosts, width), zero where it is prescribed
   std::vector<double> coarse_;  ///< residual or motion of the boxes, shape (boxes, motions)
   InternalForce forces_;
   std::vector<double> last_motion_;
 
   // Each number of the above block_width times.
-  std::unique_ptr<GhostLayer> block_layer_;
   std::vector<double> motions_, block_forces_, coarse_sums_, coarse_columns_;
 };
 

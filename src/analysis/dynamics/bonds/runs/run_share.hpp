@@ -1,18 +1,18 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "analysis/dynamics/bonds/moving_bonds.hpp"
 #include "analysis/dynamics/bonds/runs/bond_part.hpp"
+#include "analysis/dynamics/meetings.hpp"
 #include "solver/ranks.hpp"
 
 namespace perilink {
 
 /// How a rank takes part in a run of moving bonds: it moves its own blocks, and ranks know of each
-/// other's particles what their elements reach. Every few steps they meet: the first rank then
-/// takes the sums of all blocks, and what has broken, and tells the others whether to go on.
+/// other's particles what their elements reach. In meetings the first rank takes the sums of all
+/// blocks, and what has broken.
 class RunShare {
  public:
   /// \param unknowns  those of the particles that the rank numbers
@@ -24,28 +24,22 @@ class RunShare {
 
   /// Collective. Bonds that break need the velocities, too.
   void update_ghosts(BondMotion& motion) {
-    layer_->update(motion.displacement);
-    layer_->update(motion.velocity);
+    layer_.update(width_, {motion.displacement, motion.velocity});
   }
 
-  /// Once in every step: reactions of supports in the own blocks, which the first rank looks at
-  /// when they meet.
-  void note_supports(const MovingBonds& body);
+  /// Once in every step.
+  void note_supports(const MovingBonds& body) {
+    meetings_.note_step(held_blocks_, [&](Index b) { return body.sums[b].supports; });
+  }
 
  protected:
-  void forget_supports() {
-    supports_.clear();
-    steps_ = 0;
-  }
-
-  Ranks& ranks_;
-  Index steps_ = 0;               ///< since they met last
-  std::vector<double> supports_;  ///< in these, shape (steps, blocks in which something is held)
+  Meetings meetings_;
 
  private:
   Index first_block_, past_block_;
   std::vector<Index> held_blocks_;
-  std::unique_ptr<GhostLayer> layer_;
+  int width_;
+  GhostLayer layer_;
 };
 
 /// The first rank's share. Its numbers are those of the whole body.
@@ -61,11 +55,9 @@ class LeadingShare final : public RunShare {
   /// During a meeting. \param secants  of all elements; those of other ranks are overwritten
   void collect_secants(std::span<double> secants);
   /// Ends a meeting.
-  void tell(bool goes_on);
+  void tell(bool goes_on) { meetings_.tell(goes_on); }
 
  private:
-  static void add_supports(std::span<const double> of_rank, std::span<double> of_steps);
-
   BlockPartition partition_;
 };
 

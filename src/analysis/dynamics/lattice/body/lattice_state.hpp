@@ -15,11 +15,13 @@ namespace perilink {
 inline constexpr double never = 1e200;
 
 /// Sums over a row of particles. Rows are summed in their own order and then one after the other,
-/// so that no sum depends on the number of threads. Work and loss are sums since the beginning.
+/// so that no sum depends on the number of threads. The first four are those of the last step that
+/// was looked at, work and loss sums since the beginning.
 struct RowSums {
-  double stored = 0.0;  ///< between the last step and this (half_step_energy) [force length]; of
-                        ///< steps that are looked at
-  double external_work = 0.0;  ///< work of the prescribed motions
+  double stored = 0.0;  ///< between the last step and this (half_step_energy) [force length]
+  double kinetic = 0.0;
+  Index cracked = 0, yielded = 0;  ///< particles
+  double external_work = 0.0;      ///< work of the prescribed motions
   double internal_damping = 0.0;
   double external_damping = 0.0;
   double fractured = 0.0;  ///< stored energy lost while damage grew at rest
@@ -42,6 +44,7 @@ struct BondChanges {
 struct RowChanges {
   static constexpr std::uint8_t damage_grew = 1, flowed = 2;  ///< by its particles, in this step
   static constexpr std::uint8_t cracked = 4;                  ///< particles have damage
+  static constexpr std::uint8_t scanned = 8;                  ///< they were looked at in this step
 };
 
 /// Plastic stretches of particles and of bonds; empty where the material cannot yield. The stretch

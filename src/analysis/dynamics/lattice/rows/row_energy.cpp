@@ -69,4 +69,16 @@ double half_step_energy(const ExplicitModel& model, const ExplicitState& state, 
                                 : half_step_energy<18>(model, state, row, time_step);
 }
 
+double kinetic_energy(const ExplicitModel& model, const ExplicitState& state, Index r) {
+  const LatticeRow& row = model.lattice.rows[r];
+  const double* mass = model.mass.data() + row.first;
+  double energy = 0.0;
+  for (int c = 0; c < model.lattice.dim; ++c) {
+    const double* v = state.velocity.data() + model.lattice.at(c, row.first);
+#pragma omp simd reduction(+ : energy)
+    for (Index i = 0; i < row.size; ++i) energy += 0.5 * mass[i] * v[i] * v[i];
+  }
+  return energy;
+}
+
 }  // namespace perilink

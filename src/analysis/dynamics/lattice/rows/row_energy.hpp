@@ -11,4 +11,7 @@ namespace perilink {
 double half_step_energy(const ExplicitModel& model, const ExplicitState& state, Index row,
                         double time_step);
 
+/// Kinetic energy of a row [force length].
+double kinetic_energy(const ExplicitModel& model, const ExplicitState& state, Index row);
+
 }  // namespace perilink

@@ -33,14 +33,6 @@ ExplicitResult run_lattice(const ExplicitModel& model, ExplicitState& state,
   return run_explicit_analysis(model, state, options, recorder);
 }
 
-/// Velocities without any pattern, so that every mode moves.
-void shake_velocities(const ExplicitModel& model, ExplicitState& state) {
-  for (const Index slot : model.lattice.particle_slot) {
-    state.velocity[slot] = 1e-3 * std::sin(12.9898 * slot);
-    state.velocity[model.lattice.at(1, slot)] = 1e-3 * std::cos(7.31 * slot);
-  }
-}
-
 /// Mean of a displacement component over particles within `reach` of a height.
 double mean_displacement(const ExplicitModel& model, const ExplicitState& state, int component,
                          double x, double y, double reach) {
@@ -274,47 +266,14 @@ void step_by_passes(const ExplicitModel& model, ExplicitState& state,
   }
 }
 
-/// A plate or a block, both with a hole and driven at one end.
-ExplicitModel perforated(Problem problem, LatticeRules rules, const LatticeMaterial& material) {
-  const bool space = problem == Problem::three_dimensional;
-  const double half = space ? 0.1 : 0.5;
-  LatticeCut cut = rectangle(half, half, 0.01, 17.0, 1.0);
-  cut.lower[2] = -half;
-  cut.upper[2] = half;
-  cut.inside = [half](const Vector3& x) {
-    return std::hypot(x[0] - 0.2 * half, x[1]) > 0.3 * half;
-  };
-  LatticeRows lattice = space ? face_centred_rows(cut) : hexagonal_rows(cut);
-  ExplicitModel model =
-      make_explicit_model(problem, rules, std::move(lattice), material, cut.thickness);
-  grip_ends(model, 0.01, 1e-6);
-  return model;
-}
-
-struct LatticeKind {
-  Problem problem;
-  LatticeRules rules;
-  bool breakable, yields;
-};
-
 class RowByRow : public testing::TestWithParam<LatticeKind> {};
 
 TEST_P(RowByRow, IsTheSameToTheByteAsPassAfterPass) {
   const LatticeKind kind = GetParam();
-  LatticeMaterial material = paper_concrete();
-  material.breakable = kind.breakable;
-  material.yields = kind.yields;
-  material.softening.strength = 2.62e3;  // some crack and flow at once
-  material.yielding = {6e3, 9e3, 1e-3, 0.0};
-  material.crushing_energy = std::numeric_limits<double>::infinity();
-  const ExplicitModel model = perforated(kind.problem, kind.rules, material);
+  const ExplicitModel model = changing_body(kind);
   ASSERT_GT(model.lattice.particles(), 8000) << "enough for two threads";
   constexpr Index steps = 30;
-  ExplicitOptions options;
-  options.time_step = 0.9 * critical_time_step(model);
-  options.duration = (steps - 0.5) * options.time_step;
-  options.ramp = 0.5 * options.duration;
-  options.rows = 3;
+  ExplicitOptions options = short_run(model, steps);
   ExplicitState wanted(model);
   shake_velocities(model, wanted);
   step_by_passes(model, wanted, options, steps);

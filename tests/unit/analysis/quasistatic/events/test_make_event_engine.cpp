@@ -10,8 +10,8 @@ namespace {
 
 using namespace test;
 
-std::unique_ptr<EventEngine> make_engine(const AnalysisBody& body,
-                                         FactorRoute route = FactorRoute::in_place) {
+std::unique_ptr<EventEngine> engine_for(const AnalysisBody& body,
+                                        FactorRoute route = FactorRoute::in_place) {
   EquilibriumOptions options;
   options.route = route;
   return make_event_engine(body, options);
@@ -21,7 +21,7 @@ std::unique_ptr<EventEngine> make_engine(const AnalysisBody& body,
 TEST(EventEngine, TwoEventsByHand) {
   const AnalysisBody body = make_square();
   for (const FactorRoute route : routes) {
-    const auto engine = make_engine(body, route);
+    const auto engine = engine_for(body, route);
     EXPECT_NEAR(engine->load_work().forces, 4.0 / 3.0, 1e-14);
     const Event first = engine->next_event();
     EXPECT_EQ(first.element, bond_between(body.network, {0, 0}, {1, 0}))
@@ -54,7 +54,7 @@ TEST(EventEngine, BrokenBondToADrivenParticleChangesTheLoad) {
       const Index element = bonds_of_row(body.network, 0.0)[broken];
       const Index middle = body.network.bonds.second[bonds_of_row(body.network, 0.0)[0]];
       body.network.critical_stretch[element] = 0.005;
-      const auto engine = make_engine(body, route);
+      const auto engine = engine_for(body, route);
       EXPECT_NEAR(engine->load_work().supports, 2 * 1.5, 1e-14);
       const Event event = engine->next_event();
       EXPECT_EQ(event.element, element);
@@ -73,7 +73,7 @@ TEST(EventEngine, BondBetweenPrescribedParticles) {
   AnalysisBody body = make_chains(1, 2, true, 3.0, 0.01);
   number(body, [&](Index i, int axis) { return axis == 0 || i != 0; });  // one idle unknown
   body.network.stiffness[bond_between(body.network, {0, 0}, {0, 1})] = 1.0;
-  const auto engine = make_engine(body);
+  const auto engine = engine_for(body);
   const EventOutcome outcome = engine->apply(engine->next_event());
   EXPECT_EQ(outcome.pivot, 1.0);
   EXPECT_NEAR(outcome.compliance_growth, 3.0, 1e-14);
@@ -84,7 +84,7 @@ TEST(EventEngine, BondBetweenPrescribedParticles) {
 TEST(EventEngine, NothingBreaksInCompression) {
   AnalysisBody body = make_square();
   for (double& force : body.loads.forces) force = -force;
-  EXPECT_EQ(make_engine(body)->next_event().element, no_index);
+  EXPECT_EQ(engine_for(body)->next_event().element, no_index);
 }
 
 class FollowedBlock : public testing::TestWithParam<BlockCase> {
@@ -133,7 +133,7 @@ TEST_P(FollowedBlock, FollowsADenseSolutionThroughTheEvents) {
   }
   for (const FactorRoute route : routes) {
     SCOPED_TRACE(word_of(route));
-    const auto engine = make_engine(body_, route);
+    const auto engine = engine_for(body_, route);
     LoadWork work = engine->load_work();
     initial_work_ = work.forces + work.supports;
     expect_equilibrium(*engine);
