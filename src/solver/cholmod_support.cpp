@@ -170,7 +170,8 @@ SingleFactor CholmodRoute::in_single(double unit) const {
     node.values.resize(static_cast<std::size_t>(count) * node.columns, 0.0F);
     for (Index k = 0; k < node.columns; ++k, column += count) {
       float* value = node.values.data() + k;
-      value[static_cast<std::size_t>(k) * node.columns] = static_cast<float>(1.0 / (root * column[k]));
+      value[static_cast<std::size_t>(k) * node.columns] =
+          static_cast<float>(1.0 / (root * column[k]));
       for (Index r = k + 1; r < count; ++r) {
         value[static_cast<std::size_t>(r) * node.columns] = static_cast<float>(root * column[r]);
       }

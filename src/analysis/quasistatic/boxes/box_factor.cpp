@@ -224,7 +224,8 @@ std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& mis
     for (const Index unknown : x.rows) list({{unknown}, {1.0}});
   };
   std::ranges::for_each(missing, list_what_it_needs);
-  const std::size_t room = std::max(chosen.size(), blocks_of(chosen.size()) * block_width - reserved);
+  const std::size_t room =
+      std::max(chosen.size(), blocks_of(chosen.size()) * block_width - reserved);
   for (const SparseVector& x : expected_) {
     if (chosen.size() < room) list_what_it_needs(x);
   }
@@ -248,7 +249,10 @@ void BoxFactor::take_in(std::span<const SparseVector> x, Correction* correction)
   }
   blocks_.emplace_back(right.size());
   const double enough = coarser * options_.tolerance;
-  const int iterations = solver_->solve_block(right, blocks_.back(), enough, correction != nullptr ? correction->energy : 0.0).iterations;
+  const int iterations = solver_
+                             ->solve_block(right, blocks_.back(), enough,
+                                           correction != nullptr ? correction->energy : 0.0)
+                             .iterations;
   if (first_iterations_ == 0) first_iterations_ = iterations;
   if (iterations > slower * first_iterations_) make_solver();
   columns_solved_ += static_cast<Index>(x.size());

@@ -311,8 +311,8 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
   round(right, missing);
   const GradientsReport report = block_conjugate_gradients<float>(
       [&](auto q, auto result, const RowsDone& done) { single_->multiply(q, result, done); },
-      [&](auto r, auto z, const RowsDone& done) { single_->precondition(r, z, done); },
-      missing, found, scaled, finer_in_single * enough, most_box_iterations,
+      [&](auto r, auto z, const RowsDone& done) { single_->precondition(r, z, done); }, missing,
+      found, scaled, finer_in_single * enough, most_box_iterations,
       [&](std::span<const float> part, std::span<float> left) {
         add(part);
         std::vector<double> residual(right.size());

@@ -12,15 +12,15 @@ namespace perilink {
 /// particles: a search that asks for a few of them adds them there alone.
 struct DeferredMotion {
   const Unknowns* unknowns = nullptr;
-  const std::vector<double>* solution = nullptr;   ///< q without these steps
-  std::vector<double>* displacement = nullptr;     ///< with them where looked at, (particles, width)
+  const std::vector<double>* solution = nullptr;  ///< q without these steps
+  std::vector<double>* displacement = nullptr;    ///< with them where looked at, (particles, width)
   const std::vector<std::vector<double>>* blocks;  ///< columns, BoxFactor::blocks_
   // No matrices of Eigen here: their memory depends on the processor that a file is compiled for.
   std::vector<double> steps;  ///< per column: what is missing of it in the solution
   std::vector<double> moved;  ///< per column: sizes of all steps so far
-  int changes = 0;        ///< of the steps so far
-  int restarts = 0;       ///< so often the solution has changed in other ways
-  int renewals = 0;       ///< so often columns have gone or become others
+  int changes = 0;            ///< of the steps so far
+  int restarts = 0;           ///< so often the solution has changed in other ways
+  int renewals = 0;           ///< so often columns have gone or become others
 
   /// What the displacement at a slot lacks of them.
   double step_at(std::size_t slot) const {

@@ -164,8 +164,7 @@ void Equilibrium::find_largest_motion() {
 /// same particles further apart their errors grow.
 void Equilibrium::judge_columns(std::span<const double> missing,
                                 std::span<const double> correction) {
-  const double error =
-      std::inner_product(missing.begin(), missing.end(), correction.begin(), 0.0);
+  const double error = std::inner_product(missing.begin(), missing.end(), correction.begin(), 0.0);
   // Written so that an energy that is not a number is too much.
   if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) boxes_->forget();
 }

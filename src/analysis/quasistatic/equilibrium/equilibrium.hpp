@@ -364,7 +364,7 @@ class Equilibrium {
   std::vector<std::size_t> moving_slots_, current_slots_, awake_slots_;
   std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;
-  bool is_corrected_ = false;  ///< with new columns, since check() was last asked for
+  bool is_corrected_ = false;     ///< with new columns, since check() was last asked for
   double noise_of_sides_ = 0.0;   ///< extensions below it are on neither side [length]
   double largest_motion_ = 0.0;   ///< by displacement_, see noise()
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_

@@ -39,8 +39,7 @@ void DozingColumns::follow() {
   for (std::size_t k = 0; k < moved.size(); ++k) {
     const double step = (1.0 + round_off) * (moved[k] - counted_[k]);
     if (step == 0.0) continue;
-    const float* ratio =
-        ratios_[k / block_width].data() + k % block_width * bounds_.size();
+    const float* ratio = ratios_[k / block_width].data() + k % block_width * bounds_.size();
     double* bound = bounds_.data();
     for (std::size_t b = 0; b < bounds_.size(); ++b) bound[b] += step * ratio[b];
   }

@@ -60,7 +60,7 @@ class DozingColumns {
   std::vector<bool> restless_;
   std::vector<std::vector<float>> ratios_;  ///< R(y), of each block of columns: shape
                                             ///< (block_width, search blocks)
-  std::vector<double> counted_;  ///< DeferredMotion::moved, as far as bounds know it
+  std::vector<double> counted_;             ///< DeferredMotion::moved, as far as bounds know it
   int restarts_ = 0, renewals_ = 0;
   std::vector<int> seen_;  ///< per particle: DeferredMotion::changes that its displacement knows
 };

@@ -151,7 +151,8 @@ void LimitSearch::set_limit(Index element, double limit) {
   const double before = square_of_gradient();
   set_gradient(group, place, limit);
   group.dozing.wake(place);
-  group.by_columns.wake(static_cast<Index>(place) / search_block_size, square_of_gradient() > before);
+  group.by_columns.wake(static_cast<Index>(place) / search_block_size,
+                        square_of_gradient() > before);
 }
 
 std::vector<std::uint8_t> LimitSearch::doze(const CarriedParticles& carried) {

@@ -12,7 +12,7 @@ namespace {
 
 /// Visits all that a rank has to be told, in one order for sender and receiver.
 template <class Share, class Visit>
-void for_each_member(Share& share, Visit visit) {
+void for_each_share_member(Share& share, Visit visit) {
   visit(share.pattern.grid);
   visit(share.pattern.small);
   visit(share.pattern.reach);
@@ -153,10 +153,10 @@ void add_boxes(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns
   std::vector<std::vector<Index>> own =
       split_into_boxes({particles.positions.data(), positions}, particles.dim, particles_of_box);
   const auto [before, all] = before_and_in_all(ranks, static_cast<Index>(own.size()));
-  const BoxMotions motions(
-      particles, unknowns, std::move(own), before, all, [&](std::span<double> known, int numbers) {
-        ranks.make_ghost_layer(particles.size(), part.ghosts, numbers)->update(known);
-      });
+  const BoxMotions motions(particles, unknowns, std::move(own), before, all,
+                           [&](std::span<double> known, int numbers) {
+                             GhostLayer(ranks, part.ghosts).update(numbers, {known});
+                           });
   BoxStiffness stiffness = assemble_box_stiffness(part.network, part.secants(), unknowns, motions);
   stiffness.blocks.resize(positions * width);
   double faults = stiffness.invert_blocks(width) ? 0.0 : 1.0;
@@ -176,12 +176,12 @@ void add_boxes(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns
 }  // namespace
 
 void LatticeShare::pack(Parcel& parcel) const {
-  for_each_member(*this, [&](const auto& member) { parcel.put(member); });
+  for_each_share_member(*this, [&](const auto& member) { parcel.put(member); });
 }
 
 LatticeShare LatticeShare::unpack(Parcel& parcel) {
   LatticeShare share;
-  for_each_member(share, [&](auto& member) { parcel.get(member); });
+  for_each_share_member(share, [&](auto& member) { parcel.get(member); });
   return share;
 }
 

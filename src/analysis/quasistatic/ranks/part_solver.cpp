@@ -104,7 +104,7 @@ void PartSolver::multiply(std::span<const double> q, std::span<double> result) {
 InternalForce PartSolver::internal(std::span<const double> motion) {
   last_motion_.assign(motion_.size(), 0.0);
   std::copy(motion.begin(), motion.end(), last_motion_.begin());
-  layer_->update(last_motion_);
+  layer_.update(part_.unknowns.width, {last_motion_});
   InternalForce others;
   internal_force(part_.network, part_.secants(), last_motion_, part_.others_elements, others);
   internal_force(part_.network, part_.secants(), last_motion_, forces_);

@@ -130,7 +130,8 @@ TEST(LatticePart, KeepsItsBondsAndThoseAcrossItsFaces) {
   const auto check = [&](Ranks& ranks) {
     const BodyPart part = make_part(ranks, share(ranks.own()));
     EXPECT_EQ(part.owned(), 48);
-    EXPECT_EQ(part.network.particles.size(), part.particles());
+    EXPECT_EQ(part.network.particles.size(),
+              part.owned() + static_cast<Index>(part.ghosts.owners.size()));
     // With a horizon of two spacings two of three layers beyond are known.
     EXPECT_EQ(part.ghosts.owners, std::vector<int>(32, 1 - ranks.own()));
     std::size_t others = 0;
