@@ -1,5 +1,7 @@
 #include "base/build_info.hpp"
 
+#include <dlfcn.h>
+
 #include <string_view>
 #include <utility>
 
@@ -11,17 +13,30 @@ std::string program_version() { return build_config::version; }
 
 std::string program_commit() { return build_config::commit; }
 
+namespace {
+
+/// The library, and for which processor OpenBLAS takes its kernels.
+std::string blas() {
+  using CoreName = const char* (*)();
+  auto* name = reinterpret_cast<CoreName>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  const std::string library = build_config::blas;
+  return name == nullptr ? library : library + ", kernels for " + name();
+}
+
+}  // namespace
+
 std::string build_summary() {
   constexpr std::size_t name_width = 10;
   const std::string build =
       std::string(build_config::build_type) + ", " + build_config::instructions + " instructions";
+  const std::string kernels = blas();
   const std::pair<std::string_view, std::string_view> lines[] = {
       {"commit", build_config::commit},
       {"compiler", build_config::compiler},
       {"build", build},
       {"OpenMP", build_config::openmp},
       {"CHOLMOD", build_config::cholmod},
-      {"BLAS", build_config::blas},
+      {"BLAS", kernels},
       {"METIS", build_config::metis},
       {"Eigen", build_config::eigen},
       {"PETSc", build_config::petsc},

@@ -176,7 +176,8 @@ void Equilibrium::judge_columns(std::span<const double> missing,
 /// \return norm of what is left, over that of the load
 double Equilibrium::refine_followed(double size, std::vector<double>& residual) {
   const bool is_large = !(size <= options_.residual_tolerance);
-  if (size <= fine_residual || (std::exchange(is_corrected_, false) && !is_large)) return size;
+  const bool is_corrected = std::exchange(is_corrected_, false) && !is_large;
+  if (size <= fine_residual || is_corrected) return size;
   const std::vector<double> missing = residual;
   refine(residual);  // which is then the correction
   judge_columns(missing, residual);

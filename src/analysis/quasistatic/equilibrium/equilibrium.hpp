@@ -158,6 +158,12 @@ class Equilibrium {
   /// then factorises anew.
   Balance check();
 
+  /// check() that takes away what events have left, however little it is.
+  void take_errors_away() {
+    is_corrected_ = false;
+    check();
+  }
+
   /// The residual where elements can fail alone, without a solve; above the tolerance check().
   /// \return without the stored energy (not a number) where some displacements are not current
   Balance glance();

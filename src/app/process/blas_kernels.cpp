@@ -1,0 +1,31 @@
+#include "app/process/blas_kernels.hpp"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace perilink {
+
+const char* fitting_kernels(std::string_view taken, bool has_avx2, bool has_avx512) {
+  if (taken != "Prescott") return "";
+  return has_avx512 ? "SKYLAKEX" : has_avx2 ? "HASWELL" : "";
+}
+
+void use_fitting_kernels(char** words) {
+#ifdef __x86_64__
+  constexpr const char* setting = "OPENBLAS_CORETYPE";
+  using CoreName = const char* (*)();
+  auto* name = reinterpret_cast<CoreName>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  if (name == nullptr || std::getenv(setting) != nullptr) return;
+  const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  const char* kernels = fitting_kernels(name(), __builtin_cpu_supports("avx2"), has_avx512);
+  if (*kernels == '\0' || setenv(setting, kernels, 1) != 0) return;
+  execv("/proc/self/exe", words);
+#else
+  static_cast<void>(words);
+#endif
+}
+
+}  // namespace perilink

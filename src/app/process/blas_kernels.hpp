@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+namespace perilink {
+
+/// Kernels of OpenBLAS for a processor that it does not know: it then takes those of 2004, which
+/// factorise 2.5 times slower. Empty: those that it has taken are good.
+/// \param taken  name of those that it has taken
+const char* fitting_kernels(std::string_view taken, bool has_avx2, bool has_avx512);
+
+/// Starts the program again with these kernels, unless OPENBLAS_CORETYPE names some. Comes back
+/// where all is well, or it cannot be done.
+void use_fitting_kernels(char** words);
+
+}  // namespace perilink
