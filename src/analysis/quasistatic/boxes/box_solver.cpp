@@ -45,7 +45,7 @@ SolverError not_there(int iterations, double error, double tolerance) {
 
 /// By their lag (L-2) estimates leave more digits than they are asked for, and columns need some of
 /// them; behind a correction of single precision they lag less.
-constexpr double finer_in_single = 1.0;
+constexpr double finer_in_single = 0.1;
 
 /// Energies of right sides where every particle gives way by itself, while all others stand still.
 /// \param blocks  inverse ones of the particles

@@ -36,7 +36,7 @@ GridWindow known_to(const LatticePattern& pattern, const GridWindow& window) {
 /// them.
 class PartMaker {
  public:
-  PartMaker(const LatticeShare& share, int rank, BodyPart& part)
+  PartMaker(const PatternShare& share, int rank, BodyPart& part)
       : share_(share),
         grid_(share.pattern.grid),
         own_(share.windows[rank]),
@@ -106,7 +106,7 @@ class PartMaker {
     return number;
   }
 
-  const LatticeShare& share_;
+  const PatternShare& share_;
   const LatticeGrid& grid_;
   GridWindow own_, known_;
   BodyPart& part_;
@@ -175,12 +175,12 @@ void add_boxes(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns
 
 }  // namespace
 
-void LatticeShare::pack(Parcel& parcel) const {
+void PatternShare::pack(Parcel& parcel) const {
   for_each_share_member(*this, [&](const auto& member) { parcel.put(member); });
 }
 
-LatticeShare LatticeShare::unpack(Parcel& parcel) {
-  LatticeShare share;
+PatternShare PatternShare::unpack(Parcel& parcel) {
+  PatternShare share;
   for_each_share_member(share, [&](auto& member) { parcel.get(member); });
   return share;
 }
@@ -202,10 +202,10 @@ Partition share_out(const LatticeGrid& grid, const std::vector<GridWindow>& wind
   return partition;
 }
 
-LatticeShare share_of(const LatticePattern& pattern, const std::vector<GridWindow>& windows,
+PatternShare share_of(const LatticePattern& pattern, const std::vector<GridWindow>& windows,
                       const Network& places, const Unknowns& unknowns, Index particles_of_box,
                       int rank) {
-  LatticeShare share{pattern, windows, particles_of_box, {}, {}, {}};
+  PatternShare share{pattern, windows, particles_of_box, {}, {}, {}};
   const LatticeGrid& grid = pattern.grid;
   const std::vector<double>& springs = places.support_stiffness;
   const auto number = [&](const GridPoint& point) { return grid.number(grid.all(), point); };
@@ -221,7 +221,7 @@ LatticeShare share_of(const LatticePattern& pattern, const std::vector<GridWindo
   return share;
 }
 
-BodyPart make_part(Ranks& ranks, const LatticeShare& share) {
+BodyPart make_part(Ranks& ranks, const PatternShare& share) {
   BodyPart part;
   PartMaker maker(share, ranks.own(), part);
   maker.make();

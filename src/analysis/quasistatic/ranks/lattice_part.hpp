@@ -10,7 +10,7 @@
 namespace perilink {
 
 /// What a rank has to be told of a box of a lattice to make its part by itself.
-struct LatticeShare {
+struct PatternShare {
   LatticePattern pattern;
   std::vector<GridWindow> windows;  ///< particles that each rank owns
   Index particles_of_box = 0;       ///< at most, of the coarse space
@@ -21,7 +21,7 @@ struct LatticeShare {
   std::vector<double> springs;
 
   void pack(Parcel& parcel) const;
-  static LatticeShare unpack(Parcel& parcel);
+  static PatternShare unpack(Parcel& parcel);
 };
 
 /// Particles and unknowns of the windows.
@@ -30,12 +30,12 @@ Partition share_out(const LatticeGrid& grid, const std::vector<GridWindow>& wind
                     const Unknowns& unknowns);
 
 /// \param places  particles and springs of the whole body
-LatticeShare share_of(const LatticePattern& pattern, const std::vector<GridWindow>& windows,
+PatternShare share_of(const LatticePattern& pattern, const std::vector<GridWindow>& windows,
                       const Network& places, const Unknowns& unknowns, Index particles_of_box,
                       int rank);
 
 /// Makes particles and bonds, halves what it owns into boxes and adds up what all boxes resist.
 /// Collective. \throws NotPositiveDefinite on all ranks
-BodyPart make_part(Ranks& ranks, const LatticeShare& share);
+BodyPart make_part(Ranks& ranks, const PatternShare& share);
 
 }  // namespace perilink

@@ -227,7 +227,7 @@ void TeamMember::obey(Parcel& order) {
     case Job::make_part:
       solver_.reset();
       try {
-        solver_.emplace(ranks_, make_part(ranks_, LatticeShare::unpack(order)));
+        solver_.emplace(ranks_, make_part(ranks_, PatternShare::unpack(order)));
       } catch (const NotPositiveDefinite&) {  // the same in all ranks: the first tells it
       }
       break;

@@ -125,7 +125,7 @@ TEST(LatticePart, KeepsItsBondsAndThoseAcrossItsFaces) {
     share_of(*bodies.places.pattern, windows, bodies.places.network, bodies.places.unknowns, 27,
              rank)
         .pack(parcel);
-    return LatticeShare::unpack(parcel);
+    return PatternShare::unpack(parcel);
   };
   const auto check = [&](Ranks& ranks) {
     const BodyPart part = make_part(ranks, share(ranks.own()));

@@ -43,7 +43,8 @@ std::vector<double> solve_after_changes(const AnalysisBody& body, Ranks* ranks) 
   const auto solve_for_all = [&] {
     std::vector<double> right(body.unknowns.number.size() * block_width, 0.0),
         columns(right.size());
-    for (int c = 0; c < block_width; ++c) right[slots[7 * c + 1] * block_width + c] = 1.0 + c;
+    for (int c = 0; c < block_width; ++c)
+      right[slots[(7 * c + 1) % slots.size()] * block_width + c] = 1.0 + c;
     solver.solve_block(right, columns, 1e-12);
     results.insert(results.end(), columns.begin(), columns.end());
     solver.solve(load, columns);
