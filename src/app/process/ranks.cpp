@@ -39,6 +39,11 @@ void become_rank(char** words) {
   }
 }
 
+int ranks_here(int all) {
+  const int here = first_of({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"});
+  return here > 0 && here < all ? here : all;
+}
+
 Ranks* ranks() { return shared; }
 void set_ranks(Ranks* ranks) { shared = ranks->count() > 1 ? ranks : nullptr; }
 

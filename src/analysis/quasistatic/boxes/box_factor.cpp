@@ -13,7 +13,7 @@ namespace perilink {
 namespace {
 
 /// Columns of the window, at most: more cost more at every event than solving for them again.
-constexpr std::size_t most_blocks = 32, fewest_blocks = 8;
+constexpr std::size_t most_blocks = 256 / block_width, fewest_blocks = 64 / block_width;
 
 /// Iterations of a block, over those of the first, from which on the boxes are made anew.
 constexpr double slower = 1.3;
@@ -394,9 +394,13 @@ void BoxFactor::defer_no_more() {
 
 void BoxFactor::catch_up(std::span<double> solution) {
   if (!is_behind()) return;
+  add_steps(solution);
+  std::ranges::fill(deferred_->steps, 0.0);
+}
+
+void BoxFactor::add_steps(std::span<double> solution) const {
   const std::vector<double> motion = motion_of(deferred_->steps);
   for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
-  std::ranges::fill(deferred_->steps, 0.0);
 }
 
 /// extensions() of the solution with the steps that it lacks.

@@ -54,6 +54,8 @@ class BoxFactor final : public Factor {
   bool is_behind() const { return deferred_ && deferred_->is_behind(); }
   /// Adds all noted steps.
   void catch_up(std::span<double> solution);
+  /// The same to a copy of the solution, which still lacks them.
+  void add_steps(std::span<double> solution) const;
   /// The solution has changed in another way.
   void note_restart() {
     if (deferred_) ++deferred_->restarts;

@@ -22,6 +22,8 @@ struct BoxSolverOptions {
   Index edge = 0;  ///< particles along an edge of a box; 0: as many as serve the body best
   /// Whether solve_block() is wanted; the errors of solve() then count each by its own energy.
   bool blocks = false;
+  /// Elements from which on it pays that displacements wait until a search asks for them.
+  Index fewest_to_defer = 200'000;
   Ranks* ranks = nullptr;  ///< that share the work, where there are several
 };
 

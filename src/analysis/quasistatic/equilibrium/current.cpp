@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 
@@ -169,19 +168,16 @@ void Equilibrium::judge_columns(std::span<const double> missing,
   if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) boxes_->forget();
 }
 
-/// Takes away what errors of columns have left in the displacements, unless new columns have taken
-/// it away not long ago.
+/// Takes away what errors of columns have left in the displacements.
 /// \param size      norm of the residual over that of the load
 /// \param residual  the same per unknown, used up
 /// \return norm of what is left, over that of the load
 double Equilibrium::refine_followed(double size, std::vector<double>& residual) {
-  const bool is_large = !(size <= options_.residual_tolerance);
-  const bool is_corrected = std::exchange(is_corrected_, false) && !is_large;
-  if (size <= fine_residual || is_corrected) return size;
+  if (size <= fine_residual) return size;
   const std::vector<double> missing = residual;
   refine(residual);  // which is then the correction
   judge_columns(missing, residual);
-  if (is_large) look_closer_ = true;
+  if (!(size <= options_.residual_tolerance)) look_closer_ = true;
   return measure_residual(residual);
 }
 
@@ -209,7 +205,6 @@ void Equilibrium::prepare(Index element, std::span<const Index> expected) {
   boxes_->note_restart();
   scatter_solution();
   force_work_ = work_of_forces();
-  is_corrected_ = true;
   judge_columns(missing, residual);
 }
 

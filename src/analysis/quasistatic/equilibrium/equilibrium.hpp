@@ -117,7 +117,8 @@ class Equilibrium {
   /// Whether the search may keep current what it looks at alone, while columns tell the rest.
   bool may_defer() const {
     return boxes_ != nullptr && !constant_ && axial_.empty() && !network_.carries_moments() &&
-           (driven_elements_.empty() || loaded_slots_.empty());
+           (driven_elements_.empty() || loaded_slots_.empty()) &&
+           network_.num_elements() >= options_.boxes.fewest_to_defer;
   }
   /// Events leave it to the search from now on.
   const DeferredMotion& defer();
@@ -157,12 +158,6 @@ class Equilibrium {
   /// Measures the residual of all particles; above the tolerance refines the displacement once,
   /// then factorises anew.
   Balance check();
-
-  /// check() that takes away what events have left, however little it is.
-  void take_errors_away() {
-    is_corrected_ = false;
-    check();
-  }
 
   /// The residual where elements can fail alone, without a solve; above the tolerance check().
   /// \return without the stored energy (not a number) where some displacements are not current
@@ -370,7 +365,6 @@ class Equilibrium {
   std::vector<std::size_t> moving_slots_, current_slots_, awake_slots_;
   std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;
-  bool is_corrected_ = false;     ///< with new columns, since check() was last asked for
   double noise_of_sides_ = 0.0;   ///< extensions below it are on neither side [length]
   double largest_motion_ = 0.0;   ///< by displacement_, see noise()
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// Round-off of displacements that are added up in another order, and of single precision.
+/// Round-off of displacements that are added up in another order.
 constexpr double round_off = 1e-6;
 
 }  // namespace
@@ -39,7 +39,7 @@ void DozingColumns::follow() {
   for (std::size_t k = 0; k < moved.size(); ++k) {
     const double step = (1.0 + round_off) * (moved[k] - counted_[k]);
     if (step == 0.0) continue;
-    const float* ratio = ratios_[k / block_width].data() + k % block_width * bounds_.size();
+    const double* ratio = ratios_[k / block_width].data() + k % block_width * bounds_.size();
     double* bound = bounds_.data();
     for (std::size_t b = 0; b < bounds_.size(); ++b) bound[b] += step * ratio[b];
   }
@@ -49,9 +49,9 @@ void DozingColumns::follow() {
 void DozingColumns::measure_columns() {
   while (ratios_.size() < motion_->blocks->size()) {
     const std::vector<double>& columns = (*motion_->blocks)[ratios_.size()];
-    std::vector<float>& ratios = ratios_.emplace_back(bounds_.size() * block_width);
+    std::vector<double>& ratios = ratios_.emplace_back(bounds_.size() * block_width);
     for (std::size_t b = 0; b < bounds_.size(); ++b) {
-      const std::array<float, block_width> largest =
+      const std::array<double, block_width> largest =
           largest_of_(static_cast<Index>(b), columns.data());
       for (std::size_t c = 0; c < block_width; ++c) ratios[c * bounds_.size() + b] = largest[c];
     }

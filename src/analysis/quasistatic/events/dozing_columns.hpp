@@ -23,7 +23,7 @@ class DozingColumns {
   /// Of one column after the other, the largest ratio that it gives a bond of a search block.
   /// \param columns  shape (particles, width, block_width)
   using LargestOfColumns =
-      std::function<std::array<float, block_width>(Index block, const double* columns)>;
+      std::function<std::array<double, block_width>(Index block, const double* columns)>;
   /// Slots of the ends of the bonds of a search block: the first component of each.
   using EndsOf = std::function<void(Index block, const std::function<void(std::size_t)>& visit)>;
 
@@ -58,9 +58,9 @@ class DozingColumns {
   EndsOf ends_of_;
   std::vector<double> bounds_;
   std::vector<bool> restless_;
-  std::vector<std::vector<float>> ratios_;  ///< R(y), of each block of columns: shape
-                                            ///< (block_width, search blocks)
-  std::vector<double> counted_;             ///< DeferredMotion::moved, as far as bounds know it
+  std::vector<std::vector<double>> ratios_;  ///< R(y), of each block of columns: shape
+                                             ///< (block_width, search blocks)
+  std::vector<double> counted_;              ///< DeferredMotion::moved, as far as bounds know it
   int restarts_ = 0, renewals_ = 0;
   std::vector<int> seen_;  ///< per particle: DeferredMotion::changes that its displacement knows
 };

@@ -193,10 +193,10 @@ bool LimitSearch::doze_by_columns(const DeferredMotion& motion) {
   return true;
 }
 
-std::array<float, block_width> LimitSearch::largest_of_columns(std::size_t begin, std::size_t end,
-                                                               const double* columns) const {
+std::array<double, block_width> LimitSearch::largest_of_columns(std::size_t begin, std::size_t end,
+                                                                const double* columns) const {
   const Group& group = pulled_;
-  double most[block_width] = {};
+  std::array<double, block_width> most{};
   for (std::size_t k = begin; k < end; ++k) {
     double ratio[block_width] = {};
     for (int a = 0; a < dim_; ++a) {
@@ -206,11 +206,11 @@ std::array<float, block_width> LimitSearch::largest_of_columns(std::size_t begin
         ratio[c] += group.gradient[a][k] * (second[c] - first[c]);
       }
     }
-    for (int c = 0; c < block_width; ++c) most[c] = std::max(most[c], std::abs(ratio[c]));
+    for (int c = 0; c < block_width; ++c) {  // what is not a number stays
+      most[c] = std::abs(ratio[c]) <= most[c] ? most[c] : std::abs(ratio[c]);
+    }
   }
-  std::array<float, block_width> result;
-  for (int c = 0; c < block_width; ++c) result[c] = static_cast<float>(most[c]);
-  return result;
+  return most;
 }
 
 void LimitSearch::set_limits(Index /*element*/, double /*tension*/, double /*compression*/) {

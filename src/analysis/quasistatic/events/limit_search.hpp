@@ -39,8 +39,8 @@ class LimitSearch final : public BreakSearch {
   };
   void add(Index element, Group& group);
   void set_gradient(Group& group, std::size_t place, double limit);
-  std::array<float, block_width> largest_of_columns(std::size_t begin, std::size_t end,
-                                                    const double* columns) const;
+  std::array<double, block_width> largest_of_columns(std::size_t begin, std::size_t end,
+                                                     const double* columns) const;
   template <int Dim, Sense sense>
   static double ratio_at(const Group& group, const double* displacement, Index place);
   template <int Dim, Sense sense>

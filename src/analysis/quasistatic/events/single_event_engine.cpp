@@ -34,7 +34,7 @@ Event SingleEventEngine::next_event() {
   const double noise = equilibrium_.noise();
   if (hit.element != no_index && equilibrium_.noise_of_events() > noise &&
       is_within(equilibrium_.noise_of_events(), hit)) {
-    equilibrium_.take_errors_away();
+    equilibrium_.check();
     hit = find();
   }
   if (hit.element == no_index) return {};

@@ -48,7 +48,7 @@ void refuse_too_many_bonds(const CaseFile& input, const HorizonReach& reach) {
   const double bonds = 0.5 * neighbours * reach.particles;
   const double bytes = bytes_per_bond * bonds;
   const bool numbered = bonds / reach.parts <= std::numeric_limits<Index>::max();
-  if (numbered && bytes / reach.parts <= reach.memory) return;
+  if (numbered && bytes * reach.parts_here / reach.parts <= reach.memory) return;
   throw InputError(
       input.where(horizon_key(input.body)),
       fmt::format("makes the horizon {:.6g}, {:.4g} spacings: each of about {:.3g} particles would "

@@ -220,7 +220,9 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
     model.notes.push_back(
         fmt::format("each of {} processes makes its own part of the body: its bonds are like those "
                     "of a box of {} steps, in which they were calibrated or made",
-                    options.parts, fmt::join(model.pattern->small.count, " by ")));
+                    options.parts,
+                    fmt::join(model.pattern->small.count.begin(),
+                              model.pattern->small.count.begin() + body.particles.dim, " by ")));
     return;
   }
   if (options.parts > 1 &&

@@ -15,6 +15,7 @@
 #include "app/model/conditions/boundary_conditions.hpp"
 #include "app/model/from_case/case_bonds.hpp"
 #include "app/model/gauges.hpp"
+#include "app/process/ranks.hpp"
 #include "base/error.hpp"
 #include "discretization/lattices/beam_body.hpp"
 #include "discretization/lattices/make_body.hpp"
@@ -113,7 +114,10 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon, int par
   if (bonds) {
     lattice.horizon = horizon_of(input.body, lattice.spacing);
     HorizonReach reach = reach_of(box, dim, lattice.horizon, lattice.spacing);
-    if (can_be_made_in_parts(input)) reach.parts = parts;
+    if (can_be_made_in_parts(input)) {
+      reach.parts = parts;
+      reach.parts_here = ranks_here(parts);
+    }
     refuse_impossible_horizon(input, reach);
   } else {
     lattice.surface = Surface::calibrated;  // the same particles
