@@ -8,7 +8,7 @@
 
 #include "base/sparse_vector.hpp"
 #include "base/types.hpp"
-#include "solver/blocks/single_factor.hpp"
+#include "solver/single_factor.hpp"
 
 namespace perilink {
 

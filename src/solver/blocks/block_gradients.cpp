@@ -148,15 +148,6 @@ double left_by(const Square& rz, const BlockRow& sizes) {
   return largest(sizes, [&](int c) { return std::sqrt(std::max(rz[c][c], 0.0)); });
 }
 
-/// What a step adds to the energy of every solution.
-BlockRow gains_of(const Square& sides, const Square& steps) {
-  BlockRow gains{};
-  for (int d = 0; d < width; ++d) {
-    for (int c = 0; c < width; ++c) gains[c] += sides[d][c] * steps[d][c];
-  }
-  return gains;
-}
-
 /// A step along the directions: solution += p steps, right -= q steps. \return p'right then
 template <class Number>
 Square take_step(std::span<const Number> p, std::span<const Number> q, const Square& steps,
@@ -204,6 +195,30 @@ struct Products {
   Square pr, rz, qz;
 };
 
+template <class Number>
+void find_products(const BlockMap<Number>& precondition, std::span<const Number> r,
+                   std::span<const Number> q, std::span<Number> z, Products& products) {
+  products.rz = products.qz = {};
+  precondition(r, z, [&](std::size_t begin, std::size_t end) {
+    add_gram<Number>(r, z, begin, end, products.rz);
+    add_gram<Number>(q, z, begin, end, products.qz);
+  });
+}
+
+/// What a step adds to the energy of every solution.
+void add_gains(const Square& sides, const Square& steps, std::array<EnergyGains, width>& gains) {
+  for (int c = 0; c < width; ++c) {
+    double gained = 0.0;
+    for (int d = 0; d < width; ++d) gained += sides[d][c] * steps[d][c];
+    gains[c].add(std::max(gained, 0.0));
+  }
+}
+
+constexpr double digits_between = 1e-5;  // corrections
+constexpr double least_gain = 0.1;       // one of these five digits
+/// A residual so small, counted as an error, is none even where the body is soft.
+constexpr double gone = 1e-3;
+
 }  // namespace
 
 template <class Number>
@@ -214,12 +229,7 @@ GradientsReport block_conjugate_gradients(
     const SumOverParts& sum) {
   constexpr double epsilon = std::numeric_limits<Number>::epsilon();
   constexpr double same = std::max(10.0 * epsilon, 1e-12);
-  constexpr double digits_between = 1e-5;
-  /// A residual so small, counted as an error, is none even where the body is soft.
-  constexpr double gone = 1e-3;
-  constexpr double least_gain = 0.1;  // one of the five digits between corrections
   std::vector<Number> z(right.size()), p(right.size()), q(right.size());
-  const std::size_t rows = right.size() / width;
   std::ranges::fill(solution, Number{0});
   std::array<EnergyGains, width> gains;
   Products now{};
@@ -227,11 +237,7 @@ GradientsReport block_conjugate_gradients(
     if (sum) sum({reinterpret_cast<double*>(&squares), sizeof(squares) / sizeof(double)});
   };
   const auto find_z = [&] {
-    now.rz = now.qz = {};
-    precondition(right, z, [&](std::size_t begin, std::size_t end) {
-      add_gram<Number>(right, z, begin, end, now.rz);
-      add_gram<Number>(q, z, begin, end, now.qz);
-    });
+    find_products<Number>(precondition, right, q, z, now);
     sum_up(now);
   };
   find_z();
@@ -247,8 +253,7 @@ GradientsReport block_conjugate_gradients(
     sum_up(energies);
     const Square inverse = inverse_of(energies, sides, same);
     const Square steps = times(inverse, sides);
-    const BlockRow gained = gains_of(sides, steps);
-    for (int c = 0; c < width; ++c) gains[c].add(std::max(gained[c], 0.0));
+    add_gains(sides, steps, gains);
     now.pr = take_step<Number>(p, q, steps, solution, right);
     ++report.iterations;
     report.error = largest(sizes, [&](int c) { return gains[c].error(); });
@@ -263,8 +268,7 @@ GradientsReport block_conjugate_gradients(
     if (correct && (left < digits_between * corrected_at || report.error <= enough)) {
       correct(solution, right);
       std::ranges::fill(solution, Number{0});
-      now.pr = {};
-      add_gram<Number>(p, right, 0, rows, now.pr);
+      add_gram<Number>(p, right, 0, right.size() / width, now.pr = {});
       find_z();
       const double before = corrected_at;
       corrected_at = left_by(now.rz, sizes);

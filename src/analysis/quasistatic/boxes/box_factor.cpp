@@ -44,10 +44,6 @@ double share_of(const SparseVector& x, const SparseVector& held) {
   return share;
 }
 
-std::span<const double> numbers_of(const Eigen::VectorXd& vector) {
-  return {vector.data(), static_cast<std::size_t>(vector.size())};
-}
-
 }  // namespace
 
 BoxFactor::BoxFactor(const Network& network, const BoxSolverOptions& options)
@@ -315,7 +311,7 @@ std::vector<double> BoxFactor::columns(std::span<const SparseVector> x) {
   hold(x);
   std::vector<double> result;
   for (const SparseVector& column : x) {
-    const std::vector<double> motion = motion_of(numbers_of(shares_ * in_window(column)));
+    const std::vector<double> motion = motion_of(shares_ * in_window(column));
     result.insert(result.end(), motion.begin(), motion.end());
   }
   return result;
@@ -362,59 +358,6 @@ void BoxFactor::downdate(std::span<const SparseVector> x, std::span<const double
     catch_up(solution);
     forget();
   }
-}
-
-/// solution += blocks times weights, now or when it is asked for.
-void BoxFactor::move(const Eigen::VectorXd& weights, std::span<double> solution) {
-  if (!deferred_) {
-    const std::vector<double> motion = motion_of(numbers_of(weights));
-    for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
-    return;
-  }
-  deferred_->steps.resize(static_cast<std::size_t>(weights.size()), 0.0);
-  deferred_->moved.resize(static_cast<std::size_t>(weights.size()), 0.0);
-  for (Eigen::Index k = 0; k < weights.size(); ++k) {
-    deferred_->steps[k] += weights[k];
-    deferred_->moved[k] += std::abs(weights[k]);
-  }
-  ++deferred_->changes;
-}
-
-DeferredMotion& BoxFactor::defer() {
-  deferred_.emplace();
-  deferred_->unknowns = unknowns_;
-  deferred_->blocks = &blocks_;
-  return *deferred_;
-}
-
-void BoxFactor::defer_no_more() {
-  if (is_behind()) throw std::logic_error("steps that a solution lacks are given up");
-  deferred_.reset();
-}
-
-void BoxFactor::catch_up(std::span<double> solution) {
-  if (!is_behind()) return;
-  add_steps(solution);
-  std::ranges::fill(deferred_->steps, 0.0);
-}
-
-void BoxFactor::add_steps(std::span<double> solution) const {
-  const std::vector<double> motion = motion_of(deferred_->steps);
-  for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
-}
-
-/// extensions() of the solution with the steps that it lacks.
-std::vector<double> BoxFactor::present_extensions(std::span<const SparseVector> x,
-                                                  std::span<const double> load_changes,
-                                                  std::span<const double> solution) const {
-  std::vector<double> result = extensions(x, load_changes, solution);
-  for (std::size_t a = 0; is_behind() && a < x.size(); ++a) {
-    for (int k = 0; k < x[a].size(); ++k) {
-      const std::size_t slot = slot_of_[x[a].rows[k]];
-      result[a] += x[a].values[k] * deferred_->step_at(slot);
-    }
-  }
-  return result;
 }
 
 void BoxFactor::update(const SparseVector& x) {

@@ -18,7 +18,7 @@ struct DeferredMotion {
   // No matrices of Eigen here: their memory depends on the processor that a file is compiled for.
   std::vector<double> steps;  ///< per column: what is missing of it in the solution
   std::vector<double> moved;  ///< per column: sizes of all steps so far
-  int changes = 0;            ///< of the steps so far
+  int changes = 0;            ///< steps so far
   int restarts = 0;           ///< so often the solution has changed in other ways
   int renewals = 0;           ///< so often columns have gone or become others
 

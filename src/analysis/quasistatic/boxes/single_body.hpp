@@ -57,7 +57,7 @@ class SingleBody {
   std::vector<float> blocks_;         ///< inverse ones, by the order, zero where something is held
   std::vector<float> moves_;          ///< rows of P, by the order, shape (particles, dim, motions)
   std::vector<std::size_t> box_end_;  ///< places up to which the particles of each box go
-  SingleFactor factor_;               ///< of P'K P over the unit
+  SingleFactor factor_;               ///< that P'K P over the unit has
   std::vector<float> coarse_;         ///< shape (boxes, motions, block_width), by its order
 };
 

@@ -96,6 +96,21 @@ void Equilibrium::spread() {
   spread_ = true;
 }
 
+/// Observers must not change the run: what is missing of displacements is found aside.
+std::span<const double> Equilibrium::displacement() {
+  if (boxes_ != nullptr && boxes_->is_behind()) {
+    std::vector<double> all = solution_;
+    boxes_->add_steps(all);
+    observed_ = unknowns_->expand(all);
+    return observed_;
+  }
+  if (!stale_) return where_elements_fail();
+  std::vector<double> all = present_load();
+  factor_->solve(all, all);
+  observed_ = unknowns_->expand(all);
+  return observed_;
+}
+
 const DeferredMotion& Equilibrium::defer() {
   DeferredMotion& motion = boxes_->defer();
   motion.solution = &solution_;

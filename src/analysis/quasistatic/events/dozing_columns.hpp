@@ -20,7 +20,7 @@ namespace perilink {
 /// of its particles. Answers are those of a search among all.
 class DozingColumns {
  public:
-  /// Of one column after the other, the largest ratio that it gives a bond of a search block.
+  /// Largest ratio that each of a block of columns gives a bond of a search block.
   /// \param columns  shape (particles, width, block_width)
   using LargestOfColumns =
       std::function<std::array<double, block_width>(Index block, const double* columns)>;

@@ -152,37 +152,6 @@ TEST(BoxFactor, CorrectsASolutionWithNewColumns) {
   EXPECT_EQ(found, missing);
 }
 
-TEST(BoxFactor, LeavesStepsOutUntilItIsAskedForThem) {
-  const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}});
-  const std::vector<double> secants = intact(body.network), no_ground;
-  BoxFactor at_once(body.network, fine), later(body.network, fine);
-  std::vector<double> motion = body.unknowns.restrict(body.loads.forces), deferred;
-  for (BoxFactor* boxes : {&at_once, &later}) boxes->begin(body.unknowns, secants, no_ground);
-  at_once.solve(motion, motion);
-  const std::vector<double> start = deferred = motion;
-  const DeferredMotion& steps = later.defer();
-  for (const Index unknown : {5, 9}) {
-    const SparseVector x{{unknown, unknown + 1}, {0.3, -0.2}};
-    const double load = 0.1, pivot = at_once.pivot(x);
-    at_once.downdate({&x, 1}, {&load, 1}, {&pivot, 1}, motion);
-    later.pivot(x);
-    later.downdate({&x, 1}, {&load, 1}, {&pivot, 1}, deferred);
-  }
-  EXPECT_EQ(deferred, start);
-  EXPECT_TRUE(later.is_behind());
-  EXPECT_EQ(steps.changes, 2);
-  const std::vector<std::size_t> slots = body.unknowns.slots();
-  double largest = 0.0;
-  for (const double value : motion) largest = std::max(largest, std::abs(value));
-  for (std::size_t k = 0; k < motion.size(); ++k) {
-    EXPECT_NEAR(start[k] + steps.step_at(slots[k]), motion[k], closeness * largest);
-  }
-  EXPECT_THROW(later.defer_no_more(), std::logic_error);
-  later.catch_up(deferred);
-  EXPECT_FALSE(later.is_behind());
-  EXPECT_LT(largest_difference(deferred, motion), closeness);
-}
-
 /// The vector of an element, whatever is left of it, and no other on the same unknowns.
 TEST(BoxFactor, HoldsVectorsByThemselves) {
   const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}});

@@ -1,4 +1,4 @@
-#include "solver/blocks/single_factor.hpp"
+#include "solver/single_factor.hpp"
 
 #include <cstddef>
 

@@ -21,7 +21,7 @@ struct SingleFactor {
                                 ///< diagonal, which holds one over its numbers
   };
   std::vector<Supernode> supernodes;  ///< in the order of elimination
-  std::vector<Index> place;           ///< of each unknown in this order
+  std::vector<Index> place;           ///< where each unknown comes in it
 
   /// Solves right sides where they are, shape (n, block_width), in the order of the factor.
   void solve(std::span<float> sides) const;

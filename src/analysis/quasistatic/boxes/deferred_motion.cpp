@@ -1,0 +1,67 @@
+#include "analysis/quasistatic/boxes/deferred_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "analysis/quasistatic/boxes/box_factor.hpp"
+
+/// \file
+/// What a BoxFactor does with steps that its solution waits for.
+
+namespace perilink {
+
+/// solution += blocks times weights, now or when it is asked for.
+void BoxFactor::move(const Eigen::VectorXd& weights, std::span<double> solution) {
+  if (!deferred_) {
+    const std::vector<double> motion = motion_of(weights);
+    for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
+    return;
+  }
+  deferred_->steps.resize(static_cast<std::size_t>(weights.size()), 0.0);
+  deferred_->moved.resize(static_cast<std::size_t>(weights.size()), 0.0);
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    deferred_->steps[k] += weights[k];
+    deferred_->moved[k] += std::abs(weights[k]);
+  }
+  ++deferred_->changes;
+}
+
+DeferredMotion& BoxFactor::defer() {
+  deferred_.emplace();
+  deferred_->unknowns = unknowns_;
+  deferred_->blocks = &blocks_;
+  return *deferred_;
+}
+
+void BoxFactor::defer_no_more() {
+  if (is_behind()) throw std::logic_error("steps that a solution lacks are given up");
+  deferred_.reset();
+}
+
+void BoxFactor::catch_up(std::span<double> solution) {
+  if (!is_behind()) return;
+  add_steps(solution);
+  std::ranges::fill(deferred_->steps, 0.0);
+}
+
+void BoxFactor::add_steps(std::span<double> solution) const {
+  const std::vector<double> motion = motion_of(std::span<const double>(deferred_->steps));
+  for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
+}
+
+/// extensions() of the solution with the steps that it lacks.
+std::vector<double> BoxFactor::present_extensions(std::span<const SparseVector> x,
+                                                  std::span<const double> load_changes,
+                                                  std::span<const double> solution) const {
+  std::vector<double> result = extensions(x, load_changes, solution);
+  for (std::size_t a = 0; is_behind() && a < x.size(); ++a) {
+    for (int k = 0; k < x[a].size(); ++k) {
+      const std::size_t slot = slot_of_[x[a].rows[k]];
+      result[a] += x[a].values[k] * deferred_->step_at(slot);
+    }
+  }
+  return result;
+}
+
+}  // namespace perilink
