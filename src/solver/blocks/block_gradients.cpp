@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "solver/not_positive_definite.hpp"
@@ -270,8 +271,7 @@ GradientsReport block_conjugate_gradients(
       std::ranges::fill(solution, Number{0});
       add_gram<Number>(p, right, 0, right.size() / width, now.pr = {});
       find_z();
-      const double before = corrected_at;
-      corrected_at = left_by(now.rz, sizes);
+      const double before = std::exchange(corrected_at, left_by(now.rz, sizes));
       if (!(corrected_at < least_gain * before)) break;
     }
     const Square shares = times(inverse, now.qz);

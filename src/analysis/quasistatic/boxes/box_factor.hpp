@@ -93,7 +93,7 @@ class BoxFactor final : public Factor {
   Eigen::VectorXd in_window(const SparseVector& x);
   std::vector<double> motion_of(std::span<const double> weights) const;
   std::vector<double> motion_of(const Eigen::VectorXd& weights) const {
-    return motion_of({weights.data(), static_cast<std::size_t>(weights.size())});
+    return motion_of(std::span(weights.data(), static_cast<std::size_t>(weights.size())));
   }
   void change(const Eigen::VectorXd& d, double pivot, double sign);
   void move(const Eigen::VectorXd& weights, std::span<double> solution);

@@ -1,13 +1,10 @@
-#include "analysis/quasistatic/boxes/deferred_motion.hpp"
+// What a BoxFactor does with steps that its solution waits for.
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "analysis/quasistatic/boxes/box_factor.hpp"
-
-/// \file
-/// What a BoxFactor does with steps that its solution waits for.
 
 namespace perilink {
 
