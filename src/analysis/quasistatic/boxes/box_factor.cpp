@@ -106,11 +106,7 @@ auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vect
 }
 
 void BoxFactor::forget() {
-  if (deferred_) {
-    deferred_->steps.clear();
-    deferred_->moved.clear();
-    ++deferred_->renewals;
-  }
+  if (deferred_) deferred_->drop();
   std::ranges::fill(place_of_, no_index);
   span_.clear();
   window_.clear();
@@ -137,11 +133,7 @@ void BoxFactor::keep_latest() {
   compliance_ = Eigen::MatrixXd(compliance_(places, places));
   shares_ = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(columns),
                                       static_cast<Eigen::Index>(kept));
-  if (deferred_) {
-    deferred_->steps.clear();
-    deferred_->moved.clear();
-    ++deferred_->renewals;
-  }
+  if (deferred_) deferred_->drop();
   const std::vector<SparseVector> window = std::move(window_);
   const std::vector<int> used = std::move(used_);
   window_.clear();

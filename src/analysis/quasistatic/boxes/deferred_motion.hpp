@@ -33,6 +33,13 @@ struct DeferredMotion {
     return sum;
   }
 
+  /// The columns go.
+  void drop() {
+    steps.clear();
+    moved.clear();
+    ++renewals;
+  }
+
   bool is_behind() const {
     return std::ranges::any_of(steps, [](double step) { return step != 0.0; });
   }

@@ -10,14 +10,14 @@
 
 namespace perilink {
 
-/// Blocks of a search that need no look at every event while displacements follow by combinations
-/// of columns y. The ratio R of a bond to its limit is a seminorm of the motion, so that with steps
-/// s of the columns since the last look
+/// Blocks of a search that need no look at every event while displacements are combined
+/// from columns. The ratio R of a bond to its limit is a seminorm of the motion, so that with steps s
+/// along the columns y since the last look
 ///
 ///   R(u) <= R(u_0) + sum over columns |s| R(y).
 ///
-/// While that is below what another bond has come to, the block sleeps, and so do the displacements
-/// of its particles. Answers are those of a search among all.
+/// While that is below what another bond has come to, the block sleeps, and its particles keep the
+/// displacements of then. What is found is what a search among all finds.
 class DozingColumns {
  public:
   /// Largest ratio that each of a block of columns gives a bond of a search block.
