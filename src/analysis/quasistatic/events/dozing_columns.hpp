@@ -10,8 +10,8 @@
 
 namespace perilink {
 
-/// Blocks of a search that need no look at every event while displacements are combined
-/// from columns. The ratio R of a bond to its limit is a seminorm of the motion, so that with steps s
+/// Blocks of a search that need no look at every event while displacements are combined from
+/// columns. The ratio R of a bond to its limit is a seminorm of the motion, so that with steps s
 /// along the columns y since the last look
 ///
 ///   R(u) <= R(u_0) + sum over columns |s| R(y).
