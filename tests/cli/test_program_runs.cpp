@@ -360,7 +360,8 @@ TEST_F(ProgramRuns, AnEquilibriumThatRoundOffHasLostIsAFailure) {
                cantilever_case(length, force, "elastic\"\nsolver = \"direct"));
     return run({"run", "slender.toml", "--out", "r", "--force"});
   };
-  EXPECT_EQ(solve(20000).exit_status, 0);
+  // Out of balance by 2e-4 to 5e-4 with three kernels of OpenBLAS; 20000 long by 7e-5 to 3e-2.
+  EXPECT_EQ(solve(12000).exit_status, 0);
   EXPECT_GT(summary("r")["energy_error"].get<double>(), 1e-6);
   EXPECT_EQ(summary("r")["doubts"].size(), 2u);
   const ProcessEnd end = solve(40000);
