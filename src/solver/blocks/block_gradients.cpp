@@ -230,7 +230,7 @@ GradientsReport block_conjugate_gradients(
     const SumOverParts& sum) {
   constexpr double epsilon = std::numeric_limits<Number>::epsilon();
   constexpr double same = std::max(10.0 * epsilon, 1e-12);
-  std::vector<Number> z(right.size()), p(right.size()), q(right.size());
+  BlockVector<Number> z(right.size()), p(right.size()), q(right.size());
   std::ranges::fill(solution, Number{0});
   std::array<EnergyGains, width> gains;
   Products now{};
@@ -291,14 +291,14 @@ template GradientsReport block_conjugate_gradients<float>(
     const BlockRow&, double, int,
     const std::function<void(std::span<const float>, std::span<float>)>&, const SumOverParts&);
 
-void recombine(std::vector<std::vector<double>>& blocks, std::span<const double> shares) {
+void recombine(std::vector<BlockVector<double>>& blocks, std::span<const double> shares) {
   const std::size_t old = blocks.size() * block_width, fewer = shares.size() / old;
   std::vector<double> row(fewer);
   for (std::size_t begin = 0; begin < blocks.front().size(); begin += block_width) {
     for (std::size_t first = 0; first < fewer; first += block_width) {
       std::array<double, block_width> sums{};
       const double* share = shares.data() + first;
-      for (std::vector<double>& block : blocks) {
+      for (BlockVector<double>& block : blocks) {
         for (int c = 0; c < block_width; ++c, share += fewer) {
           const double value = block[begin + c];
           for (int k = 0; k < block_width; ++k) sums[k] += value * share[k];

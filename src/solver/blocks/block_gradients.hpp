@@ -62,7 +62,7 @@ GradientsReport block_conjugate_gradients(
 /// go over to combinations of them, which may be fewer.
 /// \param shares  what each new column has of each old one, shape (old, new); new a multiple of
 ///                block_width
-void recombine(std::vector<std::vector<double>>& blocks, std::span<const double> shares);
+void recombine(std::vector<BlockVector<double>>& blocks, std::span<const double> shares);
 
 /// result += columns weights, the columns of shape (n, block_width).
 void add_combination(std::span<const double> columns, std::span<const double> weights,

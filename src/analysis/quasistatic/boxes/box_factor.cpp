@@ -116,6 +116,15 @@ void BoxFactor::forget() {
   compliance_.resize(0, 0);
 }
 
+void BoxFactor::let_go(std::span<const SparseVector> x) {
+  for (std::size_t place = 0; place < window_.size(); ++place) {
+    const auto is_here = [&](const SparseVector& gone) {
+      return share_of(gone, window_[place]) != 0.0;
+    };
+    if (std::ranges::any_of(x, is_here)) used_[place] = 0;
+  }
+}
+
 /// Half of the blocks are made free: the columns that were used last go over to what they are now.
 void BoxFactor::keep_latest() {
   if (is_behind()) throw std::logic_error("columns go while a solution still needs them");
@@ -225,7 +234,7 @@ std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& mis
 void BoxFactor::take_in(std::span<const SparseVector> x, Correction* correction) {
   const auto before = static_cast<Eigen::Index>(window_.size());
   const auto size = before + static_cast<Eigen::Index>(x.size());
-  std::vector<double> right(unknowns_->number.size() * block_width, 0.0);
+  BlockVector<double> right(unknowns_->number.size() * block_width, 0.0);
   for (std::size_t c = 0; c < x.size(); ++c) {
     for (int k = 0; k < x[c].size(); ++k) {
       right[slot_of_[x[c].rows[k]] * block_width + c] = x[c].values[k];

@@ -42,6 +42,9 @@ class BoxFactor final : public Factor {
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
   /// residual <- K^-1 residual, as exact as a solution of this energy is to be.
   void correct(std::vector<double>& residual, double energy);
+  /// Nobody will ask for these any more, whose elements are gone: when the window is full they go
+  /// first.
+  void let_go(std::span<const SparseVector> x);
   /// Columns at hand have followed too many changes: all are solved for again when they are asked
   /// for.
   void forget();
@@ -114,11 +117,11 @@ class BoxFactor final : public Factor {
   std::vector<SparseVector> window_;  ///< vectors e whose columns are at hand
   std::vector<Index> place_of_;  ///< per unknown: where it is in the window by itself, or no_index
   VectorSpan span_;              ///< what the window makes up
-  std::vector<int> used_;        ///< per place: when an event used it last
+  std::vector<int> used_;        ///< per place: when an event used it last; 0: let go
   int now_ = 0;                  ///< events and calls so far
   /// Columns of K^-1 as it was when they were solved for, block after block, each of shape
   /// (particles, width, block_width).
-  std::vector<std::vector<double>> blocks_;
+  std::vector<BlockVector<double>> blocks_;
   Eigen::MatrixXd shares_;      ///< F: the present columns are those of the blocks times F
   Eigen::MatrixXd compliance_;  ///< H: e' K^-1 e of the present columns
   std::optional<DeferredMotion> deferred_;

@@ -182,7 +182,7 @@ void BoxSolver::solve(std::span<const double> right, std::span<double> solution)
 void BoxSolver::correct(std::span<const double> right, std::span<double> solution, double energy) {
   const double tolerance = options_.tolerance * finer;
   GradientsReport report;
-  std::vector<double> block(single_ ? unknowns_.number.size() * block_width : 0),
+  BlockVector<double> block(single_ ? unknowns_.number.size() * block_width : 0),
       found(block.size());
   const auto for_each_unknown = [&](auto visit) {
     for (std::size_t slot = 0; single_ && slot < unknowns_.number.size(); ++slot) {
@@ -287,7 +287,7 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
     unit[c] = local[c] > 0.0 ? std::sqrt(local[c]) : 1.0;
     scaled[c] = sizes[c] / (unit[c] * unit[c]);
   }
-  std::vector<float> found(right.size()), missing(right.size());
+  BlockVector<float> found(right.size()), missing(right.size());
   const auto for_each_particle = [&](auto visit) {
     for (Index p = 0; p < network_.particles.size(); ++p) {
       visit(static_cast<std::size_t>(p) * row, single_->place(p) * row);
@@ -315,7 +315,7 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
       found, scaled, finer_in_single * enough, most_box_iterations,
       [&](std::span<const float> part, std::span<float> left) {
         add(part);
-        std::vector<double> residual(right.size());
+        BlockVector<double> residual(right.size());
         multiply_block(solution, residual);
         for (std::size_t k = 0; k < right.size(); ++k) residual[k] = right[k] - residual[k];
         round(residual, left);

@@ -9,6 +9,7 @@
 #include "analysis/quasistatic/ranks/team.hpp"
 #include "assembly/box_motions.hpp"
 #include "assembly/internal_force.hpp"
+#include "base/block.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
 #include "solver/blocks/block_gradients.hpp"
@@ -103,7 +104,7 @@ class BoxSolver {
   std::unique_ptr<SingleBody> single_;  ///< null: double precision
   std::vector<double> coarse_;          // residual or motion of the boxes, shape (boxes, motions)
   std::vector<double> motion_;          // shape (particles, width), zero where it is prescribed
-  std::vector<double> coarse_block_;
+  BlockVector<double> coarse_block_;
   InternalForce forces_;
   double energy_ = 0.0, error_ = 0.0;
   int iterations_ = 0;

@@ -14,7 +14,7 @@ struct DeferredMotion {
   const Unknowns* unknowns = nullptr;
   const std::vector<double>* solution = nullptr;  ///< q without these steps
   std::vector<double>* displacement = nullptr;    ///< with them where looked at, (particles, width)
-  const std::vector<std::vector<double>>* blocks = nullptr;  ///< columns, BoxFactor::blocks_
+  const std::vector<BlockVector<double>>* blocks = nullptr;  ///< columns, BoxFactor::blocks_
   // No matrices of Eigen here: their memory depends on the processor that a file is compiled for.
   std::vector<double> steps;  ///< per column: what is missing of it in the solution
   std::vector<double> moved;  ///< per column: sizes of all steps so far

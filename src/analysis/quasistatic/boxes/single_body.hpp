@@ -5,6 +5,7 @@
 
 #include "assembly/box_motions.hpp"
 #include "assembly/packed_bonds.hpp"
+#include "base/block.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
 #include "solver/blocks/block_gradients.hpp"
@@ -58,7 +59,7 @@ class SingleBody {
   std::vector<float> moves_;          ///< rows of P, by the order, shape (particles, dim, motions)
   std::vector<std::size_t> box_end_;  ///< places up to which the particles of each box go
   SingleFactor factor_;               ///< that P'K P over the unit has
-  std::vector<float> coarse_;         ///< shape (boxes, motions, block_width), by its order
+  BlockVector<float> coarse_;         ///< shape (boxes, motions, block_width), by its order
 };
 
 }  // namespace perilink

@@ -168,6 +168,7 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
     if (constant_) move_constant(removal);
     factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
   }
+  if (boxes_ != nullptr && secant == 0.0) boxes_->let_go(removal.vectors());
   scatter_current();
   if (constant_) scatter_constant();
   stale_ = partial_;

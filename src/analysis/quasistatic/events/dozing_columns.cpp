@@ -48,7 +48,7 @@ void DozingColumns::follow() {
 
 void DozingColumns::measure_columns() {
   while (ratios_.size() < motion_->blocks->size()) {
-    const std::vector<double>& columns = (*motion_->blocks)[ratios_.size()];
+    const BlockVector<double>& columns = (*motion_->blocks)[ratios_.size()];
     std::vector<double>& ratios = ratios_.emplace_back(bounds_.size() * block_width);
     for (std::size_t b = 0; b < bounds_.size(); ++b) {
       const std::array<double, block_width> largest =

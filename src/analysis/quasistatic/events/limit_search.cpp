@@ -195,25 +195,30 @@ bool LimitSearch::doze_by_columns(const DeferredMotion& motion) {
 
 std::array<double, block_width> LimitSearch::largest_of_columns(std::size_t begin, std::size_t end,
                                                                 const double* columns) const {
-  using Lanes [[gnu::vector_size(8 * block_width)]] = double;
-  using InMemory [[gnu::vector_size(8 * block_width), gnu::aligned(8), gnu::may_alias]] = double;
-  const auto motion_at = [columns](std::size_t slot) {
-    return *reinterpret_cast<const InMemory*>(columns + slot * block_width);
-  };
   const Group& group = pulled_;
-  Lanes most = {};
+  // Comparisons of vectors that are longer than registers are made one number at a time.
+  constexpr int in_register = 4, count = block_width / in_register;
+  using Lanes [[gnu::vector_size(8 * in_register)]] = double;
+  using InMemory [[gnu::vector_size(8 * in_register), gnu::aligned(8), gnu::may_alias]] = double;
+  const auto motion_at = [columns](Index slot) {
+    return reinterpret_cast<const InMemory*>(columns +
+                                             static_cast<std::size_t>(slot) * block_width);
+  };
+  Lanes most[count] = {};
   for (std::size_t k = begin; k < end; ++k) {
-    const auto first = static_cast<std::size_t>(group.first[k]);
-    const auto second = static_cast<std::size_t>(group.second[k]);
-    Lanes ratio = {};
+    const InMemory* first = motion_at(group.first[k]);
+    const InMemory* second = motion_at(group.second[k]);
+    Lanes ratio[count] = {};
     for (int a = 0; a < dim_; ++a) {
-      ratio += group.gradient[a][k] * (motion_at(second + a) - motion_at(first + a));
+      for (int c = 0; c < count; ++c) ratio[c] += group.gradient[a][k] * (*second++ - *first++);
     }
-    const Lanes size = ratio < 0.0 ? -ratio : ratio;
-    most = size <= most ? most : size;  // what is not a number stays
+    for (int c = 0; c < count; ++c) {
+      const Lanes size = ratio[c] < 0.0 ? -ratio[c] : ratio[c];
+      most[c] = size <= most[c] ? most[c] : size;  // what is not a number stays
+    }
   }
   std::array<double, block_width> result;
-  for (std::size_t c = 0; c < result.size(); ++c) result[c] = most[c];
+  for (int c = 0; c < block_width; ++c) result[c] = most[c / in_register][c % in_register];
   return result;
 }
 

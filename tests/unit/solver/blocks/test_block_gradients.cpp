@@ -263,9 +263,9 @@ TEST(BlockGradients, ColumnsGoOverToFewerCombinations) {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> shares =
       MatrixXd::Random(2 * block_width, block_width);
   const auto numbers = [](const Rows& rows) {
-    return std::vector<double>(rows.data(), rows.data() + rows.size());
+    return BlockVector<double>(rows.data(), rows.data() + rows.size());
   };
-  std::vector<std::vector<double>> blocks = {numbers(first), numbers(second)};
+  std::vector<BlockVector<double>> blocks = {numbers(first), numbers(second)};
   recombine(blocks, {shares.data(), std::size_t(shares.size())});
   ASSERT_EQ(blocks.size(), 1u);
   const Rows expected =
