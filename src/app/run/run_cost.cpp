@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/quasistatic/boxes/box_factor.hpp"
 #include "app/run/summary.hpp"
-#include "base/block.hpp"
 #include "base/timer.hpp"
 
 namespace perilink {
@@ -26,7 +26,7 @@ constexpr double seconds_per_file = 2e-3, seconds_per_particle_of_file = 1e-6;
 /// event costs: with brittle trusses a column more, solved for along with others; with bonds that
 /// soften several; where bonds carry moments the columns of their unknowns (blocks of 14 807 and
 /// 31 382 unknowns).
-constexpr double blocks_of_a_window = 37.0, solutions_per_event = 0.13;
+constexpr double columns_beside_window = 64.0, solutions_per_event = 0.13;
 constexpr double solutions_per_softening_event = 0.5, solutions_per_event_of_frames = 2.0;
 
 /// Passes through the factor per event. A micropolar bond leaves with three modes in the plane and
@@ -136,7 +136,9 @@ ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
   cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   if (!events) return cost;
   const double unknowns = static_cast<double>(network.particles.size()) * network.width();
-  cost.memory += blocks_of_a_window * block_width * 8.0 * unknowns;
+  const auto components = static_cast<std::size_t>(unknowns);
+  const auto window = static_cast<double>(columns_of_window(components));
+  cost.memory += (window + columns_beside_window) * 8.0 * unknowns;
   const bool softens = network.laws.size() > 1 || !network.laws[0].is_brittle();
   const double solutions = frames    ? solutions_per_event_of_frames
                            : softens ? solutions_per_softening_event

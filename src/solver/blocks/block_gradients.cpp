@@ -291,29 +291,6 @@ template GradientsReport block_conjugate_gradients<float>(
     const BlockRow&, double, int,
     const std::function<void(std::span<const float>, std::span<float>)>&, const SumOverParts&);
 
-void recombine(std::vector<BlockVector<double>>& blocks, std::span<const double> shares) {
-  const std::size_t old = blocks.size() * block_width, fewer = shares.size() / old;
-  std::vector<double> row(fewer);
-  for (std::size_t begin = 0; begin < blocks.front().size(); begin += block_width) {
-    for (std::size_t first = 0; first < fewer; first += block_width) {
-      std::array<double, block_width> sums{};
-      const double* share = shares.data() + first;
-      for (BlockVector<double>& block : blocks) {
-        for (int c = 0; c < block_width; ++c, share += fewer) {
-          const double value = block[begin + c];
-          for (int k = 0; k < block_width; ++k) sums[k] += value * share[k];
-        }
-      }
-      std::copy(sums.begin(), sums.end(), row.begin() + static_cast<std::ptrdiff_t>(first));
-    }
-    for (std::size_t first = 0; first < fewer; first += block_width) {
-      std::copy_n(row.begin() + static_cast<std::ptrdiff_t>(first), block_width,
-                  blocks[first / block_width].begin() + static_cast<std::ptrdiff_t>(begin));
-    }
-  }
-  blocks.resize(fewer / block_width);
-}
-
 void add_combination(std::span<const double> columns, std::span<const double> weights,
                      std::span<double> result) {
   const double* column = columns.data();

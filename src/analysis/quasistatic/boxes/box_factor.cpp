@@ -12,8 +12,7 @@
 namespace perilink {
 namespace {
 
-/// Columns of the window, at most: more cost more at every event than solving for them again.
-constexpr std::size_t most_blocks = 256 / block_width, fewest_blocks = 64 / block_width;
+constexpr std::size_t fewest_blocks = 64 / block_width;
 
 /// Iterations of a block, over those of the first, from which on the boxes are made anew.
 constexpr double slower = 1.3;
@@ -152,10 +151,11 @@ void BoxFactor::keep_latest() {
   for (const Eigen::Index place : places) put_in_window(window[place], used[place]);
 }
 
-std::size_t BoxFactor::most_columns() const {
-  const double bytes = 8.0 * static_cast<double>(unknowns_->number.size()) * block_width;
+std::size_t columns_of_window(std::size_t components, Index wanted) {
+  const double bytes = 8.0 * static_cast<double>(components) * block_width;
   const auto blocks = static_cast<std::size_t>(most_bytes / bytes);
-  return block_width * std::clamp(blocks, fewest_blocks, most_blocks);
+  return block_width *
+         std::max(fewest_blocks, std::min(blocks, blocks_of(static_cast<std::size_t>(wanted))));
 }
 
 void BoxFactor::put_in_window(const SparseVector& x, int used) {
@@ -185,7 +185,8 @@ void BoxFactor::hold(std::span<const SparseVector> x, Correction* correction) {
   }
   const std::size_t reserved = correction != nullptr ? 1 : 0;
   std::vector<SparseVector> chosen = choose(missing, reserved);
-  if ((blocks_.size() + blocks_of(chosen.size())) * block_width > most_columns()) {
+  if ((blocks_.size() + blocks_of(chosen.size())) * block_width >
+      columns_of_window(unknowns_->number.size(), options_.window)) {
     keep_latest();
     chosen = choose(missing_of(x), reserved);  // some may have gone
   }

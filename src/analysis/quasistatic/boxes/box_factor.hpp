@@ -13,6 +13,10 @@
 
 namespace perilink {
 
+/// Columns that a window keeps, at most, in a body of so many components of displacement.
+/// \param wanted  BoxSolverOptions::window
+std::size_t columns_of_window(std::size_t components, Index wanted = BoxSolverOptions().window);
+
 /// What a factor does for events, by conjugate gradients (docs/theory/large_bodies.md, section 4):
 /// a window of columns K^-1 e, the e vectors of elements that are near their events or, where
 /// elements carry moments, of unknowns there; and how the columns combine since elements have
@@ -103,7 +107,6 @@ class BoxFactor final : public Factor {
   std::vector<double> present_extensions(std::span<const SparseVector> x,
                                          std::span<const double> load_changes,
                                          std::span<const double> solution) const;
-  std::size_t most_columns() const;
 
   const Network& network_;
   BoxSolverOptions options_;

@@ -25,6 +25,7 @@ struct BoxSolverOptions {
   bool blocks = false;
   /// Elements from which on it pays that displacements wait until a search asks for them.
   Index fewest_to_defer = 200'000;
+  Index window = 768;      ///< columns that a BoxFactor keeps, where memory allows
   Ranks* ranks = nullptr;  ///< that share the work, where there are several
 };
 

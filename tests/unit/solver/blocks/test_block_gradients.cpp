@@ -258,21 +258,5 @@ TEST(BlockGradients, AddsACombination) {
   EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-14);
 }
 
-TEST(BlockGradients, ColumnsGoOverToFewerCombinations) {
-  const Rows first = Rows::Random(7, block_width), second = Rows::Random(7, block_width);
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> shares =
-      MatrixXd::Random(2 * block_width, block_width);
-  const auto numbers = [](const Rows& rows) {
-    return BlockVector<double>(rows.data(), rows.data() + rows.size());
-  };
-  std::vector<BlockVector<double>> blocks = {numbers(first), numbers(second)};
-  recombine(blocks, {shares.data(), std::size_t(shares.size())});
-  ASSERT_EQ(blocks.size(), 1u);
-  const Rows expected =
-      first * shares.topRows(block_width) + second * shares.bottomRows(block_width);
-  const Eigen::Map<const Rows> found(blocks[0].data(), 7, block_width);
-  EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-13);
-}
-
 }  // namespace
 }  // namespace perilink

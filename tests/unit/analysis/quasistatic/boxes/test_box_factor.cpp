@@ -197,6 +197,37 @@ TEST(BoxFactor, HoldsWhatOthersMakeUp) {
 }
 
 /// Elements whose unknowns are in the window, and those that are in it themselves.
+TEST(BoxFactor, ColumnsThatNobodyAsksForGoFirst) {
+  const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}, false, false, 6});
+  const std::vector<double> secants = intact(body.network), no_ground;
+  BoxSolverOptions small = fine;
+  small.window = 4 * block_width;
+  BoxFactor boxes(body.network, small);
+  boxes.begin(body.unknowns, secants, no_ground);
+  std::vector<SparseVector> held;
+  std::vector<bool> taken(static_cast<std::size_t>(body.network.particles.size()), false);
+  const auto take = [&](Index particle) { return !std::exchange(taken[particle], true); };
+  for (Index e = 0; e < body.network.num_elements() && held.size() < 5 * block_width; ++e) {
+    const Index first = body.network.bonds.first[e], second = body.network.bonds.second[e];
+    if (taken[first] || taken[second]) continue;  // no two make up a third
+    const SparseVector x = element_vectors(body.network, body.unknowns, e, 1.0).x[0];
+    if (x.size() == 0 || !take(first) || !take(second)) continue;
+    held.push_back(x);
+    if (held.size() % block_width != 0) continue;
+    boxes.hold(std::span(held).last(block_width));
+    // What is asked for last goes, what has waited longer stays.
+    boxes.let_go(std::span(held).last(block_width / 2));
+  }
+  ASSERT_EQ(held.size(), 5u * block_width);
+  std::size_t gone = 0;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const bool is_let_go = k % block_width >= block_width / 2;
+    EXPECT_TRUE(boxes.holds(held[k]) || is_let_go) << k;
+    if (!boxes.holds(held[k])) ++gone;
+  }
+  EXPECT_EQ(gone, 2u * block_width);  // half of the four blocks, when the fifth came
+}
+
 TEST(BoxFactor, UnknownsSayWhatVectorsSay) {
   const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}, false, false, 5});
   std::vector<double> secants = intact(body.network);
