@@ -187,7 +187,8 @@ std::vector<std::string> shared_types(const std::vector<std::string>& lines) {
   const std::regex opens(R"((?:inline )?namespace ?([\w:]*) ?\{.*)"),
       closes(R"(\}  // namespace.*)");
   // Not declarations ("class A;"), nor functions and variables ("struct A f() {").
-  const std::regex type(R"((?:class|struct|union|enum(?: class)?) (\w+)(?: final)?(?:|(?: :| \{).*))");
+  const std::regex type(
+      R"((?:class|struct|union|enum(?: class)?) (\w+)(?: final)?(?:|(?: :| \{).*))");
   std::vector<std::string> open, found;
   std::smatch name;
   for (const std::string& line : lines) {
