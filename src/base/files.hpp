@@ -38,7 +38,8 @@ std::string read_regular_file(const std::string& path,
                               double memory = 1.0);
 
 /// A file that grows by whole lines. What stood at its path goes, a link too; it appears there with
-/// its first lines.
+/// its first lines. A kill within append() may still end the kernel's write between two pages of
+/// memory, and so within a line: readers leave out a last line that has no end.
 class LineFile {
  public:
   /// \throws FileError

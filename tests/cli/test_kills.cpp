@@ -119,7 +119,7 @@ TEST_P(Kills, LeaveEveryFileWhole) {
     killed += process.wait().signal == SIGKILL ? 1 : 0;
     if (!fs::exists(work() / "r")) continue;
     ++with_results;
-    expect_whole_files(work() / "r");
+    expect_whole_files(work() / "r", Ended::by_a_kill);
     ASSERT_FALSE(HasFailure()) << "kill " << k;
   }
   EXPECT_GT(killed, GetParam().kills / 4) << "the moments lie within the run";

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <sstream>
 #include <utility>
 
 #include "io/fields/vtu.hpp"
@@ -51,6 +53,29 @@ void expect_same_fields(const VtuGrid& expected, const VtuGrid& found) {
   }
 }
 
+/// Reactions agree as fields do: positions and forces to 1e-9 of the largest of their kind, moments
+/// of the largest force at the longest arm.
+void expect_same_reactions(const std::string& expected, const std::string& found) {
+  const std::vector<double> a = numbers_of(expected), b = numbers_of(found);
+  std::istringstream header(expected.substr(0, expected.find('\n')));
+  ASSERT_EQ(found.substr(0, found.find('\n')), header.str());
+  std::string kinds;  // "p" for place, "x" for x, y and z, "f" and "m" for force and moment
+  for (std::string name; std::getline(header, name, ',');) {
+    kinds += name.size() == 1 ? 'x' : name.front();
+  }
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_GE(a.size(), 3 * kinds.size()) << "a place, the loads, the sum";
+  std::map<char, double> size;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    double& largest = size[kinds[k % kinds.size()]];
+    largest = std::max(largest, std::abs(a[k]));
+  }
+  size['m'] = size['f'] * size['x'];
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_NEAR(b[k], a[k], 1e-9 * size[kinds[k % kinds.size()]]) << header.str() << ' ' << k;
+  }
+}
+
 class OwnParts : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
 TEST_P(OwnParts, HaveTheAnswerOfTheWholeBody) {
@@ -73,8 +98,8 @@ TEST_P(OwnParts, HaveTheAnswerOfTheWholeBody) {
       EXPECT_NEAR(found[k], expected[k], 1e-9 * std::abs(expected[k])) << "number " << k;
     }
     expect_same_fields(fields, read_vtu((work() / out / "fields_000001.pvtu").string()));
-    if (!fs::exists(work() / "r1/reactions_000001.csv")) continue;
-    EXPECT_TRUE(fs::exists(work() / out / "reactions_000001.csv"));
+    expect_same_reactions(read_text(work() / "r1/reactions_000001.csv"),
+                          read_text(work() / out / "reactions_000001.csv"));
   }
 }
 
@@ -85,6 +110,13 @@ TEST_F(RankFolder, PiecesAreDrawnAndGoWithTheirRun) {
   EXPECT_TRUE(fs::exists(work() / "r/fields_000001_0002.vtu"));
   EXPECT_EQ(run_program(work(), {"plot", "r"}).exit_status, 0);
   EXPECT_TRUE(fs::exists(work() / "r/fields_1.svg"));
+  const std::string whole = (work() / "r/fields_000001.pvtu").string(), text = read_text(whole);
+  write_text(whole, replaced(text, R"(<Piece Source="fields_000001_0002.vtu" />)", ""));
+  for (const auto& words : {std::vector<std::string>{"plot", "r"}, {"compare", "r", "r"}}) {
+    const ProcessEnd end = run_program(work(), words);
+    EXPECT_EQ(end.exit_status, 2);
+    EXPECT_THAT(end.err, HasSubstr("does not name its piece 'fields_000001_0002.vtu'"));
+  }
   ASSERT_EQ(run_program(work(), {"run", "c.toml", "--out", "r", "--force"}).exit_status, 0);
   EXPECT_FALSE(fs::exists(work() / "r/fields_000001.pvtu"));
   EXPECT_FALSE(fs::exists(work() / "r/fields_000001_0002.vtu"));

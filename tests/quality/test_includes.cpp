@@ -1,4 +1,5 @@
-// Dependencies between modules point one way, and libraries stay behind the module that wraps them.
+// Dependencies between modules point one way, libraries stay behind the module that wraps them, and
+// no two types have one name.
 
 #include <gtest/gtest.h>
 
@@ -178,6 +179,49 @@ TEST(Includes, LibrariesStayBehindTheirModule) {
           << include.place() << ": " << include.header << " belongs in src/" << rule.place;
     }
   }
+}
+
+/// Types that a source defines outside functions and anonymous namespaces, with their namespaces.
+/// clang-format puts their first lines, and those of namespaces, at the begin of a line.
+std::vector<std::string> shared_types(const std::vector<std::string>& lines) {
+  const std::regex opens(R"((?:inline )?namespace ?([\w:]*) ?\{.*)"),
+      closes(R"(\}  // namespace.*)");
+  // Not declarations ("class A;"), nor functions and variables ("struct A f() {").
+  const std::regex type(
+      R"((?:class|struct|union|enum(?: class)?) (\w+)(?: final)?(?:|(?: :| \{).*))");
+  std::vector<std::string> open, found;
+  std::smatch name;
+  for (const std::string& line : lines) {
+    if (std::regex_match(line, name, opens)) open.push_back(name[1]);
+    if (std::regex_match(line, closes)) open.pop_back();
+    const bool anonymous = std::find(open.begin(), open.end(), "") != open.end();
+    if (anonymous || !std::regex_match(line, name, type)) continue;
+    std::string whole;
+    for (const std::string& space : open) whole += space + "::";
+    found.push_back(whole + name[1].str());
+  }
+  return found;
+}
+
+// The linker keeps one destructor, or one inline function, for types of one name, and both use it.
+TEST(Types, HaveNamesOfTheirOwn) {
+  std::map<std::string, std::string> places;
+  for (const auto& file : cpp_files("src")) {
+    for (const std::string& type : shared_types(read_lines(file))) {
+      const auto [first, is_new] = places.emplace(type, shown(file));
+      EXPECT_TRUE(is_new) << shown(file) << ": " << type << " is a type of " << first->second;
+    }
+  }
+  EXPECT_EQ(places["perilink::LineFile"], "src/base/files.hpp");
+}
+
+TEST(Types, AreFoundWhereOthersSeeThem) {
+  EXPECT_EQ(shared_types({"namespace a {", "class Declared;", "struct A {", "  struct Inner {};",
+                          "};", "namespace {", "class Hidden {};", "}  // namespace",
+                          "class B final : public A {", "};", "enum class C { one };",
+                          "}  // namespace a", "namespace b::c {", "struct A", "    : D {};",
+                          "}  // namespace b::c"}),
+            (std::vector<std::string>{"a::A", "a::B", "a::C", "b::c::A"}));
 }
 
 }  // namespace

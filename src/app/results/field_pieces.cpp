@@ -1,9 +1,6 @@
 #include "app/results/field_pieces.hpp"
 
-#include <fmt/format.h>
-
 #include <exception>
-#include <filesystem>
 
 #include "assembly/results/stress.hpp"
 #include "base/error.hpp"
@@ -12,10 +9,6 @@ namespace perilink {
 namespace {
 
 enum class FieldJob : int { write_piece, send_stresses };
-
-std::string piece_name(const std::string& stem, int rank) {
-  return fmt::format("{}_{:04}.vtu", stem, rank);
-}
 
 /// Stresses at all particles that a rank knows.
 std::vector<double> stresses_of(const PartSolver& solver, const Csr& families,
@@ -55,7 +48,7 @@ std::vector<double> own_stresses(const PartSolver& solver, const PieceInput& inp
 /// Writes the piece of a rank. \return what went wrong; empty: nothing
 std::string write_own(const std::string& stem, int rank, const VtuGrid& grid) {
   try {
-    write_vtu(piece_name(stem, rank), grid);
+    write_vtu(piece_of_vtu(stem, rank), grid);
     return "";
   } catch (const std::exception& error) {
     return failure_text(error);
@@ -88,15 +81,12 @@ void give_order(Ranks& ranks, FieldJob job, const PieceInput& input, const std::
 
 void write_pieces(const Team& team, const std::string& stem, const PieceInput& input) {
   Ranks& ranks = team.ranks();
-  std::vector<std::string> names;
   std::string fault;
   const VtuGrid grid = lead(ranks, [&] {
     give_order(ranks, FieldJob::write_piece, input, stem);
     VtuGrid own = own_grid(team.own(), input);
     fault = write_own(stem, 0, own);
-    for (int rank = 0; rank < ranks.count(); ++rank) {
-      names.push_back(std::filesystem::path(piece_name(stem, rank)).filename().string());
-      if (rank == 0) continue;
+    for (int rank = 1; rank < ranks.count(); ++rank) {
       Parcel answer(ranks.receive(rank));
       const std::string other = get_text(answer);
       if (fault.empty()) fault = other;
@@ -104,7 +94,7 @@ void write_pieces(const Team& team, const std::string& stem, const PieceInput& i
     return own;
   });
   if (!fault.empty()) throw SolverError(fault);
-  write_pvtu(stem + ".pvtu", grid, names);
+  write_pvtu(stem, grid, ranks.count());
 }
 
 std::vector<double> stresses_of_parts(const Team& team, Index particles, const PieceInput& input) {

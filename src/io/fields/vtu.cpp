@@ -19,6 +19,9 @@
 namespace perilink {
 namespace {
 
+/// Attribute of a .pvtu that only this program reads.
+constexpr const char* num_pieces = "NumberOfPieces";
+
 static_assert(std::endian::native == std::endian::little, "the files say byte_order LittleEndian");
 
 const VtuArray* find(const std::vector<VtuArray>& arrays, const std::string& name) {
@@ -235,13 +238,17 @@ void write_vtu(const std::string& path, const VtuGrid& grid) {
   save(path, document);
 }
 
-void write_pvtu(const std::string& path, const VtuGrid& like,
-                const std::vector<std::string>& pieces) {
+std::string piece_of_vtu(const std::string& stem, int piece) {
+  return fmt::format("{}_{:04}.vtu", stem, piece);
+}
+
+void write_pvtu(const std::string& stem, const VtuGrid& like, int pieces) {
   pugi::xml_document document;
   pugi::xml_node file = append_file_node(document, "PUnstructuredGrid");
   file.append_attribute("compressor") = "vtkZLibDataCompressor";
   pugi::xml_node body = file.append_child("PUnstructuredGrid");
   body.append_attribute("GhostLevel") = 0;
+  body.append_attribute(num_pieces) = pieces;
   const auto describe = [](pugi::xml_node parent, const std::string& name, int components) {
     pugi::xml_node node = parent.append_child("PDataArray");
     node.append_attribute("type") = "Float64";
@@ -252,10 +259,11 @@ void write_pvtu(const std::string& path, const VtuGrid& like,
   for (const VtuArray& array : like.point_data) describe(points, array.name, array.components);
   for (const VtuArray& array : like.cell_data) describe(cells, array.name, array.components);
   describe(body.append_child("PPoints"), "Points", 3);
-  for (const std::string& piece : pieces) {
-    body.append_child("Piece").append_attribute("Source") = piece.c_str();
+  const std::string name = std::filesystem::path(stem).filename().string();
+  for (int piece = 0; piece < pieces; ++piece) {
+    body.append_child("Piece").append_attribute("Source") = piece_of_vtu(name, piece).c_str();
   }
-  save(path, document);
+  save(stem + ".pvtu", document);
 }
 
 namespace {
@@ -289,12 +297,17 @@ void append_piece(const VtuReader& reader, const VtuGrid& piece, VtuGrid& grid) 
 
 VtuGrid read_pieces(const std::string& path) {
   const VtuReader reader(path, "PUnstructuredGrid");
+  const std::filesystem::path stem = std::filesystem::path(path).replace_extension();
+  const pugi::xml_node body = reader.file().child("PUnstructuredGrid");
   VtuGrid grid;
-  for (pugi::xml_node node : reader.file().child("PUnstructuredGrid").children("Piece")) {
-    const std::string piece = reader.neighbour(node, "Source");
-    if (piece.ends_with(".pvtu")) reader.fail("names '" + piece + "', which has pieces itself");
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    append_piece(reader, read_vtu((folder / piece).string()), grid);
+  pugi::xml_node node = body.child("Piece");
+  const int count = body.attribute(num_pieces).as_int();
+  for (int piece = 0; piece < count || node; ++piece, node = node.next_sibling("Piece")) {
+    const std::string name = piece_of_vtu(stem.filename().string(), piece);
+    if (node.attribute("Source").as_string() != name) {
+      reader.fail("does not name its piece '" + name + "': the file is damaged");
+    }
+    append_piece(reader, read_vtu(piece_of_vtu(stem.string(), piece)), grid);
   }
   return grid;
 }

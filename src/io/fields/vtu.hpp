@@ -47,11 +47,13 @@ struct VtuGrid {
 /// \throws FileError
 void write_vtu(const std::string& path, const VtuGrid& grid);
 
-/// Writes a file that names pieces of one grid (.pvtu), which lie beside it.
+/// File of a piece of the grid that STEM.pvtu names: STEM_0000.vtu and so on.
+std::string piece_of_vtu(const std::string& stem, int piece);
+
+/// Writes STEM.pvtu, which names the pieces of one grid that lie beside it (piece_of_vtu()).
 /// \param like  with the arrays of all pieces
 /// \throws FileError
-void write_pvtu(const std::string& path, const VtuGrid& like,
-                const std::vector<std::string>& pieces);
+void write_pvtu(const std::string& stem, const VtuGrid& like, int pieces);
 
 /// Reads a file written by write_vtu, or where it is called .pvtu all pieces that it names, one
 /// after the other.

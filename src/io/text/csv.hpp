@@ -8,8 +8,8 @@
 namespace perilink {
 
 /// Comma-separated table that grows row by row. Numbers are written with the fewest digits that
-/// read back exactly, independent of the locale. Only whole rows reach the file, on a full disk as
-/// many as fit: rows wait in memory until flush(), the destructor or 64 KiB.
+/// read back exactly, independent of the locale. Whole rows go to the file (LineFile), on a full
+/// disk as many as fit: rows wait in memory until flush(), the destructor or 64 KiB.
 class CsvWriter {
  public:
   /// \throws FileError

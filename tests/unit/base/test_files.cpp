@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <set>
@@ -111,6 +113,31 @@ TEST_F(Files, LinesAreWholeWithoutRoomToo) {
   lines = "12\n";
   file.append(lines);
   EXPECT_EQ(test::read_text(place("lines")), "123456789\n123456789\n12\n");
+}
+
+TEST_F(Files, LinesAreCutByAKillAtAPageOfMemoryOnly) {
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const std::string line(99, 'x'), path = place("lines");
+  for (int kill = 0; kill < 30; ++kill) {
+    fs::remove(path);
+    const pid_t writer = ::fork();
+    if (writer == 0) {
+      LineFile file(path);
+      for (int write = 0; write < 2000; ++write) {
+        std::string lines;
+        for (int row = 0; row < 600; ++row) lines += line + '\n';
+        file.append(lines);
+      }
+      ::_exit(0);
+    }
+    // Some of its writes are done; the kill falls into whichever is under way.
+    while (!fs::exists(path)) ::usleep(100);
+    ::usleep(100 * static_cast<useconds_t>(kill));
+    ::kill(writer, SIGKILL);
+    ::waitpid(writer, nullptr, 0);
+    const std::size_t size = fs::file_size(path);
+    EXPECT_TRUE(size % (line.size() + 1) == 0 || size % page == 0) << size;
+  }
 }
 
 TEST_F(Files, WithoutALineAreNotLeft) {

@@ -183,10 +183,12 @@ std::optional<LatticePattern> find_pattern(const CaseFile& input, const BondOpti
 
 }  // namespace
 
-bool have_unlike_constants(const std::vector<MaterialSection>& materials) {
-  return std::any_of(materials.begin(), materials.end(), [&](const MaterialSection& m) {
-    return m.youngs_modulus != materials.front().youngs_modulus ||
-           m.poissons_ratio != materials.front().poissons_ratio;
+bool have_unlike_constants(const CaseFile& input) {
+  const MaterialSection& first = input.materials.front();
+  const double otherwise = bond_poissons_ratio(input.body.problem);
+  return std::any_of(input.materials.begin(), input.materials.end(), [&](const auto& material) {
+    return material.youngs_modulus != first.youngs_modulus ||
+           material.poissons_ratio.value_or(otherwise) != first.poissons_ratio.value_or(otherwise);
   });
 }
 
@@ -198,7 +200,7 @@ bool can_be_made_in_parts(const CaseFile& input) {
          body.method == BodyMethod::bonds && body.model == BodyModel::bond_based &&
          !is_shell(body) && !is_beam(body) && !(is_plane && body.surface == Surface::calibrated) &&
          input.cracks.empty() && input.interfaces.empty() && input.rebar.empty() &&
-         !input.elements && !have_unlike_constants(input.materials);
+         !input.elements && !have_unlike_constants(input);
 }
 
 void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {

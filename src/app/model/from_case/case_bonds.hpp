@@ -18,7 +18,9 @@ struct BondOptions {
   int parts = 1;
 };
 
-bool have_unlike_constants(const std::vector<MaterialSection>& materials);
+/// Whether materials differ in an elastic constant; a Poisson's ratio that is left out is that of
+/// bonds.
+bool have_unlike_constants(const CaseFile& input);
 
 /// Whether ranks can make the bonds of a case by themselves, if its body is one box.
 bool can_be_made_in_parts(const CaseFile& input);

@@ -105,7 +105,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon, int par
       lattice.material.push_back(static_cast<Index>(m));
     }
   }
-  lattice.unlike_materials = have_unlike_constants(input.materials);
+  lattice.unlike_materials = have_unlike_constants(input);
   const Box box = bounding_box(lattice.solid);
   lattice.spacing = wanted_spacing(input.body, box.upper[0] - box.lower[0]);
   refuse_impossible_spacing(input, box, lattice.spacing, dim);

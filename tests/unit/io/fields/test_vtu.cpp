@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "io/fields/vtu.hpp"
 #include "support/replaced.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace perilink {
 namespace {
@@ -132,13 +133,12 @@ TEST_F(Vtu, SeriesDoNotLeaveTheirFolder) {
 }
 
 TEST_F(Vtu, PiecesComeBackAsOneGrid) {
-  const std::string stem = path_.substr(0, path_.size() - 4);
-  const std::string name = std::filesystem::path(stem).filename().string();
-  const std::string whole = stem + ".pvtu", second = stem + "_1.vtu";
+  const test::TemporaryDirectory folder;
+  const std::string stem = (folder / "a").string(), whole = stem + ".pvtu";
   VtuGrid grid = make_grid(2);
-  write_vtu(path_, grid);
-  write_vtu(second, make_grid(1));
-  write_pvtu(whole, grid, {name + ".vtu", name + "_1.vtu"});
+  write_vtu(piece_of_vtu(stem, 0), grid);
+  write_vtu(piece_of_vtu(stem, 1), make_grid(1));
+  write_pvtu(stem, grid, 2);
   const VtuGrid back = read_vtu(whole);
   EXPECT_EQ(back.points.size(), 3u * 9u);
   EXPECT_EQ(back.field_data, grid.field_data);
@@ -149,18 +149,20 @@ TEST_F(Vtu, PiecesComeBackAsOneGrid) {
   EXPECT_EQ(back.connectivity.back(), 8);
   EXPECT_EQ(back.find_point_data("damage")->values.size(), 9u);
 
-  for (const std::string fault : {"../other.vtu", "", "absent.vtu"}) {
-    write_pvtu(whole, grid, {fault});
-    EXPECT_THROW(read_vtu(whole), FileError) << fault;
+  const std::string text = test::read_text(whole), second = "<Piece Source=\"a_0001.vtu\" />";
+  for (const char* other :
+       {"", "<Piece Source=\"../a_0001.vtu\" />", "<Piece />", "<Piece Source=\"a.pvtu\" />"}) {
+    test::write_text(whole, replaced(text, second, other));
+    EXPECT_THROW(read_vtu(whole), FileError) << other;
   }
-  write_pvtu(whole, grid, {name + ".pvtu"});  // itself
+  test::write_text(whole, replaced(text, second, second + "<Piece Source=\"x.vtu\" />"));
+  EXPECT_THROW(read_vtu(whole), FileError);
+  write_pvtu(stem, grid, 3);  // one is absent
   EXPECT_THROW(read_vtu(whole), FileError);
   grid.point_data.pop_back();
-  write_vtu(second, grid);
-  write_pvtu(whole, grid, {name + ".vtu", name + "_1.vtu"});
+  write_vtu(piece_of_vtu(stem, 1), grid);
+  write_pvtu(stem, grid, 2);
   EXPECT_THROW(read_vtu(whole), FileError);
-  std::filesystem::remove(whole);
-  std::filesystem::remove(second);
 }
 
 TEST_F(Vtu, NumbersThatAreNotFiniteAreRefused) {

@@ -33,6 +33,16 @@ TEST(CaseBonds, OfABoxAreLeftToRanks) {
   EXPECT_EQ(shared.notes.size(), alone.notes.size() + 1);
 }
 
+TEST(CaseBonds, AreLeftToRanksWhereMaterialsDifferInNamesOnly) {
+  CaseFile input = strip_in_parts();
+  input.materials.push_back(input.materials[0]);
+  input.materials[1].regions = {"lower end"};
+  input.materials[0].poissons_ratio = 1.0 / 3.0;  // as bonds in plane stress have
+  input.materials[1].poissons_ratio.reset();
+  EXPECT_FALSE(have_unlike_constants(input));
+  EXPECT_TRUE(build_model(input, {}, 2).pattern);
+}
+
 TEST(CaseBonds, AreRefusedAloneAndByRanksForTheSameReasons) {
   CaseFile input = strip_in_parts();
   input.supports.clear();
