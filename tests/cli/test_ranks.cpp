@@ -93,6 +93,14 @@ const std::string flowing =
     "crushing_energy = \"infinite\"\n";
 const std::string unbreakable = "fracture_energy = \"infinite\"\n";
 
+/// The same at rest.
+std::string lattice_statics(bool in_space) {
+  std::string text = lattice_case(in_space, 1, unbreakable);
+  if (in_space) text = replaced(text, R"(["x", "y"])", R"(["x", "y", "z"])");
+  return replaced(text, "\"explicit\"\nduration = 0.02\nramp_time = 0.01\nrows = 30",
+                  "\"elastic\"\nsolver = \"iterative\"");
+}
+
 /// With some seconds of work.
 std::string prolonged(const std::string& text) {
   return replaced(replaced(text, "duration = 0.02", "duration = 5"), "rows = 30", "rows = 30000");
@@ -315,6 +323,11 @@ INSTANTIATE_TEST_SUITE_P(
         RankCase{"Plane", bar_case(false, "")}, RankCase{"Space", bar_case(true, "")},
         RankCase{"MicropolarPlane", bar_case(false, "model = \"micropolar\"\n")},
         RankCase{"MicropolarSpace", bar_case(true, "model = \"micropolar\"\n")},
+        RankCase{"LatticePlane", lattice_statics(false)},
+        RankCase{"LatticeSpace", lattice_statics(true)},
+        RankCase{"Particles", replaced(replaced(bar_case(false, "model = \"particles\"\n"),
+                                                "horizon_ratio = 3\n", ""),
+                                       "fracture_energy", "density = 1e-3\nfracture_energy")},
         RankCase{"Breaking", breaking_case(true, "", "", "[stop]\nbroken_bonds = 60\n")},
         RankCase{"BreakingInTwo", driven(breaking_case(false, "", "", ""))},
         RankCase{"BreakingBySteps",
