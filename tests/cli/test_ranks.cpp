@@ -276,7 +276,7 @@ INSTANTIATE_TEST_SUITE_P(
                              prolonged(lattice_case(false, 0.25, cracking))},
                     RankCase{"-TERM -o -f '", many_load_steps()}),
     [](const auto& instance) {
-      return std::vector{"Mpiexec", "All", "MpiexecOfRelaxation"}[instance.index];
+      return instance.index == 0 ? "Mpiexec" : instance.index == 1 ? "All" : "MpiexecOfRelaxation";
     });
 
 // Each has some seconds of work.

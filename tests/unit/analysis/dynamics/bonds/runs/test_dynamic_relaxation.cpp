@@ -99,8 +99,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BlockCase{{"space", Pattern::cubic, Surface::none}, true, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
 
-const LatticeCase square{"square", Pattern::rectangular, Surface::none};
-const LatticeCase cube{"cube", Pattern::cubic, Surface::none};
+const LatticeCase squares{"square", Pattern::rectangular, Surface::none};
+const LatticeCase cubes{"cube", Pattern::cubic, Surface::none};
 
 /// Bodies in which bonds break on the way to rest, at particles of several ranks.
 class SharedRelaxations : public testing::TestWithParam<std::tuple<BlockCase, Strain>> {};
@@ -163,15 +163,15 @@ TEST_P(SharedRelaxations, RanksChangeNothing) {
 INSTANTIATE_TEST_SUITE_P(
     Bodies, SharedRelaxations,
     testing::Values(
-        std::tuple{BlockCase{.lattice = square, .driven = true, .columns = 30}, Strain::small},
-        std::tuple{BlockCase{.lattice = cube, .driven = true, .columns = 9}, Strain::small},
-        std::tuple{BlockCase{.lattice = square,
+        std::tuple{BlockCase{.lattice = squares, .driven = true, .columns = 30}, Strain::small},
+        std::tuple{BlockCase{.lattice = cubes, .driven = true, .columns = 9}, Strain::small},
+        std::tuple{BlockCase{.lattice = squares,
                              .driven = true,
                              .columns = 30,
                              .micropolar = true,
                              .toothed = true},
                    Strain::small},
-        std::tuple{BlockCase{.lattice = square, .driven = true, .columns = 30}, Strain::green}),
+        std::tuple{BlockCase{.lattice = squares, .driven = true, .columns = 30}, Strain::green}),
     [](const auto& instance) {
       return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
     });
