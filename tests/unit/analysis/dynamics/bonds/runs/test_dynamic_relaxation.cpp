@@ -81,11 +81,12 @@ TEST_P(RelaxedBlocks, RestInStaticEquilibrium) {
 TEST_P(RelaxedBlocks, ThreadsChangeNothing) {
   const AnalysisBody body = make_block(GetParam());
   RelaxationOptions options;
-  options.tolerance = 1e-3;
+  options.most_iterations = 100;
   const Relaxed one = relax(body, options);
-  ASSERT_EQ(one.recorder.rows.size(), 1U);
   options.threads = 2;
-  EXPECT_EQ(relax(body, options).recorder.displacement, one.recorder.displacement);
+  const Relaxed two = relax(body, options);
+  EXPECT_EQ(two.result.residual, one.result.residual);
+  EXPECT_EQ(two.result.error, one.result.error);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -126,14 +127,14 @@ TEST_P(SharedRelaxations, RanksChangeNothing) {
   const double stretch =
       *std::min_element(body.network.critical_stretch.begin(), body.network.critical_stretch.end());
   RelaxationOptions options;
-  for (double& factor : options.load_factors = {0.01, 0.5, 0.9, 1.0, 1.1, 1.2, 1.3}) {
+  for (double& factor : options.load_factors = {0.01, 0.9, 1.0, 1.02}) {
     factor *= stretch * block.columns;
   }
   options.tolerance = 1e-3;
   options.strain = strain;
   // To the end, until an observer fails at a row, and as far as some iterations go.
   for (const auto& [most_rows, most_iterations] :
-       {std::pair{1000, 100000}, {2, 100000}, {1000, 90}}) {
+       {std::pair{1000, 3000}, {2, 3000}, {1000, 90}}) {
     options.most_iterations = most_iterations;
     options.ranks = nullptr;
     const Relaxed alone = relax(body, options, most_rows);
@@ -155,7 +156,7 @@ TEST_P(SharedRelaxations, RanksChangeNothing) {
       EXPECT_EQ(alone.result.ending, Ending::failed);
     } else {
       EXPECT_EQ(alone.result.ending, Ending::completed) << alone.result.reason;
-      EXPECT_GT(alone.result.last.broken_bonds, 20);
+      EXPECT_GT(alone.result.last.broken_bonds, 1);
     }
   }
 }
