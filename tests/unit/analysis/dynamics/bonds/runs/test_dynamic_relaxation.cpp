@@ -123,18 +123,22 @@ void expect_the_same(const Relaxed& found, const Relaxed& alone) {
 
 TEST_P(SharedRelaxations, RanksChangeNothing) {
   const auto& [block, strain] = GetParam();
-  const AnalysisBody body = make_block(block);
-  const double stretch =
-      *std::min_element(body.network.critical_stretch.begin(), body.network.critical_stretch.end());
+  AnalysisBody body = make_block(block);
+  std::vector<double>& limits = body.network.critical_stretch;
+  const double stretch = *std::min_element(limits.begin(), limits.end());
+  // What breaks lies far apart, so that the body stays whole.
+  for (std::size_t e = 0; e < limits.size(); ++e) {
+    if (e % 20 != 0) limits[e] = INFINITY;
+  }
   RelaxationOptions options;
-  for (double& factor : options.load_factors = {0.01, 0.9, 1.0, 1.02}) {
+  for (double& factor : options.load_factors = {0.02, 1.0, 1.5}) {
     factor *= stretch * block.columns;
   }
   options.tolerance = 1e-3;
   options.strain = strain;
+  options.safety = 0.5;  // Green strains stiffen what cannot break
   // To the end, until an observer fails at a row, and as far as some iterations go.
-  for (const auto& [most_rows, most_iterations] :
-       {std::pair{1000, 3000}, {2, 3000}, {1000, 90}}) {
+  for (const auto& [most_rows, most_iterations] : {std::pair{1000, 3000}, {2, 3000}, {1000, 20}}) {
     options.most_iterations = most_iterations;
     options.ranks = nullptr;
     const Relaxed alone = relax(body, options, most_rows);
@@ -152,11 +156,11 @@ TEST_P(SharedRelaxations, RanksChangeNothing) {
     }
     if (most_rows == 2) {
       EXPECT_EQ(alone.result.reason, "the disk is full");
-    } else if (most_iterations == 90) {
+    } else if (most_iterations == 20) {
       EXPECT_EQ(alone.result.ending, Ending::failed);
     } else {
       EXPECT_EQ(alone.result.ending, Ending::completed) << alone.result.reason;
-      EXPECT_GT(alone.result.last.broken_bonds, 1);
+      EXPECT_GT(alone.result.last.broken_bonds, 20);
     }
   }
 }
