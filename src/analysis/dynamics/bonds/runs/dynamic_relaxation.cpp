@@ -272,7 +272,9 @@ class Relaxation {
     }
     observe([&] {
       note_row();
-      if (step_ + 1 == options_.load_factors.size()) note_end();
+      if (step_ + 1 == options_.load_factors.size()) return note_end();
+      // Load steps may be at rest from the beginning.
+      if (observer_.stop_requested()) end(Ending::interrupted, "interrupted");
     });
     if (shares_.leading) shares_.leading->tell(!next_.done);
   }
