@@ -54,7 +54,7 @@ std::vector<Real> sums_of_extensions(const Network& network, Secants secants,
                                      std::span<const Real> displacement) {
   const Bonds& bonds = network.bonds;
   const std::size_t dim = network.dim();
-  std::vector<Real> sums(static_cast<std::size_t>(network.particles.size()));
+  std::vector<Real> sums(displacement.size() / static_cast<std::size_t>(network.dim()));
   for (Index e = 0; e < network.num_elements(); ++e) {
     const auto n = bonds.direction(e);
     const std::size_t first = bonds.first[e], second = bonds.second[e];

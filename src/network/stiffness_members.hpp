@@ -19,6 +19,8 @@ void for_each_stiffness_member(AnyNetwork& network, Visit visit) {
   visit(network.bending_ratio);
   visit(network.inflection);
   visit(network.hinged);
+  visit(network.state_stiffness);
+  visit(network.state_of);
   visit(network.support_stiffness);
 }
 

@@ -16,7 +16,7 @@
 namespace perilink {
 
 /// What the first rank asks the others for, the first word of every order.
-enum class Service : int { end, solve, move_bonds, move_rows, show_fields };
+enum class Service : int { end, solve, move_bonds, relax_bonds, move_rows, show_fields };
 
 /// Particles that other ranks own and this one needs to know the motion of.
 struct Ghosts {

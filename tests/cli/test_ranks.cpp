@@ -37,6 +37,15 @@ std::string explicit_case(const std::string& body, const std::string& law) {
   return replaced(text, "fracture_energy", "density = 1e-3\nfracture_energy");
 }
 
+/// The same driven and brought to rest. The first load step is so small that bonds break in those
+/// behind it only, which begin in proportion to it.
+std::string relaxation_case(const std::string& law, const std::string& factors) {
+  std::string text = driven(
+      breaking_case(false, "", law, "tolerance = 1e-3\nload_factors = [1e-4, " + factors + "]\n"));
+  text = replaced(text, "\"damage\"\nsolver = \"iterative\"", "\"relaxation\"");
+  return replaced(text, "spacing = 1", "spacing = 0.25");
+}
+
 /// A bar of lattice particles, held at one end and driven at the other.
 std::string lattice_case(bool in_space, double spacing, const std::string& material) {
   const std::string depth = in_space ? "z = [0, 5]\n" : "";
@@ -84,9 +93,24 @@ const std::string flowing =
     "crushing_energy = \"infinite\"\n";
 const std::string unbreakable = "fracture_energy = \"infinite\"\n";
 
+/// The same at rest.
+std::string lattice_statics(bool in_space) {
+  std::string text = lattice_case(in_space, 1, unbreakable);
+  if (in_space) text = replaced(text, R"(["x", "y"])", R"(["x", "y", "z"])");
+  return replaced(text, "\"explicit\"\nduration = 0.02\nramp_time = 0.01\nrows = 30",
+                  "\"elastic\"\nsolver = \"iterative\"");
+}
+
 /// With some seconds of work.
 std::string prolonged(const std::string& text) {
   return replaced(replaced(text, "duration = 0.02", "duration = 5"), "rows = 30", "rows = 30000");
+}
+
+/// With files for each of a thousand load steps.
+std::string many_load_steps() {
+  std::string factors = "1e-4";
+  for (int k = 1; k < 1000; ++k) factors += fmt::format(", {}e-7", 1000 + k);
+  return replaced(relaxation_case("", factors), "tolerance", "strain = \"green\"\ntolerance");
 }
 
 const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
@@ -129,6 +153,7 @@ TEST_P(ExplicitRankRuns, WriteTheSameBytes) {
     const std::string directory = "r" + std::to_string(count);
     const ProcessEnd end = run_ranks(count, "run c.toml --out " + directory);
     ASSERT_EQ(end.exit_status, 0) << end.err;
+    EXPECT_THAT(end.out, HasSubstr("by " + std::to_string(count) + " ranks"));
     EXPECT_EQ(summary(directory).at("ranks"), count);
     EXPECT_EQ(summary(directory).at("peak_load"), summary("r1").at("peak_load"));
     EXPECT_EQ(history(directory), history("r1"));
@@ -248,8 +273,11 @@ INSTANTIATE_TEST_SUITE_P(
     Processes, RankStops,
     testing::Values(RankCase{"-TERM -o -f '", prolonged(explicit_case("", ""))},
                     RankCase{"-TERM -f '^[^ ]*perilink ",
-                             prolonged(lattice_case(false, 0.25, cracking))}),
-    [](const auto& instance) { return instance.index == 0 ? "Mpiexec" : "All"; });
+                             prolonged(lattice_case(false, 0.25, cracking))},
+                    RankCase{"-TERM -o -f '", many_load_steps()}),
+    [](const auto& instance) {
+      return instance.index == 0 ? "Mpiexec" : instance.index == 1 ? "All" : "MpiexecOfRelaxation";
+    });
 
 // Each has some seconds of work.
 INSTANTIATE_TEST_SUITE_P(
@@ -259,6 +287,7 @@ INSTANTIATE_TEST_SUITE_P(
                     RankCase{"Damage", replaced(breaking_case(true, "", "", ""), "spacing = 1",
                                                 "spacing = 0.5")},
                     RankCase{"Explicit", prolonged(explicit_case("", ""))},
+                    RankCase{"Relaxation", many_load_steps()},
                     RankCase{"Lattice", prolonged(lattice_case(false, 0.25, cracking))}),
     [](const auto& instance) { return instance.param.name; });
 
@@ -279,6 +308,9 @@ INSTANTIATE_TEST_SUITE_P(
                     RankCase{"Softening", explicit_case("", softening)},
                     RankCase{"OnSprings", explicit_case("", "") + springs},
                     RankCase{"Micropolar", explicit_case("model = \"micropolar\"\n", "")},
+                    RankCase{"Relaxation", relaxation_case("", "2e-3, 3e-3, 35e-4")},
+                    RankCase{"SofteningRelaxation",
+                             relaxation_case(softening, "1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3")},
                     RankCase{"Lattice", lattice_case(false, 0.25, cracking), "cracked_particles"},
                     RankCase{"FlowingLattice", lattice_case(false, 0.25, unbreakable + flowing),
                              "yielded_particles"},
@@ -291,6 +323,11 @@ INSTANTIATE_TEST_SUITE_P(
         RankCase{"Plane", bar_case(false, "")}, RankCase{"Space", bar_case(true, "")},
         RankCase{"MicropolarPlane", bar_case(false, "model = \"micropolar\"\n")},
         RankCase{"MicropolarSpace", bar_case(true, "model = \"micropolar\"\n")},
+        RankCase{"LatticePlane", lattice_statics(false)},
+        RankCase{"LatticeSpace", lattice_statics(true)},
+        RankCase{"Particles", replaced(replaced(bar_case(false, "model = \"particles\"\n"),
+                                                "horizon_ratio = 3\n", ""),
+                                       "fracture_energy", "density = 1e-3\nfracture_energy")},
         RankCase{"Breaking", breaking_case(true, "", "", "[stop]\nbroken_bonds = 60\n")},
         RankCase{"BreakingInTwo", driven(breaking_case(false, "", "", ""))},
         RankCase{"BreakingBySteps",

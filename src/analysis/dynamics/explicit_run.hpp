@@ -49,6 +49,7 @@ struct EnergyBalance {
     return kinetic + stored + internal_damping + external_damping + fractured + plastic -
            external_work;
   }
+  friend bool operator==(const EnergyBalance&, const EnergyBalance&) = default;
 };
 
 /// One row of an explicit history.
@@ -63,6 +64,8 @@ struct ExplicitRecord {
   Index yielded_particles = 0;    ///< lattices only
   Index broken_bonds = 0;         ///< networks of bonds only
   EnergyBalance energy;
+
+  friend bool operator==(const ExplicitRecord&, const ExplicitRecord&) = default;
 };
 
 /// Watches a run over time; the state is valid during the call only. By itself it looks at nothing.

@@ -61,14 +61,28 @@ class LocalNumbers {
   std::vector<GlobalIndex> particles;  ///< owned, then ghosts
 };
 
-/// Copies the elements with an owned end.
+/// Particles whose elements a rank has to know.
+std::vector<bool> sources(const Network& network, const std::vector<int>& owners, int rank) {
+  std::vector<bool> is_source(owners.size());
+  for (std::size_t p = 0; p < owners.size(); ++p) is_source[p] = owners[p] == rank;
+  if (!network.has_states()) return is_source;
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    const Index i = network.bonds.first[e], j = network.bonds.second[e];
+    if (owners[i] == rank) is_source[j] = true;
+    if (owners[j] == rank) is_source[i] = true;
+  }
+  return is_source;
+}
+
+/// Copies these elements.
 void cut_elements(const Network& network, Secants secants, const std::vector<int>& owners, int rank,
                   LocalNumbers& local, BodyPart& part) {
   Network& own = part.network;
+  const std::vector<bool> is_source = sources(network, owners, rank);
   const std::size_t dim = static_cast<std::size_t>(network.dim());
   for (Index e = 0; e < network.num_elements(); ++e) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
-    if (owners[i] != rank && owners[j] != rank) continue;
+    if (!is_source[i] && !is_source[j]) continue;
     own.bonds.first.push_back(local.of(GlobalIndex{i}));
     own.bonds.second.push_back(local.of(GlobalIndex{j}));
     own.bonds.lengths.push_back(network.bonds.lengths[e]);
@@ -78,9 +92,14 @@ void cut_elements(const Network& network, Secants secants, const std::vector<int
     if (!network.bending.empty()) own.bending.push_back(network.bending[e]);
     if (!network.inflection.empty()) own.inflection.push_back(network.inflection[e]);
     if (!network.hinged.empty()) own.hinged.push_back(network.hinged[e]);
+    if (!network.state_of.empty()) own.state_of.push_back(network.state_of[e]);
     part.axial.push_back(secants.axial(e));
     part.other.push_back(secants[e]);
     part.elements.push_back(GlobalIndex{e});
+  }
+  if (!network.has_states()) return;
+  for (const GlobalIndex p : local.particles) {
+    own.state_stiffness.push_back(entry(network.state_stiffness, p));
   }
 }
 

@@ -16,7 +16,9 @@ namespace perilink {
 enum class GlobalIndex : Index {};
 
 /// What a rank knows of a body: the particles that it owns, then those of other ranks that its
-/// elements reach, and these elements. Numbers are the part's own.
+/// elements reach, and these elements. Particles with states pull at their neighbours by sums over
+/// their own bonds: of these the elements of all neighbours are known, too. Numbers are the part's
+/// own.
 struct BodyPart {
   /// Parts that are sent have no positions: products need directions and lengths alone.
   Network network;

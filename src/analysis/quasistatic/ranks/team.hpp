@@ -9,9 +9,10 @@
 
 namespace perilink {
 
-/// Whether ranks can share the work on a network: their parts have bonds and springs, no more.
+/// Whether ranks can share the work on a network: their parts have bonds, sums of their extensions
+/// and springs, no more.
 inline bool can_be_shared(const Network& network, const Unknowns& unknowns) {
-  return !network.has_states() && !network.cells && !network.shell && !unknowns.carries();
+  return !network.cells && !network.shell && !unknowns.carries();
 }
 
 /// All ranks at work on one body, seen from the one that leads. The others obey, to one team at a

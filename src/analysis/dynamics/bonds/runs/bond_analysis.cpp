@@ -17,38 +17,6 @@ std::unique_ptr<ExplicitBonds> make_bonds(const Network& network, const BondRunR
   return make_explicit_particles(network, states.problem, states.materials, states.thickness);
 }
 
-/// What this process does in a run that ranks share; both null: it is alone.
-struct Shares {
-  LeadingShare* leading = nullptr;
-  FollowingShare* following = nullptr;
-
-  RunShare* own() const { return leading != nullptr ? static_cast<RunShare*>(leading) : following; }
-};
-
-/// The bonds of the first rank, which asks the others what is left of theirs.
-class LeadingBonds final : public ExplicitBonds {
- public:
-  LeadingBonds(std::unique_ptr<ExplicitBonds> own, LeadingShare& share)
-      : own_(std::move(own)), share_(share) {}
-
-  BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
-                    std::span<double> force) override {
-    return own_->forces(begin, end, time_step, motion, force);
-  }
-  double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override {
-    return own_->stored(begin, end, time_step, motion);
-  }
-  std::vector<double> secants() const override {
-    std::vector<double> secants = own_->secants();
-    share_.collect_secants(secants);
-    return secants;
-  }
-
- private:
-  std::unique_ptr<ExplicitBonds> own_;
-  LeadingShare& share_;
-};
-
 class BondRun {
  public:
   BondRun(const LoadedNetwork& problem, const Inertia& inertia,
@@ -59,8 +27,8 @@ class BondRun {
         loop_(options, inertia.critical_time_step()),
         body_(problem, inertia, std::move(bonds), loop_.time_step()),
         shares_(shares),
-        first_block_(shares.own() ? shares.own()->first_block() : 0),
-        past_block_(shares.own() ? shares.own()->past_block() : body_.blocks.count()),
+        first_block_(shares.first_block()),
+        past_block_(shares.past_block(body_.blocks)),
         motion_end_(rules.constant_velocity ? options.duration : 0.0),
         rate_(rules.damping_rate) {
     for (std::size_t slot = 0; slot < body_.force.size(); ++slot) {
@@ -209,49 +177,14 @@ class BondRun {
   ExplicitRecord record_;
 };
 
-/// Ties to anchors and sums of states reach farther than elements do.
-bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks) {
-  const Network& network = problem.network;
-  return ranks != nullptr && !network.has_states() && network.anchors.size() == 0 &&
-         ParticleBlocks(network.particles.size(), network.width()).count() >= ranks->count();
-}
-
 /// What the rules and options of a run are to another rank.
 struct RunOrder {
   double damping_rate;
   Strain strain;
   bool constant_velocity;
   double frequency_bound;
-  int component;
   ExplicitOptions options;
 };
-
-ExplicitResult run_shared(const LoadedNetwork& problem, const Inertia& inertia,
-                          const BondRunRules& rules, const ExplicitOptions& options,
-                          BondRunObserver& observer) {
-  Ranks& ranks = *options.ranks;
-  BondStencil stencil = stencil_for(problem.network, rules.strain);
-  const BlockPartition partition(problem.network, ranks.count());
-  return lead(ranks, [&] {
-    const RunOrder rest{rules.damping_rate,      rules.strain,
-                        rules.constant_velocity, inertia.frequency_bound,
-                        main_component(problem), options};
-    for (int rank = 1; rank < ranks.count(); ++rank) {
-      Parcel order;
-      order.put(Service::move_bonds);
-      order.put(rest);
-      ranks.send(rank, order.bytes());
-      ranks.send(rank, cut_part(problem, inertia.mass, stencil, partition, rank).pack().bytes());
-    }
-    LeadingShare share(ranks, problem, partition);
-    auto bonds = std::make_unique<LeadingBonds>(
-        make_explicit_bonds(problem.network, rules.strain, std::move(stencil)), share);
-    ExplicitResult result =
-        BondRun(problem, inertia, std::move(bonds), rules, options, observer, {&share}).run();
-    result.ranks = ranks.count();
-    return result;
-  });
-}
 
 }  // namespace
 
@@ -259,11 +192,20 @@ ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& i
                                   const BondRunRules& rules, const ExplicitOptions& options,
                                   BondRunObserver& observer) {
   expect_nothing_carried(problem.unknowns);
-  if (can_be_shared(problem, options.ranks)) {
-    return run_shared(problem, inertia, rules, options, observer);
+  if (!can_be_shared(problem, options.ranks)) {
+    return BondRun(problem, inertia, make_bonds(problem.network, rules), rules, options, observer)
+        .run();
   }
-  return BondRun(problem, inertia, make_bonds(problem.network, rules), rules, options, observer)
-      .run();
+  Parcel order;
+  order.put(Service::move_bonds);
+  order.put(RunOrder{rules.damping_rate, rules.strain, rules.constant_velocity,
+                     inertia.frequency_bound, options});
+  return run_shared(*options.ranks, order, problem, inertia.mass, rules.strain,
+                    [&](std::unique_ptr<ExplicitBonds> bonds, LeadingShare& share) {
+                      return BondRun(problem, inertia, std::move(bonds), rules, options, observer,
+                                     {&share})
+                          .run();
+                    });
 }
 
 void move_bonds_along(Ranks& ranks, Parcel& order) {
@@ -279,7 +221,7 @@ void move_bonds_along(Ranks& ranks, Parcel& order) {
   BondRun run(part.body, inertia,
               make_explicit_bonds(part.body.network, rules.strain, std::move(part.stencil)), rules,
               rest.options, nobody, {nullptr, &share});
-  run.body().component = rest.component;
+  run.body().component = part.component;
   run.run();
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "analysis/dynamics/bonds/moving_bonds.hpp"
 #include "network/stiffness_members.hpp"
 
 namespace perilink {
@@ -24,6 +25,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(part.body.unknowns.prescribed);
   visit(part.body.loads.forces);
   visit(part.body.reference);
+  visit(part.component);
   visit(part.mass);
   visit(part.stencil.kinds);
   visit(part.stencil.groups);
@@ -178,6 +180,7 @@ BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
   part.body.unknowns.prescribed = slice(body.unknowns.prescribed, first, past, width);
   part.body.loads.forces = slice(body.loads.forces, first, past, width);
   part.body.reference = body.reference;
+  part.component = main_component(body);
   part.mass = slice(mass, first, past, width);
   part.stencil = cut_stencil(stencil, part.elements, first, begin, end);
   part.ghosts = partition.ghosts(body.network, rank);

@@ -32,6 +32,7 @@ struct BlockPartition {
 /// What a rank knows of a body whose bonds move: numbers are the part's own.
 struct BondPart {
   LoadedNetwork body;           ///< elements with an own end
+  int component = 0;            ///< main_component() of the whole body
   std::vector<double> mass;     ///< shape (particles, width)
   BondStencil stencil;          ///< that of the whole body, so that its sums have the same order
   std::vector<Index> elements;  ///< numbers in the whole body, ascending

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "analysis/dynamics/bonds/runs/run_share.hpp"
 #include "base/memory.hpp"
 #include "base/thread_choice.hpp"
 
@@ -22,12 +25,13 @@ constexpr int iterations_of_a_round = 4;
 /// A residual that has grown so much since the first one will not shrink any more.
 constexpr double largest_growth = 1e12;
 
-/// Sums over the particles of a block in an iteration.
+/// Sums over the particles of a block, or of all blocks, in an iteration.
 struct RestSums {
   double push = 0.0, size = 0.0;       // squares r'M^-1 r and u'M u
   double residual = 0.0, held = 0.0;   // squares of residual forces, of loads and reactions
   double stiffness = 0.0, mass = 0.0;  // over the motion since the load step began
   double last_stiffness = 0.0, last_mass = 0.0;  // over the last step
+  double fractured = 0.0;                        // since the beginning
 
   void operator+=(const RestSums& other) {
     push += other.push;
@@ -38,49 +42,53 @@ struct RestSums {
     mass += other.mass;
     last_stiffness += other.last_stiffness;
     last_mass += other.last_mass;
+    fractured += other.fractured;
   }
+};
+
+/// What comes behind the forces of an iteration.
+struct Decision {
+  double keep = 1.0, lose = 1.0;  ///< factors of velocities, for their damping
+  bool restart = true;            ///< the damping is to be measured from here
+  bool at_rest = false, done = false;
 };
 
 class Relaxation {
  public:
-  Relaxation(const LoadedNetwork& problem, const RelaxationOptions& options,
-             BondRunObserver& observer)
+  Relaxation(const LoadedNetwork& problem, const Inertia& inertia,
+             std::unique_ptr<ExplicitBonds> bonds, const RelaxationOptions& options,
+             BondRunObserver& observer, const Shares& shares = {})
       : options_(options),
         observer_(observer),
-        inertia_(fictitious_inertia(problem.network, options.strain)),
-        body_(problem, inertia_, make_explicit_bonds(problem.network, options.strain),
-              options.safety * inertia_.critical_time_step()),
+        body_(problem, inertia, std::move(bonds), options.safety * inertia.critical_time_step()),
+        shares_(shares),
+        first_block_(shares.first_block()),
+        past_block_(shares.past_block(body_.blocks)),
         before_(body_.force),
         first_(body_.force),
         first_force_(body_.force),
         rest_(body_.sums.size()),
-        threads_(body_.blocks.threads(options.threads)) {
+        threads_(shares.own() ? 1 : body_.blocks.threads(options.threads)) {
     for (std::size_t slot = 0; slot < body_.force.size(); ++slot) {
       // Moments become forces of like energy.
       const std::size_t own = slot - slot % body_.unknowns.width;
-      weight_.push_back(inertia_.mass[own] / inertia_.mass[slot]);
+      weight_.push_back(body_.mass[own] / body_.mass[slot]);
     }
   }
 
   RelaxationResult run() {
-    for (step_ = 0; step_ < options_.load_factors.size() && !done_; ++step_) {
+    for (step_ = 0; step_ < options_.load_factors.size() && !next_.done; ++step_) {
       start(options_.load_factors[step_]);
-      iteration_ = 0;
-      at_rest_ = false;
-      while (!at_rest_ && !done_) threads_.run([&](int threads) { iterate_round(threads); });
-      if (at_rest_) observe([&] { note_row(); });
-    }
-    if (!done_) {
-      result_.reason = fmt::format("{} load step{} at rest", options_.load_factors.size(),
-                                   options_.load_factors.size() == 1 ? "" : "s");
-      result_.residual = largest_residual_;
-      result_.error = largest_error_;
-      observe([&] { observer_.on_end(record_, body_.state()); });
+      while (!next_.at_rest && !next_.done) {
+        threads_.run([&](int threads) { iterate_round(threads); });
+      }
+      if (next_.at_rest) rest();
     }
     result_.last = record_;
-    result_.displacement = body_.motion.displacement;
     return std::move(result_);
   }
+
+  MovingBonds& body() { return body_; }
 
  private:
   /// Where the body is in proportion to the last equilibrium, at rest.
@@ -93,33 +101,36 @@ class Relaxation {
       body_.motion.velocity[slot] = 0.0;
     }
     starts_ = true;
+    iteration_ = 0;
+    next_.at_rest = false;
   }
 
   void iterate_round(int threads) {
 #pragma omp parallel num_threads(threads)
-    for (int k = 0; k < iterations_of_a_round && !at_rest_ && !done_; ++k) iterate();
+    for (int k = 0; k < iterations_of_a_round && !next_.at_rest && !next_.done; ++k) iterate();
   }
 
   /// Run by every thread; loops end in barriers.
   void iterate() {
-    const Index blocks = body_.blocks.count();
+    if (shares_.own()) shares_.own()->update_ghosts(body_.motion);  // by one thread
 #pragma omp for schedule(static)
-    for (Index b = 0; b < blocks; ++b) {
+    for (Index b = first_block_; b < past_block_; ++b) {
       body_.find_forces(b, result_.iterations);
       measure(b);
     }
 #pragma omp single
     decide();
 #pragma omp for schedule(static)
-    for (Index b = 0; b < blocks; ++b) advance(b);
+    for (Index b = first_block_; b < past_block_; ++b) advance(b);
   }
 
   void measure(Index block) {
     MotionSums& sums = body_.sums[block];
     sums.driven = sums.supports = sums.loaded = 0.0;
     RestSums& rests = rest_[block] = {};
+    rests.fractured = sums.fractured;
     body_.blocks.for_slots(block, [&](std::size_t slot) {
-      const double u = body_.motion.displacement[slot], mass = inertia_.mass[slot];
+      const double u = body_.motion.displacement[slot], mass = body_.mass[slot];
       const double applied = factor_ * body_.loads[slot], inner = body_.force[slot];
       const double rest = inner - applied;
       sums.loaded += body_.loads[slot] * u;
@@ -140,31 +151,43 @@ class Relaxation {
     });
   }
 
-  /// Is the body at rest, and how is it damped? By one thread.
+  /// By one thread; the first rank decides for all.
   void decide() {
-    RestSums all;
-    for (const RestSums& block : rest_) all += block;
-    const MotionSums moved = body_.total();
-    const double rest = std::sqrt(all.residual);
-    result_.residual = all.held > 0.0 ? rest / std::sqrt(all.held) : rest > 0.0 ? 1.0 : 0.0;
-    if (starts_) first_rest_ = rest;
-    const bool gave_way = moved.fractured != fractured_;
-    fractured_ = moved.fractured;
-    restart_ = starts_ || gave_way;  // forces of other bonds tell nothing about the present ones
-    damp(all);
-    // What is left of the way, r'K^-2 r, against the way itself: no vibration is much slower than
-    // the one that is damped.
-    result_.error = all.push > 0.0 ? std::sqrt(all.push / all.size) / square_ : 0.0;
-    at_rest_ = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
-    if (at_rest_) sums_of_row_ = moved;
-    look(rest);
+    const auto add_own = [&](RestSums& sum) {
+      for (Index b = first_block_; b < past_block_; ++b) sum += rest_[b];
+    };
+    if (RunShare* share = shares_.own()) {
+      const auto all = share->sum_in_order<RestSums>(add_own);
+      if (shares_.leading) judge(all);
+      next_ = share->of_first(next_);
+    } else {
+      RestSums all;
+      add_own(all);
+      judge(all);
+    }
     starts_ = false;
     ++iteration_;
     ++result_.iterations;
   }
 
+  /// Is the body at rest, and how is it damped?
+  void judge(const RestSums& all) {
+    const double rest = std::sqrt(all.residual);
+    result_.residual = all.held > 0.0 ? rest / std::sqrt(all.held) : rest > 0.0 ? 1.0 : 0.0;
+    if (starts_) first_rest_ = rest;
+    const bool gave_way = all.fractured != fractured_;
+    fractured_ = all.fractured;
+    // Forces of other bonds tell nothing about the present ones.
+    next_.restart = starts_ || gave_way;
+    damp(all);
+    // What is left of the way, r'K^-2 r, against the way itself: no vibration is much slower than
+    // the one that is damped.
+    result_.error = all.push > 0.0 ? std::sqrt(all.push / all.size) / square_ : 0.0;
+    next_.at_rest = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
+    if (!next_.at_rest) look(rest);
+  }
+
   void look(double rest) {
-    if (at_rest_) return;
     const bool grows = !(rest <= largest_growth * std::max(first_rest_, 1e-290));
     if (grows || iteration_ >= options_.most_iterations) {
       end(Ending::failed,
@@ -174,7 +197,7 @@ class Relaxation {
                       step_ + 1, factor_, grows ? "the motion grows" : "not at rest", iteration_,
                       result_.residual, result_.error, options_.tolerance));
     }
-    if (iteration_ % iterations_between_checks != 0 || done_) return;
+    if (iteration_ % iterations_between_checks != 0 || next_.done) return;
     observe([&] {
       observer_.on_iteration(static_cast<Index>(step_) + 1, iteration_, result_.residual);
       if (observer_.stop_requested()) end(Ending::interrupted, "interrupted");
@@ -195,7 +218,7 @@ class Relaxation {
   void end(Ending ending, const std::string& reason) {
     result_.ending = ending;
     result_.reason = reason;
-    done_ = true;
+    next_.done = true;
   }
 
   void damp(const RestSums& all) {
@@ -204,46 +227,69 @@ class Relaxation {
       if (!(stiffness > 0.0 && mass > 0.0)) return;
       square = std::min(square, stiffness / mass);
     };
-    if (!restart_) {
+    if (!next_.restart) {
       consider(all.stiffness, all.mass);
       consider(all.last_stiffness, all.last_mass);
     }
     const bool known = square < infinity;
     if (known) square_ = square;
     const double rate = known ? 2.0 * std::sqrt(square) : 0.0;
-    keep_ = 1.0 / (1.0 + 0.5 * body_.time_step * rate);
-    lose_ = 1.0 - 0.5 * body_.time_step * rate;
+    next_.keep = 1.0 / (1.0 + 0.5 * body_.time_step * rate);
+    next_.lose = 1.0 - 0.5 * body_.time_step * rate;
   }
 
   void advance(Index block) {
-    if (at_rest_ || done_) return;
+    if (next_.at_rest || next_.done) return;
     const double dt = body_.time_step;
     body_.blocks.for_slots(block, [&](std::size_t slot) {
       if (body_.is_held(slot)) return;
       double& u = body_.motion.displacement[slot];
       double& v = body_.motion.velocity[slot];
-      if (restart_) {
+      if (next_.restart) {
         first_[slot] = u;
         first_force_[slot] = body_.force[slot];
       }
       before_[slot] = body_.force[slot];
       const double push = factor_ * body_.loads[slot] - body_.force[slot];
-      v = keep_ * (lose_ * v + dt * push / inertia_.mass[slot]);
+      v = next_.keep * (next_.lose * v + dt * push / body_.mass[slot]);
       u += dt * v;
     });
   }
 
-  void note_row() {
+  /// The end of a load step, for all ranks.
+  void rest() {
     std::fill(body_.motion.velocity.begin(), body_.motion.velocity.end(), 0.0);
+    for (Index b = first_block_; b < past_block_; ++b) {
+      body_.sums[b].stored = body_.stored(body_.blocks.begin(b), body_.blocks.end(b));
+    }
+    if (shares_.following) {
+      next_.done = !shares_.following->meet(body_);
+      return;
+    }
+    if (shares_.leading) {
+      shares_.leading->collect(body_);
+      shares_.leading->collect_motion(body_.motion);
+    }
+    observe([&] {
+      note_row();
+      if (step_ + 1 == options_.load_factors.size()) return note_end();
+      // Load steps may be at rest from the beginning.
+      if (observer_.stop_requested()) end(Ending::interrupted, "interrupted");
+    });
+    if (shares_.leading) shares_.leading->tell(!next_.done);
+  }
+
+  void note_row() {
+    const MotionSums all = body_.total();
     const ExplicitRecord before = record_;
     record_.step = result_.iterations;
     record_.time = static_cast<double>(step_ + 1);
     record_.load_factor = factor_;
-    body_.note_reactions(sums_of_row_, factor_, record_);
-    body_.note_motion(sums_of_row_, factor_, record_);
+    body_.note_reactions(all, factor_, record_);
+    body_.note_motion(all, factor_, record_);
     EnergyBalance& energy = record_.energy;
-    energy.stored = body_.stored(0, body_.network.particles.size());
-    energy.fractured = sums_of_row_.fractured;
+    energy.stored = all.stored;
+    energy.fractured = all.fractured;
     energy.external_work +=
         0.5 * (record_.load + before.load) * (record_.displacement - before.displacement);
     energy.external_damping = energy.external_work - energy.stored - energy.fractured;
@@ -255,10 +301,19 @@ class Relaxation {
     observer_.on_row(record_, body_.state());
   }
 
+  void note_end() {
+    const std::size_t steps = options_.load_factors.size();
+    result_.reason = fmt::format("{} load step{} at rest", steps, steps == 1 ? "" : "s");
+    result_.residual = largest_residual_;
+    result_.error = largest_error_;
+    observer_.on_end(record_, body_.state());
+  }
+
   const RelaxationOptions& options_;
   BondRunObserver& observer_;
-  Inertia inertia_;
   MovingBonds body_;
+  Shares shares_;
+  Index first_block_, past_block_;           ///< that this process moves
   std::vector<double> before_;               ///< internal forces an iteration ago
   std::vector<double> first_, first_force_;  ///< where the damping began to be measured
   std::vector<double> weight_;  ///< factors of squares of forces and moments, per component
@@ -268,10 +323,9 @@ class Relaxation {
   Index iteration_ = 0;
   double factor_ = 0.0, first_rest_ = 0.0, fractured_ = 0.0;
   double largest_residual_ = 0.0, largest_error_ = 0.0;
-  double keep_ = 1.0, lose_ = 1.0;
   double square_ = 0.0;  ///< square of the damped frequency, as last known
-  bool at_rest_ = false, done_ = false, starts_ = true, restart_ = true;
-  MotionSums sums_of_row_;
+  bool starts_ = true;
+  Decision next_;
   ExplicitRecord record_;
   RelaxationResult result_;
 };
@@ -290,7 +344,39 @@ RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
                                         const RelaxationOptions& options,
                                         BondRunObserver& observer) {
   expect_nothing_carried(problem.unknowns);
-  return Relaxation(problem, options, observer).run();
+  const Inertia inertia = fictitious_inertia(problem.network, options.strain);
+  if (!can_be_shared(problem, options.ranks)) {
+    return Relaxation(problem, inertia, make_explicit_bonds(problem.network, options.strain),
+                      options, observer)
+        .run();
+  }
+  Parcel order;
+  order.put(Service::relax_bonds);
+  order.put(options.strain);
+  order.put(options.safety);
+  order.put(options.load_factors);
+  order.put(inertia.frequency_bound);
+  return run_shared(
+      *options.ranks, order, problem, inertia.mass, options.strain,
+      [&](std::unique_ptr<ExplicitBonds> bonds, LeadingShare& share) {
+        return Relaxation(problem, inertia, std::move(bonds), options, observer, {&share}).run();
+      });
+}
+
+void relax_bonds_along(Ranks& ranks, Parcel& order) {
+  RelaxationOptions options;
+  order.get(options.strain);
+  order.get(options.safety);
+  order.get(options.load_factors);
+  BondPart part = BondPart::unpack(Parcel(ranks.receive(0)));
+  const Inertia inertia{std::move(part.mass), order.get<double>()};
+  FollowingShare share(ranks, part);
+  BondRunObserver nobody;
+  Relaxation run(part.body, inertia,
+                 make_explicit_bonds(part.body.network, options.strain, std::move(part.stencil)),
+                 options, nobody, {nullptr, &share});
+  run.body().component = part.component;
+  run.run();
 }
 
 }  // namespace perilink

@@ -15,6 +15,7 @@ struct RelaxationOptions {
   double safety = 0.95;                      ///< step over the critical one of the masses
   Strain strain = Strain::small;
   int threads = 1;
+  Ranks* ranks = nullptr;  ///< as in ExplicitOptions
 };
 
 /// How a relaxation ended.
@@ -28,9 +29,9 @@ struct RelaxationResult {
   /// Estimated relative error of the displacement, in the norm of the masses: the residual force
   /// over the stiffness of the slowest vibration. Likewise the largest.
   double error = 0.0;
-  double peak_load = 0.0;            ///< largest support reaction in magnitude [force]
-  ExplicitRecord last;               ///< end of the last load step that came to rest
-  std::vector<double> displacement;  ///< where it ended, shape (particles, width)
+  double peak_load = 0.0;  ///< largest support reaction in magnitude [force]
+  int ranks = 1;           ///< that shared the work
+  ExplicitRecord last;     ///< end of the last load step that came to rest
 };
 
 /// Masses that make all particles vibrate alike, whatever the material.
@@ -56,5 +57,8 @@ Inertia fictitious_inertia(const Network& network, Strain strain);
 RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
                                         const RelaxationOptions& options,
                                         BondRunObserver& observer);
+
+/// The part of a rank that does not lead in a relaxation that ranks share.
+void relax_bonds_along(Ranks& ranks, Parcel& order);
 
 }  // namespace perilink

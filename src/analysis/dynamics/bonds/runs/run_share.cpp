@@ -13,7 +13,37 @@ std::vector<double> own_slots(const ParticleBlocks& blocks, Index first_block, I
           all.begin() + static_cast<std::ptrdiff_t>(blocks.last_slot(past_block - 1))};
 }
 
+/// The bonds of the first rank, which asks the others what is left of theirs.
+class LeadingBonds final : public ExplicitBonds {
+ public:
+  LeadingBonds(std::unique_ptr<ExplicitBonds> own, LeadingShare& share)
+      : own_(std::move(own)), share_(share) {}
+
+  BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
+                    std::span<double> force) override {
+    return own_->forces(begin, end, time_step, motion, force);
+  }
+  double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override {
+    return own_->stored(begin, end, time_step, motion);
+  }
+  std::vector<double> secants() const override {
+    std::vector<double> secants = own_->secants();
+    share_.collect_secants(secants);
+    return secants;
+  }
+
+ private:
+  std::unique_ptr<ExplicitBonds> own_;
+  LeadingShare& share_;
+};
+
 }  // namespace
+
+bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks) {
+  const Network& network = problem.network;
+  return ranks != nullptr && !network.has_states() && network.anchors.size() == 0 &&
+         ParticleBlocks(network.particles.size(), network.width()).count() >= ranks->count();
+}
 
 RunShare::RunShare(Ranks& ranks, const Unknowns& unknowns, const ParticleBlocks& blocks,
                    Index first_block, Index past_block, const Ghosts& ghosts)
@@ -100,6 +130,11 @@ bool FollowingShare::meet(MovingBonds& body) {
       parcel.put(own_slots(body.blocks, first_block(), past_block(), *all));
     }
   });
+}
+
+std::unique_ptr<ExplicitBonds> leading_bonds(std::unique_ptr<ExplicitBonds> own,
+                                             LeadingShare& share) {
+  return std::make_unique<LeadingBonds>(std::move(own), share);
 }
 
 }  // namespace perilink

@@ -1,14 +1,22 @@
 #pragma once
 
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "analysis/dynamics/bonds/moving_bonds.hpp"
 #include "analysis/dynamics/bonds/runs/bond_part.hpp"
 #include "analysis/dynamics/meetings.hpp"
 #include "solver/ranks.hpp"
 
 namespace perilink {
+
+/// Whether ranks can share the work on these bonds: ties to anchors and sums of states reach
+/// farther than elements do, and every rank needs a block of particles.
+/// \param ranks  null: this process is alone
+bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks);
 
 /// How a rank takes part in a run of moving bonds: it moves its own blocks, and ranks know of each
 /// other's particles what their elements reach. In meetings the first rank takes the sums of all
@@ -32,10 +40,38 @@ class RunShare {
     meetings_.note_step(held_blocks_, [&](Index b) { return body.sums[b].supports; });
   }
 
+  /// Collective: sums over blocks in the order of their numbers, as one process takes them, which
+  /// go from rank to rank. \param add  adds those of the own blocks
+  /// \return the first rank's: of all blocks
+  template <class Sum, class Add>
+  Sum sum_in_order(Add add) {
+    Ranks& ranks = meetings_.ranks();
+    const int own = ranks.own(), last = ranks.count() - 1;
+    Sum sum = own > 0 ? Parcel(ranks.receive(own - 1)).get<Sum>() : Sum{};
+    add(sum);
+    put_in(own < last ? own + 1 : 0, sum);
+    return own > 0 ? sum : Parcel(ranks.receive(last)).get<Sum>();
+  }
+  /// Collective. \return what the first rank gives
+  template <class Value>
+  Value of_first(const Value& value) {
+    Ranks& ranks = meetings_.ranks();
+    if (!ranks.leads()) return Parcel(ranks.receive(0)).get<Value>();
+    for (int rank = 1; rank < ranks.count(); ++rank) put_in(rank, value);
+    return value;
+  }
+
  protected:
   Meetings meetings_;
 
  private:
+  template <class Value>
+  void put_in(int rank, const Value& value) {
+    Parcel parcel;
+    parcel.put(value);
+    meetings_.ranks().send(rank, parcel.bytes());
+  }
+
   Index first_block_, past_block_;
   std::vector<Index> held_blocks_;
   int width_;
@@ -75,5 +111,42 @@ class FollowingShare final : public RunShare {
  private:
   const BondPart& part_;
 };
+
+/// What this process does in a run that ranks share; both null: it is alone.
+struct Shares {
+  LeadingShare* leading = nullptr;
+  FollowingShare* following = nullptr;
+
+  RunShare* own() const { return leading != nullptr ? static_cast<RunShare*>(leading) : following; }
+  Index first_block() const { return own() != nullptr ? own()->first_block() : 0; }
+  Index past_block(const ParticleBlocks& all) const {
+    return own() != nullptr ? own()->past_block() : all.count();
+  }
+};
+
+/// The bonds of the first rank, which asks the others what is left of theirs.
+std::unique_ptr<ExplicitBonds> leading_bonds(std::unique_ptr<ExplicitBonds> own,
+                                             LeadingShare& share);
+
+/// Sends the other ranks an order and their parts of the body, and runs that of the first.
+/// \param mass  shape (particles, width)
+/// \param run   run(bonds, share) gives a result that tells how many ranks there were
+template <class Run>
+auto run_shared(Ranks& ranks, const Parcel& order, const LoadedNetwork& problem,
+                const std::vector<double>& mass, Strain strain, Run run) {
+  BondStencil stencil = stencil_for(problem.network, strain);
+  const BlockPartition partition(problem.network, ranks.count());
+  return lead(ranks, [&] {
+    for (int rank = 1; rank < ranks.count(); ++rank) {
+      ranks.send(rank, order.bytes());
+      ranks.send(rank, cut_part(problem, mass, stencil, partition, rank).pack().bytes());
+    }
+    LeadingShare share(ranks, problem, partition);
+    auto bonds = make_explicit_bonds(problem.network, strain, std::move(stencil));
+    auto result = run(leading_bonds(std::move(bonds), share), share);
+    result.ranks = ranks.count();
+    return result;
+  });
+}
 
 }  // namespace perilink

@@ -3,7 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
+
+#include "app/process/serve.hpp"
 #include "support/analysis_bodies.hpp"
+#include "support/thread_ranks.hpp"
 
 namespace perilink {
 namespace {
@@ -12,8 +17,12 @@ using namespace test;
 
 class StepRecorder final : public BondRunObserver {
  public:
-  void on_row(const ExplicitRecord& record, const BondRunState&) override {
+  void on_row(const ExplicitRecord& record, const BondRunState& state) override {
+    if (rows.size() == most_rows) throw std::runtime_error("the disk is full");
     rows.push_back(record);
+    displacement = state.motion.displacement;
+    secants = state.bonds.secants();
+    broken = state.broken;
   }
   void on_end(const ExplicitRecord&, const BondRunState&) override { ++ends; }
   void on_iteration(Index, Index, double) override {
@@ -22,8 +31,11 @@ class StepRecorder final : public BondRunObserver {
   bool stop_requested() override { return stops; }
 
   bool stops = false, breaks = false;
+  std::size_t most_rows = 1000;
   int ends = 0;
   std::vector<ExplicitRecord> rows;
+  std::vector<double> displacement, secants;  ///< in the last row
+  std::vector<Index> broken;
 };
 
 struct Relaxed {
@@ -31,8 +43,10 @@ struct Relaxed {
   StepRecorder recorder;
 };
 
-Relaxed relax(const AnalysisBody& body, const RelaxationOptions& options) {
+Relaxed relax(const AnalysisBody& body, const RelaxationOptions& options,
+              std::size_t most_rows = 1000) {
   Relaxed outcome;
+  outcome.recorder.most_rows = most_rows;
   outcome.result = run_dynamic_relaxation(body, options, outcome.recorder);
   return outcome;
 }
@@ -54,7 +68,7 @@ TEST_P(RelaxedBlocks, RestInStaticEquilibrium) {
   EXPECT_LE(outcome.result.error, options.tolerance);
   const Eigen::VectorXd statics = dense_displacement(body, intact(body.network));
   // The largest component against a mean of all.
-  EXPECT_LT(difference(outcome.result.displacement, statics), 4.0 * options.tolerance);
+  EXPECT_LT(difference(outcome.recorder.displacement, statics), 4.0 * options.tolerance);
   // Critical damping: of the order of the periods of the body in steps, some dozens.
   EXPECT_LT(outcome.result.iterations, 2000);
   ASSERT_EQ(outcome.recorder.rows.size(), 1U);
@@ -70,7 +84,9 @@ TEST_P(RelaxedBlocks, ThreadsChangeNothing) {
   options.most_iterations = 100;
   const Relaxed one = relax(body, options);
   options.threads = 2;
-  EXPECT_EQ(relax(body, options).result.displacement, one.result.displacement);
+  const Relaxed two = relax(body, options);
+  EXPECT_EQ(two.result.residual, one.result.residual);
+  EXPECT_EQ(two.result.error, one.result.error);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -83,6 +99,87 @@ INSTANTIATE_TEST_SUITE_P(
                         {"plane", Pattern::rectangular, Surface::none}, true, false, 6, 0.1, true},
                     BlockCase{{"space", Pattern::cubic, Surface::none}, true, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
+
+const LatticeCase squares{"square", Pattern::rectangular, Surface::none};
+const LatticeCase cubes{"cube", Pattern::cubic, Surface::none};
+
+/// Bodies in which bonds break on the way to rest, at particles of several ranks.
+class SharedRelaxations : public testing::TestWithParam<std::tuple<BlockCase, Strain>> {};
+
+void expect_the_same(const Relaxed& found, const Relaxed& alone) {
+  EXPECT_EQ(found.recorder.rows, alone.recorder.rows);
+  EXPECT_EQ(found.recorder.displacement, alone.recorder.displacement);
+  EXPECT_EQ(found.recorder.secants, alone.recorder.secants);
+  EXPECT_EQ(found.recorder.broken, alone.recorder.broken);
+  EXPECT_EQ(found.recorder.ends, alone.recorder.ends);
+  EXPECT_EQ(found.result.ending, alone.result.ending);
+  EXPECT_EQ(found.result.reason, alone.result.reason);
+  EXPECT_EQ(found.result.iterations, alone.result.iterations);
+  EXPECT_EQ(found.result.residual, alone.result.residual);
+  EXPECT_EQ(found.result.error, alone.result.error);
+  EXPECT_EQ(found.result.peak_load, alone.result.peak_load);
+  EXPECT_EQ(found.result.last, alone.result.last);
+}
+
+TEST_P(SharedRelaxations, RanksChangeNothing) {
+  const auto& [block, strain] = GetParam();
+  AnalysisBody body = make_block(block);
+  std::vector<double>& limits = body.network.critical_stretch;
+  const double stretch = *std::min_element(limits.begin(), limits.end());
+  // What breaks lies far apart, so that the body stays whole.
+  for (std::size_t e = 0; e < limits.size(); ++e) {
+    if (e % 20 != 0) limits[e] = INFINITY;
+  }
+  RelaxationOptions options;
+  for (double& factor : options.load_factors = {0.02, 1.0, 1.5}) {
+    factor *= stretch * block.columns;
+  }
+  options.tolerance = 1e-3;
+  options.strain = strain;
+  options.safety = 0.5;  // Green strains stiffen what cannot break
+  // To the end, until an observer fails at a row, and as far as some iterations go.
+  for (const auto& [most_rows, most_iterations] : {std::pair{1000, 3000}, {2, 3000}, {1000, 20}}) {
+    options.most_iterations = most_iterations;
+    options.ranks = nullptr;
+    const Relaxed alone = relax(body, options, most_rows);
+    for (const int count : {2, 3}) {
+      with_thread_ranks(
+          count,
+          [&](Ranks& ranks) {
+            options.ranks = &ranks;
+            const Relaxed found = relax(body, options, most_rows);
+            dismiss(ranks);
+            EXPECT_EQ(found.result.ranks, count);
+            expect_the_same(found, alone);
+          },
+          serve);
+    }
+    if (most_rows == 2) {
+      EXPECT_EQ(alone.result.reason, "the disk is full");
+    } else if (most_iterations == 20) {
+      EXPECT_EQ(alone.result.ending, Ending::failed);
+    } else {
+      EXPECT_EQ(alone.result.ending, Ending::completed) << alone.result.reason;
+      EXPECT_GT(alone.result.last.broken_bonds, 20);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, SharedRelaxations,
+    testing::Values(
+        std::tuple{BlockCase{.lattice = squares, .driven = true, .columns = 30}, Strain::small},
+        std::tuple{BlockCase{.lattice = cubes, .driven = true, .columns = 9}, Strain::small},
+        std::tuple{BlockCase{.lattice = squares,
+                             .driven = true,
+                             .columns = 30,
+                             .micropolar = true,
+                             .toothed = true},
+                   Strain::small},
+        std::tuple{BlockCase{.lattice = squares, .driven = true, .columns = 30}, Strain::green}),
+    [](const auto& instance) {
+      return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
+    });
 
 /// What is an equilibrium in proportion needs no further iteration.
 TEST(DynamicRelaxation, LoadStepsStartWhereTheyEnd) {
