@@ -136,9 +136,9 @@ ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
   cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   if (!events) return cost;
   const double unknowns = static_cast<double>(network.particles.size()) * network.width();
-  const auto components = static_cast<std::size_t>(unknowns);
-  const auto window = static_cast<double>(columns_of_window(components));
-  cost.memory += (window + columns_beside_window) * 8.0 * unknowns;
+  const bool defers = network.num_elements() >= BoxSolverOptions().fewest_to_defer;
+  const std::size_t window = columns_of_window(static_cast<std::size_t>(unknowns), defers);
+  cost.memory += 8.0 * unknowns * (static_cast<double>(window) + columns_beside_window);
   const bool softens = network.laws.size() > 1 || !network.laws[0].is_brittle();
   const double solutions = frames    ? solutions_per_event_of_frames
                            : softens ? solutions_per_softening_event

@@ -27,6 +27,9 @@ constexpr double coarser = 100.0;
 /// Memory that the window may take where that leaves the fewest blocks.
 constexpr double most_bytes = 1.5e9;
 
+/// More calls than a run has: what is let go counts as used so long ago.
+constexpr int let_go_after = 1 << 30;
+
 std::size_t blocks_of(std::size_t columns) { return (columns + block_width - 1) / block_width; }
 
 /// How many times the vector holds the other one, which has the same rows; 0: it is another.
@@ -120,7 +123,7 @@ void BoxFactor::let_go(std::span<const SparseVector> x) {
     const auto is_here = [&](const SparseVector& gone) {
       return share_of(gone, window_[place]) != 0.0;
     };
-    if (std::ranges::any_of(x, is_here)) used_[place] = 0;
+    if (std::ranges::any_of(x, is_here)) used_[place] = now_ - let_go_after;
   }
 }
 
@@ -151,11 +154,12 @@ void BoxFactor::keep_latest() {
   for (const Eigen::Index place : places) put_in_window(window[place], used[place]);
 }
 
-std::size_t columns_of_window(std::size_t components, Index wanted) {
+std::size_t columns_of_window(std::size_t components, bool defers,
+                              const BoxSolverOptions& options) {
   const double bytes = 8.0 * static_cast<double>(components) * block_width;
-  const auto blocks = static_cast<std::size_t>(most_bytes / bytes);
-  return block_width *
-         std::max(fewest_blocks, std::min(blocks, blocks_of(static_cast<std::size_t>(wanted))));
+  const auto wanted = static_cast<std::size_t>(defers ? 3 * options.window : options.window);
+  const auto room = static_cast<std::size_t>(most_bytes / bytes);
+  return block_width * std::max(fewest_blocks, std::min(room, blocks_of(wanted)));
 }
 
 void BoxFactor::put_in_window(const SparseVector& x, int used) {
@@ -186,7 +190,7 @@ void BoxFactor::hold(std::span<const SparseVector> x, Correction* correction) {
   const std::size_t reserved = correction != nullptr ? 1 : 0;
   std::vector<SparseVector> chosen = choose(missing, reserved);
   if ((blocks_.size() + blocks_of(chosen.size())) * block_width >
-      columns_of_window(unknowns_->number.size(), options_.window)) {
+      columns_of_window(unknowns_->number.size(), deferred_.has_value(), options_)) {
     keep_latest();
     chosen = choose(missing_of(x), reserved);  // some may have gone
   }

@@ -14,8 +14,9 @@
 namespace perilink {
 
 /// Columns that a window keeps, at most, in a body of so many components of displacement.
-/// \param wanted  BoxSolverOptions::window
-std::size_t columns_of_window(std::size_t components, Index wanted = BoxSolverOptions().window);
+/// \param defers  whether displacements wait, see BoxFactor::defer()
+std::size_t columns_of_window(std::size_t components, bool defers,
+                              const BoxSolverOptions& options = {});
 
 /// What a factor does for events, by conjugate gradients (docs/theory/large_bodies.md, section 4):
 /// a window of columns K^-1 e, the e vectors of elements that are near their events or, where
@@ -120,7 +121,7 @@ class BoxFactor final : public Factor {
   std::vector<SparseVector> window_;  ///< vectors e whose columns are at hand
   std::vector<Index> place_of_;  ///< per unknown: where it is in the window by itself, or no_index
   VectorSpan span_;              ///< what the window makes up
-  std::vector<int> used_;        ///< per place: when an event used it last; 0: let go
+  std::vector<int> used_;        ///< per place: when an event used it last; negative: let go
   int now_ = 0;                  ///< events and calls so far
   /// Columns of K^-1 as it was when they were solved for, block after block, each of shape
   /// (particles, width, block_width).

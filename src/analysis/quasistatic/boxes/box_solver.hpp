@@ -25,7 +25,9 @@ struct BoxSolverOptions {
   bool blocks = false;
   /// Elements from which on it pays that displacements wait until a search asks for them.
   Index fewest_to_defer = 200'000;
-  Index window = 768;      ///< columns that a BoxFactor keeps, where memory allows
+  /// Columns that a BoxFactor keeps where every event adds them up for the whole body; three times
+  /// as many, where memory allows, if displacements wait.
+  Index window = 256;
   Ranks* ranks = nullptr;  ///< that share the work, where there are several
 };
 
