@@ -16,8 +16,8 @@ TEST(Recombine, ColumnsGoOverToFewerCombinations) {
   const Rows first = Rows::Random(rows, block_width), second = Rows::Random(rows, block_width);
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> shares =
       MatrixXd::Random(2 * block_width, block_width);
-  const auto numbers = [](const Rows& numbers) {
-    return BlockVector<double>(numbers.data(), numbers.data() + numbers.size());
+  const auto numbers = [](const Rows& of) {
+    return BlockVector<double>(of.data(), of.data() + of.size());
   };
   std::vector<BlockVector<double>> blocks = {numbers(first), numbers(second)};
   recombine(blocks, {shares.data(), std::size_t(shares.size())});

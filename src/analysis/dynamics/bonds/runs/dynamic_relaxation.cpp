@@ -85,6 +85,7 @@ class Relaxation {
       if (next_.at_rest) rest();
     }
     result_.last = record_;
+    result_.displacement = body_.motion.displacement;
     return std::move(result_);
   }
 

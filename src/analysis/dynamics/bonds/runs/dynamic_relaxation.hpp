@@ -32,6 +32,8 @@ struct RelaxationResult {
   double peak_load = 0.0;  ///< largest support reaction in magnitude [force]
   int ranks = 1;           ///< that shared the work
   ExplicitRecord last;     ///< end of the last load step that came to rest
+  /// Where it ended, shape (particles, width); particles of other ranks at the last row.
+  std::vector<double> displacement;
 };
 
 /// Masses that make all particles vibrate alike, whatever the material.

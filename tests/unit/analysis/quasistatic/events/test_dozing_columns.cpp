@@ -40,7 +40,8 @@ struct Followed {
     EXPECT_TRUE(search.doze_by_columns(motion));
   }
   void add_block(unsigned seed) {
-    blocks.push_back(columns_near(body.network, seed));
+    const std::vector<double> columns = columns_near(body.network, seed);
+    blocks.emplace_back(columns.begin(), columns.end());
     for (std::size_t k = 0; k < blocks.back().size(); ++k) {
       if (body.unknowns.number[k / block_width] == no_index) blocks.back()[k] = 0.0;
     }
@@ -51,7 +52,7 @@ struct Followed {
     motion.steps[column] += size;
     motion.moved[column] += std::abs(size);
     ++motion.changes;
-    const std::vector<double>& block = blocks[column / block_width];
+    const BlockVector<double>& block = blocks[column / block_width];
     for (std::size_t slot = 0; slot < current.size(); ++slot) {
       current[slot] += size * block[slot * block_width + column % block_width];
     }
@@ -66,7 +67,7 @@ struct Followed {
   AnalysisBody body;
   LimitSearch search, whole;
   std::vector<double> solution, displacement, current;
-  std::vector<std::vector<double>> blocks;
+  std::vector<BlockVector<double>> blocks;
   DeferredMotion motion;
 };
 
