@@ -22,8 +22,8 @@ constexpr double seconds_per_row = 15e-6;
 
 /// A field file: compressed, brought to the disk (meshes/block_tension.toml, notched_beam.toml).
 constexpr double seconds_per_file = 2e-3, seconds_per_particle_of_file = 1e-6;
-/// Columns that a window and its search for more hold, in blocks, and how much of a solution an
-/// event costs: with brittle trusses a column more, solved for along with others; with bonds that
+/// What a search for columns holds beside the window, in columns, and how much of a solution an event
+/// costs: with brittle trusses a column more, solved for along with others; with bonds that
 /// soften several; where bonds carry moments the columns of their unknowns (blocks of 14 807 and
 /// 31 382 unknowns).
 constexpr double columns_beside_window = 64.0, solutions_per_event = 0.13;
@@ -136,7 +136,8 @@ ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
   cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   if (!events) return cost;
   const double unknowns = static_cast<double>(network.particles.size()) * network.width();
-  const bool defers = network.num_elements() >= BoxSolverOptions().fewest_to_defer;
+  const bool defers = network.num_elements() >= BoxSolverOptions().fewest_to_defer && !frames &&
+                      !network.has_closing();
   const std::size_t window = columns_of_window(static_cast<std::size_t>(unknowns), defers);
   cost.memory += 8.0 * unknowns * (static_cast<double>(window) + columns_beside_window);
   const bool softens = network.laws.size() > 1 || !network.laws[0].is_brittle();

@@ -47,8 +47,8 @@ class BoxFactor final : public Factor {
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
   /// residual <- K^-1 residual, as exact as a solution of this energy is to be.
   void correct(std::vector<double>& residual, double energy);
-  /// Nobody will ask for these any more, whose elements are gone: when the window is full they go
-  /// first.
+  /// Elements of these vectors are gone, and hardly anybody asks for them any more: when the window
+  /// is full they go first.
   void let_go(std::span<const SparseVector> x);
   /// Columns at hand have followed too many changes: all are solved for again when they are asked
   /// for.
@@ -80,6 +80,7 @@ class BoxFactor final : public Factor {
   int factorizations() const override { return begun_; }
   FactorStatistics statistics() const override;
 
+  std::size_t num_blocks() const { return blocks_.size(); }
   Index columns_solved() const { return columns_solved_; }
 
  private:

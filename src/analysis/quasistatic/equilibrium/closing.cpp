@@ -149,6 +149,8 @@ bool Equilibrium::open(Index element) {
 
 /// Whether a new factor costs less than so many changes of the present one.
 bool Equilibrium::is_cheaper_anew(std::size_t changes) const {
+  // One by one each asks for a block of columns; a window that begins anew lacks all of its blocks.
+  if (boxes_ != nullptr) return changes > boxes_->num_blocks() + 1;
   const FactorStatistics factor = factor_->statistics();
   const double anew = factor.flops / flops_per_second +
                       seconds_per_element * static_cast<double>(network_.num_elements());

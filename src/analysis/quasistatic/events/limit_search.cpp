@@ -204,7 +204,7 @@ std::array<double, block_width> LimitSearch::largest_of_columns(std::size_t begi
     return reinterpret_cast<const InMemory*>(columns +
                                              static_cast<std::size_t>(slot) * block_width);
   };
-  Lanes most[count] = {};
+  Lanes most[count] = {}, zero_times_all[count] = {};
   for (std::size_t k = begin; k < end; ++k) {
     const InMemory* first = motion_at(group.first[k]);
     const InMemory* second = motion_at(group.second[k]);
@@ -214,11 +214,15 @@ std::array<double, block_width> LimitSearch::largest_of_columns(std::size_t begi
     }
     for (int c = 0; c < count; ++c) {
       const Lanes size = ratio[c] < 0.0 ? -ratio[c] : ratio[c];
-      most[c] = size <= most[c] ? most[c] : size;  // what is not a number stays
+      most[c] = size > most[c] ? size : most[c];
+      zero_times_all[c] += 0.0 * size;
     }
   }
   std::array<double, block_width> result;
-  for (int c = 0; c < block_width; ++c) result[c] = most[c / in_register][c % in_register];
+  for (int c = 0; c < block_width; ++c) {
+    const int lanes = c / in_register, lane = c % in_register;
+    result[c] = largest_or_nan(most[lanes][lane], zero_times_all[lanes][lane]);
+  }
   return result;
 }
 

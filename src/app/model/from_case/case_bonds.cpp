@@ -185,9 +185,12 @@ std::optional<LatticePattern> find_pattern(const CaseFile& input, const BondOpti
 
 bool have_unlike_constants(const CaseFile& input) {
   const MaterialSection& first = input.materials.front();
+  const bool has_ratio_of_bonds =
+      input.body.method == BodyMethod::bonds && input.body.model == BodyModel::bond_based;
   const double otherwise = bond_poissons_ratio(input.body.problem);
   return std::any_of(input.materials.begin(), input.materials.end(), [&](const auto& material) {
-    return material.youngs_modulus != first.youngs_modulus ||
+    if (material.youngs_modulus != first.youngs_modulus) return true;
+    return !has_ratio_of_bonds &&
            material.poissons_ratio.value_or(otherwise) != first.poissons_ratio.value_or(otherwise);
   });
 }

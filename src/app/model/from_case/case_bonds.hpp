@@ -18,8 +18,8 @@ struct BondOptions {
   int parts = 1;
 };
 
-/// Whether materials differ in an elastic constant; a Poisson's ratio that is left out is that of
-/// bonds.
+/// Whether materials differ in an elastic constant. That of trusses is the Poisson's ratio of
+/// bonds, given with some digits or left out.
 bool have_unlike_constants(const CaseFile& input);
 
 /// Whether ranks can make the bonds of a case by themselves, if its body is one box.

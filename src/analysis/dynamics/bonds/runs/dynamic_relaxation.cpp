@@ -154,16 +154,16 @@ class Relaxation {
 
   /// By one thread; the first rank decides for all.
   void decide() {
-    const auto add_own = [&](RestSums& sum) {
-      for (Index b = first_block_; b < past_block_; ++b) sum += rest_[b];
-    };
+    const auto own = std::span<const RestSums>(rest_).subspan(
+        static_cast<std::size_t>(first_block_),
+        static_cast<std::size_t>(past_block_ - first_block_));
     if (RunShare* share = shares_.own()) {
-      const auto all = share->sum_in_order<RestSums>(add_own);
+      const RestSums all = share->sum_in_order(own);
       if (shares_.leading) judge(all);
       next_ = share->of_first(next_);
     } else {
       RestSums all;
-      add_own(all);
+      for (const RestSums& block : own) all += block;
       judge(all);
     }
     starts_ = false;

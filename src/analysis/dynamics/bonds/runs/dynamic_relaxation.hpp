@@ -32,7 +32,7 @@ struct RelaxationResult {
   double peak_load = 0.0;  ///< largest support reaction in magnitude [force]
   int ranks = 1;           ///< that shared the work
   ExplicitRecord last;     ///< end of the last load step that came to rest
-  /// Where it ended, shape (particles, width); particles of other ranks at the last row.
+  /// Where it ended, shape (particles, width); of a run that ranks shared only if it came to rest.
   std::vector<double> displacement;
 };
 

@@ -40,17 +40,21 @@ class RunShare {
     meetings_.note_step(held_blocks_, [&](Index b) { return body.sums[b].supports; });
   }
 
-  /// Collective: sums over blocks in the order of their numbers, as one process takes them, which
-  /// go from rank to rank. \param add  adds those of the own blocks
+  /// Collective: sums over blocks in the order of their numbers, as one process takes them.
+  /// \param own  of the own blocks
   /// \return the first rank's: of all blocks
-  template <class Sum, class Add>
-  Sum sum_in_order(Add add) {
+  template <class Sum>
+  Sum sum_in_order(std::span<const Sum> own) {
     Ranks& ranks = meetings_.ranks();
-    const int own = ranks.own(), last = ranks.count() - 1;
-    Sum sum = own > 0 ? Parcel(ranks.receive(own - 1)).get<Sum>() : Sum{};
-    add(sum);
-    put_in(own < last ? own + 1 : 0, sum);
-    return own > 0 ? sum : Parcel(ranks.receive(last)).get<Sum>();
+    Sum sum{};
+    for (const Sum& block : own) sum += block;
+    if (!ranks.leads()) put_in(0, std::vector<Sum>(own.begin(), own.end()));
+    std::vector<Sum> others;
+    for (int rank = 1; ranks.leads() && rank < ranks.count(); ++rank) {
+      Parcel(ranks.receive(rank)).get(others);
+      for (const Sum& block : others) sum += block;
+    }
+    return sum;
   }
   /// Collective. \return what the first rank gives
   template <class Value>

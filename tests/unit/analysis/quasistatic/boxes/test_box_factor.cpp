@@ -196,7 +196,6 @@ TEST(BoxFactor, HoldsWhatOthersMakeUp) {
   EXPECT_TRUE(by_itself.holds(sum));
 }
 
-/// Elements whose unknowns are in the window, and those that are in it themselves.
 TEST(BoxFactor, ColumnsThatNobodyAsksForGoFirst) {
   const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}, false, false, 6});
   const std::vector<double> secants = intact(body.network), no_ground;
@@ -204,6 +203,7 @@ TEST(BoxFactor, ColumnsThatNobodyAsksForGoFirst) {
   small.window = 4 * block_width;
   BoxFactor boxes(body.network, small);
   boxes.begin(body.unknowns, secants, no_ground);
+  constexpr std::size_t waiting = 4;  // of every block
   std::vector<SparseVector> held;
   std::vector<bool> taken(static_cast<std::size_t>(body.network.particles.size()), false);
   for (Index e = 0; e < body.network.num_elements() && held.size() < 5 * block_width; ++e) {
@@ -215,19 +215,31 @@ TEST(BoxFactor, ColumnsThatNobodyAsksForGoFirst) {
     held.push_back(x);
     if (held.size() % block_width != 0) continue;
     boxes.hold(std::span(held).last(block_width));
-    // What is asked for last goes, what has waited longer stays.
-    boxes.let_go(std::span(held).last(block_width / 2));
+    boxes.let_go(std::span(held).last(block_width - waiting));
   }
   ASSERT_EQ(held.size(), 5u * block_width);
-  std::size_t gone = 0;
+  // The fifth block found the window full: half of it stayed.
   for (std::size_t k = 0; k < held.size(); ++k) {
-    const bool is_let_go = k % block_width >= block_width / 2;
-    EXPECT_TRUE(boxes.holds(held[k]) || is_let_go) << k;
-    if (!boxes.holds(held[k])) ++gone;
+    const std::size_t block = k / block_width;
+    const bool waits = k % block_width < waiting;
+    if (waits || block > 2) {
+      EXPECT_TRUE(boxes.holds(held[k])) << k;  // what waits, and the latest of what was let go
+    } else if (block < 2) {
+      EXPECT_FALSE(boxes.holds(held[k])) << k;
+    }
   }
-  EXPECT_EQ(gone, 2u * block_width);  // half of the four blocks, when the fifth came
 }
 
+TEST(BoxFactor, WindowsAreWiderWhereDisplacementsWait) {
+  const std::size_t most = 1'500'000'000 / 8;  // numbers in 1.5 GB
+  EXPECT_EQ(columns_of_window(3'000, false), 256u);
+  EXPECT_EQ(columns_of_window(3'000, true), 768u);
+  const std::size_t components = most / 500;
+  EXPECT_EQ(columns_of_window(components, true), 500u / block_width * block_width);
+  EXPECT_EQ(columns_of_window(most, true), 64u);
+}
+
+/// Elements whose unknowns are in the window, and those that are in it themselves.
 TEST(BoxFactor, UnknownsSayWhatVectorsSay) {
   const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}, false, false, 5});
   std::vector<double> secants = intact(body.network);

@@ -41,6 +41,10 @@ TEST(CaseBonds, AreLeftToRanksWhereMaterialsDifferInNamesOnly) {
   input.materials[1].poissons_ratio.reset();
   EXPECT_FALSE(have_unlike_constants(input));
   EXPECT_TRUE(build_model(input, {}, 2).pattern);
+  input.materials[0].poissons_ratio = 0.333;  // with the digits that users write
+  EXPECT_FALSE(have_unlike_constants(input));
+  input.body.model = BodyModel::micropolar;  // whose bonds follow the ratio
+  EXPECT_TRUE(have_unlike_constants(input));
 }
 
 TEST(CaseBonds, AreRefusedAloneAndByRanksForTheSameReasons) {
