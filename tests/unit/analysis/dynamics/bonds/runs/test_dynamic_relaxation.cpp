@@ -80,7 +80,7 @@ TEST_P(RelaxedBlocks, RestInStaticEquilibrium) {
 
 TEST(Relaxation, ThreadsChangeNothing) {
   const AnalysisBody body =
-      make_block({{"plane", Pattern::rectangular, Surface::none}, true, false, 40});
+      make_block({{"plane", Pattern::rectangular, Surface::none}, true, false, 100});
   const Network& network = body.network;
   ASSERT_EQ(ParticleBlocks(network.particles.size(), network.width()).threads(2), 2);
   RelaxationOptions options;
