@@ -22,10 +22,10 @@ constexpr double seconds_per_row = 15e-6;
 
 /// A field file: compressed, brought to the disk (meshes/block_tension.toml, notched_beam.toml).
 constexpr double seconds_per_file = 2e-3, seconds_per_particle_of_file = 1e-6;
-/// What a search for columns holds beside the window, in columns, and how much of a solution an event
-/// costs: with brittle trusses a column more, solved for along with others; with bonds that
-/// soften several; where bonds carry moments the columns of their unknowns (blocks of 14 807 and
-/// 31 382 unknowns).
+/// Columns that a search for more takes beside the window, and how much of a solution an event
+/// costs: with brittle trusses a column more, solved for along with others; with bonds that soften
+/// several; where bonds carry moments the columns of their unknowns (blocks of 14 807 and 31 382
+/// unknowns).
 constexpr double columns_beside_window = 64.0, solutions_per_event = 0.13;
 constexpr double solutions_per_softening_event = 0.5, solutions_per_event_of_frames = 2.0;
 

@@ -41,7 +41,7 @@ class RunShare {
   }
 
   /// Collective: sums over blocks in the order of their numbers, as one process takes them.
-  /// \param own  of the own blocks
+  /// \param own  those of the blocks that this rank moves
   /// \return the first rank's: of all blocks
   template <class Sum>
   Sum sum_in_order(std::span<const Sum> own) {

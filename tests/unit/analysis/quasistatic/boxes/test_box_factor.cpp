@@ -203,7 +203,7 @@ TEST(BoxFactor, ColumnsThatNobodyAsksForGoFirst) {
   small.window = 4 * block_width;
   BoxFactor boxes(body.network, small);
   boxes.begin(body.unknowns, secants, no_ground);
-  constexpr std::size_t waiting = 4;  // of every block
+  constexpr std::size_t waiting = 4;  // columns in every block
   std::vector<SparseVector> held;
   std::vector<bool> taken(static_cast<std::size_t>(body.network.particles.size()), false);
   for (Index e = 0; e < body.network.num_elements() && held.size() < 5 * block_width; ++e) {
