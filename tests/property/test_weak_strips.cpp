@@ -63,7 +63,7 @@ std::vector<NamedStrip> weak_strips() {
   }
   WeakStrip bar{true, "bond_based", "cubic", "bilinear"};
   bar.length = 60.0;
-  bar.width = 30.0;
+  bar.width = 24.0;
   bar.spacing = 6.0;
   result.push_back({"bond_based_cubic_bilinear", bar});
   bar.model = "micropolar";
