@@ -38,16 +38,22 @@ class PatternBonds {
  public:
   explicit PatternBonds(const LatticePattern& pattern);
 
-  /// Calls visit(first, second, element): points of the box, the first of which comes first in it,
-  /// and the element of the sample that is like the bond. At first bonds whose first end is in the
-  /// window, in their order, then the others.
+  /// Those whose first end is in the window alone.
   template <class Visit>
-  void for_each(const GridWindow& window, Visit visit) const {
+  void for_each_first(const GridWindow& window, Visit visit) const {
     pattern_.grid.for_each(window, [&](const GridPoint& p) {
       for_each_of(p, [&](const GridPoint& other, Index element, bool comes_first) {
         if (comes_first) visit(p, other, element);
       });
     });
+  }
+
+  /// Calls visit(first, second, element): points of the box, the first of which comes first in it,
+  /// and the element of the sample that is like the bond. At first bonds whose first end is in the
+  /// window, in their order, then the others.
+  template <class Visit>
+  void for_each(const GridWindow& window, Visit visit) const {
+    for_each_first(window, visit);
     pattern_.grid.for_each(window, [&](const GridPoint& p) {
       for_each_of(p, [&](const GridPoint& other, Index, bool comes_first) {
         if (comes_first || window.contains(other)) return;

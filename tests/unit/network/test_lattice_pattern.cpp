@@ -12,6 +12,7 @@
 namespace perilink {
 namespace {
 
+using test::in_one_piece;
 using test::network_input;
 
 struct PatternCase {
@@ -55,7 +56,7 @@ TEST_P(Patterns, GiveTheBondsOfTheWholeBody) {
   const LatticeInput lattice = input_of(GetParam());
   NetworkInput input = network_input(lattice);
   const Body body = make_body(lattice);
-  const Network whole = build_network(body, input);
+  const Network whole = build_network(body, in_one_piece(input));
   const LatticePattern pattern = make_pattern(body, input);
   ASSERT_TRUE(can_repeat(pattern.sample));
   const LatticeGrid& grid = pattern.grid;
