@@ -34,6 +34,9 @@ class Parts {
   std::vector<Index> parent_;
 };
 
+/// With fewer the start of threads takes longer than the work.
+constexpr Index boxes_for_threads = 100;
+
 }  // namespace
 
 BoxMotions::BoxMotions(const Network& network, Secants secants, const Unknowns& unknowns,
@@ -168,6 +171,7 @@ std::array<double, 6> BoxMotions::row(Index particle, int component) const {
 void BoxMotions::restrict(std::span<const double> residual, std::span<double> coarse) const {
   const int motions = num_motions();
   std::fill(coarse.begin(), coarse.end(), 0.0);
+#pragma omp parallel for schedule(static) if (num_boxes() > boxes_for_threads)
   for (Index b = 0; b < num_boxes(); ++b) {
     double* sums = coarse.data() + static_cast<std::size_t>(b) * motions;
     for (const Index p : boxes_[b]) {
@@ -179,6 +183,7 @@ void BoxMotions::restrict(std::span<const double> residual, std::span<double> co
 
 void BoxMotions::add(std::span<const double> coarse, std::span<double> result) const {
   const int motions = num_motions();
+#pragma omp parallel for schedule(static) if (num_boxes() > boxes_for_threads)
   for (Index b = 0; b < num_boxes(); ++b) {
     const double* values = coarse.data() + static_cast<std::size_t>(b) * motions;
     for (const Index p : boxes_[b]) {

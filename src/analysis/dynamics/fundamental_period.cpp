@@ -34,7 +34,6 @@ class Vibration {
             std::span<const std::vector<double>> free)
       : network_(network),
         unknowns_(unknowns),
-        secants_(static_cast<std::size_t>(network.num_elements()), 1.0),
         mass_(Eigen::Map<const VectorXd>(inertia.mass.data(),
                                          static_cast<Eigen::Index>(inertia.mass.size()))),
         inverse_(network, unknowns),
@@ -69,11 +68,11 @@ class Vibration {
   VectorXd force_of(const VectorXd& u) {
     const auto size = static_cast<std::size_t>(u.size());
     if (network_.anchors.size() == 0) {
-      internal_force(network_, secants_, {u.data(), size}, inner_);
+      internal_force(network_, {}, {u.data(), size}, inner_);
     } else {
       VectorXd all = u;
       follow_particles(network_, {all.data(), size});
-      internal_force(network_, secants_, {all.data(), size}, inner_);
+      internal_force(network_, {}, {all.data(), size}, inner_);
       load_particles(network_, inner_.forces);
     }
     return masked(Eigen::Map<const VectorXd>(inner_.forces.data(), u.size()));
@@ -84,7 +83,6 @@ class Vibration {
 
   const Network& network_;
   const Unknowns& unknowns_;
-  std::vector<double> secants_;
   VectorXd mass_;
   BoxPreconditioner inverse_;
   double fastest_;  ///< about the square of the fastest frequency [1/time^2]

@@ -198,19 +198,19 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
   if (problem.pattern) return solve_by_ranks(problem, options.boxes);
   const Network& network = problem.network;
   const Unknowns& unknowns = problem.unknowns;
-  const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
+  const Secants intact;
   const auto internal_of = [&](std::span<const double> u) {
-    return internal_force(network, secants, u);
+    return internal_force(network, intact, u);
   };
   if (is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)) {
     return solve_elastic(&network, unknowns, problem.loads, by_boxes([&] {
-      return std::make_shared<BoxSolver>(network, unknowns, secants, options.boxes);
+      return std::make_shared<BoxSolver>(network, unknowns, intact, options.boxes);
     }),
                          internal_of);
   }
   return solve_elastic(&network, unknowns, problem.loads,
                        by_factor(unknowns, options.threads,
-                                 [&] { return assemble_stiffness(network, secants, unknowns); }),
+                                 [&] { return assemble_stiffness(network, intact, unknowns); }),
                        internal_of);
 }
 

@@ -361,14 +361,13 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   std::fflush(stdout);  // the order of the unknowns of a large body takes a while
 
   const Network& network = model.network;
-  const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
   std::optional<FactorStatistics> factor;
   const bool by_boxes = input.analysis.type == AnalysisType::damage
                             ? is_followed_by_boxes(input.analysis.solver)
                             : is_for_boxes(model, input.analysis.solver);
   if (model.elements || !by_boxes) {
-    factor = estimate_factor(assemble_stiffness(network, intact, model.unknowns),
-                             model.unknowns.owners());
+    factor =
+        estimate_factor(assemble_stiffness(network, {}, model.unknowns), model.unknowns.owners());
   }
   print_cost(input, network, factor, set_up);
   return exit_done;

@@ -90,12 +90,10 @@ std::vector<double> holding_forces(const Model& model, const ModelState& state) 
   const Network& network = model.network;
   std::vector<double> motion(state.motion.begin(), state.motion.end());
   for (double& u : motion) u *= state.scale;
-  const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
-  const Secants secants = state.secants.size() > 0 ? state.secants : Secants(intact);
   std::vector<double> forces(state.internal.begin(), state.internal.end());
   if (forces.empty()) {
     forces = model.elements ? internal_force(*model.elements, motion).forces
-                            : internal_force(network, secants, motion).forces;
+                            : internal_force(network, state.secants, motion).forces;
   }
   load_particles(network, forces);
   const std::vector<double> loads = present_loads(model, state);

@@ -16,7 +16,7 @@ namespace {
 VtuGrid make_grid(const Model& model, const Csr& families, std::span<const double> displacement,
                   const std::optional<BarState>& bars, const FieldMoment& moment) {
   const Network& network = model.network;
-  const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
+  const Secants intact;
   VtuGrid grid = model.elements
                      ? make_element_grid(*model.elements, network.particles, displacement, moment)
                      : make_field_grid(network, intact, displacement, moment, {}, families);
@@ -52,10 +52,7 @@ class ElasticRun final : public NetworkRun {
     const std::vector<double>& displacement = answer_.solution.displacement;
     const StepRecord& row = answer_.row;
     if (has_several_places(model_) && row.load != 0.0) {
-      const std::vector<double> intact(static_cast<std::size_t>(model_.network.num_elements()),
-                                       1.0);
-      places_ =
-          place_forces(model_, row.load_factor, intact, displacement, answer_.solution.forces);
+      places_ = place_forces(model_, row.load_factor, {}, displacement, answer_.solution.forces);
     }
     ModelState state{{}, displacement};
     state.internal = answer_.solution.forces;
@@ -72,9 +69,7 @@ class ElasticRun final : public NetworkRun {
     }
     std::optional<BarState> bars;
     if (!model_.network.bars.bar.empty()) {
-      const std::vector<double> intact(static_cast<std::size_t>(model_.network.num_elements()),
-                                       1.0);
-      bars = bar_state(model_.network, intact, displacement);
+      bars = bar_state(model_.network, {}, displacement);
       files_->write_table("bars", row.step, bar_table(model_.network, *bars));
     }
     if (model_.pattern) {

@@ -137,8 +137,9 @@ GradientsReport BoxSolver::search(std::span<const double> right, std::span<doubl
 
 void BoxSolver::precondition(std::span<const double> residual, std::span<double> result) {
   const int width = unknowns_.width;
-  const double* block = blocks_.data();
-  for (Index p = 0; p < network_.particles.size(); ++p, block += width * width) {
+#pragma omp parallel for schedule(static) if (network_.particles.size() > 20'000)
+  for (Index p = 0; p < network_.particles.size(); ++p) {
+    const double* block = blocks_.data() + static_cast<std::size_t>(p) * width * width;
     for (int a = 0; a < width; ++a) {
       if (unknowns_.at(p, a) < 0) continue;
       double sum = 0.0;
