@@ -17,6 +17,7 @@ void for_each_member(Part& part, Visit visit) {
   auto& network = part.body.network;
   for_each_stiffness_member(network, visit);
   visit(network.particles.volumes);
+  visit(network.particles.material);
   visit(network.law_of);
   visit(network.critical_stretch);
   visit(network.cut_elements);
@@ -32,6 +33,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(part.stencil.element);
   visit(part.stencil.rest);
   visit(part.elements);
+  visit(part.first_particle);
   visit(part.ghosts.places);
   visit(part.ghosts.owners);
   visit(part.ghosts.numbers);
@@ -71,6 +73,8 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   Network own;
   own.particles.dim = own.bonds.dim = network.dim();
   own.particles.volumes = slice(network.particles.volumes, first, past, 1);
+  own.particles.material = slice(network.particles.material, first, past, 1);
+  own.state_stiffness = slice(network.state_stiffness, first, past, 1);
   own.support_stiffness = slice(network.support_stiffness, first, past, network.width());
   own.torsion = network.torsion;
   own.laws = network.laws;
@@ -93,6 +97,7 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   pick(network.bending_ratio, own.bending_ratio);
   pick(network.inflection, own.inflection);
   pick(network.hinged, own.hinged);
+  pick(network.state_of, own.state_of);
   pick(network.law_of, own.law_of);
   pick(network.critical_stretch, own.critical_stretch);
   own.cut_elements = in_part(network.cut_elements, elements);
@@ -183,6 +188,7 @@ BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
   part.component = main_component(body);
   part.mass = slice(mass, first, past, width);
   part.stencil = cut_stencil(stencil, part.elements, first, begin, end);
+  part.first_particle = first;
   part.ghosts = partition.ghosts(body.network, rank);
   part.first_block = partition.first_block[rank] - partition.blocks.of(first);
   part.past_block = partition.first_block[rank + 1] - partition.blocks.of(first);

@@ -36,6 +36,7 @@ struct BondPart {
   std::vector<double> mass;     ///< shape (particles, width)
   BondStencil stencil;          ///< that of the whole body, so that its sums have the same order
   std::vector<Index> elements;  ///< numbers in the whole body, ascending
+  Index first_particle = 0;     ///< number in the whole body of its number zero
   Ghosts ghosts;
   Index first_block = 0, past_block = 0;  ///< own ones
 
