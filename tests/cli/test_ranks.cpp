@@ -93,6 +93,14 @@ const std::string flowing =
     "crushing_energy = \"infinite\"\n";
 const std::string unbreakable = "fracture_energy = \"infinite\"\n";
 
+/// Particles anywhere in place of these.
+std::string particles_case(bool in_space, double spacing, const std::string& material) {
+  std::string text =
+      replaced(lattice_case(in_space, spacing, material), "\"lattice\"", "\"particles\"");
+  text = replaced(text, "rotation = 90\n", "");
+  return replaced(text, "internal_damping = 0.1\n", "");
+}
+
 /// The same at rest.
 std::string lattice_statics(bool in_space) {
   std::string text = lattice_case(in_space, 1, unbreakable);
@@ -149,7 +157,7 @@ TEST_P(ExplicitRankRuns, WriteTheSameBytes) {
   write_text(work() / "c.toml", GetParam().text);
   ASSERT_EQ(run_program(work(), {"run", "c.toml", "--out", "r1"}).exit_status, 0);
   EXPECT_GT(summary("r1").at(GetParam().many), 20);
-  for (const int count : {2, 4}) {
+  for (const int count : {2, 3, 4}) {
     const std::string directory = "r" + std::to_string(count);
     const ProcessEnd end = run_ranks(count, "run c.toml --out " + directory);
     ASSERT_EQ(end.exit_status, 0) << end.err;
@@ -311,6 +319,9 @@ INSTANTIATE_TEST_SUITE_P(
                     RankCase{"Relaxation", relaxation_case("", "2e-3, 3e-3, 35e-4")},
                     RankCase{"SofteningRelaxation",
                              relaxation_case(softening, "1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3")},
+                    RankCase{"Particles", particles_case(false, 0.25, cracking),
+                             "cracked_particles"},
+                    RankCase{"ParticlesInSpace", particles_case(true, 0.6, unbreakable), "steps"},
                     RankCase{"Lattice", lattice_case(false, 0.25, cracking), "cracked_particles"},
                     RankCase{"FlowingLattice", lattice_case(false, 0.25, unbreakable + flowing),
                              "yielded_particles"},

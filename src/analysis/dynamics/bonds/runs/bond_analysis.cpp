@@ -206,14 +206,13 @@ ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& i
                      rules.states.problem, rules.states.thickness, inertia.frequency_bound,
                      options});
   order.put(rules.states.materials);
-  return run_shared(*options.ranks, order, problem, inertia.mass, rules.strain,
-                    [&](BondStencil stencil, LeadingShare& share) {
-                      auto bonds = leading_bonds(
-                          make_bonds(problem.network, rules, std::move(stencil)), share);
-                      return BondRun(problem, inertia, std::move(bonds), rules, options, observer,
-                                     {&share})
-                          .run();
-                    });
+  return run_shared(
+      *options.ranks, order, problem, inertia.mass, rules.strain,
+      [&](BondStencil stencil, LeadingShare& share) {
+        auto bonds = leading_bonds(make_bonds(problem.network, rules, std::move(stencil)), share);
+        return BondRun(problem, inertia, std::move(bonds), rules, options, observer, {&share})
+            .run();
+      });
 }
 
 void move_bonds_along(Ranks& ranks, Parcel& order) {
@@ -228,9 +227,8 @@ void move_bonds_along(Ranks& ranks, Parcel& order) {
   const Inertia inertia{std::move(part.mass), rest.frequency_bound};
   FollowingShare share(ranks, part);
   BondRunObserver nobody;
-  BondRun run(part.body, inertia,
-              make_bonds(part.body.network, rules, std::move(part.stencil)), rules, rest.options,
-              nobody, {nullptr, &share});
+  BondRun run(part.body, inertia, make_bonds(part.body.network, rules, std::move(part.stencil)),
+              rules, rest.options, nobody, {nullptr, &share});
   run.body().component = part.component;
   run.run();
 }

@@ -32,7 +32,7 @@ class LeadingBonds final : public ExplicitBonds {
   }
   std::vector<double> damage() const override {
     std::vector<double> damage = own_->damage();
-    share_.collect_damage(damage);
+    if (!damage.empty()) share_.collect_damage(damage);
     return damage;
   }
 
