@@ -125,6 +125,17 @@ const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
 
 const std::string springs = "\n[[springs]]\nregion = \"bar\"\ntotal = [2e3, 5e3]\n";
 
+const std::string slipping_bar = R"(
+[[rebar]]
+from = [0.3, 1.1]
+to = [19.7, 3.9]
+youngs_modulus = 200e3
+area = 0.05
+bond = "linear"
+bond_stiffness = 5e3
+bond_strength = 2
+)";
+
 class RankRuns : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
 TEST_P(RankRuns, FindTheSameAnswer) {
@@ -312,20 +323,22 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, ExplicitRankRuns,
-    testing::Values(RankCase{"Brittle", explicit_case("", "")},
-                    RankCase{"Softening", explicit_case("", softening)},
-                    RankCase{"OnSprings", explicit_case("", "") + springs},
-                    RankCase{"Micropolar", explicit_case("model = \"micropolar\"\n", "")},
-                    RankCase{"Relaxation", relaxation_case("", "2e-3, 3e-3, 35e-4")},
-                    RankCase{"SofteningRelaxation",
-                             relaxation_case(softening, "1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3")},
-                    RankCase{"Particles", particles_case(false, 0.25, cracking),
-                             "cracked_particles"},
-                    RankCase{"ParticlesInSpace", particles_case(true, 0.6, unbreakable), "steps"},
-                    RankCase{"Lattice", lattice_case(false, 0.25, cracking), "cracked_particles"},
-                    RankCase{"FlowingLattice", lattice_case(false, 0.25, unbreakable + flowing),
-                             "yielded_particles"},
-                    RankCase{"LatticeInSpace", lattice_case(true, 0.6, unbreakable), "steps"}),
+    testing::Values(
+        RankCase{"Brittle", explicit_case("", "")},
+        RankCase{"Softening", explicit_case("", softening)},
+        RankCase{"OnSprings", explicit_case("", "") + springs},
+        RankCase{"SlippingBar", explicit_case("", "") + slipping_bar},
+        RankCase{"Micropolar", explicit_case("model = \"micropolar\"\n", "")},
+        RankCase{"Relaxation", relaxation_case("", "2e-3, 3e-3, 35e-4")},
+        RankCase{"SlippingBarRelaxation", relaxation_case("", "2e-3, 3e-3, 35e-4") + slipping_bar},
+        RankCase{"SofteningRelaxation",
+                 relaxation_case(softening, "1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3")},
+        RankCase{"Particles", particles_case(false, 0.25, cracking), "cracked_particles"},
+        RankCase{"ParticlesInSpace", particles_case(true, 0.6, unbreakable), "steps"},
+        RankCase{"Lattice", lattice_case(false, 0.25, cracking), "cracked_particles"},
+        RankCase{"FlowingLattice", lattice_case(false, 0.25, unbreakable + flowing),
+                 "yielded_particles"},
+        RankCase{"LatticeInSpace", lattice_case(true, 0.6, unbreakable), "steps"}),
     [](const auto& instance) { return instance.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(

@@ -156,12 +156,14 @@ struct BlockCase {
   bool micropolar = false;  ///< Poisson's ratio 0.1, torsion 1.3
   bool toothed = false;     ///< bonds lose their stiffness in three steps
   bool closing = false;     ///< damaged ones resist compression like intact ones
+  bool slipping = false;    ///< the bar has bond that falls in two steps
 };
 
 inline std::string to_string(const BlockCase& block) {
   return (block.micropolar ? "micropolar_" : "") + block.lattice.name +
          (block.driven ? "_driven" : "_pulled") + (block.bar ? "_bar" : "") +
-         (block.toothed ? "_toothed" : "") + (block.closing ? "_closing" : "");
+         (block.toothed ? "_toothed" : "") + (block.closing ? "_closing" : "") +
+         (block.slipping ? "_slipping" : "");
 }
 
 inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
@@ -182,6 +184,11 @@ inline AnalysisBody make_block(const BlockCase& block) {
     constants.bars = {
         {{0.01, 0.4 * end[1], 0.45 * end[2]}, {end[0] - 0.01, 0.4 * end[1], 0.45 * end[2]}}};
     constants.bar_materials = {{200.0, 0.005, 7.0, false}};
+    if (block.slipping) {
+      constants.bars[0].anchored = true;
+      constants.bar_materials[0].bond.perimeter = 0.4;
+      constants.bar_materials[0].bond.curve = ForceCurve{{{1e-4, 0.3}, {1e-3, 0.4}}};
+    }
   }
   AnalysisBody body = free_body(build_network(make_body(input), constants));
   std::mt19937 random(11);  // fixed: the same body in every run

@@ -31,7 +31,7 @@ struct BlockPartition {
 
 /// What a rank knows of a body whose bonds move: numbers are the part's own.
 struct BondPart {
-  LoadedNetwork body;           ///< elements with an own end
+  LoadedNetwork body;           ///< elements with an own end, also around an anchor
   int component = 0;            ///< main_component() of the whole body
   std::vector<double> mass;     ///< shape (particles, width)
   BondStencil stencil;          ///< that of the whole body, so that its sums have the same order

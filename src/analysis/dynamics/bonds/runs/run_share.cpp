@@ -45,8 +45,8 @@ class LeadingBonds final : public ExplicitBonds {
 
 bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks) {
   const Network& network = problem.network;
-  return ranks != nullptr && network.anchors.size() == 0 &&
-         ParticleBlocks(network.particles.size(), network.width_).count() >= ranks->count();
+  return ranks != nullptr &&
+         ParticleBlocks(network.particles.size(), network.width()).count() >= ranks->count();
 }
 
 RunShare::RunShare(Ranks& ranks, const Unknowns& unknowns, const ParticleBlocks& blocks,

@@ -14,8 +14,7 @@
 
 namespace perilink {
 
-/// Whether ranks can share the work on these bonds: ties to anchors reach farther than elements
-/// do, and every rank needs a block of particles.
+/// Whether ranks can share the work on these bonds: every rank needs a block of particles.
 /// \param ranks  null: this process is alone
 bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks);
 

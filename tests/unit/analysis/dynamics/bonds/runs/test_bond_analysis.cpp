@@ -346,7 +346,14 @@ INSTANTIATE_TEST_SUITE_P(
                              .micropolar = true,
                              .toothed = true},
                    Strain::small},
-        std::tuple{BlockCase{.lattice = square, .driven = true, .columns = 30}, Strain::green}),
+        std::tuple{BlockCase{.lattice = square, .driven = true, .columns = 30}, Strain::green},
+        std::tuple{
+            BlockCase{
+                .lattice = square, .driven = true, .bar = true, .columns = 30, .slipping = true},
+            Strain::small},
+        std::tuple{
+            BlockCase{.lattice = cube, .driven = true, .bar = true, .columns = 9, .slipping = true},
+            Strain::small}),
     [](const auto& instance) {
       return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
     });
