@@ -51,7 +51,8 @@ inline AnalysisBody free_body(Network network) {
 /// Which component of which particle has a prescribed displacement.
 using IsHeld = std::function<bool(Index particle, int axis)>;
 
-inline void number(AnalysisBody& body, const IsHeld& is_held) {
+/// \param carried  whether anchors follow particles; those of explicit runs stand still
+inline void number(AnalysisBody& body, const IsHeld& is_held, bool carried = true) {
   std::vector<std::uint8_t> held;
   for (Index i = 0; i < body.network.particles.size(); ++i) {
     for (int a = 0; a < body.network.width(); ++a) held.push_back(is_held(i, a));
@@ -59,7 +60,7 @@ inline void number(AnalysisBody& body, const IsHeld& is_held) {
   hold_idle_rotations(body.network, held);
   hold_anchors(body.network, held);
   body.unknowns = number_unknowns(body.network.width(), held, body.unknowns.prescribed);
-  carry_anchors(body.network, body.unknowns);
+  if (carried) carry_anchors(body.network, body.unknowns);
 }
 
 inline std::size_t slot(const AnalysisBody& body, Index particle, int axis) {
@@ -156,7 +157,7 @@ struct BlockCase {
   bool micropolar = false;  ///< Poisson's ratio 0.1, torsion 1.3
   bool toothed = false;     ///< bonds lose their stiffness in three steps
   bool closing = false;     ///< damaged ones resist compression like intact ones
-  bool slipping = false;    ///< the bar has bond that falls in two steps
+  bool slipping = false;    ///< the bar has bond that falls in two steps; for explicit runs
 };
 
 inline std::string to_string(const BlockCase& block) {
@@ -224,8 +225,10 @@ inline AnalysisBody make_block(const BlockCase& block) {
     total += particles.volumes[i];
   }
   body.reference = {block.driven, block.driven ? 1.0 : total};
-  number(body,
-         [&](Index i, int axis) { return left(i) || (block.driven && axis == 0 && right(i)); });
+  const auto is_held = [&](Index i, int axis) {
+    return left(i) || (block.driven && axis == 0 && right(i));
+  };
+  number(body, is_held, !block.slipping);
   return body;
 }
 
