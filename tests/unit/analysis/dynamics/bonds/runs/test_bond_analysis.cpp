@@ -350,9 +350,6 @@ INSTANTIATE_TEST_SUITE_P(
         std::tuple{
             BlockCase{
                 .lattice = square, .driven = true, .bar = true, .columns = 30, .slipping = true},
-            Strain::small},
-        std::tuple{
-            BlockCase{.lattice = cube, .driven = true, .bar = true, .columns = 9, .slipping = true},
             Strain::small}),
     [](const auto& instance) {
       return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
