@@ -86,10 +86,9 @@ class AnchoredTies final : public ExplicitBonds {
     std::vector<double> secants =
         others_ ? others_->secants()
                 : std::vector<double>(static_cast<std::size_t>(network_.num_elements()));
-    const auto ties = secants.begin() + network_.first_anchored_tie;
-    std::fill_n(ties, ends_.size(), 1.0);
-    for (const Share& share : shares_) {  // those of other ranks' particles do not fall
-      ties[share.tie] = std::min(ties[share.tie], share.secant);
+    // The node's counts, here and where ranks put theirs together: nodes have the last numbers.
+    for (const Share& share : shares_) {
+      secants[network_.first_anchored_tie + share.tie] = share.secant;
     }
     return secants;
   }

@@ -258,6 +258,12 @@ void expect_the_same(const Outcome& found, const Outcome& alone) {
   EXPECT_EQ(found.recorder.rows, alone.recorder.rows);
 }
 
+bool has_fallen_tie(const Network& network, const std::vector<double>& secants) {
+  const auto first = secants.begin();
+  return std::any_of(first + network.first_anchored_tie, first + network.first_segment,
+                     [](double secant) { return secant < 1.0; });
+}
+
 /// Some hundred steps in which bonds break, or particles crack, on a way that several ranks have
 /// parts of.
 void expect_ranks_to_change_nothing(const AnalysisBody& body, Strain strain,
@@ -272,6 +278,8 @@ void expect_ranks_to_change_nothing(const AnalysisBody& body, Strain strain,
   for (const std::size_t stop_after : {0, 7}) {
     const Outcome alone = run(body, options, rules, stop_after);
     EXPECT_EQ(alone.recorder.broken.size() > 20U, breaks);
+    EXPECT_EQ(has_fallen_tie(body.network, alone.recorder.secants),
+              body.network.anchors.size() > 0);
     for (const int count : {2, 3}) {
       with_thread_ranks(
           count,
