@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "network/element_ends.hpp"
 #include "network/frame.hpp"
 
 namespace perilink {

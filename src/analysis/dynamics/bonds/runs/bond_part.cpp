@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "analysis/dynamics/bonds/moving_bonds.hpp"
-#include "network/element_ends.hpp"
 #include "network/stiffness_members.hpp"
 
 namespace perilink {

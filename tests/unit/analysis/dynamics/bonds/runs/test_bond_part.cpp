@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "network/element_ends.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {
