@@ -93,6 +93,15 @@ const std::string flowing =
     "crushing_energy = \"infinite\"\n";
 const std::string unbreakable = "fracture_energy = \"infinite\"\n";
 
+/// Particles anywhere in place of these.
+std::string particles_case(bool in_space, double spacing, const std::string& material) {
+  std::string text =
+      replaced(lattice_case(in_space, spacing, material), "\"lattice\"", "\"particles\"");
+  text = replaced(text, "rotation = 90\n", "");
+  if (in_space) text = replaced(text, R"(["x", "y"])", R"(["x", "y", "z"])");
+  return replaced(text, "internal_damping = 0.1\n", "");
+}
+
 /// The same at rest.
 std::string lattice_statics(bool in_space) {
   std::string text = lattice_case(in_space, 1, unbreakable);
@@ -116,6 +125,17 @@ std::string many_load_steps() {
 const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";
 
 const std::string springs = "\n[[springs]]\nregion = \"bar\"\ntotal = [2e3, 5e3]\n";
+
+const std::string slipping_bar = R"(
+[[rebar]]
+from = [0.3, 1.1]
+to = [19.7, 3.9]
+youngs_modulus = 200e3
+area = 0.05
+bond = "linear"
+bond_stiffness = 5e3
+bond_strength = 2
+)";
 
 class RankRuns : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
@@ -149,7 +169,7 @@ TEST_P(ExplicitRankRuns, WriteTheSameBytes) {
   write_text(work() / "c.toml", GetParam().text);
   ASSERT_EQ(run_program(work(), {"run", "c.toml", "--out", "r1"}).exit_status, 0);
   EXPECT_GT(summary("r1").at(GetParam().many), 20);
-  for (const int count : {2, 4}) {
+  for (const int count : {2, 3, 4}) {
     const std::string directory = "r" + std::to_string(count);
     const ProcessEnd end = run_ranks(count, "run c.toml --out " + directory);
     ASSERT_EQ(end.exit_status, 0) << end.err;
@@ -307,10 +327,14 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(RankCase{"Brittle", explicit_case("", "")},
                     RankCase{"Softening", explicit_case("", softening)},
                     RankCase{"OnSprings", explicit_case("", "") + springs},
+                    RankCase{"SlippingBar", explicit_case("", "") + slipping_bar},
                     RankCase{"Micropolar", explicit_case("model = \"micropolar\"\n", "")},
                     RankCase{"Relaxation", relaxation_case("", "2e-3, 3e-3, 35e-4")},
                     RankCase{"SofteningRelaxation",
                              relaxation_case(softening, "1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3")},
+                    RankCase{"Particles", particles_case(false, 0.25, cracking),
+                             "cracked_particles"},
+                    RankCase{"ParticlesInSpace", particles_case(true, 0.6, unbreakable), "steps"},
                     RankCase{"Lattice", lattice_case(false, 0.25, cracking), "cracked_particles"},
                     RankCase{"FlowingLattice", lattice_case(false, 0.25, unbreakable + flowing),
                              "yielded_particles"},

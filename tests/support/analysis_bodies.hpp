@@ -51,7 +51,8 @@ inline AnalysisBody free_body(Network network) {
 /// Which component of which particle has a prescribed displacement.
 using IsHeld = std::function<bool(Index particle, int axis)>;
 
-inline void number(AnalysisBody& body, const IsHeld& is_held) {
+/// \param carried  whether anchors follow particles; those of explicit runs stand still
+inline void number(AnalysisBody& body, const IsHeld& is_held, bool carried = true) {
   std::vector<std::uint8_t> held;
   for (Index i = 0; i < body.network.particles.size(); ++i) {
     for (int a = 0; a < body.network.width(); ++a) held.push_back(is_held(i, a));
@@ -59,7 +60,7 @@ inline void number(AnalysisBody& body, const IsHeld& is_held) {
   hold_idle_rotations(body.network, held);
   hold_anchors(body.network, held);
   body.unknowns = number_unknowns(body.network.width(), held, body.unknowns.prescribed);
-  carry_anchors(body.network, body.unknowns);
+  if (carried) carry_anchors(body.network, body.unknowns);
 }
 
 inline std::size_t slot(const AnalysisBody& body, Index particle, int axis) {
@@ -156,12 +157,14 @@ struct BlockCase {
   bool micropolar = false;  ///< Poisson's ratio 0.1, torsion 1.3
   bool toothed = false;     ///< bonds lose their stiffness in three steps
   bool closing = false;     ///< damaged ones resist compression like intact ones
+  bool slipping = false;    ///< the bar has bond that falls in two steps; for explicit runs
 };
 
 inline std::string to_string(const BlockCase& block) {
   return (block.micropolar ? "micropolar_" : "") + block.lattice.name +
          (block.driven ? "_driven" : "_pulled") + (block.bar ? "_bar" : "") +
-         (block.toothed ? "_toothed" : "") + (block.closing ? "_closing" : "");
+         (block.toothed ? "_toothed" : "") + (block.closing ? "_closing" : "") +
+         (block.slipping ? "_slipping" : "");
 }
 
 inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
@@ -182,6 +185,11 @@ inline AnalysisBody make_block(const BlockCase& block) {
     constants.bars = {
         {{0.01, 0.4 * end[1], 0.45 * end[2]}, {end[0] - 0.01, 0.4 * end[1], 0.45 * end[2]}}};
     constants.bar_materials = {{200.0, 0.005, 7.0, false}};
+    if (block.slipping) {
+      constants.bars[0].anchored = true;
+      constants.bar_materials[0].bond.perimeter = 0.4;
+      constants.bar_materials[0].bond.curve = ForceCurve{{{1e-4, 0.3}, {1e-3, 0.4}}};
+    }
   }
   AnalysisBody body = free_body(build_network(make_body(input), constants));
   std::mt19937 random(11);  // fixed: the same body in every run
@@ -217,8 +225,10 @@ inline AnalysisBody make_block(const BlockCase& block) {
     total += particles.volumes[i];
   }
   body.reference = {block.driven, block.driven ? 1.0 : total};
-  number(body,
-         [&](Index i, int axis) { return left(i) || (block.driven && axis == 0 && right(i)); });
+  const auto is_held = [&](Index i, int axis) {
+    return left(i) || (block.driven && axis == 0 && right(i));
+  };
+  number(body, is_held, !block.slipping);
   return body;
 }
 

@@ -86,6 +86,7 @@ class AnchoredTies final : public ExplicitBonds {
     std::vector<double> secants =
         others_ ? others_->secants()
                 : std::vector<double>(static_cast<std::size_t>(network_.num_elements()));
+    // The node's counts, here and where ranks put theirs together: nodes have the last numbers.
     for (const Share& share : shares_) {
       secants[network_.first_anchored_tie + share.tie] = share.secant;
     }

@@ -13,6 +13,7 @@
 
 #include "analysis/dynamics/bonds/particle_fit.hpp"
 #include "material/principal_values.hpp"
+#include "solver/ranks.hpp"
 
 namespace perilink {
 namespace {
@@ -62,6 +63,7 @@ class StateParticles final : public ExplicitBonds {
 
   bool has_states() const override { return true; }
   BondLosses prepare(Index begin, Index end, double time_step, const BondMotion& motion) override;
+  void update_states(GhostLayer& ghosts) override;
   void finish_step() override { damage_.swap(next_); }
   BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
                     std::span<double> force) override;
@@ -269,6 +271,12 @@ BondLosses StateParticles<Dim>::prepare(Index begin, Index end, double time_step
 }
 
 template <int Dim>
+void StateParticles<Dim>::update_states(GhostLayer& ghosts) {
+  if (breakable_) return ghosts.update(1, {sum_, next_});
+  ghosts.update(1, {sum_});
+}
+
+template <int Dim>
 BondLosses StateParticles<Dim>::forces(Index begin, Index end, double /*time_step*/,
                                        const BondMotion& motion, std::span<double> force) {
   for (Index i = begin; i < end; ++i) {
@@ -298,6 +306,8 @@ double StateParticles<Dim>::stored(Index begin, Index end, double time_step,
   return energy;
 }
 
+/// Factors differ between the ends by round-off. That of the upper end counts, as it does where
+/// ranks put theirs together: the halves of a rank's ghosts above it stay intact.
 template <int Dim>
 std::vector<double> StateParticles<Dim>::secants() const {
   std::vector<double> secants(static_cast<std::size_t>(network_.num_elements()), 1.0);

@@ -11,8 +11,9 @@
 namespace perilink {
 namespace {
 
-std::unique_ptr<ExplicitBonds> make_bonds(const Network& network, const BondRunRules& rules) {
-  if (!network.has_states()) return make_explicit_bonds(network, rules.strain);
+std::unique_ptr<ExplicitBonds> make_bonds(const Network& network, const BondRunRules& rules,
+                                          BondStencil stencil) {
+  if (!network.has_states()) return make_explicit_bonds(network, rules.strain, std::move(stencil));
   const StateBody& states = rules.states;
   return make_explicit_particles(network, states.problem, states.materials, states.thickness);
 }
@@ -60,6 +61,7 @@ class BondRun {
     if (body_.bonds->has_states()) {
 #pragma omp for schedule(static)
       for (Index b = first_block_; b < past_block_; ++b) body_.prepare(b, step);
+      if (shares_.own()) shares_.own()->update_states(*body_.bonds);
     }
 #pragma omp for schedule(static)
     for (Index b = first_block_; b < past_block_; ++b) body_.find_forces(b, step);
@@ -182,6 +184,8 @@ struct RunOrder {
   double damping_rate;
   Strain strain;
   bool constant_velocity;
+  Problem problem;
+  double thickness;
   double frequency_bound;
   ExplicitOptions options;
 };
@@ -193,19 +197,22 @@ ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& i
                                   BondRunObserver& observer) {
   expect_nothing_carried(problem.unknowns);
   if (!can_be_shared(problem, options.ranks)) {
-    return BondRun(problem, inertia, make_bonds(problem.network, rules), rules, options, observer)
-        .run();
+    auto bonds = make_bonds(problem.network, rules, stencil_for(problem.network, rules.strain));
+    return BondRun(problem, inertia, std::move(bonds), rules, options, observer).run();
   }
   Parcel order;
   order.put(Service::move_bonds);
   order.put(RunOrder{rules.damping_rate, rules.strain, rules.constant_velocity,
-                     inertia.frequency_bound, options});
-  return run_shared(*options.ranks, order, problem, inertia.mass, rules.strain,
-                    [&](std::unique_ptr<ExplicitBonds> bonds, LeadingShare& share) {
-                      return BondRun(problem, inertia, std::move(bonds), rules, options, observer,
-                                     {&share})
-                          .run();
-                    });
+                     rules.states.problem, rules.states.thickness, inertia.frequency_bound,
+                     options});
+  order.put(rules.states.materials);
+  return run_shared(
+      *options.ranks, order, problem, inertia.mass, rules.strain,
+      [&](BondStencil stencil, LeadingShare& share) {
+        auto bonds = leading_bonds(make_bonds(problem.network, rules, std::move(stencil)), share);
+        return BondRun(problem, inertia, std::move(bonds), rules, options, observer, {&share})
+            .run();
+      });
 }
 
 void move_bonds_along(Ranks& ranks, Parcel& order) {
@@ -215,12 +222,13 @@ void move_bonds_along(Ranks& ranks, Parcel& order) {
   rules.damping_rate = rest.damping_rate;
   rules.strain = rest.strain;
   rules.constant_velocity = rest.constant_velocity;
+  rules.states = {rest.problem, rest.thickness, {}};
+  order.get(rules.states.materials);
   const Inertia inertia{std::move(part.mass), rest.frequency_bound};
   FollowingShare share(ranks, part);
   BondRunObserver nobody;
-  BondRun run(part.body, inertia,
-              make_explicit_bonds(part.body.network, rules.strain, std::move(part.stencil)), rules,
-              rest.options, nobody, {nullptr, &share});
+  BondRun run(part.body, inertia, make_bonds(part.body.network, rules, std::move(part.stencil)),
+              rules, rest.options, nobody, {nullptr, &share});
   run.body().component = part.component;
   run.run();
 }

@@ -37,8 +37,8 @@ struct BondRunRules {
 /// the new velocity, the stored energy is u_(n-1)' K u_n / 2, and a bond that breaks at step n
 /// loses its own part of that. Of Green strains they balance but for a part of the kinetic energy
 /// as small as the stretches, docs/theory/explicit_bonds.md, section 3.
-/// \param options  `reference` is not looked at. Ranks share the work where there are bonds alone
-///                 and blocks of particles for all of them; every sum is the same as without them
+/// \param options  `reference` is not looked at. Ranks share the work where there are blocks of
+///                 particles for all of them; every sum is the same as without them
 /// \throws std::invalid_argument where the time step exceeds the critical one (unless
 /// refuse_unstable is off) or the duration is not positive
 /// \returns ending = failed where energy grows from nothing; peak_displacement is zero where loads

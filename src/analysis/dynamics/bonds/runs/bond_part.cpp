@@ -17,9 +17,15 @@ void for_each_member(Part& part, Visit visit) {
   auto& network = part.body.network;
   for_each_stiffness_member(network, visit);
   visit(network.particles.volumes);
+  visit(network.particles.material);
   visit(network.law_of);
   visit(network.critical_stretch);
   visit(network.cut_elements);
+  visit(network.first_anchored_tie);
+  visit(network.first_segment);
+  visit(network.anchors.particles.offsets);
+  visit(network.anchors.particles.values);
+  visit(network.anchors.weights);
   visit(part.body.unknowns.width);
   visit(part.body.unknowns.number);
   visit(part.body.unknowns.prescribed);
@@ -32,6 +38,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(part.stencil.element);
   visit(part.stencil.rest);
   visit(part.elements);
+  visit(part.first_particle);
   visit(part.ghosts.places);
   visit(part.ghosts.owners);
   visit(part.ghosts.numbers);
@@ -49,9 +56,10 @@ std::vector<T> slice(const std::vector<T>& all, Index begin, Index end, int widt
 /// Elements with an end among the own particles.
 std::vector<Index> elements_of(const Network& network, Index begin, Index end) {
   std::vector<Index> elements;
-  const auto is_own = [&](Index p) { return p >= begin && p < end; };
   for (Index e = 0; e < network.num_elements(); ++e) {
-    if (is_own(network.bonds.first[e]) || is_own(network.bonds.second[e])) elements.push_back(e);
+    bool is_own = false;
+    for_each_end(network, e, [&](Index p, bool, double) { is_own |= p >= begin && p < end; });
+    if (is_own) elements.push_back(e);
   }
   return elements;
 }
@@ -66,11 +74,28 @@ std::vector<Index> in_part(const std::vector<Index>& all, const std::vector<Inde
   return own;
 }
 
+/// Those among the particles that the part numbers. Where it has ties of theirs it numbers the
+/// particles around them, too.
+Anchors cut_anchors(const Network& network, Index first, Index past) {
+  Anchors own;
+  const Index anchors = network.first_anchor();
+  for (Index anchor = std::max(first, anchors); anchor < past; ++anchor) {
+    std::vector<Index> particles;
+    for (const Index p : network.anchors.particles.row(anchor - anchors)) {
+      particles.push_back(p - first);
+    }
+    own.append(particles, network.anchors.weights_of(anchor - anchors));
+  }
+  return own;
+}
+
 Network cut_network(const Network& network, const std::vector<Index>& elements, Index first,
                     Index past) {
   Network own;
   own.particles.dim = own.bonds.dim = network.dim();
   own.particles.volumes = slice(network.particles.volumes, first, past, 1);
+  own.particles.material = slice(network.particles.material, first, past, 1);
+  own.state_stiffness = slice(network.state_stiffness, first, past, 1);
   own.support_stiffness = slice(network.support_stiffness, first, past, network.width());
   own.torsion = network.torsion;
   own.laws = network.laws;
@@ -93,9 +118,16 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   pick(network.bending_ratio, own.bending_ratio);
   pick(network.inflection, own.inflection);
   pick(network.hinged, own.hinged);
+  pick(network.state_of, own.state_of);
   pick(network.law_of, own.law_of);
   pick(network.critical_stretch, own.critical_stretch);
   own.cut_elements = in_part(network.cut_elements, elements);
+  const auto count_before = [&](Index element) {
+    return static_cast<Index>(std::ranges::lower_bound(elements, element) - elements.begin());
+  };
+  own.first_anchored_tie = count_before(network.first_anchored_tie);
+  own.first_segment = count_before(network.first_segment);
+  own.anchors = cut_anchors(network, first, past);
   return own;
 }
 
@@ -136,11 +168,14 @@ BlockPartition::BlockPartition(const Network& network, int ranks)
     past_particle.push_back(own_end(rank));
   }
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const auto [lower, upper] = std::minmax(network.bonds.first[e], network.bonds.second[e]);
-    Index& past = past_particle[owner(lower)];
-    past = std::max(past, upper + 1);
-    Index& first = first_particle[owner(upper)];
-    first = std::min(first, blocks.begin(blocks.of(lower)));
+    const Index upper = std::max(network.bonds.first[e], network.bonds.second[e]);
+    Index lower = upper;
+    for_each_end(network, e, [&](Index p, bool, double) { lower = std::min(lower, p); });
+    for_each_end(network, e, [&](Index p, bool, double) {
+      const int rank = owner(p);
+      first_particle[rank] = std::min(first_particle[rank], blocks.begin(blocks.of(lower)));
+      past_particle[rank] = std::max(past_particle[rank], upper + 1);
+    });
   }
 }
 
@@ -153,8 +188,12 @@ Ghosts BlockPartition::ghosts(const Network& network, int rank) const {
   std::vector<Index> reached;
   const auto is_own = [&](Index p) { return p >= own_begin(rank) && p < own_end(rank); };
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const Index i = network.bonds.first[e], j = network.bonds.second[e];
-    if (is_own(i) != is_own(j)) reached.push_back(is_own(i) ? j : i);
+    bool any_own = false;
+    for_each_end(network, e, [&](Index p, bool, double) { any_own |= is_own(p); });
+    if (!any_own) continue;
+    for_each_end(network, e, [&](Index p, bool, double) {
+      if (!is_own(p)) reached.push_back(p);
+    });
   }
   std::sort(reached.begin(), reached.end());
   reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
@@ -183,6 +222,7 @@ BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
   part.component = main_component(body);
   part.mass = slice(mass, first, past, width);
   part.stencil = cut_stencil(stencil, part.elements, first, begin, end);
+  part.first_particle = first;
   part.ghosts = partition.ghosts(body.network, rank);
   part.first_block = partition.first_block[rank] - partition.blocks.of(first);
   part.past_block = partition.first_block[rank + 1] - partition.blocks.of(first);

@@ -31,11 +31,12 @@ struct BlockPartition {
 
 /// What a rank knows of a body whose bonds move: numbers are the part's own.
 struct BondPart {
-  LoadedNetwork body;           ///< elements with an own end
+  LoadedNetwork body;           ///< elements with an own end, also around an anchor
   int component = 0;            ///< main_component() of the whole body
   std::vector<double> mass;     ///< shape (particles, width)
   BondStencil stencil;          ///< that of the whole body, so that its sums have the same order
   std::vector<Index> elements;  ///< numbers in the whole body, ascending
+  Index first_particle = 0;     ///< number in the whole body of its number zero
   Ghosts ghosts;
   Index first_block = 0, past_block = 0;  ///< own ones
 

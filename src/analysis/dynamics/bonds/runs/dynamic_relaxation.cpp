@@ -359,7 +359,9 @@ RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
   order.put(inertia.frequency_bound);
   return run_shared(
       *options.ranks, order, problem, inertia.mass, options.strain,
-      [&](std::unique_ptr<ExplicitBonds> bonds, LeadingShare& share) {
+      [&](BondStencil stencil, LeadingShare& share) {
+        auto bonds = leading_bonds(
+            make_explicit_bonds(problem.network, options.strain, std::move(stencil)), share);
         return Relaxation(problem, inertia, std::move(bonds), options, observer, {&share}).run();
       });
 }

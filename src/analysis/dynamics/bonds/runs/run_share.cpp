@@ -6,19 +6,18 @@
 namespace perilink {
 namespace {
 
-/// Components of the own particles.
-std::vector<double> own_slots(const ParticleBlocks& blocks, Index first_block, Index past_block,
-                              const std::vector<double>& all) {
-  return {all.begin() + static_cast<std::ptrdiff_t>(blocks.first_slot(first_block)),
-          all.begin() + static_cast<std::ptrdiff_t>(blocks.last_slot(past_block - 1))};
-}
-
 /// The bonds of the first rank, which asks the others what is left of theirs.
 class LeadingBonds final : public ExplicitBonds {
  public:
   LeadingBonds(std::unique_ptr<ExplicitBonds> own, LeadingShare& share)
       : own_(std::move(own)), share_(share) {}
 
+  bool has_states() const override { return own_->has_states(); }
+  BondLosses prepare(Index begin, Index end, double time_step, const BondMotion& motion) override {
+    return own_->prepare(begin, end, time_step, motion);
+  }
+  void update_states(GhostLayer& ghosts) override { own_->update_states(ghosts); }
+  void finish_step() override { own_->finish_step(); }
   BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
                     std::span<double> force) override {
     return own_->forces(begin, end, time_step, motion, force);
@@ -31,6 +30,11 @@ class LeadingBonds final : public ExplicitBonds {
     share_.collect_secants(secants);
     return secants;
   }
+  std::vector<double> damage() const override {
+    std::vector<double> damage = own_->damage();
+    if (!damage.empty()) share_.collect_damage(damage);
+    return damage;
+  }
 
  private:
   std::unique_ptr<ExplicitBonds> own_;
@@ -41,16 +45,16 @@ class LeadingBonds final : public ExplicitBonds {
 
 bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks) {
   const Network& network = problem.network;
-  return ranks != nullptr && !network.has_states() && network.anchors.size() == 0 &&
+  return ranks != nullptr &&
          ParticleBlocks(network.particles.size(), network.width()).count() >= ranks->count();
 }
 
 RunShare::RunShare(Ranks& ranks, const Unknowns& unknowns, const ParticleBlocks& blocks,
                    Index first_block, Index past_block, const Ghosts& ghosts)
     : meetings_(ranks, ranks.count()),
+      width_(unknowns.width),
       first_block_(first_block),
       past_block_(past_block),
-      width_(unknowns.width),
       layer_(ranks, ghosts) {
   for (Index b = first_block; b < past_block; ++b) {
     bool is_held = false;
@@ -78,15 +82,23 @@ std::vector<double> LeadingShare::collect(MovingBonds& body) {
 }
 
 void LeadingShare::collect_motion(BondMotion& motion) {
-  meetings_.ask(Wish::motion, [&](int rank, Parcel& parcel) {
-    const auto begin =
-        static_cast<std::ptrdiff_t>(partition_.blocks.first_slot(partition_.first_block[rank]));
-    for (std::vector<double>* all : {&motion.displacement, &motion.velocity}) {
+  collect_fields(Wish::motion, width_, {&motion.displacement, &motion.velocity});
+}
+
+void LeadingShare::collect_fields(Wish wish, int width,
+                                  std::initializer_list<std::vector<double>*> fields) {
+  meetings_.ask(wish, [&](int rank, Parcel& parcel) {
+    const auto begin = static_cast<std::ptrdiff_t>(partition_.own_begin(rank)) * width;
+    for (std::vector<double>* all : fields) {
       std::vector<double> own;
       parcel.get(own);
       std::copy(own.begin(), own.end(), all->begin() + begin);
     }
   });
+}
+
+void LeadingShare::collect_damage(std::vector<double>& damage) {
+  lead(meetings_.ranks(), [&] { collect_fields(Wish::fields, 1, {&damage}); });
 }
 
 void LeadingShare::collect_secants(std::span<double> secants) {
@@ -113,21 +125,30 @@ void FollowingShare::report(MovingBonds& body) {
     parcel.put(std::vector<MotionSums>(body.sums.begin() + first_block(),
                                        body.sums.begin() + past_block()));
     std::vector<BreakOrder::Break> broken = body.broken.take_latest();
-    for (auto& [step, number] : broken) number = part_.elements[number];
+    for (auto& [step, number] : broken) {
+      number = body.bonds->has_states() ? part_.first_particle + number : part_.elements[number];
+    }
     parcel.put(broken);
   });
 }
 
 bool FollowingShare::meet(MovingBonds& body) {
   report(body);
+  // Those of the own particles.
+  const auto put = [&](Parcel& parcel, const std::vector<double>& all, int width) {
+    const auto begin = all.begin() + std::ptrdiff_t{body.blocks.begin(first_block())} * width;
+    const auto end = all.begin() + std::ptrdiff_t{body.blocks.end(past_block() - 1)} * width;
+    parcel.put(std::vector<double>(begin, end));
+  };
   return meetings_.obey([&](Wish wish, Parcel& parcel) {
     if (wish == Wish::secants) {
       parcel.put(part_.elements);
       parcel.put(body.bonds->secants());
-      return;
-    }
-    for (const std::vector<double>* all : {&body.motion.displacement, &body.motion.velocity}) {
-      parcel.put(own_slots(body.blocks, first_block(), past_block(), *all));
+    } else if (wish == Wish::fields) {
+      put(parcel, body.bonds->damage(), 1);
+    } else {
+      put(parcel, body.motion.displacement, width_);
+      put(parcel, body.motion.velocity, width_);
     }
   });
 }

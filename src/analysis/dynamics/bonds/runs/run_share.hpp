@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <utility>
@@ -13,8 +14,7 @@
 
 namespace perilink {
 
-/// Whether ranks can share the work on these bonds: ties to anchors and sums of states reach
-/// farther than elements do, and every rank needs a block of particles.
+/// Whether ranks can share the work on these bonds: every rank needs a block of particles.
 /// \param ranks  null: this process is alone
 bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks);
 
@@ -34,6 +34,8 @@ class RunShare {
   void update_ghosts(BondMotion& motion) {
     layer_.update(width_, {motion.displacement, motion.velocity});
   }
+  /// Collective.
+  void update_states(ExplicitBonds& bonds) { bonds.update_states(layer_); }
 
   /// Once in every step.
   void note_supports(const MovingBonds& body) {
@@ -67,6 +69,7 @@ class RunShare {
 
  protected:
   Meetings meetings_;
+  int width_;  ///< components of the motion of a particle
 
  private:
   template <class Value>
@@ -78,7 +81,6 @@ class RunShare {
 
   Index first_block_, past_block_;
   std::vector<Index> held_blocks_;
-  int width_;
   GhostLayer layer_;
 };
 
@@ -94,10 +96,15 @@ class LeadingShare final : public RunShare {
   void collect_motion(BondMotion& motion);
   /// During a meeting. \param secants  of all elements; those of other ranks are overwritten
   void collect_secants(std::span<double> secants);
+  /// During a meeting. \param damage  of all particles; that of other ranks is overwritten
+  void collect_damage(std::vector<double>& damage);
   /// Ends a meeting.
   void tell(bool goes_on) { meetings_.tell(goes_on); }
 
  private:
+  /// Fields of shape (particles, width): those of the other ranks' particles.
+  void collect_fields(Wish wish, int width, std::initializer_list<std::vector<double>*> fields);
+
   BlockPartition partition_;
 };
 
@@ -134,7 +141,7 @@ std::unique_ptr<ExplicitBonds> leading_bonds(std::unique_ptr<ExplicitBonds> own,
 
 /// Sends the other ranks an order and their parts of the body, and runs that of the first.
 /// \param mass  shape (particles, width)
-/// \param run   run(bonds, share) gives a result that tells how many ranks there were
+/// \param run   run(stencil, share) gives a result that tells how many ranks there were
 template <class Run>
 auto run_shared(Ranks& ranks, const Parcel& order, const LoadedNetwork& problem,
                 const std::vector<double>& mass, Strain strain, Run run) {
@@ -146,8 +153,7 @@ auto run_shared(Ranks& ranks, const Parcel& order, const LoadedNetwork& problem,
       ranks.send(rank, cut_part(problem, mass, stencil, partition, rank).pack().bytes());
     }
     LeadingShare share(ranks, problem, partition);
-    auto bonds = make_explicit_bonds(problem.network, strain, std::move(stencil));
-    auto result = run(leading_bonds(std::move(bonds), share), share);
+    auto result = run(std::move(stencil), share);
     result.ranks = ranks.count();
     return result;
   });
