@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/joined_parts.hpp"
+#include "network/unknowns.hpp"
 
 namespace perilink {
 namespace {
@@ -62,8 +63,9 @@ bool can_repeat(const Network& sample) {
   const bool alike = !sample.calibration || sample.calibration->alike;
   const bool bonds = sample.hinged.empty() && !sample.has_states() && !sample.cells &&
                      sample.first_tie == sample.num_elements();
-  const bool turn = std::all_of(sample.bending.begin(), sample.bending.end(),
-                                [](double bending) { return bending > 0.0; });
+  const std::vector<std::uint8_t> turning = rotating_particles(sample);
+  const bool turn =
+      std::all_of(turning.begin(), turning.end(), [](auto flag) { return flag != 0; });
   const Index particles = sample.particles.size();
   const std::vector<Index> parts = connected_parts(sample.bonds, particles);
   const auto loose = loosely_held(sample.bonds, particles, sample.stiffness);
@@ -111,14 +113,17 @@ PatternBonds::PatternBonds(const LatticePattern& pattern)
 bool PatternBonds::is_loose(const GridPoint& point) const {
   Bonds bonds;  // to one and the same other end: directions alone count
   bonds.dim = pattern_.grid.dim;
+  const Network& sample = pattern_.sample;
+  bool turns = !sample.carries_moments();
   for_each_of(point, [&](const GridPoint& other, Index element, bool comes_first) {
     if (comes_first ? is_cut(point, other) : is_cut(other, point)) return;
     bonds.first.push_back(0);
     bonds.second.push_back(1);
-    const auto n = pattern_.sample.bonds.direction(element);
+    turns = turns || sample.bending[element] > 0.0;
+    const auto n = sample.bonds.direction(element);
     bonds.directions.insert(bonds.directions.end(), n.begin(), n.end());
   });
-  return loosely_held(bonds, 2).front() != 0;
+  return !turns || loosely_held(bonds, 2).front() != 0;
 }
 
 GridWindow PatternBonds::around_cracks() const {

@@ -33,7 +33,7 @@ struct LatticePattern {
 LatticePattern pattern_of(const LatticeGrid& grid, double horizon);
 
 /// Whether a sample can stand for a box: it is in one piece, no particle of it is loose, it has
-/// nothing but bonds, those that carry moments turn both their ends, and where they were
+/// nothing but bonds, some turn each particle where they carry moments, and where they were
 /// calibrated, those that lie alike are alike.
 bool can_repeat(const Network& sample);
 
@@ -78,7 +78,7 @@ class PatternBonds {
     if (pattern_.cracks.empty()) return false;
     return cutter_.cuts(pattern_.grid.position(first), pattern_.grid.position(second), count);
   }
-  /// Whether too few bonds are left at a point to hold it.
+  /// Whether too few bonds are left at a point to hold and, where they carry moments, to turn it.
   bool is_loose(const GridPoint& point) const;
   /// Around all cracks, as far as bonds reach.
   GridWindow around_cracks() const;
