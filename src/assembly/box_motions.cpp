@@ -149,12 +149,8 @@ void BoxMotions::restrict(std::span<const double> residual, std::span<double> co
   for (Index b = 0; b < num_boxes(); ++b) {
     double* sums = coarse.data() + static_cast<std::size_t>(b) * motions;
     for (const Index p : boxes_[b]) {
-      for (int c = 0; c < unknowns_.width; ++c) {
-        const Index unknown = unknowns_.at(p, c);
-        if (unknown < 0) continue;
-        const std::array<double, 6> moves = row(p, c);
-        for (int m = 0; m < motions; ++m) sums[m] += moves[m] * residual[unknown];
-      }
+      for_each_move(
+          p, [&](int c, int m, double share) { sums[m] += share * residual[unknowns_.at(p, c)]; });
     }
   }
 }
@@ -164,14 +160,8 @@ void BoxMotions::add(std::span<const double> coarse, std::span<double> result) c
   for (Index b = 0; b < num_boxes(); ++b) {
     const double* values = coarse.data() + static_cast<std::size_t>(b) * motions;
     for (const Index p : boxes_[b]) {
-      for (int c = 0; c < unknowns_.width; ++c) {
-        const Index unknown = unknowns_.at(p, c);
-        if (unknown < 0) continue;
-        const std::array<double, 6> moves = row(p, c);
-        double sum = 0.0;
-        for (int m = 0; m < motions; ++m) sum += moves[m] * values[m];
-        result[unknown] += sum;
-      }
+      for_each_move(
+          p, [&](int c, int m, double share) { result[unknowns_.at(p, c)] += share * values[m]; });
     }
   }
 }
@@ -220,13 +210,18 @@ struct BoxRow {
   std::vector<Eigen::MatrixXd> blocks;  ///< shape (6, 6), columns those of the other
 };
 
+constexpr int most_motions = 6;  // in the plane the last three are idle
+
+/// Rows of P of all components, shape (particles, width).
+using MotionRows = std::vector<std::array<double, most_motions>>;
+
 /// Goes through the particles of a box once.
 template <class Blocks>
 BoxRow assemble_box(const Blocks& blocks, const Unknowns& unknowns, const BoxMotions& motions,
-                    Index box, std::vector<double>& own) {
-  constexpr int width = Blocks::width;
-  constexpr int count = 6;  // in the plane the last three are idle
+                    const MotionRows& moves, Index box, std::vector<double>& own) {
+  constexpr int width = Blocks::width, count = most_motions;
   using Field = Eigen::Matrix<double, width, count>;
+  using Moved = Eigen::Map<const Eigen::Matrix<double, 1, count>>;
   BoxRow row;
   std::vector<Field> fields;  // K P of one particle, by the other box
   for (const Index i : motions.particles(box)) {
@@ -251,14 +246,12 @@ BoxRow assemble_box(const Blocks& blocks, const Unknowns& unknowns, const BoxMot
         }
       }
       for (int r = 0; r < width; ++r) {
-        const std::array<double, 6> moves = motions.row(j, r);
-        const Eigen::Map<const Eigen::Matrix<double, 1, count>> moved(moves.data());
+        const Moved moved(moves[static_cast<std::size_t>(j) * width + r].data());
         for (int c = 0; c < width; ++c) fields[last].row(c) += block(r, c) * moved;
       }
     });
     for (int c = 0; c < width; ++c) {
-      const std::array<double, 6> moves = motions.row(i, c);
-      const Eigen::Map<const Eigen::Matrix<double, 1, count>> moved(moves.data());
+      const Moved moved(moves[static_cast<std::size_t>(i) * width + c].data());
       for (std::size_t k = 0; k < fields.size(); ++k) {
         row.blocks[k].noalias() += moved.transpose() * fields[k].row(c);
       }
@@ -341,10 +334,15 @@ BoxStiffness assemble_box_stiffness(const Network& network, Secants secants,
   std::vector<BoxRow> rows(static_cast<std::size_t>(motions.num_boxes()));
   result.blocks.assign(
       static_cast<std::size_t>(network.particles.size()) * unknowns.width * unknowns.width, 0.0);
+  MotionRows moves;
+  moves.reserve(unknowns.number.size());
+  for (Index p = 0; p < network.particles.size(); ++p) {
+    for (int c = 0; c < unknowns.width; ++c) moves.push_back(motions.row(p, c));
+  }
   with_blocks(network, secants, [&](const auto& blocks) {
 #pragma omp parallel for schedule(dynamic)
     for (Index b = 0; b < motions.num_boxes(); ++b) {
-      rows[b] = assemble_box(blocks, unknowns, motions, b, result.blocks);
+      rows[b] = assemble_box(blocks, unknowns, motions, moves, b, result.blocks);
     }
   });
   result.coarse = coarse_matrix(rows, motions, unknowns.width);

@@ -309,6 +309,7 @@ CalibrationReport calibrate_bonds(const CalibrationInput& input, const Calibrati
   if (input.box && !input.all_free() && uniform(input)) {
     if (const auto report = calibrate_alike(input, options, facets, stiffness)) return *report;
   }
+  if (input.only_alike) return {};
   Calibration calibration(input, options, facets, stiffness, nullptr);
   const CalibrationReport report = calibration.run();
   CalibrationEquations::State found = calibration.result();

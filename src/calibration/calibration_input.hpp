@@ -25,6 +25,7 @@ struct CalibrationInput {
   /// The box that the particles fill with one lattice; where the material is the same all over,
   /// bonds that lie alike are then made alike.
   std::optional<LatticeBox> box = std::nullopt;
+  bool only_alike = false;  ///< nothing is changed where they have no solution
   /// In the plane: where particles have no solution, single equations are given up and all others
   /// hold, as in irregular clouds, in place of least squares.
   bool give_up = false;

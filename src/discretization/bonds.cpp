@@ -20,6 +20,13 @@ Index num_before_bars(const Particles& particles) {
 
 }  // namespace
 
+void Bonds::reserve(std::size_t count) {
+  first.reserve(count);
+  second.reserve(count);
+  lengths.reserve(count);
+  directions.reserve(count * dim);
+}
+
 void Bonds::append(const Particles& particles, Index i, Index j) {
   const auto from = particles.position(i);
   const auto to = particles.position(j);

@@ -26,6 +26,7 @@ struct Bonds {
   Index other_end(Index b, Index particle) const {
     return first[b] == particle ? second[b] : first[b];
   }
+  void reserve(std::size_t count);
   /// Appends the bond between two distinct particles; the caller keeps the order.
   void append(const Particles& particles, Index i, Index j);
 };

@@ -48,6 +48,16 @@ class PatternBonds {
  public:
   explicit PatternBonds(const LatticePattern& pattern);
 
+  /// Those whose first end is in the window alone, before cracks cut any.
+  template <class Visit>
+  void for_each_first(const GridWindow& window, Visit visit) const {
+    pattern_.grid.for_each(window, [&](const GridPoint& p) {
+      for_each_of(p, [&](const GridPoint& other, Index element, bool comes_first) {
+        if (comes_first) visit(p, other, element);
+      });
+    });
+  }
+
   /// Calls visit(first, second, element) for bonds that no crack cuts: points of the box, the first
   /// of which comes first in it, and the element of the sample that is like the bond. At first
   /// bonds whose first end is in the window, in their order, then the others.
@@ -60,11 +70,7 @@ class PatternBonds {
   /// The same before cracks cut bonds.
   template <class Visit>
   void for_each_before(const GridWindow& window, Visit visit) const {
-    pattern_.grid.for_each(window, [&](const GridPoint& p) {
-      for_each_of(p, [&](const GridPoint& other, Index element, bool comes_first) {
-        if (comes_first) visit(p, other, element);
-      });
-    });
+    for_each_first(window, visit);
     pattern_.grid.for_each(window, [&](const GridPoint& p) {
       for_each_of(p, [&](const GridPoint& other, Index, bool comes_first) {
         if (comes_first || window.contains(other)) return;

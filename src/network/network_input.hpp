@@ -92,6 +92,8 @@ struct NetworkInput {
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< per bar
   CalibrationObserver on_search;           ///< told of the calibration of bonds; may be empty
+  /// Calibrated bonds stay as they are where those that lie alike have no solution alike.
+  bool only_alike = false;
   bool draft = false;  ///< bonds as they are before calibration: whatever does not depend on it can
                        ///< be asked before it is paid for
 };

@@ -59,6 +59,12 @@ inline NetworkInput network_input(const LatticeInput& body) {
   return input;
 }
 
+/// Of a body that is calibrated as a whole, however large: a face that no bond crosses sees to it.
+inline NetworkInput in_one_piece(NetworkInput input) {
+  input.interfaces.resize(1);
+  return input;
+}
+
 inline Network make_network(const LatticeCase& lattice_case, int columns) {
   const LatticeInput input = body_input(lattice_case, columns);
   return build_network(make_body(input), network_input(input));

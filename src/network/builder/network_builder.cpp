@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,11 +14,14 @@
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
 #include "network/bond_softening.hpp"
+#include "network/bond_strength.hpp"
 #include "network/builder/bar_elements.hpp"
 #include "network/builder/beam_bonds.hpp"
 #include "network/builder/glued_cells.hpp"
+#include "network/builder/repeated_box.hpp"
 #include "network/builder/shell_bonds.hpp"
 #include "network/correction/surface_correction.hpp"
+#include "network/lattice_families.hpp"
 #include "network/unknowns.hpp"
 #include "network/weak_interfaces.hpp"
 
@@ -138,8 +142,9 @@ void cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
 
 namespace {
 
-/// Calibrated bonds of the solid, without those that pre-cracks cut.
-Network build_bonds(const Body& body, const NetworkInput& input, const PairConstants& constants) {
+/// Bonds of the solid and their stiffness.
+Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
+                              const PairConstants& constants) {
   Network network;
   network.particles = body.particles;
   network.bonds = make_bonds(network.particles, input.horizon);
@@ -153,6 +158,30 @@ Network build_bonds(const Body& body, const NetworkInput& input, const PairConst
   add_bonds(constants, input.model, network);
   if (input.model == BondModel::micropolar) network.torsion = input.torsion;
   correct_surfaces(body, input, network);
+  return network;
+}
+
+/// Critical stretches of bonds that were calibrated in a smaller box.
+void set_stretches(const Body& body, const NetworkInput& input, const PairConstants& constants,
+                   Network& network) {
+  const std::vector<Index>& material = network.particles.material;
+  network.critical_stretch.reserve(network.stiffness.size());
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const Index i = network.bonds.first[b], j = network.bonds.second[b];
+    network.critical_stretch.push_back(constants.of(material[i], material[j]).critical_stretch);
+  }
+  if (input.critical_stretch != Constants::lattice) return;
+  set_critical_stretches(input, LatticeFamilies(body, input), body.lattice.cell_volume, network);
+}
+
+/// The same, made in a smaller box where that will do, without those that pre-cracks cut.
+Network build_bonds(const Body& body, const NetworkInput& input, const PairConstants& constants) {
+  const auto make = [&](const Body& whole_or_part, const NetworkInput& its_input) {
+    return make_calibrated_bonds(whole_or_part, its_input, constants);
+  };
+  std::optional<Network> repeated = repeat_smaller_box(body, input, make);
+  if (repeated) set_stretches(body, input, constants, *repeated);
+  Network network = repeated ? std::move(*repeated) : make(body, input);
   if (!input.cracks.empty()) {
     // After the calibration: a crack is not a surface on which a uniform strain finds its stress.
     cut_bonds(body, input, network);

@@ -209,6 +209,7 @@ void Correction::calibrate(bool give_up) {
   const LatticeFamilies* family = families ? &*families : nullptr;
   CalibrationInput calibration{network_.particles, network_.bonds, {}, {}};
   calibration.give_up = give_up;
+  calibration.only_alike = input_.only_alike;
   if (family) {
     calibration.free = free_bonds(*family);
     if (network_.hinged.empty()) calibration.box = lattice_box(body_);

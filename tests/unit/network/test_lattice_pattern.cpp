@@ -12,6 +12,7 @@
 namespace perilink {
 namespace {
 
+using test::in_one_piece;
 using test::network_input;
 
 struct PatternCase {
@@ -69,7 +70,7 @@ TEST_P(Patterns, GiveTheBondsOfTheWholeBody) {
   const LatticeInput lattice = input_of(GetParam());
   const NetworkInput input = constants_of(GetParam(), lattice);
   const Body body = make_body(lattice);
-  const Network whole = build_network(body, input);
+  const Network whole = build_network(body, in_one_piece(input));
   LatticePattern pattern = make_pattern(body, input);
   ASSERT_TRUE(can_repeat(pattern.sample));
   std::vector<Index> by_crack;

@@ -22,10 +22,10 @@ constexpr double small_pivot = 0.05;
 
 /// Errors of columns over those of solutions: an event moves the body by little, and what that
 /// leaves is taken away at every check.
-constexpr double coarser = 100.0;
+constexpr double coarser = 1000.0;
 
 /// Memory that the window may take where that leaves the fewest blocks.
-constexpr double most_bytes = 1.5e9;
+constexpr double most_bytes = 4e9;
 
 /// More calls than a run has: what is let go counts as used so long ago.
 constexpr int let_go_after = 1 << 30;

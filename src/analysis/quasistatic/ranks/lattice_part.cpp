@@ -56,10 +56,7 @@ class PartMaker {
     const PatternBonds pattern(share_.pattern);
     std::size_t count = 0;
     pattern.for_each(own_, [&](const GridPoint&, const GridPoint&, Index) { ++count; });
-    network.bonds.first.reserve(count);
-    network.bonds.second.reserve(count);
-    network.bonds.lengths.reserve(count);
-    network.bonds.directions.reserve(count * grid_.dim);
+    network.bonds.reserve(count);
     for (const auto member : members_) {
       if (!(sample.*member).empty()) (network.*member).reserve(count);
     }

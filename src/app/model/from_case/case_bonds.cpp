@@ -24,6 +24,7 @@
 #include "io/case/sections/laws/case_softening.hpp"
 #include "network/bond_softening.hpp"
 #include "network/builder/network_builder.hpp"
+#include "network/builder/repeated_box.hpp"
 
 namespace perilink {
 namespace {
@@ -149,10 +150,12 @@ Network build_case_network(const CaseFile& input, const Body& body, const Networ
 
 /// The calibration of clouds, of bodies in space and of micropolar bonds can take minutes. What it
 /// does not change (regions, loads, whether the body is held, gauges) is looked at before. Trusses
-/// on lattices in the plane are calibrated in less time than their matrix is factorised.
+/// on lattices in the plane are calibrated in less time than their matrix is factorised, and large
+/// boxes in space as a small one.
 void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkInput network,
                                const Model& model) {
   if (body.lattice.surface != Surface::calibrated || !body.spans.empty()) return;
+  if (repeats_smaller_box(body, network)) return;
   const bool lattice = body.lattice.pattern != Pattern::irregular;
   if (lattice && body.particles.dim == 2 && network.model == BondModel::bond_based) return;
   network.draft = true;

@@ -231,7 +231,7 @@ TEST(BoxFactor, ColumnsThatNobodyAsksForGoFirst) {
 }
 
 TEST(BoxFactor, WindowsAreWiderWhereDisplacementsWait) {
-  const std::size_t most = 1'500'000'000 / 8;  // numbers in 1.5 GB
+  const std::size_t most = 4'000'000'000 / 8;  // numbers in 4 GB
   EXPECT_EQ(columns_of_window(3'000, false), 256u);
   EXPECT_EQ(columns_of_window(3'000, true), 768u);
   const std::size_t components = most / 500;

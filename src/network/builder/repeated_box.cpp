@@ -1,0 +1,91 @@
+#include "network/builder/repeated_box.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "network/lattice_pattern.hpp"
+
+namespace perilink {
+namespace {
+
+/// Particles over those of the smaller box from which on it pays.
+constexpr double enough = 2.0;
+
+bool is_uniform(const Body& body, const NetworkInput& input) {
+  const std::vector<Index>& material = body.particles.material;
+  const LameConstants first = lame_constants(input, input.materials[material.front()]);
+  std::vector<std::uint8_t> same;
+  for (const SolidMaterial& m : input.materials) same.push_back(lame_constants(input, m) == first);
+  return std::ranges::all_of(material, [&](Index m) { return same[m] != 0; });
+}
+
+/// Without its sample.
+std::optional<LatticePattern> find_pattern(const Body& body, const NetworkInput& input) {
+  const bool can_repeat = body.particles.dim == 3 && body.lattice.surface == Surface::calibrated &&
+                          !input.shell && input.interfaces.empty();
+  if (!can_repeat) return std::nullopt;
+  const std::optional<LatticeGrid> grid = grid_of(body);
+  if (!grid || !is_uniform(body, input)) return std::nullopt;
+  LatticePattern pattern = pattern_of(*grid, input.horizon);
+  const double particles = enough * pattern.small.size(pattern.small.all());
+  return body.particles.size() < particles ? std::nullopt : std::optional(std::move(pattern));
+}
+
+/// Values of the bonds of the sample that those of the body are like.
+std::vector<double> repeated(const std::vector<double>& values, std::span<const Index> like) {
+  std::vector<double> result;
+  if (values.empty()) return result;
+  result.reserve(like.size());
+  for (const Index element : like) result.push_back(values[element]);
+  return result;
+}
+
+}  // namespace
+
+bool repeats_smaller_box(const Body& body, const NetworkInput& input) {
+  return find_pattern(body, input).has_value();
+}
+
+std::optional<Network> repeat_smaller_box(
+    const Body& body, const NetworkInput& input,
+    const std::function<Network(const Body& body, const NetworkInput& input)>& make) {
+  std::optional<LatticePattern> pattern = find_pattern(body, input);
+  if (!pattern) return std::nullopt;
+  NetworkInput small_input = input;
+  small_input.only_alike = true;
+  small_input.cracks.clear();
+  small_input.solid = {{pattern->small.lower, pattern->small.upper}};
+  Body small = body_of(pattern->small, body.lattice, input.thickness);
+  std::ranges::fill(small.particles.material, body.particles.material.front());
+  pattern->sample = make(small, small_input);
+  const Network& sample = pattern->sample;
+  if (!input.draft && !sample.calibration->alike) return std::nullopt;
+
+  Network network;
+  network.particles = body.particles;
+  network.facets = body.facets;
+  network.calibration = sample.calibration;
+  network.torsion = sample.torsion;
+  const LatticeGrid& grid = pattern->grid;
+  network.bonds.dim = grid.dim;
+  std::vector<Index> like;
+  const auto count = static_cast<std::size_t>(pattern->num_bonds());
+  network.bonds.reserve(count);
+  like.reserve(count);
+  PatternBonds(*pattern).for_each_first(
+      grid.all(), [&](const GridPoint& first, const GridPoint& second, Index element) {
+        network.bonds.append(network.particles, grid.number(grid.all(), first),
+                             grid.number(grid.all(), second));
+        like.push_back(element);
+      });
+  network.stiffness = repeated(sample.stiffness, like);
+  network.bending = repeated(sample.bending, like);
+  network.bending_ratio = repeated(sample.bending_ratio, like);
+  network.inflection = repeated(sample.inflection, like);
+  return network;
+}
+
+}  // namespace perilink
