@@ -4,62 +4,79 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "assembly/network_blocks.hpp"
 #include "base/block.hpp"
+#include "base/joined_parts.hpp"
 #include "discretization/point_boxes.hpp"
 
 namespace perilink {
 namespace {
 
-/// Parts that are joined step by step; the number of a part is its smallest member.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+/// The box of each particle; no_index: it is in none.
+std::vector<Index> numbers_of_boxes(const std::vector<std::vector<Index>>& boxes, Index particles) {
+  std::vector<Index> box_of(static_cast<std::size_t>(particles), no_index);
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    for (const Index p : boxes[b]) box_of[p] = static_cast<Index>(b);
   }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
+  return box_of;
+}
 
 /// With fewer the start of threads takes longer than the work.
 constexpr Index boxes_for_threads = 100;
 
 }  // namespace
 
+std::vector<std::vector<Index>> split_by_cracks(const std::vector<std::vector<Index>>& boxes,
+                                                const Network& network, Secants secants) {
+  const std::vector<Index> box_of = numbers_of_boxes(boxes, network.particles.size());
+  JoinedParts parts(network.particles.size());
+  const auto join = [&](Index i, Index j) {
+    if (box_of[i] == box_of[j]) parts.join(i, j);
+  };
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (network.stiffness[e] * secants.axial(e) > 0.0) {
+      join(network.bonds.first[e], network.bonds.second[e]);
+    }
+  }
+  if (network.cells) {
+    for (Index c = 0; c < network.cells->cells.size(); ++c) {
+      const auto cell = network.cells->cells.cell(c);
+      for (const Index p : cell) join(cell[0], p);
+    }
+  }
+  std::vector<std::vector<Index>> split;
+  std::vector<Index> part_box(box_of.size(), no_index);
+  for (const std::vector<Index>& box : boxes) {
+    for (const Index p : box) {
+      Index& at = part_box[parts.find(p)];
+      if (at == no_index) {
+        at = static_cast<Index>(split.size());
+        split.emplace_back();
+      }
+      split[at].push_back(p);
+    }
+  }
+  return split;
+}
+
 BoxMotions::BoxMotions(const Network& network, Secants secants, const Unknowns& unknowns,
                        Index most)
     : dim_(network.dim()),
       unknowns_(unknowns),
-      boxes_(split_into_boxes(network.particles.positions, network.dim(), most)),
-      box_of_(static_cast<std::size_t>(network.particles.size())) {
-  split_by_cracks(network, secants);
+      boxes_(split_by_cracks(split_into_boxes(network.particles.positions, network.dim(), most),
+                             network, secants)),
+      box_of_(numbers_of_boxes(boxes_, network.particles.size())) {
   find_centres(network.particles);
 }
 
 BoxMotions::BoxMotions(const Particles& particles, const Unknowns& unknowns,
                        std::vector<std::vector<Index>> own, Index first_box, Index num_boxes,
                        const Exchange& exchange)
-    : dim_(particles.dim),
-      unknowns_(unknowns),
-      boxes_(static_cast<std::size_t>(num_boxes)),
-      box_of_(static_cast<std::size_t>(particles.size()), no_index) {
-  for (std::size_t b = 0; b < own.size(); ++b) {
-    for (const Index p : own[b]) box_of_[p] = first_box + static_cast<Index>(b);
-    boxes_[first_box + b] = std::move(own[b]);
-  }
+    : dim_(particles.dim), unknowns_(unknowns), boxes_(static_cast<std::size_t>(num_boxes)) {
+  std::move(own.begin(), own.end(), boxes_.begin() + first_box);
+  box_of_ = numbers_of_boxes(boxes_, particles.size());
   find_centres(particles);
   const std::size_t dim = static_cast<std::size_t>(dim_), width = dim + 2;
   std::vector<double> known(box_of_.size() * width, 0.0);
@@ -75,45 +92,6 @@ BoxMotions::BoxMotions(const Particles& particles, const Unknowns& unknowns,
     size_[box_of_[p]] = known[p * width + 1];
     std::copy_n(known.begin() + p * width + 2, dim, arms_.begin() + p * dim);
   }
-}
-
-/// Parts of a box that no element inside joins become boxes of their own.
-void BoxMotions::split_by_cracks(const Network& network, Secants secants) {
-  const auto number = [&] {
-    for (Index b = 0; b < num_boxes(); ++b) {
-      for (const Index p : boxes_[b]) box_of_[p] = b;
-    }
-  };
-  number();
-  Parts parts(box_of_.size());
-  const auto join = [&](Index i, Index j) {
-    if (box_of_[i] == box_of_[j]) parts.join(i, j);
-  };
-  for (Index e = 0; e < network.num_elements(); ++e) {
-    if (network.stiffness[e] * secants.axial(e) > 0.0) {
-      join(network.bonds.first[e], network.bonds.second[e]);
-    }
-  }
-  if (network.cells) {
-    for (Index c = 0; c < network.cells->cells.size(); ++c) {
-      const auto cell = network.cells->cells.cell(c);
-      for (const Index p : cell) join(cell[0], p);
-    }
-  }
-  std::vector<std::vector<Index>> whole;
-  whole.swap(boxes_);
-  std::vector<Index> part_box(box_of_.size(), no_index);
-  for (const std::vector<Index>& box : whole) {
-    for (const Index p : box) {
-      Index& at = part_box[parts.find(p)];
-      if (at == no_index) {
-        at = num_boxes();
-        boxes_.emplace_back();
-      }
-      boxes_[at].push_back(p);
-    }
-  }
-  number();
 }
 
 void BoxMotions::find_centres(const Particles& particles) {

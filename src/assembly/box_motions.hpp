@@ -12,6 +12,11 @@
 
 namespace perilink {
 
+/// Splits boxes of particles: parts of one that no element inside joins become boxes of their own.
+/// \return those of the first box first
+std::vector<std::vector<Index>> split_by_cracks(const std::vector<std::vector<Index>>& boxes,
+                                                const Network& network, Secants secants);
+
 /// Rigid motions of boxes of neighbouring particles, as fields P of the unknowns: the coarse space
 /// of conjugate gradients for bodies too large for a factor (docs/theory/large_bodies.md). What
 /// cracks have cut apart inside a box moves by itself.
@@ -23,8 +28,8 @@ class BoxMotions {
   /// Brings what is known of particles that other processes own up to date: numbers of shape
   /// (particles, width).
   using Exchange = std::function<void(std::span<double> known, int width)>;
-  /// Boxes of the first particles of a body without cracks, which this process owns; those of the
-  /// others are known by their numbers and centres.
+  /// Boxes of the first particles of a body, which this process owns and cracks have split; those
+  /// of the others are known by their numbers and centres.
   /// \param first_box  boxes of the processes before
   /// \param unknowns   those of all particles
   BoxMotions(const Particles& particles, const Unknowns& unknowns,
@@ -54,7 +59,6 @@ class BoxMotions {
  private:
   template <class Visit>
   void for_each_move(Index particle, Visit visit) const;
-  void split_by_cracks(const Network& network, Secants secants);
   void find_centres(const Particles& particles);
 
   int dim_;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
 
+#include "base/joined_parts.hpp"
 #include "discretization/neighbor_search.hpp"
 
 namespace perilink {
@@ -144,20 +144,12 @@ Index remove_loose_ghosts(Particles& particles, Bonds& bonds) {
 }
 
 std::vector<Index> connected_parts(const Bonds& bonds, Index num_particles) {
-  std::vector<Index> parent(static_cast<std::size_t>(num_particles));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (Index b = 0; b < bonds.size(); ++b) {
-    const Index i = root(bonds.first[b]), j = root(bonds.second[b]);
-    parent[std::max(i, j)] = std::min(i, j);
-  }
-  std::vector<Index> part(parent.size());
+  JoinedParts parts(num_particles);
+  for (Index b = 0; b < bonds.size(); ++b) parts.join(bonds.first[b], bonds.second[b]);
+  std::vector<Index> part(static_cast<std::size_t>(num_particles));
   Index count = 0;
   for (Index i = 0; i < num_particles; ++i) {
-    part[i] = root(i) == i ? count++ : part[root(i)];
+    part[i] = parts.find(i) == i ? count++ : part[parts.find(i)];
   }
   return part;
 }

@@ -97,6 +97,9 @@ struct Network {
   /// In whose sums the extension of a bond counts, see BondEnd, per element; empty: in those of
   /// both its ends. Nearest neighbours need not be mutual.
   std::vector<std::uint8_t> state_of;
+  /// Whether particles turn although there are no bonds: processes make bonds that carry moments of
+  /// their parts by themselves.
+  bool all_turn = false;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   /// Laws of the elements, and the number of each element's; empty: all have the first one.
   std::vector<BondLaw> laws = {BondLaw::brittle()};
@@ -141,7 +144,7 @@ struct Network {
   /// Components of the motion of a particle: displacements along the axes and, where bonds carry
   /// moments, rotations: (u, v) or (u, v, theta) in two dimensions, (u, v, w) or
   /// (u, v, w, theta_x, theta_y, theta_z) in three.
-  int width() const { return bending.empty() ? dim() : dim() == 2 ? 3 : 6; }
+  int width() const { return !carries_moments() ? dim() : dim() == 2 ? 3 : 6; }
   double ratio_of_bending(Index element) const {
     return bending_ratio.empty() ? bending[element] / stiffness[element] : bending_ratio[element];
   }
@@ -149,7 +152,7 @@ struct Network {
     return inflection.empty() ? 0.5 : inflection[element];
   }
   bool is_hinged(Index element) const { return !hinged.empty() && hinged[element] != 0; }
-  bool carries_moments() const { return !bending.empty(); }
+  bool carries_moments() const { return all_turn || !bending.empty(); }
   bool is_beam() const { return !half_height.empty(); }
   /// Whether bonds stand for whole sections of a shell or a beam: particles have no stress, and
   /// cracks no opening.

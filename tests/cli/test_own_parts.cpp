@@ -122,7 +122,13 @@ TEST_F(RankFolder, PiecesAreDrawnAndGoWithTheirRun) {
   EXPECT_FALSE(fs::exists(work() / "r/fields_000001_0002.vtu"));
 }
 
+const std::string micropolar = "model = \"micropolar\"\n";
 const std::string springs_in_space = "\n[[springs]]\nregion = \"bar\"\ntotal = [2e3, 5e3, 1e3]\n";
+
+/// From a face to the middle of the bar, slightly inclined.
+const std::string notch_in_space =
+    "\n[[cracks]]\ncorners = [[8.2, 0, -1], [8.2, 2.4, -1], [9.3, 2.4, 6], [9.3, 0, 6]]\n";
+const std::string crack_in_plane = "\n[[cracks]]\npoints = [[-1, 2.5], [8, 2.5], [9.3, 3.6]]\n";
 
 const std::string gauges =
     "\n[[gauges]]\nname = \"tip\"\nregion = \"right\"\naxis = \"y\"\n"
@@ -131,12 +137,18 @@ const std::string gauges =
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, OwnParts,
-    testing::Values(RankCase{"Loaded", bar_case(true, "") + springs_in_space + gauges},
-                    RankCase{"Driven", driven(bar_case(true, "")) + gauges},
-                    RankCase{"FaceCentred", replaced(bar_case(true, "pattern = \"face_centred\"\n"),
-                                                     "_ratio = 3", "_ratio = 2")},
-                    RankCase{"ByEnergy", bar_case(true, "surface = \"energy\"\n")},
-                    RankCase{"PlaneUncorrected", bar_case(false, "surface = \"none\"\n")}),
+    testing::Values(
+        RankCase{"Loaded", bar_case(true, "") + springs_in_space + gauges},
+        RankCase{"Driven", driven(bar_case(true, "")) + gauges},
+        RankCase{"FaceCentred", replaced(bar_case(true, "pattern = \"face_centred\"\n"),
+                                         "_ratio = 3", "_ratio = 2")},
+        RankCase{"ByEnergy", bar_case(true, "surface = \"energy\"\n")},
+        RankCase{"PlaneUncorrected", bar_case(false, "surface = \"none\"\n")},
+        RankCase{"Notched", bar_case(true, "") + notch_in_space + gauges},
+        RankCase{"CrackedPlane", driven(bar_case(false, "surface = \"none\"\n")) + crack_in_plane},
+        RankCase{"Frames", bar_case(true, micropolar) + springs_in_space + gauges},
+        RankCase{"CrackedFrames",
+                 bar_case(false, micropolar + "surface = \"energy\"\n") + crack_in_plane}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -13,14 +13,7 @@ namespace {
 /// Corners of a polygon may leave its plane by this much, in its size.
 constexpr double plane_tolerance = 1e-6;
 
-/// A straight piece of a line, or a polygon.
-struct Piece {
-  std::vector<Vector3> corners;
-  Vector3 normal{};  ///< unit vector to the positive side
-  /// Outward normals of a polygon's sides, in its plane; of a line's piece beyond its two ends.
-  std::vector<Vector3> side_normals;
-  Index crack = 0;
-};
+using Piece = CrackCutter::Piece;
 
 Vector3 scaled(const Vector3& a, double factor) {
   return {a[0] * factor, a[1] * factor, a[2] * factor};
@@ -92,53 +85,6 @@ bool holds(const Piece& piece, const Vector3& point, double tolerance) {
   return true;
 }
 
-/// The particles, those on cracks moved to the positive side by a distance that is nothing but more
-/// than the tolerance.
-std::vector<Vector3> shifted_positions(const Particles& particles, std::span<const Piece> pieces,
-                                       double tolerance) {
-  std::vector<Vector3> positions;
-  for (Index i = 0; i < particles.size(); ++i) {
-    const Vector3 x = point_of(particles.positions, particles.dim, i);
-    Vector3 shift{};
-    for (const Piece& piece : pieces) {
-      if (std::abs(dot(minus(x, piece.corners[0]), piece.normal)) > tolerance) continue;
-      if (!holds(piece, x, tolerance)) continue;
-      for (int axis = 0; axis < 3; ++axis) shift[axis] += piece.normal[axis];
-    }
-    const double length = norm(shift);
-    positions.push_back(x);
-    // Normals that cancel: the crack was drawn there and back, and the particle stays in between.
-    if (!(length > 1e-6)) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      positions.back()[axis] += 3.0 * tolerance / length * shift[axis];
-    }
-  }
-  return positions;
-}
-
-/// Box around all pieces.
-struct Surroundings {
-  Vector3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-
-  explicit Surroundings(std::span<const Piece> pieces, double tolerance) {
-    for (const Piece& piece : pieces) {
-      for (const Vector3& corner : piece.corners) {
-        for (int a = 0; a < 3; ++a) {
-          low[a] = std::min(low[a], corner[a] - tolerance);
-          high[a] = std::max(high[a], corner[a] + tolerance);
-        }
-      }
-    }
-  }
-
-  bool miss(const Vector3& from, const Vector3& to) const {
-    for (int a = 0; a < 3; ++a) {
-      if (std::max(from[a], to[a]) < low[a] || std::min(from[a], to[a]) > high[a]) return true;
-    }
-    return false;
-  }
-};
-
 bool crosses(const Piece& piece, const Vector3& from, const Vector3& to, double tolerance) {
   const double start = dot(minus(from, piece.corners[0]), piece.normal);
   const double end = dot(minus(to, piece.corners[0]), piece.normal);
@@ -148,6 +94,54 @@ bool crosses(const Piece& piece, const Vector3& from, const Vector3& to, double 
 
 }  // namespace
 
+CrackCutter::CrackCutter(std::span<const Crack> cracks, int dim, double spacing)
+    : pieces_(pieces_of(cracks, dim)), tolerance_(on_crack_tolerance * spacing) {
+  const double margin = 10.0 * tolerance_;
+  for (const Piece& piece : pieces_) {
+    for (const Vector3& corner : piece.corners) {
+      for (int a = 0; a < 3; ++a) {
+        lower_[a] = std::min(lower_[a], corner[a] - margin);
+        upper_[a] = std::max(upper_[a], corner[a] + margin);
+      }
+    }
+  }
+}
+
+/// A particle on cracks is moved to the positive side by a distance that is nothing but more than
+/// the tolerance.
+Vector3 CrackCutter::shifted(const Vector3& particle) const {
+  Vector3 shift{};
+  for (const Piece& piece : pieces_) {
+    if (std::abs(dot(minus(particle, piece.corners[0]), piece.normal)) > tolerance_) continue;
+    if (!holds(piece, particle, tolerance_)) continue;
+    for (int axis = 0; axis < 3; ++axis) shift[axis] += piece.normal[axis];
+  }
+  const double length = norm(shift);
+  Vector3 position = particle;
+  // Normals that cancel: the crack was drawn there and back, and the particle stays in between.
+  if (!(length > 1e-6)) return position;
+  for (int axis = 0; axis < 3; ++axis) {
+    position[axis] += 3.0 * tolerance_ / length * shift[axis];
+  }
+  return position;
+}
+
+bool CrackCutter::cuts(const Vector3& first, const Vector3& second, std::span<Index> count) const {
+  for (int a = 0; a < 3; ++a) {
+    if (std::max(first[a], second[a]) < lower_[a]) return false;
+    if (std::min(first[a], second[a]) > upper_[a]) return false;
+  }
+  const Vector3 from = shifted(first), to = shifted(second);
+  Index last = no_index;  // a crack with a kink counts a bond once
+  for (const Piece& piece : pieces_) {
+    if (piece.crack == last || !crosses(piece, from, to, tolerance_)) continue;
+    last = piece.crack;
+    if (count.empty()) break;
+    ++count[last];
+  }
+  return last != no_index;
+}
+
 void check_crack(const Crack& crack, int dim) { pieces_of({&crack, 1}, dim); }
 
 CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,
@@ -155,22 +149,10 @@ CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,
   CutBonds cut;
   cut.keep.assign(static_cast<std::size_t>(bonds.size()), 1);
   cut.count.assign(cracks.size(), 0);
-  if (cracks.empty()) return cut;
-  const std::vector<Piece> pieces = pieces_of(cracks, particles.dim);
-  const double tolerance = on_crack_tolerance * spacing;
-  const std::vector<Vector3> positions = shifted_positions(particles, pieces, tolerance);
-  const Surroundings all(pieces, 10.0 * tolerance);
+  const CrackCutter cutter(cracks, particles.dim, spacing);
+  const auto at = [&](Index i) { return point_of(particles.positions, particles.dim, i); };
   for (Index b = 0; b < bonds.size(); ++b) {
-    Index last = no_index;  // a crack with a kink counts a bond once
-    const Vector3 &from = positions[bonds.first[b]], &to = positions[bonds.second[b]];
-    if (all.miss(from, to)) continue;
-    for (const Piece& piece : pieces) {
-      if (piece.crack == last) continue;
-      if (!crosses(piece, from, to, tolerance)) continue;
-      ++cut.count[piece.crack];
-      last = piece.crack;
-      cut.keep[b] = 0;
-    }
+    cut.keep[b] = !cutter.cuts(at(bonds.first[b]), at(bonds.second[b]), cut.count);
   }
   return cut;
 }

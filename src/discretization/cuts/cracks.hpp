@@ -30,10 +30,41 @@ struct CutBonds {
 ///         a plane
 void check_crack(const Crack& crack, int dim);
 
-/// Finds the bonds that cross a crack, its ends and border included. A particle on a crack belongs
-/// to its positive side, so that a crack along a row of particles cuts too: to the left of the line
-/// in the direction of its points, or where the corners are seen to run counter-clockwise; where
+/// Tells which bonds cross a crack, its ends and border included. A particle on a crack belongs to
+/// its positive side, so that a crack along a row of particles cuts too: to the left of the line in
+/// the direction of its points, or where the corners are seen to run counter-clockwise; where
 /// pieces meet, to the side of their mean normal.
+class CrackCutter {
+ public:
+  /// A straight piece of a line, or a polygon.
+  struct Piece {
+    std::vector<Vector3> corners;
+    Vector3 normal{};  ///< unit vector to the positive side
+    /// Outward normals of a polygon's sides, in its plane; of a line's piece beyond its two ends.
+    std::vector<Vector3> side_normals;
+    Index crack = 0;
+  };
+
+  /// \param spacing  between particles [length]
+  /// \throws std::invalid_argument  as check_crack()
+  CrackCutter(std::span<const Crack> cracks, int dim, double spacing);
+
+  /// Whether the bond between two particles is cut.
+  /// \param count  bonds that each crack cuts: this one is added; empty: nobody counts
+  bool cuts(const Vector3& first, const Vector3& second, std::span<Index> count = {}) const;
+  /// Corners of a box around all cracks; no crack: infinite, the lower above the upper.
+  const Vector3& lower() const { return lower_; }
+  const Vector3& upper() const { return upper_; }
+
+ private:
+  Vector3 shifted(const Vector3& particle) const;
+
+  std::vector<Piece> pieces_;
+  double tolerance_;
+  Vector3 lower_{infinity, infinity, infinity}, upper_{-infinity, -infinity, -infinity};
+};
+
+/// The bonds of a body that cracks cut (CrackCutter).
 /// \param spacing  between particles [length]
 /// \throws std::invalid_argument  as check_crack()
 CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,

@@ -83,6 +83,7 @@ std::optional<LatticeGrid> grid_of(const Body& body) {
   if (!fits || lattice.surface == Surface::ghost || particles.size() == 0) return std::nullopt;
   LatticeGrid grid;
   grid.dim = particles.dim;
+  grid.spacing = lattice.spacing;
   grid.alternate = lattice.pattern == Pattern::face_centred;
   for (int a = 0; a < grid.dim; ++a) {
     grid.lower[a] = grid.upper[a] = particles.position(0)[a];

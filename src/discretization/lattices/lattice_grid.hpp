@@ -30,6 +30,7 @@ struct LatticeGrid {
   int dim = 3;
   Vector3 lower{}, upper{};      ///< corners [length]
   Vector3 step{};                ///< between points along each axis [length]
+  double spacing = 0.0;          ///< Lattice::spacing
   std::array<Index, 3> count{};  ///< steps along each axis; third in the plane: none
   bool alternate = false;        ///< face-centred: every other point carries a particle
 

@@ -1,5 +1,7 @@
 #include "analysis/quasistatic/ranks/lattice_part.hpp"
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -22,6 +24,7 @@ void for_each_share_member(Share& share, Visit visit) {
   visit(share.pattern.sample.particles.volumes);
   visit(share.windows);
   visit(share.particles_of_box);
+  visit(share.width);
   visit(share.held);
   visit(share.materials);
   visit(share.springs);
@@ -46,39 +49,47 @@ class PartMaker {
 
   void make() {
     Network& network = part_.network;
+    const Network& sample = share_.pattern.sample;
     network.particles.dim = network.bonds.dim = grid_.dim;
+    network.torsion = sample.torsion;
     grid_.for_each(own_, [&](const GridPoint& point) { add_particle(point); });
     const PatternBonds pattern(share_.pattern);
     std::size_t count = 0;
     pattern.for_each(own_, [&](const GridPoint&, const GridPoint&, Index) { ++count; });
-    network.bonds.first.reserve(count);
-    network.bonds.second.reserve(count);
-    network.bonds.lengths.reserve(count);
-    network.bonds.directions.reserve(count * grid_.dim);
-    network.stiffness.reserve(count);
+    network.bonds.reserve(count);
+    for (const auto member : members_) {
+      if (!(sample.*member).empty()) (network.*member).reserve(count);
+    }
     pattern.for_each(own_, [&](const GridPoint& first, const GridPoint& second, Index element) {
       if (!own_.contains(first)) part_.others_elements.push_back(network.num_elements());
       // One after the other: numbers are given as particles are met.
       const Index i = number(first), j = number(second);
       network.bonds.append(network.particles, i, j);
-      network.stiffness.push_back(share_.pattern.sample.stiffness[element]);
+      for (const auto member : members_) {
+        if (!(sample.*member).empty()) (network.*member).push_back((sample.*member)[element]);
+      }
     });
     network.first_tie = network.first_anchored_tie = network.first_segment = network.num_elements();
     part_.other.assign(count, 1.0);
   }
 
-  /// Whether components are held, of all particles of the part, shape (particles, dim).
+  /// Whether components are held, of all particles of the part, shape (particles, width).
   std::vector<std::uint8_t> held() const {
-    std::vector<std::uint8_t> held(part_.network.particles.positions.size());
-    const std::size_t dim = static_cast<std::size_t>(grid_.dim);
+    const std::ptrdiff_t width = share_.width;
+    std::vector<std::uint8_t> held(static_cast<std::size_t>(part_.network.particles.size()) *
+                                   width);
     for (std::size_t k = 0; k < number_.size(); ++k) {
       if (number_[k] == no_index) continue;
-      for (std::size_t a = 0; a < dim; ++a) held[number_[k] * dim + a] = share_.held[k * dim + a];
+      std::copy_n(share_.held.begin() + k * width, width, held.begin() + number_[k] * width);
     }
     return held;
   }
 
  private:
+  /// What a bond has in common with that of the sample.
+  static constexpr std::array members_ = {&Network::stiffness, &Network::bending,
+                                          &Network::inflection};
+
   Index number(const GridPoint& point) {
     const Index known = number_[grid_.number(known_, point)];
     return known == no_index ? add_ghost(point) : known;
@@ -149,16 +160,17 @@ void add_boxes(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns
                BodyPart& part) {
   const Particles& particles = part.network.particles;
   const int width = unknowns.width;
-  const std::size_t positions = static_cast<std::size_t>(owned) * width;
-  std::vector<std::vector<Index>> own =
-      split_into_boxes({particles.positions.data(), positions}, particles.dim, particles_of_box);
+  const std::size_t positions = static_cast<std::size_t>(owned) * particles.dim;
+  std::vector<std::vector<Index>> own = split_by_cracks(
+      split_into_boxes({particles.positions.data(), positions}, particles.dim, particles_of_box),
+      part.network, part.secants());
   const auto [before, all] = before_and_in_all(ranks, static_cast<Index>(own.size()));
   const BoxMotions motions(particles, unknowns, std::move(own), before, all,
                            [&](std::span<double> known, int numbers) {
                              GhostLayer(ranks, part.ghosts).update(numbers, {known});
                            });
   BoxStiffness stiffness = assemble_box_stiffness(part.network, part.secants(), unknowns, motions);
-  stiffness.blocks.resize(positions * width);
+  stiffness.blocks.resize(static_cast<std::size_t>(owned) * width * width);
   double faults = stiffness.invert_blocks(width) ? 0.0 : 1.0;
   ranks.sum({&faults, 1});
   if (faults > 0.0) {
@@ -177,11 +189,15 @@ void add_boxes(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns
 
 void PatternShare::pack(Parcel& parcel) const {
   for_each_share_member(*this, [&](const auto& member) { parcel.put(member); });
+  parcel.put(pattern.cracks.size());
+  for (const Crack& crack : pattern.cracks) parcel.put(crack.points);
 }
 
 PatternShare PatternShare::unpack(Parcel& parcel) {
   PatternShare share;
   for_each_share_member(share, [&](auto& member) { parcel.get(member); });
+  share.pattern.cracks.resize(parcel.get<std::size_t>());
+  for (Crack& crack : share.pattern.cracks) parcel.get(crack.points);
   return share;
 }
 
@@ -205,18 +221,19 @@ Partition share_out(const LatticeGrid& grid, const std::vector<GridWindow>& wind
 PatternShare share_of(const LatticePattern& pattern, const std::vector<GridWindow>& windows,
                       const Network& places, const Unknowns& unknowns, Index particles_of_box,
                       int rank) {
-  PatternShare share{pattern, windows, particles_of_box, {}, {}, {}};
+  PatternShare share{pattern, windows, particles_of_box, unknowns.width, {}, {}, {}};
+  const std::ptrdiff_t width = unknowns.width;
   const LatticeGrid& grid = pattern.grid;
   const std::vector<double>& springs = places.support_stiffness;
   const auto number = [&](const GridPoint& point) { return grid.number(grid.all(), point); };
   grid.for_each(known_to(pattern, windows[rank]), [&](const GridPoint& point) {
-    for (int a = 0; a < grid.dim; ++a) share.held.push_back(unknowns.at(number(point), a) < 0);
+    for (int a = 0; a < width; ++a) share.held.push_back(unknowns.at(number(point), a) < 0);
     share.materials.push_back(places.particles.material[number(point)]);
   });
   if (springs.empty()) return share;
   grid.for_each(windows[rank], [&](const GridPoint& point) {
-    const auto own = springs.begin() + static_cast<std::ptrdiff_t>(number(point)) * grid.dim;
-    share.springs.insert(share.springs.end(), own, own + grid.dim);
+    const auto own = springs.begin() + number(point) * width;
+    share.springs.insert(share.springs.end(), own, own + width);
   });
   return share;
 }
@@ -226,7 +243,8 @@ BodyPart make_part(Ranks& ranks, const PatternShare& share) {
   PartMaker maker(share, ranks.own(), part);
   maker.make();
   const Network& network = part.network;
-  const std::size_t slots = network.particles.positions.size();
+  const std::size_t slots =
+      static_cast<std::size_t>(network.particles.size()) * static_cast<std::size_t>(share.width);
   if (!share.springs.empty()) {
     part.network.support_stiffness = share.springs;
     part.network.support_stiffness.resize(slots, 0.0);
@@ -234,10 +252,10 @@ BodyPart make_part(Ranks& ranks, const PatternShare& share) {
   const Index owned = share.pattern.grid.size(share.windows[ranks.own()]);
   std::vector<std::uint8_t> held = maker.held();
   const std::vector<double> at_rest(slots, 0.0);
-  add_boxes(ranks, share.particles_of_box, owned, number_unknowns(network.dim(), held, at_rest),
+  add_boxes(ranks, share.particles_of_box, owned, number_unknowns(share.width, held, at_rest),
             part);
-  std::fill(held.begin() + static_cast<std::ptrdiff_t>(owned) * network.dim(), held.end(), 1);
-  part.unknowns = number_unknowns(network.dim(), held, at_rest);
+  std::fill(held.begin() + static_cast<std::ptrdiff_t>(owned) * share.width, held.end(), 1);
+  part.unknowns = number_unknowns(share.width, held, at_rest);
   return part;
 }
 

@@ -14,10 +14,11 @@ struct PatternShare {
   LatticePattern pattern;
   std::vector<GridWindow> windows;  ///< particles that each rank owns
   Index particles_of_box = 0;       ///< at most, of the coarse space
-  /// Whether components are held, in the window and around it, shape (particles, dim).
+  int width = 2;                    ///< components of the motion of a particle
+  /// Whether they are held, in the window and around it, shape (particles, width).
   std::vector<std::uint8_t> held;
   std::vector<Index> materials;  ///< per particle there
-  /// Springs at its own particles, shape (own, dim) [force/length]; empty: there are none.
+  /// Springs at its own particles, shape (own, width) [force/length]; empty: there are none.
   std::vector<double> springs;
 
   void pack(Parcel& parcel) const;
@@ -34,7 +35,8 @@ PatternShare share_of(const LatticePattern& pattern, const std::vector<GridWindo
                       const Network& places, const Unknowns& unknowns, Index particles_of_box,
                       int rank);
 
-/// Makes particles and bonds, halves what it owns into boxes and adds up what all boxes resist.
+/// Makes particles and bonds, halves what it owns into boxes, splits these along cracks and adds up
+/// what all boxes resist.
 /// Collective. \throws NotPositiveDefinite on all ranks
 BodyPart make_part(Ranks& ranks, const PatternShare& share);
 

@@ -171,16 +171,19 @@ void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkI
 }
 
 /// The bonds of a box, calibrated in a smaller one; none where a part of it is not like another.
+/// \param by_crack  how many bonds each pre-crack cuts
 std::optional<LatticePattern> find_pattern(const CaseFile& input, const BondOptions& options,
-                                           const Body& body, NetworkInput network) {
+                                           const Body& body, NetworkInput network,
+                                           std::vector<Index>& by_crack) {
   if (options.parts < 2 || !can_be_made_in_parts(input)) return std::nullopt;
   const std::optional<LatticeGrid> grid = grid_of(body);
   if (!grid || split_grid(*grid, options.parts).empty()) return std::nullopt;
   LatticePattern pattern = pattern_of(*grid, network.horizon);
   network.solid = {{pattern.small.lower, pattern.small.upper}};
   const Body sample = body_of(pattern.small, body.lattice, network.thickness);
+  const std::vector<Crack> cracks = std::exchange(network.cracks, {});
   pattern.sample = build_case_network(input, sample, network);
-  if (!can_repeat(pattern.sample)) return std::nullopt;
+  if (!can_repeat(pattern.sample) || !cut_bonds(pattern, cracks, by_crack)) return std::nullopt;
   return pattern;
 }
 
@@ -203,10 +206,11 @@ bool can_be_made_in_parts(const CaseFile& input) {
   const bool is_plane = dimension_of(body) == 2;
   return input.analysis.type == AnalysisType::elastic &&
          input.analysis.solver != LinearSolver::direct && !body.mesh &&
-         body.method == BodyMethod::bonds && body.model == BodyModel::bond_based &&
+         body.method == BodyMethod::bonds &&
+         (body.model == BodyModel::bond_based || body.model == BodyModel::micropolar) &&
          !is_shell(body) && !is_beam(body) && !(is_plane && body.surface == Surface::calibrated) &&
-         input.cracks.empty() && input.interfaces.empty() && input.rebar.empty() &&
-         !input.elements && !have_unlike_constants(input);
+         input.interfaces.empty() && input.rebar.empty() && !input.elements &&
+         !have_unlike_constants(input);
 }
 
 void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {
@@ -221,16 +225,21 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   if (network.shell) refuse_impossible_shell(input, body, network);
   refuse_impossible_cracks(input, body.particles.dim);
   model.crack_cost = count_on_the_path(input, body, network);
-  model.pattern = find_pattern(input, options, body, network);
+  model.pattern = find_pattern(input, options, body, network, model.network.cut_by_crack);
   if (model.pattern) {
+    refuse_cracks_without_bonds(input, model.network);
     model.network.particles = std::move(body.particles);
+    model.network.all_turn = model.pattern->sample.carries_moments();
     model.network.calibration = model.pattern->sample.calibration;
     model.notes.push_back(
         fmt::format("each of {} processes makes its own part of the body: its bonds are like those "
-                    "of a box of {} steps, in which they were calibrated or made",
+                    "of a box of {} steps, in which they were calibrated or made{}",
                     options.parts,
                     fmt::join(model.pattern->small.count.begin(),
-                              model.pattern->small.count.begin() + body.particles.dim, " by ")));
+                              model.pattern->small.count.begin() + body.particles.dim, " by "),
+                    input.cracks.empty()
+                        ? ""
+                        : fmt::format(", but for {:.0f} that cracks cut", model.pattern->num_cut)));
     return;
   }
   if (options.parts > 1 &&

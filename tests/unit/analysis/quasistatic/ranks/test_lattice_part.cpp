@@ -21,6 +21,8 @@ struct PartCase {
   LatticeCase lattice;
   bool driven;
   Vector3 size;  // in spacings
+  bool micropolar = false;
+  std::vector<Crack> cracks = {};
 };
 
 std::ostream& operator<<(std::ostream& out, const PartCase& own) { return out << own.name; }
@@ -61,15 +63,24 @@ struct TwoBodies {
 
 TwoBodies make_two_bodies(const PartCase& own) {
   const LatticeInput input = bar_input(own);
-  const NetworkInput constants = network_input(input);
+  NetworkInput constants = network_input(input);
+  if (own.micropolar) {
+    constants.model = BondModel::micropolar;
+    constants.materials[0].poissons_ratio = 0.1;
+  }
+  const NetworkInput uncracked = constants;
+  constants.cracks = own.cracks;
   const Body body = make_body(input);
   Network particles;
   particles.particles = body.particles;
+  particles.all_turn = own.micropolar;
   TwoBodies bodies{held_bar(own, build_network(body, constants)),
                    held_bar(own, std::move(particles))};
   LatticePattern& pattern =
       bodies.places.pattern.emplace(pattern_of(*grid_of(body), constants.horizon));
-  pattern.sample = build_network(body_of(pattern.small, body.lattice, input.thickness), constants);
+  pattern.sample = build_network(body_of(pattern.small, body.lattice, input.thickness), uncracked);
+  std::vector<Index> by_crack;
+  EXPECT_TRUE(cut_bonds(pattern, own.cracks, by_crack));
   return bodies;
 }
 
@@ -104,13 +115,19 @@ TEST_P(LatticeParts, HaveTheAnswerOfTheWholeBody) {
 const LatticeCase calibrated{"cubic", Pattern::cubic, Surface::calibrated};
 const LatticeCase face_centred{"face_centred", Pattern::face_centred, Surface::none};
 const LatticeCase square{"square", Pattern::rectangular, Surface::energy};
+const Crack across{{{1.7, -1, -1}, {1.9, -1, 2}, {1.9, 0.35, 2}, {1.7, 0.35, -1}}};
+const Crack along{{{-1, 0.93, 0}, {3.21, 0.93, 0}}};
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, LatticeParts,
     testing::Combine(testing::Values(PartCase{"Pulled", calibrated, false, {18, 4, 5}},
                                      PartCase{"Driven", calibrated, true, {4, 3, 17}},
                                      PartCase{"FaceCentred", face_centred, true, {12, 3, 4}},
-                                     PartCase{"Plane", square, false, {30, 9, 0}}),
+                                     PartCase{"Plane", square, false, {30, 9, 0}},
+                                     PartCase{
+                                         "Notched", calibrated, false, {18, 4, 5}, false, {across}},
+                                     PartCase{"Cracked", square, true, {30, 9, 0}, true, {along}},
+                                     PartCase{"Frames", calibrated, false, {16, 4, 5}, true}),
                      testing::Values(2, 3, 4)),
     [](const auto& instance) {
       return std::get<0>(instance.param).name + "By" + std::to_string(std::get<1>(instance.param));
