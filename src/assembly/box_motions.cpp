@@ -228,7 +228,11 @@ BoxRow assemble_box(const Blocks& blocks, const Unknowns& unknowns, const BoxMot
   using Field = Eigen::Matrix<double, width, count>;
   using Moved = Eigen::Map<const Eigen::Matrix<double, 1, count>>;
   BoxRow row;
-  std::vector<Field> fields;  // K P of one particle, by the other box
+  std::vector<Field> fields;              // K P of one particle, by the other box
+  if (!motions.particles(box).empty()) {  // a held particle may have no bonds left
+    row.others = {box};
+    row.blocks = {Eigen::MatrixXd::Zero(count, count)};
+  }
   for (const Index i : motions.particles(box)) {
     double* block_i = own.data() + static_cast<std::size_t>(i) * width * width;
     fields.assign(row.others.size(), Field::Zero());

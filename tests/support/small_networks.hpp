@@ -59,7 +59,8 @@ inline NetworkInput network_input(const LatticeInput& body) {
   return input;
 }
 
-/// Of a body that is calibrated as a whole, however large: a face that no bond crosses sees to it.
+/// Input of a body that is calibrated as a whole, however large: a face that no bond crosses sees
+/// to it.
 inline NetworkInput in_one_piece(NetworkInput input) {
   input.interfaces.resize(1);
   return input;

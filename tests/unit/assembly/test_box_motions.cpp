@@ -120,5 +120,19 @@ TEST(BoxMotions, WhatACrackCutsApartMovesByItself) {
   EXPECT_EQ(motions.num_boxes(), 2);
 }
 
+TEST(BoxMotions, HaveAFactorWhereAHeldParticleHasLostItsBonds) {
+  AnalysisBody body = make_block(square);
+  number(body, [](Index i, int) { return i < 3; });
+  std::vector<double> secants = intact(body.network);
+  for (Index e = 0; e < body.network.num_elements(); ++e) {
+    if (body.network.bonds.first[e] == 0) secants[e] = 0.0;
+  }
+  const BoxMotions motions(body.network, secants, body.unknowns, 100000);
+  ASSERT_EQ(motions.num_boxes(), 2);
+  const MatrixXd coarse(
+      assemble_box_stiffness(body.network, secants, body.unknowns, motions).coarse);
+  EXPECT_EQ(MatrixXd(coarse.selfadjointView<Eigen::Lower>()).llt().info(), Eigen::Success);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -46,8 +46,8 @@ NetworkInput network_of(const RepeatedCase& own) {
 
 class RepeatedBoxes : public testing::TestWithParam<RepeatedCase> {};
 
-/// Positions differ by round-off, and what is solved for by what its conjugate gradients leave, some
-/// 1e-13.
+/// Positions differ by round-off, and what is solved for by what its conjugate gradients leave,
+/// some 1e-13.
 void expect_same(const std::vector<double>& a, const std::vector<double>& b) {
   ASSERT_EQ(a.size(), b.size());
   double largest = 0.0;
