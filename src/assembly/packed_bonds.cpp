@@ -34,19 +34,32 @@ const auto& PackedBonds::bonds() const {
 }
 
 PackedBonds::PackedBonds(const Network& network, Secants secants, std::span<const Index> place,
-                         double unit)
+                         double unit, std::span<const std::size_t> part_end)
     : network_(network),
       place_(place.begin(), place.end()),
       unit_(unit),
-      begin_(place.size() + 2, 0) {
+      part_end_(part_end.begin(), part_end.end()),
+      begin_(2 * place.size() + 2, 0) {
   network.dim() == 2 ? fill<2>(secants) : fill<3>(secants);
+}
+
+/// Calls visit(row, other) for the rows that an element is in, and the place of its end there.
+template <class Visit>
+void PackedBonds::for_each_row(Index element, Visit visit) const {
+  const auto [from, to] =
+      std::minmax(place_[network_.bonds.first[element]], place_[network_.bonds.second[element]]);
+  const auto part_of = [&](Index place) {
+    return std::ranges::upper_bound(part_end_, static_cast<std::size_t>(place));
+  };
+  const std::size_t row = 2 * static_cast<std::size_t>(from);
+  if (part_of(from) == part_of(to)) return visit(row, to);
+  visit(row + 1, to);
+  visit(2 * static_cast<std::size_t>(to) + 1, from);
 }
 
 template <int Dim>
 auto PackedBonds::packed(Index element, double secant) const -> Packed<Dim> {
-  const Index a = place_[network_.bonds.first[element]];
-  const Index b = place_[network_.bonds.second[element]];
-  Packed<Dim> bond{std::max(a, b), {}};
+  Packed<Dim> bond{};
   const double root = std::sqrt(network_.stiffness[element] * secant / unit_);
   const auto n = network_.bonds.direction(element);
   for (int c = 0; c < Dim; ++c) bond.pull[c] = static_cast<float>(n[c] * root);
@@ -55,17 +68,20 @@ auto PackedBonds::packed(Index element, double secant) const -> Packed<Dim> {
 
 template <int Dim>
 void PackedBonds::fill(Secants secants) {
-  const auto from = [&](Index e) {
-    return std::min(place_[network_.bonds.first[e]], place_[network_.bonds.second[e]]);
-  };
   const Index count = network_.num_elements();
-  for (Index e = 0; e < count; ++e) ++begin_[from(e) + 2];
+  for (Index e = 0; e < count; ++e) {
+    for_each_row(e, [&](std::size_t row, Index) { ++begin_[row + 2]; });
+  }
   for (std::size_t k = 2; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
-  bonds<Dim>().resize(static_cast<std::size_t>(count));
+  bonds<Dim>().resize(begin_.back());
   for (Index e = 0; e < count; ++e) {
     const double secant = secants.axial(e);
     if (secant != 1.0) damaged_[e] = secant;
-    bonds<Dim>()[begin_[from(e) + 1]++] = packed<Dim>(e, secant);
+    Packed<Dim> bond = packed<Dim>(e, secant);
+    for_each_row(e, [&](std::size_t row, Index other) {
+      bond.other = other;
+      bonds<Dim>()[begin_[row + 1]++] = bond;
+    });
   }
   begin_.pop_back();
 }
@@ -73,16 +89,16 @@ void PackedBonds::fill(Secants secants) {
 /// Bonds between the same two particles are told by what they pull.
 template <int Dim>
 void PackedBonds::set(Index element, double before, double now) {
-  const Packed<Dim> old = packed<Dim>(element, before);
-  const Index from =
-      std::min(place_[network_.bonds.first[element]], place_[network_.bonds.second[element]]);
-  for (std::size_t k = begin_[from]; k < begin_[from + 1]; ++k) {
-    Packed<Dim>& bond = bonds<Dim>()[k];
-    if (bond.other != old.other || !std::ranges::equal(bond.pull, old.pull)) continue;
-    bond = packed<Dim>(element, now);
-    return;
-  }
-  throw std::logic_error("a bond is not where it was packed");
+  const Packed<Dim> old = packed<Dim>(element, before), next = packed<Dim>(element, now);
+  for_each_row(element, [&](std::size_t row, Index other) {
+    for (std::size_t k = begin_[row]; k < begin_[row + 1]; ++k) {
+      Packed<Dim>& bond = bonds<Dim>()[k];
+      if (bond.other != other || !std::ranges::equal(bond.pull, old.pull)) continue;
+      std::ranges::copy(next.pull, bond.pull);
+      return;
+    }
+    throw std::logic_error("a bond is not where it was packed");
+  });
 }
 
 void PackedBonds::set_any(Index element, double before, double now) {
@@ -104,11 +120,15 @@ void PackedBonds::follow(Secants secants) {
 }
 
 template <int Dim>
-void PackedBonds::add_forces(const float* motions, float* forces, const PlacesDone& done) const {
+void PackedBonds::add_forces(std::size_t part, const float* motions, float* forces,
+                             const PlacesDone& done) const {
   constexpr std::size_t together = 64;
-  const Packed<Dim>* bond = bonds<Dim>().data();
-  std::size_t told = 0;
-  for (std::size_t place = 0; place + 1 < begin_.size(); ++place) {
+  const std::size_t end = part_end_[part];
+  std::size_t told = part == 0 ? 0 : part_end_[part - 1];
+  const std::ptrdiff_t row = Dim * block_width;
+  std::fill(forces + told * row, forces + end * row, 0.0F);
+  const Packed<Dim>* bond = bonds<Dim>().data() + begin_[2 * told];
+  for (std::size_t place = told; place < end; ++place) {
     const LanesInMemory* own_motion = at<Dim>(motions, place);
     LanesInMemory* own_force = at<Dim>(forces, place);
     Lanes motion[Dim], force[Dim];
@@ -116,30 +136,40 @@ void PackedBonds::add_forces(const float* motions, float* forces, const PlacesDo
       motion[a] = own_motion[a];
       force[a] = own_force[a];
     }
-    for (const Packed<Dim>* end = bonds<Dim>().data() + begin_[place + 1]; bond < end; ++bond) {
-      const LanesInMemory* other_motion = at<Dim>(motions, bond->other);
+    const auto tension_of = [&](const Packed<Dim>& own) {
+      const LanesInMemory* other_motion = at<Dim>(motions, own.other);
+      Lanes tension = own.pull[0] * (other_motion[0] - motion[0]);
+      for (int a = 1; a < Dim; ++a) tension += own.pull[a] * (other_motion[a] - motion[a]);
+      return tension;
+    };
+    for (const auto* behind = bonds<Dim>().data() + begin_[2 * place + 1]; bond < behind; ++bond) {
       LanesInMemory* other_force = at<Dim>(forces, bond->other);
-      Lanes tension = bond->pull[0] * (other_motion[0] - motion[0]);
-      for (int a = 1; a < Dim; ++a) tension += bond->pull[a] * (other_motion[a] - motion[a]);
+      const Lanes tension = tension_of(*bond);
       for (int a = 0; a < Dim; ++a) {
-        const Lanes part = bond->pull[a] * tension;
-        force[a] -= part;
-        other_force[a] += part;
+        const Lanes pull = bond->pull[a] * tension;
+        force[a] -= pull;
+        other_force[a] += pull;
       }
     }
+    for (const auto* last = bonds<Dim>().data() + begin_[2 * place + 2]; bond < last; ++bond) {
+      const Lanes tension = tension_of(*bond);
+      for (int a = 0; a < Dim; ++a) force[a] -= bond->pull[a] * tension;
+    }
     for (int a = 0; a < Dim; ++a) own_force[a] = force[a];
-    // Bonds behind end at places behind.
-    if (place + 1 < told + together && place + 2 < begin_.size()) continue;
-    done(told, place + 1);
+    // Bonds behind end at places behind, or add nothing to the other end.
+    if (place + 1 < told + together && place + 1 < end) continue;
+    done(part, told, place + 1);
     told = place + 1;
   }
 }
 
 void PackedBonds::forces(std::span<const float> motions, std::span<float> forces,
                          const PlacesDone& done) const {
-  std::ranges::fill(forces, 0.0F);
-  network_.dim() == 2 ? add_forces<2>(motions.data(), forces.data(), done)
-                      : add_forces<3>(motions.data(), forces.data(), done);
+#pragma omp parallel for schedule(dynamic) if (part_end_.size() > 1)
+  for (std::size_t part = 0; part < part_end_.size(); ++part) {
+    network_.dim() == 2 ? add_forces<2>(part, motions.data(), forces.data(), done)
+                        : add_forces<3>(part, motions.data(), forces.data(), done);
+  }
 }
 
 }  // namespace perilink

@@ -14,18 +14,22 @@ namespace perilink {
 /// Trusses in single precision, sixteen bytes for each in space, by an order of the particles in
 /// which neighbours are near each other: for searches whose residuals are computed from the network
 /// itself. Each bond's force is that of block_forces() to seven digits of the motions of its ends;
-/// where these move far together few are left of it.
+/// where these move far together few are left of it. Threads take one part of the order each; a
+/// bond between two parts is there twice, for the force on either end.
 class PackedBonds {
  public:
   /// \param place  where each particle comes in the order
   /// \param unit   stiffness that counts as one
-  PackedBonds(const Network& network, Secants secants, std::span<const Index> place, double unit);
+  /// \param part_end  places up to which each part goes
+  PackedBonds(const Network& network, Secants secants, std::span<const Index> place, double unit,
+              std::span<const std::size_t> part_end);
 
   /// Takes over what has changed since: bonds that differ from then, one by one.
   void follow(Secants secants);
 
-  /// Told of the places [begin, end) whose forces are complete, one after the other.
-  using PlacesDone = std::function<void(std::size_t begin, std::size_t end)>;
+  /// Told of the places [begin, end) of a part whose forces are complete, one after the other;
+  /// parts come at the same time.
+  using PlacesDone = std::function<void(std::size_t part, std::size_t begin, std::size_t end)>;
 
   /// Forces without those of supports, over the unit.
   /// \param motions  by the order, shape (particles, dim, block_width), as `forces`
@@ -39,7 +43,8 @@ class PackedBonds {
   void set(Index element, double before, double now);
   void set_any(Index element, double before, double now);
   template <int Dim>
-  void add_forces(const float* motions, float* forces, const PlacesDone& done) const;
+  void add_forces(std::size_t part, const float* motions, float* forces,
+                  const PlacesDone& done) const;
 
   /// n sqrt(k s) over the square root of the unit, and whose other end it is.
   template <int Dim>
@@ -49,6 +54,8 @@ class PackedBonds {
   };
   template <int Dim>
   Packed<Dim> packed(Index element, double secant) const;
+  template <class Visit>
+  void for_each_row(Index element, Visit visit) const;
   template <int Dim>
   auto& bonds();
   template <int Dim>
@@ -57,7 +64,9 @@ class PackedBonds {
   const Network& network_;
   std::vector<Index> place_;
   double unit_;
-  std::vector<std::size_t> begin_;  ///< bonds of each place, to places behind it
+  std::vector<std::size_t> part_end_;
+  /// Two rows of bonds for each place: to places behind it in its part, and to those of others.
+  std::vector<std::size_t> begin_;
   std::vector<Packed<2>> plane_;
   std::vector<Packed<3>> space_;
   std::unordered_map<Index, double> damaged_;  ///< secants that are not one, as packed

@@ -66,6 +66,34 @@ void add_gram(std::span<const Number> a, std::span<const Number> b, std::size_t 
   }
 }
 
+/// Sums of the parts of vectors.
+struct PartSums {
+  std::array<Square, most_parts> parts{};
+
+  Square sum() const {
+    Square result{};
+    for (const Square& part : parts) {
+      for (int i = 0; i < width; ++i) {
+        for (int j = 0; j < width; ++j) result[i][j] += part[i][j];
+      }
+    }
+    return result;
+  }
+};
+
+/// Numbers of a block from which on threads pay.
+constexpr std::size_t many_numbers = 16 * 12'000;
+
+/// Calls work(part, begin, end) for parts of the numbers of a block.
+template <class Work>
+void for_each_part(std::size_t numbers, Work work) {
+  const std::size_t parts = numbers < many_numbers ? 1 : most_parts, rows = numbers / width;
+#pragma omp parallel for schedule(dynamic) if (parts > 1)
+  for (std::size_t k = 0; k < parts; ++k) {
+    work(k, rows * k / parts * width, rows * (k + 1) / parts * width);
+  }
+}
+
 /// Rows of a small matrix, ready to be added to those of blocks.
 template <class Number>
 class Shares {
@@ -153,27 +181,31 @@ double left_by(const Square& rz, const BlockRow& sizes) {
 template <class Number>
 Square take_step(std::span<const Number> p, std::span<const Number> q, const Square& steps,
                  std::span<Number> solution, std::span<Number> right) {
-  constexpr std::size_t part = 256 * width;
+  constexpr std::size_t together = 256 * width;
   const Shares<Number> share(steps);
-  Square sides{};
-  for (std::size_t begin = 0; begin < p.size(); begin += part) {
-    const std::size_t end = std::min(begin + part, p.size());
-    for (std::size_t k = begin; k < end; k += width) {
-      at(solution.data() + k) += share(p.data() + k);
-      at(right.data() + k) -= share(q.data() + k);
+  PartSums sides;
+  for_each_part(p.size(), [&](std::size_t part, std::size_t begin, std::size_t past) {
+    for (std::size_t end = begin; begin < past; begin = end) {
+      end = std::min(begin + together, past);
+      for (std::size_t k = begin; k < end; k += width) {
+        at(solution.data() + k) += share(p.data() + k);
+        at(right.data() + k) -= share(q.data() + k);
+      }
+      add_gram<Number>(p, right, begin / width, end / width, sides.parts[part]);
     }
-    add_gram<Number>(p, right, begin / width, end / width, sides);
-  }
-  return sides;
+  });
+  return sides.sum();
 }
 
 /// p <- z - p shares
 template <class Number>
 void renew(std::span<Number> p, std::span<const Number> z, const Square& shares) {
   const Shares<Number> share(shares);
-  for (std::size_t k = 0; k < p.size(); k += width) {
-    at(p.data() + k) = at(z.data() + k) - share(p.data() + k);
-  }
+  for_each_part(p.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; k += width) {
+      at(p.data() + k) = at(z.data() + k) - share(p.data() + k);
+    }
+  });
 }
 
 Square transposed(const Square& matrix) {
@@ -199,11 +231,13 @@ struct Products {
 template <class Number>
 void find_products(const BlockMap<Number>& precondition, std::span<const Number> r,
                    std::span<const Number> q, std::span<Number> z, Products& products) {
-  products.rz = products.qz = {};
-  precondition(r, z, [&](std::size_t begin, std::size_t end) {
-    add_gram<Number>(r, z, begin, end, products.rz);
-    add_gram<Number>(q, z, begin, end, products.qz);
+  PartSums rz, qz;
+  precondition(r, z, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    add_gram<Number>(r, z, begin, end, rz.parts[part]);
+    add_gram<Number>(q, z, begin, end, qz.parts[part]);
   });
+  products.rz = rz.sum();
+  products.qz = qz.sum();
 }
 
 /// What a step adds to the energy of every solution.
@@ -247,10 +281,11 @@ GradientsReport block_conjugate_gradients(
   double corrected_at = left_by(now.rz, sizes);
   GradientsReport report;
   while (report.iterations < most_iterations) {
-    Square energies{};  // p'A p
-    product(p, q, [&](std::size_t begin, std::size_t end) {
-      add_gram<Number>(p, q, begin, end, energies);
+    PartSums sums;
+    product(p, q, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      add_gram<Number>(p, q, begin, end, sums.parts[part]);
     });
+    Square energies = sums.sum();  // p'A p
     sum_up(energies);
     const Square inverse = inverse_of(energies, sides, same);
     const Square steps = times(inverse, sides);

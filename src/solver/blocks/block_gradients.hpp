@@ -13,9 +13,13 @@ namespace perilink {
 /// One number for each of the vectors of a block.
 using BlockRow = std::array<double, block_width>;
 
-/// Told of the rows [begin, end) of results as soon as they are there, all of them in order: they
-/// are still in the cache.
-using RowsDone = std::function<void(std::size_t begin, std::size_t end)>;
+/// Parts of vectors, at most, that threads work on at the same time: sums are those of the parts, so
+/// that they do not depend on the number of threads.
+inline constexpr std::size_t most_parts = 8;
+
+/// Told of the rows [begin, end) of results as soon as they are there, all of a part in order: they
+/// are still in the cache. Several threads may tell of parts of their own.
+using RowsDone = std::function<void(std::size_t part, std::size_t begin, std::size_t end)>;
 
 /// results = A vectors of a block of vectors, shape (n, block_width).
 template <class Number>
@@ -27,7 +31,7 @@ template <class Number, class Map>
 BlockMap<Number> as_block_map(Map map) {
   return [map](std::span<const Number> vectors, std::span<Number> results, const RowsDone& done) {
     map(vectors, results);
-    done(0, results.size() / block_width);
+    done(0, 0, results.size() / block_width);
   };
 }
 

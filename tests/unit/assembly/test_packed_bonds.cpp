@@ -21,8 +21,15 @@ std::vector<Index> backwards(const Network& network) {
   return place;
 }
 
+/// All in one part, or in three of which one has no particle.
+std::vector<std::vector<std::size_t>> parts_of(const Network& network) {
+  const std::size_t all = static_cast<std::size_t>(network.particles.size());
+  return {{all}, {all / 3, all / 3, all}};
+}
+
 /// Seven digits of each of some hundred terms.
-void expect_forces(const PackedBonds& bonds, const Network& network, Secants secants, double unit) {
+void expect_forces(const PackedBonds& bonds, const std::vector<std::size_t>& parts,
+                   const Network& network, Secants secants, double unit) {
   const std::vector<Index> place = backwards(network);
   const std::size_t row = static_cast<std::size_t>(network.dim()) * block_width;
   const std::vector<double> motions = random_vector(place.size() * row, 3);
@@ -32,12 +39,15 @@ void expect_forces(const PackedBonds& bonds, const Network& network, Secants sec
   for (std::size_t k = 0; k < motions.size(); ++k) {
     packed[place[k / row] * row + k % row] = static_cast<float>(motions[k]);
   }
-  std::size_t complete = 0;
-  bonds.forces(packed, forces, [&](std::size_t begin, std::size_t end) {
-    EXPECT_EQ(begin, complete);
-    complete = end;
+  std::vector<std::size_t> complete = parts;  // up to where parts have been told of
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    complete[part] = part == 0 ? 0 : parts[part - 1];
+  }
+  bonds.forces(packed, forces, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    EXPECT_EQ(begin, complete[part]);
+    complete[part] = end;
   });
-  EXPECT_EQ(complete * network.dim() * block_width, forces.size());
+  EXPECT_EQ(complete, parts);
   double size = 0.0;
   for (const double force : expected) size = std::max(size, std::abs(force));
   for (std::size_t k = 0; k < motions.size(); ++k) {
@@ -50,8 +60,10 @@ TEST(PackedBonds, PullAsThoseOfTheNetwork) {
     const Network network = make_network({"", pattern, Surface::none}, 4);
     std::vector<double> secants = random_secants(network.num_elements(), 1);
     const double unit = 3.0 * network.stiffness[0];
-    const PackedBonds bonds(network, secants, backwards(network), unit);
-    expect_forces(bonds, network, secants, unit);
+    for (const auto& parts : parts_of(network)) {
+      const PackedBonds bonds(network, secants, backwards(network), unit, parts);
+      expect_forces(bonds, parts, network, secants, unit);
+    }
   }
 }
 
@@ -60,19 +72,21 @@ TEST(PackedBonds, FollowWhatHasChanged) {
   // Two bonds between the same particles.
   network.bonds.second[1] = network.bonds.second[0];
   network.stiffness[1] = 0.3 * network.stiffness[0];
-  std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
-  secants[3] = 0.0;
   const double unit = network.stiffness[0];
-  PackedBonds bonds(network, secants, backwards(network), unit);
-  secants[0] = 0.0;
-  secants[1] = 0.5;
-  secants[7] = 0.25;
-  bonds.follow(secants);
-  expect_forces(bonds, network, secants, unit);
-  secants[0] = secants[3] = 1.0;  // whole again
-  secants[7] = 0.0;
-  bonds.follow(secants);
-  expect_forces(bonds, network, secants, unit);
+  for (const auto& parts : parts_of(network)) {
+    std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
+    secants[3] = 0.0;
+    PackedBonds bonds(network, secants, backwards(network), unit, parts);
+    secants[0] = 0.0;
+    secants[1] = 0.5;
+    secants[7] = 0.25;
+    bonds.follow(secants);
+    expect_forces(bonds, parts, network, secants, unit);
+    secants[0] = secants[3] = 1.0;  // whole again
+    secants[7] = 0.0;
+    bonds.follow(secants);
+    expect_forces(bonds, parts, network, secants, unit);
+  }
 }
 
 }  // namespace

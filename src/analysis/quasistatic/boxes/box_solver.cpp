@@ -17,6 +17,9 @@ namespace {
 
 constexpr int most_box_iterations = 20000;
 
+/// From which on the start of threads takes less than the work.
+constexpr Index many_particles = 10'000;
+
 /// An element holds a small part of the energy: solutions in which events are looked for are finer
 /// by this.
 constexpr double finer = 1e-3;
@@ -137,7 +140,7 @@ GradientsReport BoxSolver::search(std::span<const double> right, std::span<doubl
 
 void BoxSolver::precondition(std::span<const double> residual, std::span<double> result) {
   const int width = unknowns_.width;
-#pragma omp parallel for schedule(static) if (network_.particles.size() > 20'000)
+#pragma omp parallel for schedule(static) if (network_.particles.size() > many_particles)
   for (Index p = 0; p < network_.particles.size(); ++p) {
     const double* block = blocks_.data() + static_cast<std::size_t>(p) * width * width;
     for (int a = 0; a < width; ++a) {
@@ -290,6 +293,7 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
   }
   BlockVector<float> found(right.size()), missing(right.size());
   const auto for_each_particle = [&](auto visit) {
+#pragma omp parallel for schedule(static) if (network_.particles.size() > many_particles)
     for (Index p = 0; p < network_.particles.size(); ++p) {
       visit(static_cast<std::size_t>(p) * row, single_->place(p) * row);
     }

@@ -27,6 +27,36 @@ std::vector<Index> places_by_box(const BoxMotions& motions, Index particles) {
   return place;
 }
 
+std::vector<std::size_t> ends_of_boxes(const BoxMotions& motions) {
+  std::vector<std::size_t> ends = {0};
+  for (Index b = 0; b < motions.num_boxes(); ++b) {
+    ends.push_back(ends.back() + motions.particles(b).size());
+  }
+  return ends;
+}
+
+/// Particles from which on threads pay.
+constexpr std::size_t many_particles = 4000;
+
+/// Boxes up to which parts of about as many particles each go, however many threads there are.
+std::vector<std::size_t> parts_of(const std::vector<std::size_t>& box_end) {
+  const std::size_t parts = box_end.back() < many_particles ? 1 : most_parts;
+  std::vector<std::size_t> ends = {0};
+  for (std::size_t k = 1; k <= parts; ++k) {
+    const std::size_t place = box_end.back() * k / parts;
+    ends.push_back(
+        static_cast<std::size_t>(std::ranges::lower_bound(box_end, place) - box_end.begin()));
+  }
+  return ends;
+}
+
+std::vector<std::size_t> ends_of_parts(const std::vector<std::size_t>& box_end,
+                                       const std::vector<std::size_t>& part_box) {
+  std::vector<std::size_t> ends;
+  for (std::size_t k = 1; k < part_box.size(); ++k) ends.push_back(box_end[part_box[k]]);
+  return ends;
+}
+
 double largest_stiffness(const Network& network) {
   const auto largest = std::ranges::max_element(network.stiffness);
   return largest == network.stiffness.end() || *largest <= 0.0 ? 1.0 : *largest;
@@ -44,8 +74,10 @@ SingleBody::SingleBody(const Network& network, const Unknowns& unknowns, Secants
     : network_(network),
       unknowns_(unknowns),
       place_(places_by_box(motions, network.particles.size())),
+      box_end_(ends_of_boxes(motions)),
+      part_box_(parts_of(box_end_)),
       unit_(largest_stiffness(network)),
-      bonds_(network, secants, place_, unit_),
+      bonds_(network, secants, place_, unit_, ends_of_parts(box_end_, part_box_)),
       blocks_(blocks.size()),
       factor_(coarse.in_single(unit_)) {
   const auto dim = static_cast<std::size_t>(network.dim());
@@ -66,11 +98,7 @@ SingleBody::SingleBody(const Network& network, const Unknowns& unknowns, Secants
       }
     }
   }
-  std::size_t end = 0;
-  for (Index b = 0; b < motions.num_boxes(); ++b) {
-    box_end_.push_back(end += motions.particles(b).size());
-  }
-  coarse_.resize(box_end_.size() * count * block_width);
+  coarse_.resize((box_end_.size() - 1) * count * block_width);
 }
 
 void SingleBody::follow(Secants secants, std::span<const double> ground) {
@@ -92,43 +120,51 @@ void SingleBody::follow(Secants secants, std::span<const double> ground) {
 void SingleBody::multiply(std::span<const float> motions, std::span<float> forces,
                           const RowsDone& done) const {
   const auto dim = static_cast<std::size_t>(network_.dim());
-  bonds_.forces(motions, forces, [&](std::size_t begin, std::size_t end) {
+  bonds_.forces(motions, forces, [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin * dim; k < end * dim && !springs_.empty(); ++k) {
       if (springs_[k] != 0.0F) at(forces.data())[k] += springs_[k] * at(motions.data())[k];
     }
-    done(begin * dim, end * dim);
+    done(part, begin * dim, end * dim);
   });
 }
 
+template <class Work>
+void SingleBody::for_each_part(Work work) const {
+  const std::size_t parts = part_box_.size() - 1;
+#pragma omp parallel for schedule(dynamic) if (parts > 1)
+  for (std::size_t part = 0; part < parts; ++part) work(part);
+}
+
 template <int Dim>
-void SingleBody::restrict_to_boxes(const float* residuals) {
+void SingleBody::restrict_to_boxes(std::size_t part, const float* residuals) {
   constexpr int count = num_motions<Dim>;
-  const LanesInMemory* residual = at(residuals);
-  const float* move = moves_.data();
-  const float* end = move;
-  const Index* place = factor_.place.data();
-  for (std::size_t b = 0; b < box_end_.size(); ++b) {
+  for (std::size_t b = part_box_[part]; b < part_box_[part + 1]; ++b) {
+    const LanesInMemory* residual = at(residuals) + box_end_[b] * Dim;
+    const float* move = moves_.data() + box_end_[b] * Dim * count;
     Lanes sums[count] = {};
-    for (end = moves_.data() + box_end_[b] * Dim * count; move < end; move += count, ++residual) {
+    for (const float* end = moves_.data() + box_end_[b + 1] * Dim * count; move < end;
+         move += count, ++residual) {
       for (int m = 0; m < count; ++m) sums[m] += move[m] * *residual;
     }
-    for (int m = 0; m < count; ++m) at(coarse_.data())[*place++] = sums[m];
+    const Index* place = factor_.place.data() + b * count;
+    for (int m = 0; m < count; ++m) at(coarse_.data())[place[m]] = sums[m];
   }
 }
 
 template <int Dim>
-void SingleBody::add_motions(const float* residuals, float* motions, const RowsDone& done) const {
+void SingleBody::add_motions(std::size_t part, const float* residuals, float* motions,
+                             const RowsDone& done) const {
   constexpr int count = num_motions<Dim>;
-  const LanesInMemory* residual = at(residuals);
-  LanesInMemory* motion = at(motions);
-  const Index* from = factor_.place.data();
-  const float* move = moves_.data();
-  const float* block = blocks_.data();
-  std::size_t place = 0, told = 0;
-  for (std::size_t b = 0; b < box_end_.size(); ++b) {
+  std::size_t place = box_end_[part_box_[part]];
+  const LanesInMemory* residual = at(residuals) + place * Dim;
+  LanesInMemory* motion = at(motions) + place * Dim;
+  const float* move = moves_.data() + place * Dim * count;
+  const float* block = blocks_.data() + place * Dim * Dim;
+  for (std::size_t b = part_box_[part]; b < part_box_[part + 1]; ++b) {
+    const Index* from = factor_.place.data() + b * count;
     Lanes values[count];
-    for (int m = 0; m < count; ++m) values[m] = at(coarse_.data())[*from++];
-    for (; place < box_end_[b]; ++place, residual += Dim) {
+    for (int m = 0; m < count; ++m) values[m] = at(coarse_.data())[from[m]];
+    for (place = box_end_[b]; place < box_end_[b + 1]; ++place, residual += Dim) {
       for (int a = 0; a < Dim; ++a, move += count, block += Dim, ++motion) {
         Lanes sum = block[0] * residual[0];
         for (int c = 1; c < Dim; ++c) sum += block[c] * residual[c];
@@ -136,18 +172,22 @@ void SingleBody::add_motions(const float* residuals, float* motions, const RowsD
         *motion = sum;
       }
     }
-    done(told * Dim, place * Dim);
-    told = place;
+    done(part, box_end_[b] * Dim, place * Dim);
   }
 }
 
 void SingleBody::precondition(std::span<const float> residuals, std::span<float> motions,
                               const RowsDone& done) {
   const bool plane = network_.dim() == 2;
-  plane ? restrict_to_boxes<2>(residuals.data()) : restrict_to_boxes<3>(residuals.data());
+  const float* r = residuals.data();
+  for_each_part([&](std::size_t part) {
+    plane ? restrict_to_boxes<2>(part, r) : restrict_to_boxes<3>(part, r);
+  });
   factor_.solve(coarse_);
-  plane ? add_motions<2>(residuals.data(), motions.data(), done)
-        : add_motions<3>(residuals.data(), motions.data(), done);
+  for_each_part([&](std::size_t part) {
+    plane ? add_motions<2>(part, r, motions.data(), done)
+          : add_motions<3>(part, r, motions.data(), done);
+  });
 }
 
 }  // namespace perilink

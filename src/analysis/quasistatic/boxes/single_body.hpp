@@ -45,21 +45,26 @@ class SingleBody {
 
  private:
   template <int Dim>
-  void restrict_to_boxes(const float* residuals);
+  void restrict_to_boxes(std::size_t part, const float* residuals);
   template <int Dim>
-  void add_motions(const float* residuals, float* motions, const RowsDone& done) const;
+  void add_motions(std::size_t part, const float* residuals, float* motions,
+                   const RowsDone& done) const;
+  template <class Work>
+  void for_each_part(Work work) const;
 
   const Network& network_;
   const Unknowns& unknowns_;
   std::vector<Index> place_;
+  /// Places up to which the particles of each box go; zero before the first.
+  std::vector<std::size_t> box_end_;
+  std::vector<std::size_t> part_box_;  ///< boxes up to which each part goes; zero before the first
   double unit_;
   PackedBonds bonds_;
-  std::vector<float> springs_;        ///< to the ground, by the order; empty: none
-  std::vector<float> blocks_;         ///< inverse ones, by the order, zero where something is held
-  std::vector<float> moves_;          ///< rows of P, by the order, shape (particles, dim, motions)
-  std::vector<std::size_t> box_end_;  ///< places up to which the particles of each box go
-  SingleFactor factor_;               ///< that P'K P over the unit has
-  BlockVector<float> coarse_;         ///< shape (boxes, motions, block_width), by its order
+  std::vector<float> springs_;  ///< to the ground, by the order; empty: none
+  std::vector<float> blocks_;   ///< inverse ones, by the order, zero where something is held
+  std::vector<float> moves_;    ///< rows of P, by the order, shape (particles, dim, motions)
+  SingleFactor factor_;         ///< that P'K P over the unit has
+  BlockVector<float> coarse_;   ///< shape (boxes, motions, block_width), by its order
 };
 
 }  // namespace perilink

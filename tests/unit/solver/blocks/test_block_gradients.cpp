@@ -98,9 +98,9 @@ TEST(BlockGradients, TakeResultsInParts) {
   };
   const auto whole = solve(block_product(matrix));
   const auto parts = solve([&](auto x, auto result, const RowsDone& done) {
-    block_product(matrix)(x, result, [](std::size_t, std::size_t) {});
-    for (std::size_t begin = 0; begin < size; begin += 7) {
-      done(begin, std::min<std::size_t>(begin + 7, size));
+    block_product(matrix)(x, result, [](std::size_t, std::size_t, std::size_t) {});
+    for (std::size_t begin = 0, part = 0; begin < size; begin += 7) {
+      done(part++ % most_parts, begin, std::min<std::size_t>(begin + 7, size));
     }
   });
   EXPECT_EQ(parts.first, whole.first);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "assembly/block_forces.hpp"
 #include "solver/factor_routes.hpp"
@@ -16,7 +17,8 @@ using namespace test;
 
 /// A body in boxes, and what a solver would have of it.
 struct Boxed {
-  explicit Boxed(const LatticeCase& lattice) : body(make_block({lattice})) {
+  explicit Boxed(const LatticeCase& lattice, int columns = 6)
+      : body(make_block({.lattice = lattice, .columns = columns})) {
     secants = intact(body.network);
     motions.emplace(body.network, secants, body.unknowns, 8);
     BoxStiffness stiffness = assemble_box_stiffness(body.network, secants, body.unknowns, *motions);
@@ -70,27 +72,31 @@ void expect_near(const std::vector<float>& found, const std::vector<float>& expe
 }
 
 TEST(SingleBody, MultipliesWithSpringsAsInDoublePrecision) {
-  Boxed boxed({"", Pattern::cubic, Surface::none});
-  boxed.secants[5] = 0.25;
-  const std::vector<double> ground =
-      random_vector(static_cast<std::size_t>(boxed.body.unknowns.count), 2);
-  boxed.single->follow(boxed.secants, ground);
-  const std::vector<double> motion = boxed.motion(3);
-  std::vector<double> expected(motion.size());
-  block_forces(boxed.body.network, boxed.secants, motion, expected);
-  for (std::size_t k = 0; k < motion.size(); ++k) {
-    const Index unknown = boxed.body.unknowns.number[k / block_width];
-    if (unknown >= 0) expected[k] += ground[unknown] * motion[k];
-    expected[k] /= boxed.single->unit();
+  for (const int columns : {6, 16}) {
+    Boxed boxed({"", Pattern::cubic, Surface::none}, columns);
+    boxed.secants[5] = 0.25;
+    const std::vector<double> ground =
+        random_vector(static_cast<std::size_t>(boxed.body.unknowns.count), 2);
+    boxed.single->follow(boxed.secants, ground);
+    const std::vector<double> motion = boxed.motion(3);
+    std::vector<double> expected(motion.size());
+    block_forces(boxed.body.network, boxed.secants, motion, expected);
+    for (std::size_t k = 0; k < motion.size(); ++k) {
+      const Index unknown = boxed.body.unknowns.number[k / block_width];
+      if (unknown >= 0) expected[k] += ground[unknown] * motion[k];
+      expected[k] /= boxed.single->unit();
+    }
+    std::vector<float> found(motion.size());
+    boxed.single->multiply(boxed.ordered(motion), found,
+                           [](std::size_t, std::size_t, std::size_t) {});
+    expect_near(found, boxed.ordered(expected));
   }
-  std::vector<float> found(motion.size());
-  boxed.single->multiply(boxed.ordered(motion), found, [](std::size_t, std::size_t) {});
-  expect_near(found, boxed.ordered(expected));
 }
 
 TEST(SingleBody, PreconditionsByParticlesAndBoxes) {
   for (const Pattern pattern : {Pattern::hexagonal, Pattern::cubic}) {
-    Boxed boxed({"", pattern, Surface::none});
+    // 17 particles along each side are so many that they are taken in parts.
+    Boxed boxed({"", pattern, Surface::none}, pattern == Pattern::cubic ? 16 : 6);
     const std::size_t dim = static_cast<std::size_t>(boxed.body.network.dim());
     const std::vector<double> residual = boxed.motion(4);
     std::vector<double> expected(residual.size(), 0.0);
@@ -109,10 +115,14 @@ TEST(SingleBody, PreconditionsByParticlesAndBoxes) {
     boxed.motions->add_block(coarse, expected);
     for (double& value : expected) value *= boxed.single->unit();
     std::vector<float> found(residual.size());
-    std::size_t complete = 0;
+    std::vector<std::size_t> complete(most_parts, 0);  // by part
     boxed.single->precondition(boxed.ordered(residual), found,
-                               [&](std::size_t, std::size_t end) { complete = end; });
-    EXPECT_EQ(complete * block_width, found.size());
+                               [&](std::size_t part, std::size_t begin, std::size_t end) {
+                                 complete[part] += end - begin;
+                               });
+    EXPECT_EQ(std::accumulate(complete.begin(), complete.end(), std::size_t{0}) * block_width,
+              found.size());
+    EXPECT_EQ(complete.back() > 0, pattern == Pattern::cubic);
     expect_near(found, boxed.ordered(expected));
   }
 }
