@@ -240,6 +240,17 @@ void find_products(const BlockMap<Number>& precondition, std::span<const Number>
   products.qz = qz.sum();
 }
 
+/// q = A p. \return p'A p
+template <class Number>
+Square find_energies(const BlockMap<Number>& product, std::span<const Number> p,
+                     std::span<Number> q) {
+  PartSums sums;
+  product(p, q, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    add_gram<Number>(p, q, begin, end, sums.parts[part]);
+  });
+  return sums.sum();
+}
+
 /// What a step adds to the energy of every solution.
 void add_gains(const Square& sides, const Square& steps, std::array<EnergyGains, width>& gains) {
   for (int c = 0; c < width; ++c) {
@@ -281,11 +292,7 @@ GradientsReport block_conjugate_gradients(
   double corrected_at = left_by(now.rz, sizes);
   GradientsReport report;
   while (report.iterations < most_iterations) {
-    PartSums sums;
-    product(p, q, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      add_gram<Number>(p, q, begin, end, sums.parts[part]);
-    });
-    Square energies = sums.sum();  // p'A p
+    Square energies = find_energies<Number>(product, p, q);
     sum_up(energies);
     const Square inverse = inverse_of(energies, sides, same);
     const Square steps = times(inverse, sides);

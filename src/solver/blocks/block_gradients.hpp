@@ -13,8 +13,8 @@ namespace perilink {
 /// One number for each of the vectors of a block.
 using BlockRow = std::array<double, block_width>;
 
-/// Parts of vectors, at most, that threads work on at the same time: sums are those of the parts, so
-/// that they do not depend on the number of threads.
+/// Parts of vectors, at most, that threads work on at the same time: sums are those of the parts,
+/// whatever the number of threads.
 inline constexpr std::size_t most_parts = 8;
 
 /// Told of the rows [begin, end) of results as soon as they are there, all of a part in order: they

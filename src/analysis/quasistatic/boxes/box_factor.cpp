@@ -22,7 +22,7 @@ constexpr double small_pivot = 0.05;
 
 /// Errors of columns over those of solutions: an event moves the body by little, and what that
 /// leaves is taken away at every check.
-constexpr double coarser = 1000.0;
+constexpr double coarser = 100.0;
 
 /// Memory that the window may take where that leaves the fewest blocks.
 constexpr double most_bytes = 4e9;
