@@ -101,10 +101,15 @@ void add_all_elements(const Network& network, Secants secants, std::span<const R
   for (const auto& [first, last] : slabs.reach) room += last - first + 1;
   if (room > most_room * network.particles.size()) return add_all();
   std::vector<ForcesAndEnergy<Real>> parts(slabs.reach.size());
-#pragma omp parallel for schedule(static)
+  const auto size = [&](std::size_t s) {
+    return static_cast<std::size_t>(slabs.reach[s][1] - slabs.reach[s][0] + 1) * Dim;
+  };
+  // Where memory is too little nothing may be thrown inside a parallel loop.
+  for (std::size_t s = 0; s < parts.size(); ++s) parts[s].forces.reserve(size(s));
+#pragma omp parallel for schedule(dynamic)
   for (std::size_t s = 0; s < parts.size(); ++s) {
-    const auto [first, last] = slabs.reach[s];
-    parts[s].forces.assign(static_cast<std::size_t>(last - first + 1) * Dim, 0.0);
+    const Index first = slabs.reach[s][0];
+    parts[s].forces.resize(size(s));
     add_elements<Dim>(network, slabs.elements[s], secants, displacement, parts[s], first);
   }
   for (std::size_t s = 0; s < parts.size(); ++s) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <omp.h>
+
 #include "base/timer.hpp"
 
 namespace perilink {
@@ -21,12 +23,27 @@ class ThreadChoice {
     took(timer.seconds());
   }
 
+  /// Calls work(); its parallel loops have the chosen number of threads.
+  template <class Work>
+  void run_within(Work work) {
+    run([&](int threads) {
+      const Scope scope(threads);
+      work();
+    });
+  }
+
   /// For the next piece of work.
   int threads() const { return several_ ? most_ : 1; }
   /// \param seconds  that it took
   void took(double seconds);
 
  private:
+  struct Scope {
+    explicit Scope(int threads) { omp_set_num_threads(threads); }
+    ~Scope() { omp_set_num_threads(before); }
+    int before = omp_get_max_threads();
+  };
+
   int most_;
   bool several_ = false;
   bool on_trial_ = true;           ///< the slower number, or one that is not known yet

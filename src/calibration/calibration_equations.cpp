@@ -58,7 +58,10 @@ CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double
   choose_points();
   measure_particles();
   on_surface_.assign(static_cast<std::size_t>(input.particles.size()), 0);
-  for (const Index i : facets_.corners.values) on_surface_[i] = 1;
+  for (Index f = 0; f < facets_.size(); ++f) {  // materials may differ in strength only
+    if (constants_across(facets_, f, input.materials) == LameConstants{}) continue;
+    for (const Index i : facets_.corners.row(f)) on_surface_[i] = 1;
+  }
 }
 
 void CalibrationEquations::choose_points() {

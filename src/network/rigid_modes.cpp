@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/joined_parts.hpp"
+
 namespace perilink {
 namespace {
 
@@ -18,27 +20,6 @@ constexpr double rank_tolerance = 1e-12;
 
 /// The lever itself.
 constexpr double rank_lever = 1e-6;
-
-/// Parts of a set of particles, joined pair by pair.
-class UnionFind {
- public:
-  explicit UnionFind(Index count) : parent_(static_cast<std::size_t>(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The lower number becomes the root.
-  void join(Index i, Index j) {
-    const Index a = root(i);
-    const Index b = root(j);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 /// Components of the motion of one particle in the rigid-body modes of a fragment: translations,
 /// then rotations about its centroid, scaled to about one at its rim. A particle's own rotation
@@ -162,7 +143,7 @@ std::vector<std::uint8_t> unbreakable_particles(const Network& network) {
 std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
                                      bool in_one_piece) {
   const Index num_particles = network.particles.size();
-  UnionFind parts(num_particles);
+  JoinedParts parts(num_particles);
   for (Index i = 1; in_one_piece && i < num_particles; ++i) parts.join(0, i);
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (network.stiffness[e] > 0.0) parts.join(network.bonds.first[e], network.bonds.second[e]);
@@ -179,7 +160,7 @@ std::vector<Fragment> find_fragments(const Network& network, const std::vector<s
   std::vector<Fragment> fragments;
   std::vector<Index> fragment_of_root(static_cast<std::size_t>(num_particles), no_index);
   for (Index i = 0; i < num_particles; ++i) {
-    Index& number = fragment_of_root[parts.root(i)];
+    Index& number = fragment_of_root[parts.find(i)];
     if (number == no_index) {
       number = static_cast<Index>(fragments.size());
       fragments.emplace_back();

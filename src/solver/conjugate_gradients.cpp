@@ -9,22 +9,8 @@
 
 namespace perilink {
 
-namespace {
-
-/// Numbers whose products are summed one after the other; the sums of such parts are added up in
-/// order, so that they do not depend on the number of threads.
-constexpr std::size_t part = 1 << 16;
-
-}  // namespace
-
 double scalar_product(std::span<const double> first, std::span<const double> second) {
-  std::vector<double> sums((first.size() + part - 1) / part);
-#pragma omp parallel for schedule(static) if (sums.size() > 1)
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    const auto own = first.subspan(k * part, std::min(part, first.size() - k * part));
-    sums[k] = std::inner_product(own.begin(), own.end(), second.begin() + k * part, 0.0);
-  }
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
+  return std::inner_product(first.begin(), first.end(), second.begin(), 0.0);
 }
 
 GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
@@ -52,7 +38,6 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
     const double curvature = dot(p, q);
     if (!(curvature > 0.0)) throw NotPositiveDefinite("the stiffness is not positive definite");
     const double step = rz / curvature;
-#pragma omp parallel for schedule(static) if (size > part)
     for (std::size_t k = 0; k < size; ++k) {
       solution[k] += step * p[k];
       r[k] -= step * q[k];
@@ -65,9 +50,7 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
     if (is_enough()) break;
     precondition(r, z);
     const double next = dot(r, z);
-    const double share = next / rz;
-#pragma omp parallel for schedule(static) if (size > part)
-    for (std::size_t k = 0; k < size; ++k) p[k] = z[k] + share * p[k];
+    for (std::size_t k = 0; k < size; ++k) p[k] = z[k] + next / rz * p[k];
     rz = next;
   }
   report.converged =

@@ -99,7 +99,7 @@ ExplicitOptions some_steps(ExplicitOptions options, Index steps) {
 double time_of_calibration(const CaseFile& input, const Model& model) {
   if (!model.network.calibration) return 0.0;
   const CalibrationReport& report = *model.network.calibration;
-  const bool done = report.iterations > 0 || report.seconds == 0.0;
+  const bool done = report.iterations > 0 || report.seconds == 0.0 || report.alike;
   if (done || report.seconds > short_calibration) return report.seconds;
   return build_model(input).network.calibration->seconds;
 }

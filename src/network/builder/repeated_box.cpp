@@ -68,6 +68,7 @@ std::optional<Network> repeat_smaller_box(
   network.particles = body.particles;
   network.facets = body.facets;
   network.calibration = sample.calibration;
+  network.calibration->alike = true;
   network.torsion = sample.torsion;
   const LatticeGrid& grid = pattern->grid;
   network.bonds.dim = grid.dim;

@@ -133,9 +133,13 @@ GradientsReport BoxSolver::search(std::span<const double> right, std::span<doubl
                                   double enough, double scale, int most_steps) {
   if (team_) return team_->search(right, solution, enough, scale, most_steps);
   return conjugate_gradients(
-      [&](std::span<const double> q, std::span<double> result) { multiply(q, result); },
-      [&](std::span<const double> r, std::span<double> z) { precondition(r, z); }, right, solution,
-      enough, scale, most_steps);
+      [&](std::span<const double> q, std::span<double> result) {
+        product_threads_.run_within([&] { multiply(q, result); });
+      },
+      [&](std::span<const double> r, std::span<double> z) {
+        inverse_threads_.run_within([&] { precondition(r, z); });
+      },
+      right, solution, enough, scale, most_steps);
 }
 
 void BoxSolver::precondition(std::span<const double> residual, std::span<double> result) {
@@ -244,10 +248,13 @@ GradientsReport BoxSolver::search_block(std::span<double> right, std::span<doubl
   GradientsReport report;
   if (is_found_in_single(right, solution, sizes, enough, report)) return report;
   coarse_block_.resize(coarse_.size() * block_width);
-  return block_conjugate_gradients<double>(
-      as_block_map<double>([&](auto q, auto result) { multiply_block(q, result); }),
-      as_block_map<double>([&](auto r, auto z) { precondition_block(r, z); }), right, solution,
-      sizes, enough, most_box_iterations);
+  block_threads_.run_within([&] {
+    report = block_conjugate_gradients<double>(
+        as_block_map<double>([&](auto q, auto result) { multiply_block(q, result); }),
+        as_block_map<double>([&](auto r, auto z) { precondition_block(r, z); }), right, solution,
+        sizes, enough, most_box_iterations);
+  });
+  return report;
 }
 
 /// Bodies that are stiff and soft by turns, or slender, may ask for more digits than single
@@ -314,17 +321,20 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
   };
   std::ranges::fill(solution, 0.0);
   round(right, missing);
-  const GradientsReport report = block_conjugate_gradients<float>(
-      [&](auto q, auto result, const RowsDone& done) { single_->multiply(q, result, done); },
-      [&](auto r, auto z, const RowsDone& done) { single_->precondition(r, z, done); }, missing,
-      found, scaled, finer_in_single * enough, most_box_iterations,
-      [&](std::span<const float> part, std::span<float> left) {
-        add(part);
-        BlockVector<double> residual(right.size());
-        multiply_block(solution, residual);
-        for (std::size_t k = 0; k < right.size(); ++k) residual[k] = right[k] - residual[k];
-        round(residual, left);
-      });
+  const auto correct = [&](std::span<const float> part, std::span<float> left) {
+    add(part);
+    BlockVector<double> residual(right.size());
+    multiply_block(solution, residual);
+    for (std::size_t k = 0; k < right.size(); ++k) residual[k] = right[k] - residual[k];
+    round(residual, left);
+  };
+  GradientsReport report;
+  block_threads_.run_within([&] {
+    report = block_conjugate_gradients<float>(
+        [&](auto q, auto result, const RowsDone& done) { single_->multiply(q, result, done); },
+        [&](auto r, auto z, const RowsDone& done) { single_->precondition(r, z, done); }, missing,
+        found, scaled, finer_in_single * enough, most_box_iterations, correct);
+  });
   add(found);
   return report;
 }

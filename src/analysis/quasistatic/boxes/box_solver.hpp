@@ -10,6 +10,7 @@
 #include "assembly/box_motions.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/block.hpp"
+#include "base/thread_choice.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
 #include "solver/blocks/block_gradients.hpp"
@@ -108,6 +109,8 @@ class BoxSolver {
   std::vector<double> coarse_;          // residual or motion of the boxes, shape (boxes, motions)
   std::vector<double> motion_;          // shape (particles, width), zero where it is prescribed
   BlockVector<double> coarse_block_;
+  ThreadChoice product_threads_{omp_get_max_threads()}, inverse_threads_ = product_threads_;
+  ThreadChoice block_threads_ = product_threads_;
   InternalForce forces_;
   double energy_ = 0.0, error_ = 0.0;
   int iterations_ = 0;

@@ -182,6 +182,7 @@ std::optional<LatticePattern> find_pattern(const CaseFile& input, const BondOpti
   network.solid = {{pattern.small.lower, pattern.small.upper}};
   const Body sample = body_of(pattern.small, body.lattice, network.thickness);
   const std::vector<Crack> cracks = std::exchange(network.cracks, {});
+  network.only_alike = body.lattice.surface == Surface::calibrated;
   pattern.sample = build_case_network(input, sample, network);
   if (!can_repeat(pattern.sample) || !cut_bonds(pattern, cracks, by_crack)) return std::nullopt;
   return pattern;
@@ -210,6 +211,8 @@ bool can_be_made_in_parts(const CaseFile& input) {
          (body.model == BodyModel::bond_based || body.model == BodyModel::micropolar) &&
          !is_shell(body) && !is_beam(body) && !(is_plane && body.surface == Surface::calibrated) &&
          input.interfaces.empty() && input.rebar.empty() && !input.elements &&
+         (input.analysis.rigid_body_modes == RigidBodyModes::refuse ||
+          input.materials.size() == 1) &&
          !have_unlike_constants(input);
 }
 

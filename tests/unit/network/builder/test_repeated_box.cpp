@@ -21,7 +21,7 @@ struct RepeatedCase {
 
 std::ostream& operator<<(std::ostream& out, const RepeatedCase& own) { return out << own.name; }
 
-/// A box that is not at the origin, the upper part of it three times as tough.
+/// A box that is not at the origin, its last three layers three times as tough.
 LatticeInput input_of(const RepeatedCase& own) {
   LatticeInput input;
   input.pattern = own.pattern;
@@ -31,7 +31,7 @@ LatticeInput input_of(const RepeatedCase& own) {
   Box box{{0.3, -0.1, 0.7}, {}};
   for (int a = 0; a < 3; ++a) box.upper[a] = box.lower[a] + own.size[a] * input.spacing;
   Box upper = box;
-  upper.lower[2] = 0.5 * (box.lower[2] + box.upper[2]);
+  upper.lower[2] = box.upper[2] - 3.0 * input.spacing;
   input.solid = {box, upper};
   input.material = {0, 1};
   return input;
