@@ -165,8 +165,11 @@ void BoxMotions::add(std::span<const double> coarse, std::span<double> result) c
   for (Index b = 0; b < num_boxes(); ++b) {
     const double* values = coarse.data() + static_cast<std::size_t>(b) * motions;
     for (const Index p : boxes_[b]) {
-      for_each_move(
-          p, [&](int c, int m, double share) { result[unknowns_.at(p, c)] += share * values[m]; });
+      std::array<double, 6> sums{};  // by component: they may be small beside their terms
+      for_each_move(p, [&](int c, int m, double share) { sums[c] += share * values[m]; });
+      for (int c = 0; c < unknowns_.width; ++c) {
+        if (unknowns_.at(p, c) >= 0) result[unknowns_.at(p, c)] += sums[c];
+      }
     }
   }
 }

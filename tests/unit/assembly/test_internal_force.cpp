@@ -57,8 +57,8 @@ TEST(InternalForce, ElasticSupportsPullBackAndStoreEnergy) {
   }
 }
 
-/// 900 000 bonds are taken in slabs. The list of all elements is gone through in one go; sums differ
-/// in their order, some hundred terms of 1e-16.
+/// 900 000 bonds are taken in slabs. The list of all elements is gone through in one go; sums
+/// differ in their order, some hundred terms of 1e-16.
 TEST(InternalForce, DoesNotDependOnThreads) {
   LatticeInput lattice = body_input({"", Pattern::cubic, Surface::none}, 27);
   lattice.horizon = 3.0 * lattice.spacing;

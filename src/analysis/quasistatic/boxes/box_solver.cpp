@@ -47,8 +47,9 @@ SolverError not_there(int iterations, double error, double tolerance) {
 }
 
 /// By their lag (L-2) estimates leave more digits than they are asked for, and columns need some of
-/// them; behind a correction of single precision they lag less.
-constexpr double finer_in_single = 0.1;
+/// them; behind a correction of single precision they lag less, and bodies that single precision
+/// cannot do need more of them.
+constexpr double finer_of_trusses = 0.1;
 
 /// Energies of right sides where every particle gives way by itself, while all others stand still.
 /// \param blocks  inverse ones of the particles
@@ -248,6 +249,7 @@ GradientsReport BoxSolver::search_block(std::span<double> right, std::span<doubl
   GradientsReport report;
   if (is_found_in_single(right, solution, sizes, enough, report)) return report;
   coarse_block_.resize(coarse_.size() * block_width);
+  if (SingleBody::is_made_of(network_)) enough *= finer_of_trusses;
   block_threads_.run_within([&] {
     report = block_conjugate_gradients<double>(
         as_block_map<double>([&](auto q, auto result) { multiply_block(q, result); }),
@@ -333,7 +335,7 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
     report = block_conjugate_gradients<float>(
         [&](auto q, auto result, const RowsDone& done) { single_->multiply(q, result, done); },
         [&](auto r, auto z, const RowsDone& done) { single_->precondition(r, z, done); }, missing,
-        found, scaled, finer_in_single * enough, most_box_iterations, correct);
+        found, scaled, finer_of_trusses * enough, most_box_iterations, correct);
   });
   add(found);
   return report;
