@@ -28,8 +28,8 @@ class BoxMotions {
   /// Brings what is known of particles that other processes own up to date: numbers of shape
   /// (particles, width).
   using Exchange = std::function<void(std::span<double> known, int width)>;
-  /// Boxes of the first particles of a body, which this process owns and cracks have split; those
-  /// of the others are known by their numbers and centres.
+  /// Boxes of the first particles of a body, which this process owns and cracks have split; other
+  /// boxes are known by their numbers and centres.
   /// \param first_box  boxes of the processes before
   /// \param unknowns   those of all particles
   BoxMotions(const Particles& particles, const Unknowns& unknowns,

@@ -58,9 +58,9 @@ class PatternBonds {
     });
   }
 
-  /// Calls visit(first, second, element) for bonds that no crack cuts: points of the box, the first
-  /// of which comes first in it, and the element of the sample that is like the bond. At first
-  /// bonds whose first end is in the window, in their order, then the others.
+  /// Calls visit(first, second, element) for bonds that no crack cuts: points of the box in their
+  /// order, and the element of the sample that is like the bond. At first bonds whose first end is
+  /// in the window, in their order, then the others.
   template <class Visit>
   void for_each(const GridWindow& window, Visit visit) const {
     for_each_before(window, [&](const GridPoint& first, const GridPoint& second, Index element) {
