@@ -146,29 +146,65 @@ std::array<double, 6> BoxMotions::row(Index particle, int component) const {
   return row;
 }
 
+/// Adds forces and moments of the components of a particle, zero where it is held.
+template <int Dim>
+void BoxMotions::add_to_sums(Index particle, const double* force, double* sums) const {
+  const double* arm = arms_.data() + static_cast<std::size_t>(particle) * Dim;
+  for (int a = 0; a < Dim; ++a) sums[a] += force[a];
+  if constexpr (Dim == 2) {
+    sums[2] += arm[0] * force[1] - arm[1] * force[0];
+  } else {
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      sums[3 + a] += arm[b] * force[c] - arm[c] * force[b];
+    }
+  }
+  for (int a = Dim; a < unknowns_.width; ++a) sums[a] += force[a] / size_[box_of_[particle]];
+}
+
+/// Components of a particle when its box moves.
+template <int Dim>
+void BoxMotions::find_motion(Index particle, const double* values, double* motion) const {
+  const double* arm = arms_.data() + static_cast<std::size_t>(particle) * Dim;
+  if constexpr (Dim == 2) {
+    motion[0] = values[0] - arm[1] * values[2];
+    motion[1] = values[1] + arm[0] * values[2];
+  } else {
+    for (int a = 0; a < 3; ++a) {  // turn x arm
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      motion[a] = values[a] + (values[3 + b] * arm[c] - values[3 + c] * arm[b]);
+    }
+  }
+  for (int a = Dim; a < unknowns_.width; ++a) motion[a] = values[a] / size_[box_of_[particle]];
+}
+
 void BoxMotions::restrict(std::span<const double> residual, std::span<double> coarse) const {
-  const int motions = num_motions();
-  std::fill(coarse.begin(), coarse.end(), 0.0);
+  const int motions = num_motions(), width = unknowns_.width;
 #pragma omp parallel for schedule(static) if (num_boxes() > boxes_for_threads)
   for (Index b = 0; b < num_boxes(); ++b) {
-    double* sums = coarse.data() + static_cast<std::size_t>(b) * motions;
+    std::array<double, 6> sums{}, force{};
     for (const Index p : boxes_[b]) {
-      for_each_move(
-          p, [&](int c, int m, double share) { sums[m] += share * residual[unknowns_.at(p, c)]; });
+      for (int c = 0; c < width; ++c) {
+        force[c] = unknowns_.at(p, c) < 0 ? 0.0 : residual[unknowns_.at(p, c)];
+      }
+      dim_ == 2 ? add_to_sums<2>(p, force.data(), sums.data())
+                : add_to_sums<3>(p, force.data(), sums.data());
     }
+    std::copy_n(sums.begin(), motions, coarse.begin() + static_cast<std::ptrdiff_t>(b) * motions);
   }
 }
 
 void BoxMotions::add(std::span<const double> coarse, std::span<double> result) const {
-  const int motions = num_motions();
+  const int motions = num_motions(), width = unknowns_.width;
 #pragma omp parallel for schedule(static) if (num_boxes() > boxes_for_threads)
   for (Index b = 0; b < num_boxes(); ++b) {
     const double* values = coarse.data() + static_cast<std::size_t>(b) * motions;
+    std::array<double, 6> motion;
     for (const Index p : boxes_[b]) {
-      std::array<double, 6> sums{};  // by component: they may be small beside their terms
-      for_each_move(p, [&](int c, int m, double share) { sums[c] += share * values[m]; });
-      for (int c = 0; c < unknowns_.width; ++c) {
-        if (unknowns_.at(p, c) >= 0) result[unknowns_.at(p, c)] += sums[c];
+      dim_ == 2 ? find_motion<2>(p, values, motion.data())
+                : find_motion<3>(p, values, motion.data());
+      for (int c = 0; c < width; ++c) {
+        if (unknowns_.at(p, c) >= 0) result[unknowns_.at(p, c)] += motion[c];
       }
     }
   }
@@ -237,14 +273,15 @@ BoxRow assemble_box(const Blocks& blocks, const Unknowns& unknowns, const BoxMot
     row.blocks = {Eigen::MatrixXd::Zero(count, count)};
   }
   for (const Index i : motions.particles(box)) {
-    double* block_i = own.data() + static_cast<std::size_t>(i) * width * width;
     fields.assign(row.others.size(), Field::Zero());
     std::size_t last = 0;
+    std::array<double, width * width> whole{};  // of the particle alone
     blocks.visit(i, [&](Index j, const auto& block) {
       if (j == i) {
         for (int r = 0; r < width; ++r) {
-          for (int c = 0; c < width; ++c) block_i[r * width + c] += block(r, c);
+          for (int c = 0; c < width; ++c) whole[r * width + c] += block(r, c);
         }
+        return;
       }
       const Index other = motions.box_of(j);
       if (other > box) return;
@@ -262,15 +299,22 @@ BoxRow assemble_box(const Blocks& blocks, const Unknowns& unknowns, const BoxMot
         for (int c = 0; c < width; ++c) fields[last].row(c) += block(r, c) * moved;
       }
     });
+    for (int r = 0; r < width; ++r) {
+      const Moved moved(moves[static_cast<std::size_t>(i) * width + r].data());
+      for (int c = 0; c < width; ++c) fields[0].row(c) += whole[r * width + c] * moved;
+    }
     for (int c = 0; c < width; ++c) {
       const Moved moved(moves[static_cast<std::size_t>(i) * width + c].data());
       for (std::size_t k = 0; k < fields.size(); ++k) {
         row.blocks[k].noalias() += moved.transpose() * fields[k].row(c);
       }
-      if (unknowns.at(i, c) >= 0) continue;
-      for (int r = 0; r < width; ++r) block_i[r * width + c] = block_i[c * width + r] = 0.0;
-      block_i[c * width + c] = 1.0;
     }
+    for (int c = 0; c < width; ++c) {
+      if (unknowns.at(i, c) >= 0) continue;
+      for (int r = 0; r < width; ++r) whole[r * width + c] = whole[c * width + r] = 0.0;
+      whole[c * width + c] = 1.0;
+    }
+    std::ranges::copy(whole, own.begin() + static_cast<std::ptrdiff_t>(i) * width * width);
   }
   return row;
 }

@@ -59,6 +59,10 @@ class BoxMotions {
  private:
   template <class Visit>
   void for_each_move(Index particle, Visit visit) const;
+  template <int Dim>
+  void add_to_sums(Index particle, const double* force, double* sums) const;
+  template <int Dim>
+  void find_motion(Index particle, const double* values, double* motion) const;
   void find_centres(const Particles& particles);
 
   int dim_;

@@ -1,8 +1,6 @@
 #include "assembly/internal_force.hpp"
 
-#include <algorithm>
 #include <array>
-#include <type_traits>
 
 #include "assembly/cell_terms.hpp"
 #include "network/frame.hpp"
@@ -10,20 +8,18 @@
 namespace perilink {
 namespace {
 
-/// Elements of a network one after the other, to be gone through like a list.
-struct ElementRange {
-  Index count, begin = 0;
+/// All elements of a network, to be gone through like a list.
+struct AllElements {
+  Index count;
   Index size() const { return count; }
-  Index operator[](Index k) const { return begin + k; }
+  Index operator[](Index k) const { return k; }
 };
 
 /// Reading the elements costs most of the time. Those of a particle mostly follow each other: its
 /// motion and its force stay at hand meanwhile.
-/// \param origin  the particle whose forces come first in the result
 template <int Dim, class Real, class Elements>
 void add_elements(const Network& network, const Elements& elements, Secants secants,
-                  std::span<const Real> displacement, ForcesAndEnergy<Real>& result,
-                  Index origin = 0) {
+                  std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   Real* forces = result.forces.data();
   const Bonds& bonds = network.bonds;
   const auto count = static_cast<Index>(elements.size());
@@ -32,7 +28,7 @@ void add_elements(const Network& network, const Elements& elements, Secants seca
     const Index own = bonds.first[elements[k]];
     std::array<Real, Dim> motion, force;
     const std::size_t first = static_cast<std::size_t>(own) * Dim;
-    Real* own_force = forces + static_cast<std::size_t>(own - origin) * Dim;
+    Real* own_force = forces + first;
     for (int axis = 0; axis < Dim; ++axis) {
       motion[axis] = displacement[first + axis];
       force[axis] = own_force[axis];
@@ -41,7 +37,7 @@ void add_elements(const Network& network, const Elements& elements, Secants seca
       const Index e = elements[k];
       const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
       const std::size_t second = static_cast<std::size_t>(bonds.second[e]) * Dim;
-      Real* other_force = forces + static_cast<std::size_t>(bonds.second[e] - origin) * Dim;
+      Real* other_force = forces + second;
       Real extension = 0.0;
       for (int axis = 0; axis < Dim; ++axis) {
         extension += n[axis] * (displacement[second + axis] - motion[axis]);
@@ -56,67 +52,6 @@ void add_elements(const Network& network, const Elements& elements, Secants seca
     for (int axis = 0; axis < Dim; ++axis) own_force[axis] = force[axis];
   }
   result.energy += energy;
-}
-
-/// Large bodies are taken in slabs of elements, each of which adds to forces of its own, so that
-/// sums have one order for any number of threads.
-constexpr Index elements_of_slab = 400'000;
-
-/// Forces of slabs over those of the body from which on one thread does less.
-constexpr double most_room = 6.0;
-
-/// Slabs of elements, and from which to which particle each reaches.
-struct Slabs {
-  std::vector<ElementRange> elements;
-  std::vector<std::array<Index, 2>> reach;
-};
-
-Slabs find_slabs(const Bonds& bonds) {
-  const Index count = bonds.size(), number = count / elements_of_slab;
-  const auto bound = [&](Index k) { return static_cast<Index>(1.0 * count * k / number); };
-  Slabs slabs;
-  slabs.reach.resize(static_cast<std::size_t>(number));
-  for (Index s = 0; s < number; ++s) {
-    slabs.elements.push_back({bound(s + 1) - bound(s), bound(s)});
-  }
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < number; ++s) {
-    const auto [size, begin] = slabs.elements[s];
-    const auto [first, last] = std::ranges::minmax(std::span(bonds.first).subspan(begin, size));
-    const auto [least, most] = std::ranges::minmax(std::span(bonds.second).subspan(begin, size));
-    slabs.reach[s] = {std::min(first, least), std::max(last, most)};
-  }
-  return slabs;
-}
-
-template <int Dim, class Real>
-void add_all_elements(const Network& network, Secants secants, std::span<const Real> displacement,
-                      ForcesAndEnergy<Real>& result) {
-  const auto add_all = [&] {
-    add_elements<Dim>(network, ElementRange{network.num_elements()}, secants, displacement, result);
-  };
-  if (network.num_elements() < 2 * elements_of_slab) return add_all();
-  const Slabs slabs = find_slabs(network.bonds);
-  double room = 0.0;
-  for (const auto& [first, last] : slabs.reach) room += last - first + 1;
-  if (room > most_room * network.particles.size()) return add_all();
-  std::vector<ForcesAndEnergy<Real>> parts(slabs.reach.size());
-  const auto size = [&](std::size_t s) {
-    return static_cast<std::size_t>(slabs.reach[s][1] - slabs.reach[s][0] + 1) * Dim;
-  };
-  // Where memory is too little nothing may be thrown inside a parallel loop.
-  for (std::size_t s = 0; s < parts.size(); ++s) parts[s].forces.reserve(size(s));
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t s = 0; s < parts.size(); ++s) {
-    const Index first = slabs.reach[s][0];
-    parts[s].forces.resize(size(s));
-    add_elements<Dim>(network, slabs.elements[s], secants, displacement, parts[s], first);
-  }
-  for (std::size_t s = 0; s < parts.size(); ++s) {
-    result.energy += parts[s].energy;
-    Real* to = result.forces.data() + static_cast<std::size_t>(slabs.reach[s][0]) * Dim;
-    for (const Real force : parts[s].forces) *to++ += force;
-  }
 }
 
 template <class Real>
@@ -194,9 +129,6 @@ void add_bonds(const Network& network, const Elements& elements, Secants secants
   if (network.carries_moments()) {
     network.dim() == 2 ? add_frames<2>(network, elements, secants, displacement, result)
                        : add_frames<3>(network, elements, secants, displacement, result);
-  } else if constexpr (std::is_same_v<Elements, ElementRange>) {
-    network.dim() == 2 ? add_all_elements<2>(network, secants, displacement, result)
-                       : add_all_elements<3>(network, secants, displacement, result);
   } else {
     network.dim() == 2 ? add_elements<2>(network, elements, secants, displacement, result)
                        : add_elements<3>(network, elements, secants, displacement, result);
@@ -218,7 +150,7 @@ void add_bonds_and_cells(const Network& network, const Elements& elements, Secan
 template <class Real>
 void add_all(const Network& network, Secants secants, std::span<const Real> displacement,
              ForcesAndEnergy<Real>& result) {
-  add_bonds_and_cells(network, ElementRange{network.num_elements()}, secants, displacement, result);
+  add_bonds_and_cells(network, AllElements{network.num_elements()}, secants, displacement, result);
   if (network.has_states()) {
     network.dim() == 2 ? add_states<2>(network, secants, displacement, result)
                        : add_states<3>(network, secants, displacement, result);

@@ -7,17 +7,71 @@
 namespace perilink {
 namespace {
 
-using Lanes [[gnu::vector_size(4 * block_width)]] = float;
-using LanesInMemory [[gnu::vector_size(4 * block_width), gnu::aligned(4), gnu::may_alias]] = float;
+template <class Number, std::size_t Count>
+using Lanes [[gnu::vector_size(sizeof(Number) * Count)]] = Number;
+template <class Number, std::size_t Count>
+using LanesInMemory
+    [[gnu::vector_size(sizeof(Number) * Count), gnu::aligned(sizeof(Number)), gnu::may_alias]] =
+        Number;
 
+/// What a particle has in a block of vectors.
 template <int Dim>
-const LanesInMemory* at(const float* numbers, std::size_t place) {
-  return reinterpret_cast<const LanesInMemory*>(numbers + place * Dim * block_width);
-}
+struct BlockRow {
+  using Number = float;
+  using Floats = Lanes<float, block_width>;
+  using InMemory = LanesInMemory<float, block_width>;
+  static constexpr std::size_t size = static_cast<std::size_t>(Dim) * block_width;
+
+  explicit BlockRow(const float* numbers) {
+    for (int a = 0; a < Dim; ++a) parts[a] = reinterpret_cast<const InMemory*>(numbers)[a];
+  }
+  void store(float* numbers) const {
+    for (int a = 0; a < Dim; ++a) reinterpret_cast<InMemory*>(numbers)[a] = parts[a];
+  }
+  struct Pull {
+    explicit Pull(const float* numbers) : parts(numbers) {}
+    const float* parts;
+  };
+  static Floats tension(Pull pull, const BlockRow& own, const BlockRow& other) {
+    Floats sum = pull.parts[0] * (own.parts[0] - other.parts[0]);
+    for (int a = 1; a < Dim; ++a) sum += pull.parts[a] * (own.parts[a] - other.parts[a]);
+    return sum;
+  }
+  void add(Pull pull, Floats tension) {
+    for (int a = 0; a < Dim; ++a) parts[a] += pull.parts[a] * tension;
+  }
+
+  Floats parts[Dim];
+};
+
+/// What it has in one vector: components side by side, in space with a fourth that is zero.
 template <int Dim>
-LanesInMemory* at(float* numbers, std::size_t place) {
-  return reinterpret_cast<LanesInMemory*>(numbers + place * Dim * block_width);
-}
+struct Row {
+  using Number = double;
+  static constexpr std::size_t size = PackedBonds::row_size(Dim);
+  using Components = Lanes<double, size>;
+  using InMemory = LanesInMemory<double, size>;
+
+  explicit Row(const double* numbers) : parts(*reinterpret_cast<const InMemory*>(numbers)) {}
+  void store(double* numbers) const { *reinterpret_cast<InMemory*>(numbers) = parts; }
+  struct Pull {
+    /// In space the number behind the components is read with them.
+    explicit Pull(const float* numbers) {
+      Lanes<float, size> read = *reinterpret_cast<const LanesInMemory<float, size>*>(numbers);
+      if constexpr (Dim == 3) read[3] = 0.0F;
+      parts = __builtin_convertvector(read, Components);
+    }
+    Components parts;
+  };
+  static double tension(const Pull& pull, const Row& own, const Row& other) {
+    const Components terms = pull.parts * (own.parts - other.parts);
+    if constexpr (Dim == 2) return terms[0] + terms[1];
+    if constexpr (Dim == 3) return (terms[0] + terms[2]) + (terms[1] + terms[3]);
+  }
+  void add(const Pull& pull, double tension) { parts += pull.parts * tension; }
+
+  Components parts;
+};
 
 }  // namespace
 
@@ -119,43 +173,37 @@ void PackedBonds::follow(Secants secants) {
   }
 }
 
-template <int Dim>
-void PackedBonds::add_forces(std::size_t part, const float* motions, float* forces,
-                             const PlacesDone& done) const {
+/// \param done  called as PlacesDone is
+template <int Dim, class Row, class Done>
+void PackedBonds::part_forces(std::size_t part, const typename Row::Number* motions,
+                              typename Row::Number* forces, const Done& done) const {
+  using Pull = typename Row::Pull;
   constexpr std::size_t together = 64;
   const std::size_t end = part_end_[part];
   std::size_t told = part == 0 ? 0 : part_end_[part - 1];
-  const std::ptrdiff_t row = Dim * block_width;
-  std::fill(forces + told * row, forces + end * row, 0.0F);
+  std::fill(forces + told * Row::size, forces + end * Row::size, typename Row::Number{});
   const Packed<Dim>* bond = bonds<Dim>().data() + begin_[2 * told];
   for (std::size_t place = told; place < end; ++place) {
-    const LanesInMemory* own_motion = at<Dim>(motions, place);
-    LanesInMemory* own_force = at<Dim>(forces, place);
-    Lanes motion[Dim], force[Dim];
-    for (int a = 0; a < Dim; ++a) {
-      motion[a] = own_motion[a];
-      force[a] = own_force[a];
-    }
-    const auto tension_of = [&](const Packed<Dim>& own) {
-      const LanesInMemory* other_motion = at<Dim>(motions, own.other);
-      Lanes tension = own.pull[0] * (other_motion[0] - motion[0]);
-      for (int a = 1; a < Dim; ++a) tension += own.pull[a] * (other_motion[a] - motion[a]);
-      return tension;
+    const Row motion(motions + place * Row::size);
+    Row force(forces + place * Row::size);
+    const auto tension_of = [&](const Packed<Dim>& own, const Pull& pull) {
+      const Row other(motions + static_cast<std::size_t>(own.other) * Row::size);
+      return Row::tension(pull, motion, other);
     };
     for (const auto* behind = bonds<Dim>().data() + begin_[2 * place + 1]; bond < behind; ++bond) {
-      LanesInMemory* other_force = at<Dim>(forces, bond->other);
-      const Lanes tension = tension_of(*bond);
-      for (int a = 0; a < Dim; ++a) {
-        const Lanes pull = bond->pull[a] * tension;
-        force[a] -= pull;
-        other_force[a] += pull;
-      }
+      typename Row::Number* at = forces + static_cast<std::size_t>(bond->other) * Row::size;
+      const Pull pull(bond->pull);
+      const auto tension = tension_of(*bond, pull);
+      force.add(pull, tension);
+      Row other(at);
+      other.add(pull, -tension);
+      other.store(at);
     }
     for (const auto* last = bonds<Dim>().data() + begin_[2 * place + 2]; bond < last; ++bond) {
-      const Lanes tension = tension_of(*bond);
-      for (int a = 0; a < Dim; ++a) force[a] -= bond->pull[a] * tension;
+      const Pull pull(bond->pull);
+      force.add(pull, tension_of(*bond, pull));
     }
-    for (int a = 0; a < Dim; ++a) own_force[a] = force[a];
+    force.store(forces + place * Row::size);
     // Bonds behind end at places behind, or add nothing to the other end.
     if (place + 1 < told + together && place + 1 < end) continue;
     done(part, told, place + 1);
@@ -163,13 +211,22 @@ void PackedBonds::add_forces(std::size_t part, const float* motions, float* forc
   }
 }
 
-void PackedBonds::forces(std::span<const float> motions, std::span<float> forces,
-                         const PlacesDone& done) const {
+template <template <int> class Row, class Number, class Done>
+void PackedBonds::all_forces(const Number* motions, Number* forces, const Done& done) const {
 #pragma omp parallel for schedule(dynamic) if (part_end_.size() > 1)
   for (std::size_t part = 0; part < part_end_.size(); ++part) {
-    network_.dim() == 2 ? add_forces<2>(part, motions.data(), forces.data(), done)
-                        : add_forces<3>(part, motions.data(), forces.data(), done);
+    network_.dim() == 2 ? part_forces<2, Row<2>>(part, motions, forces, done)
+                        : part_forces<3, Row<3>>(part, motions, forces, done);
   }
+}
+
+void PackedBonds::forces(std::span<const float> motions, std::span<float> forces,
+                         const PlacesDone& done) const {
+  all_forces<BlockRow>(motions.data(), forces.data(), done);
+}
+
+void PackedBonds::forces(std::span<const double> motion, std::span<double> forces) const {
+  all_forces<Row>(motion.data(), forces.data(), [](std::size_t, std::size_t, std::size_t) {});
 }
 
 }  // namespace perilink

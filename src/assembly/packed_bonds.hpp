@@ -13,7 +13,7 @@ namespace perilink {
 
 /// Trusses in single precision, sixteen bytes for each in space, by an order of the particles in
 /// which neighbours are near each other: for searches whose residuals are computed from the network
-/// itself. Each bond's force is that of block_forces() to seven digits of the motions of its ends;
+/// itself. Each bond's force is that of the network to seven digits of the motions of its ends;
 /// where these move far together few are left of it. Threads take one part of the order each; a
 /// bond between two parts is there twice, for the force on either end.
 class PackedBonds {
@@ -35,6 +35,13 @@ class PackedBonds {
   /// \param motions  by the order, shape (particles, dim, block_width), as `forces`
   void forces(std::span<const float> motions, std::span<float> forces,
               const PlacesDone& done) const;
+  /// Numbers of a particle in one vector: in space there is a fourth, which is zero.
+  static constexpr std::size_t row_size(int dim) { return dim == 2 ? 2 : 4; }
+  /// The same of one motion, whose own digits are all there: shape (particles, row_size).
+  void forces(std::span<const double> motion, std::span<double> forces) const;
+
+  Index place(Index particle) const { return place_[particle]; }
+  double unit() const { return unit_; }
 
  private:
   template <int Dim>
@@ -42,15 +49,17 @@ class PackedBonds {
   template <int Dim>
   void set(Index element, double before, double now);
   void set_any(Index element, double before, double now);
-  template <int Dim>
-  void add_forces(std::size_t part, const float* motions, float* forces,
-                  const PlacesDone& done) const;
+  template <template <int> class Row, class Number, class Done>
+  void all_forces(const Number* motions, Number* forces, const Done& done) const;
+  template <int Dim, class Row, class Done>
+  void part_forces(std::size_t part, const typename Row::Number* motions,
+                   typename Row::Number* forces, const Done& done) const;
 
   /// n sqrt(k s) over the square root of the unit, and whose other end it is.
   template <int Dim>
   struct Packed {
-    std::int32_t other;
     float pull[Dim];
+    std::int32_t other;
   };
   template <int Dim>
   Packed<Dim> packed(Index element, double secant) const;

@@ -17,6 +17,15 @@ using LinearMap = std::function<void(std::span<const double> vector, std::span<d
 using ScalarProduct =
     std::function<double(std::span<const double> first, std::span<const double> second)>;
 
+/// Puts the residual of a solution in place of what is left of it by the steps so far.
+using Correction =
+    std::function<void(std::span<const double> solution, std::span<double> residual)>;
+
+/// Corrections of searches whose product has fewer digits than their answer is to have: whenever
+/// errors seem to have fallen by five digits. Where they have not by one of these, the search ends
+/// without an answer.
+inline constexpr double digits_between_corrections = 1e-5, least_gain_of_digits = 0.1;
+
 /// Sum over the numbers in one order.
 double scalar_product(std::span<const double> first, std::span<const double> second);
 
@@ -70,10 +79,13 @@ inline constexpr double negligible_correction = 0.01;
 ///                      energy, or of `scale`
 /// \param scale         energy of a solution that this one corrects; 0: none
 /// \param dot           that of whole vectors, where those here are parts of them
+/// \param correct       where the product has few digits, see digits_between_corrections; the
+///                      solution is then from zero. Empty: never
 /// \throws NotPositiveDefinite where A is not
 GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
                                     std::span<const double> right, std::span<double> solution,
                                     double enough, double scale, int most_iterations,
-                                    const ScalarProduct& dot = scalar_product);
+                                    const ScalarProduct& dot = scalar_product,
+                                    const Correction& correct = {});
 
 }  // namespace perilink

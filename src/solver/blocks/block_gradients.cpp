@@ -260,8 +260,6 @@ void add_gains(const Square& sides, const Square& steps, std::array<EnergyGains,
   }
 }
 
-constexpr double digits_between = 1e-5;  // corrections
-constexpr double least_gain = 0.1;       // one of these five digits
 /// A residual so small, counted as an error, is none even where the body is soft.
 constexpr double gone = 1e-3;
 
@@ -300,7 +298,7 @@ GradientsReport block_conjugate_gradients(
     now.pr = take_step<Number>(p, q, steps, solution, right);
     ++report.iterations;
     report.error = largest(sizes, [&](int c) { return gains[c].error(); });
-    const bool is_exact = !correct || 0.1 * digits_between * corrected_at <= enough;
+    const bool is_exact = !correct || 0.1 * digits_between_corrections * corrected_at <= enough;
     report.converged = report.error <= enough && is_exact;
     if (report.converged) break;
     find_z();
@@ -308,13 +306,13 @@ GradientsReport block_conjugate_gradients(
     report.converged = left <= gone * enough && is_exact;
     if (report.converged) report.error = left;
     if (report.converged) break;
-    if (correct && (left < digits_between * corrected_at || report.error <= enough)) {
+    if (correct && (left < digits_between_corrections * corrected_at || report.error <= enough)) {
       correct(solution, right);
       std::ranges::fill(solution, Number{0});
       add_gram<Number>(p, right, 0, right.size() / width, now.pr = {});
       find_z();
       const double before = std::exchange(corrected_at, left_by(now.rz, sizes));
-      if (!(corrected_at < least_gain * before)) break;
+      if (!(corrected_at < least_gain_of_digits * before)) break;
     }
     const Square shares = times(inverse, now.qz);
     renew<Number>(p, z, shares);

@@ -57,35 +57,6 @@ TEST(InternalForce, ElasticSupportsPullBackAndStoreEnergy) {
   }
 }
 
-/// 900 000 bonds are taken in slabs. The list of all elements is gone through in one go; sums
-/// differ in their order, some hundred terms of 1e-16.
-TEST(InternalForce, DoesNotDependOnThreads) {
-  LatticeInput lattice = body_input({"", Pattern::cubic, Surface::none}, 27);
-  lattice.horizon = 3.0 * lattice.spacing;
-  const Network network = build_network(make_body(lattice), network_input(lattice));
-  ASSERT_GT(network.num_elements(), 900'000);
-  const auto displacement = random_vector(network.particles.positions.size(), 2);
-  std::vector<Index> all(static_cast<std::size_t>(network.num_elements()));
-  std::iota(all.begin(), all.end(), 0);
-  InternalForce one_go;
-  internal_force(network, {}, displacement, all, one_go);
-  double size = 0.0;
-  for (const double force : one_go.forces) size = std::max(size, std::abs(force));
-  const int before = omp_get_max_threads();
-  std::vector<InternalForce> found;
-  for (const int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
-    found.push_back(internal_force(network, {}, displacement));
-    EXPECT_EQ(found.back().forces, found.front().forces);
-    EXPECT_EQ(found.back().energy, found.front().energy);
-  }
-  omp_set_num_threads(before);
-  EXPECT_NEAR(found.front().energy, one_go.energy, 1e-12 * one_go.energy);
-  for (std::size_t k = 0; k < one_go.forces.size(); ++k) {
-    ASSERT_NEAR(found.front().forces[k], one_go.forces[k], 1e-13 * size) << k;
-  }
-}
-
 TEST(InternalForce, WithoutSecantsAllIsIntact) {
   Network trusses = make_network({"", Pattern::cubic, Surface::none}, 3), states = trusses;
   states.state_stiffness.assign(static_cast<std::size_t>(states.particles.size()), 0.3);

@@ -1,11 +1,13 @@
 #include "assembly/packed_bonds.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
 #include <numeric>
 
 #include "assembly/block_forces.hpp"
+#include "assembly/internal_force.hpp"
 #include "support/lattice_networks.hpp"
 #include "support/small_networks.hpp"
 
@@ -25,6 +27,27 @@ std::vector<Index> backwards(const Network& network) {
 std::vector<std::vector<std::size_t>> parts_of(const Network& network) {
   const std::size_t all = static_cast<std::size_t>(network.particles.size());
   return {{all}, {all / 3, all / 3, all}};
+}
+
+/// One motion in double precision: bonds have seven digits, and errors of all of them would have to
+/// add up to reach the tolerance.
+void expect_forces_of_one(const PackedBonds& bonds, const Network& network, Secants secants) {
+  const std::vector<Index> place = backwards(network);
+  const auto dim = static_cast<std::size_t>(network.dim());
+  const std::size_t row = PackedBonds::row_size(network.dim());
+  const std::vector<double> motion = random_vector(place.size() * dim, 5);
+  const InternalForce expected = internal_force(network, secants, motion);
+  BlockVector<double> packed(place.size() * row, 0.0), forces(packed.size(), 7.0);
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    packed[place[k / dim] * row + k % dim] = motion[k];
+  }
+  bonds.forces(packed, forces);
+  double size = 0.0;
+  for (const double force : expected.forces) size = std::max(size, std::abs(force));
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    ASSERT_NEAR(bonds.unit() * forces[place[k / dim] * row + k % dim], expected.forces[k],
+                1e-6 * size);
+  }
 }
 
 /// Seven digits of each of some hundred terms.
@@ -53,6 +76,7 @@ void expect_forces(const PackedBonds& bonds, const std::vector<std::size_t>& par
   for (std::size_t k = 0; k < motions.size(); ++k) {
     ASSERT_NEAR(unit * forces[place[k / row] * row + k % row], expected[k], 1e-5 * size) << k;
   }
+  expect_forces_of_one(bonds, network, secants);
 }
 
 TEST(PackedBonds, PullAsThoseOfTheNetwork) {
@@ -87,6 +111,25 @@ TEST(PackedBonds, FollowWhatHasChanged) {
     bonds.follow(secants);
     expect_forces(bonds, parts, network, secants, unit);
   }
+}
+
+TEST(PackedBonds, ForcesDoNotDependOnThreads) {
+  const Network network = make_network({"", Pattern::cubic, Surface::none}, 8);
+  const std::vector<Index> place = backwards(network);
+  const std::size_t all = place.size();
+  const PackedBonds bonds(network, {}, place, 1.0, std::vector{all / 4, all / 2, all});
+  BlockVector<double> motion(all * 4, 0.0), forces(motion.size());
+  const std::vector<double> random = random_vector(all * 3, 2);
+  for (std::size_t k = 0; k < random.size(); ++k) motion[k / 3 * 4 + k % 3] = random[k];
+  const int before = omp_get_max_threads();
+  BlockVector<double> first;
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    bonds.forces(motion, forces);
+    if (threads == 1) first = forces;
+    EXPECT_EQ(forces, first);
+  }
+  omp_set_num_threads(before);
 }
 
 }  // namespace

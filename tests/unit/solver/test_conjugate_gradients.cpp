@@ -102,5 +102,28 @@ TEST(ConjugateGradients, RefusesAMatrixThatIsNotPositiveDefinite) {
   EXPECT_THROW(search.run(1e-9, 1000), NotPositiveDefinite);
 }
 
+/// A product of seven digits, and residuals of sixteen.
+TEST(ConjugateGradients, CorrectionsGiveMoreDigitsThanTheProductHas) {
+  Search search(200, 1e2);
+  const MatrixXd rounded = search.matrix.cast<float>().cast<double>();
+  const Correction correct = [&](std::span<const double> solution, std::span<double> residual) {
+    product_with(search.matrix)(solution, residual);
+    for (std::size_t k = 0; k < residual.size(); ++k) residual[k] = search.right[k] - residual[k];
+  };
+  const auto run = [&](const MatrixXd& matrix, const Correction& correction) {
+    std::ranges::fill(search.solution, 0.0);
+    return conjugate_gradients(product_with(matrix), identity, search.right, search.solution, 1e-10,
+                               0.0, 1000, scalar_product, correction);
+  };
+  const GradientsReport exact = run(search.matrix, {});
+  EXPECT_TRUE(run(rounded, {}).converged);
+  EXPECT_GT(search.error(), 1e-8 * search.size());
+  const GradientsReport corrected = run(rounded, correct);
+  EXPECT_TRUE(corrected.converged);
+  EXPECT_LE(search.error(), 1e-10 * search.size());
+  EXPECT_LE(corrected.iterations, exact.iterations + 2) << "directions go on across corrections";
+  EXPECT_FALSE(run(2.0 * search.matrix, correct).converged) << "half of the residual is left";
+}
+
 }  // namespace
 }  // namespace perilink

@@ -70,6 +70,11 @@ BlockRow local_energies(std::span<const double> blocks, int width, std::span<con
   return energies;
 }
 
+double largest_stiffness(const Network& network) {
+  const auto largest = std::ranges::max_element(network.stiffness);
+  return largest == network.stiffness.end() || *largest <= 0.0 ? 1.0 : *largest;
+}
+
 }  // namespace
 
 BoxSolver::BoxSolver(const Network& network, const Unknowns& unknowns, Secants secants,
@@ -98,9 +103,19 @@ BoxSolver::BoxSolver(const Network& network, const Unknowns& unknowns, Secants s
     team_ = std::make_shared<Team>(*options.ranks, network, unknowns, secants, *motions_, stiffness,
                                    ground);
   }
+  if (!team_ && SingleBody::is_made_of(network)) pack();
   require_resistance();
-  if (!options.blocks || team_ || !SingleBody::is_made_of(network)) return;
-  single_ = std::make_unique<SingleBody>(network, unknowns, secants, *motions_, blocks_, *factor_);
+}
+
+void BoxSolver::pack() {
+  order_.emplace(*motions_, network_.particles.size());
+  packed_ = std::make_unique<PackedBonds>(network_, secants_, order_->place,
+                                          largest_stiffness(network_), order_->part_end());
+  packed_motion_.resize(order_->place.size() * PackedBonds::row_size(network_.dim()));
+  packed_forces_.resize(packed_motion_.size());
+  if (!options_.blocks) return;
+  single_ = std::make_unique<SingleBody>(network_, unknowns_, *motions_, *order_, *packed_, blocks_,
+                                         *factor_);
 }
 
 BoxSolver::BoxSolver(const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
@@ -115,32 +130,67 @@ BoxSolver::BoxSolver(const LatticePattern& pattern, const Network& places, const
 
 /// What moves without resistance shows under forces of any kind; the loads may not stir it. With
 /// the boxes as preconditioner the smallest eigenvalue of whole bodies is 0.1 to 1, of a body held
-/// by the last of its bonds 1e-3, of a mechanism below 1e-16.
+/// by the last of its bonds 1e-3, of a mechanism below 1e-16; bonds in single precision resist a
+/// mechanism a little, so that they tell nothing about small ones.
 void BoxSolver::require_resistance() {
-  constexpr double none = 1e-8, enough = 1e-4;
+  constexpr double none = 1e-8, doubtful = 1e-4, enough = 1e-4;
   constexpr int most_steps = 2000;
   std::mt19937 random(7);  // fixed: the same verdict in every run
   std::vector<double> forces(static_cast<std::size_t>(unknowns_.count));
   for (double& force : forces) force = static_cast<double>(random() % 2) - 0.5;
   std::vector<double> motion(forces.size(), 0.0);
-  const GradientsReport report = search(forces, motion, enough, 0.0, most_steps);
+  GradientsReport report = search(forces, motion, enough, 0.0, most_steps);
+  if (packed_ && report.softest < doubtful) {
+    std::ranges::fill(motion, 0.0);
+    report = search_by(&BoxSolver::multiply, forces, motion, enough, 0.0, most_steps);
+  }
   iterations_ += report.iterations;
   if (report.softest > none) return;
   throw NotPositiveDefinite(
       "the stiffness matrix is singular to working precision: part of the body can move freely");
 }
 
-GradientsReport BoxSolver::search(std::span<const double> right, std::span<double> solution,
-                                  double enough, double scale, int most_steps) {
-  if (team_) return team_->search(right, solution, enough, scale, most_steps);
+template <class Multiply>
+GradientsReport BoxSolver::search_by(Multiply multiply, std::span<const double> right,
+                                     std::span<double> solution, double enough, double scale,
+                                     int most_steps, const Correction& correct) {
   return conjugate_gradients(
       [&](std::span<const double> q, std::span<double> result) {
-        product_threads_.run_within([&] { multiply(q, result); });
+        product_threads_.run_within([&] { (this->*multiply)(q, result); });
       },
       [&](std::span<const double> r, std::span<double> z) {
         inverse_threads_.run_within([&] { precondition(r, z); });
       },
-      right, solution, enough, scale, most_steps);
+      right, solution, enough, scale, most_steps, scalar_product, correct);
+}
+
+GradientsReport BoxSolver::search(std::span<const double> right, std::span<double> solution,
+                                  double enough, double scale, int most_steps) {
+  if (team_) return team_->search(right, solution, enough, scale, most_steps);
+  if (packed_) {
+    const GradientsReport report = search_packed(right, solution, enough, scale, most_steps);
+    if (report.converged) return report;
+    packed_.reset();
+    single_.reset();
+    std::ranges::fill(solution, 0.0);
+  }
+  return search_by(&BoxSolver::multiply, right, solution, enough, scale, most_steps);
+}
+
+/// Steps with bonds in single precision, residuals by the network.
+GradientsReport BoxSolver::search_packed(std::span<const double> right, std::span<double> solution,
+                                         double enough, double scale, int most_steps) {
+  packed_->follow(secants_);
+  const auto correct = [&](std::span<const double> found, std::span<double> residual) {
+    multiply(found, residual);
+    for (std::size_t k = 0; k < residual.size(); ++k) residual[k] = right[k] - residual[k];
+  };
+  try {
+    return search_by(&BoxSolver::multiply_packed, right, solution, enough, scale, most_steps,
+                     correct);
+  } catch (const NotPositiveDefinite&) {
+    return {};  // double precision has the last word
+  }
 }
 
 void BoxSolver::precondition(std::span<const double> residual, std::span<double> result) {
@@ -176,6 +226,28 @@ void BoxSolver::multiply(std::span<const double> q, std::span<double> result) {
   for (std::size_t k = 0; k < ground_->size(); ++k) result[k] += (*ground_)[k] * q[k];
 }
 
+/// The same by packed bonds.
+void BoxSolver::multiply_packed(std::span<const double> q, std::span<double> result) {
+  const auto width = static_cast<std::size_t>(unknowns_.width);
+  const std::size_t row = PackedBonds::row_size(unknowns_.width);
+  const auto for_each_unknown = [&](auto visit) {
+    for (Index p = 0; p < network_.particles.size(); ++p) {
+      const std::size_t slot = p * width, place = packed_->place(p) * row;
+      for (std::size_t a = 0; a < width; ++a) {
+        const Index unknown = unknowns_.number[slot + a];
+        if (unknown >= 0) visit(slot + a, place + a, unknown);
+      }
+    }
+  };
+  for_each_unknown([&](std::size_t, std::size_t place, Index k) { packed_motion_[place] = q[k]; });
+  packed_->forces(packed_motion_, packed_forces_);
+  for_each_unknown([&](std::size_t slot, std::size_t place, Index k) {
+    result[k] = packed_->unit() * packed_forces_[place];
+    if (!network_.support_stiffness.empty()) result[k] += network_.support_stiffness[slot] * q[k];
+    if (ground_ != nullptr && !ground_->empty()) result[k] += (*ground_)[k] * q[k];
+  });
+}
+
 void BoxSolver::solve(std::span<const double> right, std::span<double> solution) {
   const std::vector<double> wanted(right.begin(), right.end());
   std::fill(solution.begin(), solution.end(), 0.0);
@@ -190,22 +262,9 @@ void BoxSolver::solve(std::span<const double> right, std::span<double> solution)
 
 void BoxSolver::correct(std::span<const double> right, std::span<double> solution, double energy) {
   const double tolerance = options_.tolerance * finer;
-  GradientsReport report;
-  BlockVector<double> block(single_ ? unknowns_.number.size() * block_width : 0),
-      found(block.size());
-  const auto for_each_unknown = [&](auto visit) {
-    for (std::size_t slot = 0; single_ && slot < unknowns_.number.size(); ++slot) {
-      if (unknowns_.number[slot] >= 0) visit(unknowns_.number[slot], slot * block_width);
-    }
-  };
-  for_each_unknown([&](Index k, std::size_t place) { block[place] = right[k]; });
-  if (is_found_in_single(block, found, {energy}, tolerance, report)) {
-    for_each_unknown([&](Index k, std::size_t place) { solution[k] = found[place]; });
-  } else {
-    const std::vector<double> wanted(right.begin(), right.end());
-    std::ranges::fill(solution, 0.0);
-    report = search(wanted, solution, tolerance, energy, most_box_iterations);
-  }
+  const std::vector<double> wanted(right.begin(), right.end());
+  std::ranges::fill(solution, 0.0);
+  const GradientsReport report = search(wanted, solution, tolerance, energy, most_box_iterations);
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, tolerance);
 }
@@ -293,7 +352,7 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
                                             double enough) {
   single_->follow(secants_, ground_ == nullptr ? std::span<const double>() : *ground_);
   const std::size_t row = static_cast<std::size_t>(unknowns_.width) * block_width;
-  const double root = std::sqrt(single_->unit());
+  const double root = std::sqrt(packed_->unit());
   const BlockRow local = local_energies(blocks_, unknowns_.width, right);
   BlockRow scaled{}, unit;  // sizes, and what a right side and its solution are divided by
   for (int c = 0; c < block_width; ++c) {
@@ -304,7 +363,7 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
   const auto for_each_particle = [&](auto visit) {
 #pragma omp parallel for schedule(static) if (network_.particles.size() > many_particles)
     for (Index p = 0; p < network_.particles.size(); ++p) {
-      visit(static_cast<std::size_t>(p) * row, single_->place(p) * row);
+      visit(static_cast<std::size_t>(p) * row, packed_->place(p) * row);
     }
   };
   const auto add = [&](std::span<const float> part) {

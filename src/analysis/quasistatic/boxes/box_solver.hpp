@@ -84,10 +84,18 @@ class BoxSolver {
  private:
   void precondition(std::span<const double> residual, std::span<double> result);
   void multiply(std::span<const double> q, std::span<double> result);
+  void multiply_packed(std::span<const double> q, std::span<double> result);
+  template <class Multiply>
+  GradientsReport search_by(Multiply multiply, std::span<const double> right,
+                            std::span<double> solution, double enough, double scale, int most_steps,
+                            const Correction& correct = {});
   GradientsReport search(std::span<const double> right, std::span<double> solution, double enough,
                          double scale, int most_steps);
+  GradientsReport search_packed(std::span<const double> right, std::span<double> solution,
+                                double enough, double scale, int most_steps);
   GradientsReport search_block(std::span<double> right, std::span<double> solution,
                                const BlockRow& sizes, double enough);
+  void pack();
   void require_resistance();
   void precondition_block(std::span<const double> residuals, std::span<double> results);
   void multiply_block(std::span<const double> motions, std::span<double> results);
@@ -104,10 +112,13 @@ class BoxSolver {
   std::vector<double> blocks_;         // inverse, shape (particles, width, width)
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<Factor> factor_;
-  std::shared_ptr<Team> team_;          ///< null: this process works alone
-  std::unique_ptr<SingleBody> single_;  ///< null: double precision
-  std::vector<double> coarse_;          // residual or motion of the boxes, shape (boxes, motions)
-  std::vector<double> motion_;          // shape (particles, width), zero where it is prescribed
+  std::shared_ptr<Team> team_;  ///< null: this process works alone
+  std::optional<BoxOrder> order_;
+  std::unique_ptr<PackedBonds> packed_;  ///< null: products are those of the network
+  std::unique_ptr<SingleBody> single_;   ///< null: blocks are left to double precision
+  std::vector<double> coarse_;           // residual or motion of the boxes, shape (boxes, motions)
+  std::vector<double> motion_;           // shape (particles, width), zero where it is prescribed
+  BlockVector<double> packed_motion_, packed_forces_;  // the same in the order of packed bonds
   BlockVector<double> coarse_block_;
   ThreadChoice product_threads_{omp_get_max_threads()}, inverse_threads_ = product_threads_;
   ThreadChoice block_threads_ = product_threads_;

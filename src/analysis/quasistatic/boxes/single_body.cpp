@@ -18,73 +18,49 @@ LanesInMemory* at(float* numbers) { return reinterpret_cast<LanesInMemory*>(numb
 template <int Dim>
 constexpr int num_motions = Dim == 2 ? 3 : 6;
 
-std::vector<Index> places_by_box(const BoxMotions& motions, Index particles) {
-  std::vector<Index> place(static_cast<std::size_t>(particles));
-  Index next = 0;
-  for (Index b = 0; b < motions.num_boxes(); ++b) {
-    for (const Index p : motions.particles(b)) place[p] = next++;
-  }
-  return place;
-}
-
-std::vector<std::size_t> ends_of_boxes(const BoxMotions& motions) {
-  std::vector<std::size_t> ends = {0};
-  for (Index b = 0; b < motions.num_boxes(); ++b) {
-    ends.push_back(ends.back() + motions.particles(b).size());
-  }
-  return ends;
-}
-
 /// Particles from which on threads pay.
 constexpr std::size_t many_particles = 4000;
 
-/// Boxes up to which parts of about as many particles each go, however many threads there are.
-std::vector<std::size_t> parts_of(const std::vector<std::size_t>& box_end) {
-  const std::size_t parts = box_end.back() < many_particles ? 1 : most_parts;
-  std::vector<std::size_t> ends = {0};
-  for (std::size_t k = 1; k <= parts; ++k) {
-    const std::size_t place = box_end.back() * k / parts;
-    ends.push_back(
-        static_cast<std::size_t>(std::ranges::lower_bound(box_end, place) - box_end.begin()));
+}  // namespace
+
+BoxOrder::BoxOrder(const BoxMotions& motions, Index particles)
+    : place(static_cast<std::size_t>(particles)), box_end{0}, part_box{0} {
+  Index next = 0;
+  for (Index b = 0; b < motions.num_boxes(); ++b) {
+    for (const Index p : motions.particles(b)) place[p] = next++;
+    box_end.push_back(static_cast<std::size_t>(next));
   }
-  return ends;
+  const std::size_t parts = box_end.back() < many_particles ? 1 : most_parts;
+  for (std::size_t k = 1; k <= parts; ++k) {
+    const auto box = std::ranges::lower_bound(box_end, box_end.back() * k / parts);
+    part_box.push_back(static_cast<std::size_t>(box - box_end.begin()));
+  }
 }
 
-std::vector<std::size_t> ends_of_parts(const std::vector<std::size_t>& box_end,
-                                       const std::vector<std::size_t>& part_box) {
+std::vector<std::size_t> BoxOrder::part_end() const {
   std::vector<std::size_t> ends;
   for (std::size_t k = 1; k < part_box.size(); ++k) ends.push_back(box_end[part_box[k]]);
   return ends;
 }
 
-double largest_stiffness(const Network& network) {
-  const auto largest = std::ranges::max_element(network.stiffness);
-  return largest == network.stiffness.end() || *largest <= 0.0 ? 1.0 : *largest;
-}
-
-}  // namespace
-
 bool SingleBody::is_made_of(const Network& network) {
   return !network.carries_moments() && !network.has_states() && !network.cells;
 }
 
-SingleBody::SingleBody(const Network& network, const Unknowns& unknowns, Secants secants,
-                       const BoxMotions& motions, std::span<const double> blocks,
+SingleBody::SingleBody(const Network& network, const Unknowns& unknowns, const BoxMotions& motions,
+                       const BoxOrder& order, PackedBonds& bonds, std::span<const double> blocks,
                        const Factor& coarse)
     : network_(network),
       unknowns_(unknowns),
-      place_(places_by_box(motions, network.particles.size())),
-      box_end_(ends_of_boxes(motions)),
-      part_box_(parts_of(box_end_)),
-      unit_(largest_stiffness(network)),
-      bonds_(network, secants, place_, unit_, ends_of_parts(box_end_, part_box_)),
+      order_(order),
+      bonds_(bonds),
       blocks_(blocks.size()),
-      factor_(coarse.in_single(unit_)) {
+      factor_(coarse.in_single(bonds.unit())) {
   const auto dim = static_cast<std::size_t>(network.dim());
   const auto count = static_cast<std::size_t>(motions.num_motions());
-  moves_.resize(place_.size() * dim * count);
+  moves_.resize(order_.place.size() * dim * count);
   for (Index p = 0; p < network.particles.size(); ++p) {
-    const auto at_place = static_cast<std::size_t>(place_[p]);
+    const auto at_place = static_cast<std::size_t>(order_.place[p]);
     for (std::size_t a = 0; a < dim; ++a) {
       const int component = static_cast<int>(a);
       const std::array<double, 6> row = motions.row(p, component);
@@ -94,11 +70,11 @@ SingleBody::SingleBody(const Network& network, const Unknowns& unknowns, Secants
       for (std::size_t b = 0; b < dim; ++b) {
         if (unknowns.at(p, static_cast<int>(b)) < 0) continue;
         blocks_[(at_place * dim + a) * dim + b] =
-            static_cast<float>(blocks[(p * dim + a) * dim + b] * unit_);
+            static_cast<float>(blocks[(p * dim + a) * dim + b] * bonds_.unit());
       }
     }
   }
-  coarse_.resize((box_end_.size() - 1) * count * block_width);
+  coarse_.resize((order_.box_end.size() - 1) * count * block_width);
 }
 
 void SingleBody::follow(Secants secants, std::span<const double> ground) {
@@ -106,14 +82,14 @@ void SingleBody::follow(Secants secants, std::span<const double> ground) {
   springs_.clear();
   if (ground.empty() && network_.support_stiffness.empty()) return;
   const auto dim = static_cast<std::size_t>(network_.dim());
-  springs_.resize(place_.size() * dim);
+  springs_.resize(order_.place.size() * dim);
   for (std::size_t slot = 0; slot < springs_.size(); ++slot) {
     const Index unknown = unknowns_.number[slot];
     double spring = 0.0;
     if (!network_.support_stiffness.empty()) spring += network_.support_stiffness[slot];
     if (!ground.empty() && unknown >= 0) spring += ground[unknown];
-    springs_[static_cast<std::size_t>(place_[slot / dim]) * dim + slot % dim] =
-        static_cast<float>(spring / unit_);
+    springs_[static_cast<std::size_t>(order_.place[slot / dim]) * dim + slot % dim] =
+        static_cast<float>(spring / bonds_.unit());
   }
 }
 
@@ -130,7 +106,7 @@ void SingleBody::multiply(std::span<const float> motions, std::span<float> force
 
 template <class Work>
 void SingleBody::for_each_part(Work work) const {
-  const std::size_t parts = part_box_.size() - 1;
+  const std::size_t parts = order_.part_box.size() - 1;
 #pragma omp parallel for schedule(dynamic) if (parts > 1)
   for (std::size_t part = 0; part < parts; ++part) work(part);
 }
@@ -138,11 +114,11 @@ void SingleBody::for_each_part(Work work) const {
 template <int Dim>
 void SingleBody::restrict_to_boxes(std::size_t part, const float* residuals) {
   constexpr int count = num_motions<Dim>;
-  for (std::size_t b = part_box_[part]; b < part_box_[part + 1]; ++b) {
-    const LanesInMemory* residual = at(residuals) + box_end_[b] * Dim;
-    const float* move = moves_.data() + box_end_[b] * Dim * count;
+  for (std::size_t b = order_.part_box[part]; b < order_.part_box[part + 1]; ++b) {
+    const LanesInMemory* residual = at(residuals) + order_.box_end[b] * Dim;
+    const float* move = moves_.data() + order_.box_end[b] * Dim * count;
     Lanes sums[count] = {};
-    for (const float* end = moves_.data() + box_end_[b + 1] * Dim * count; move < end;
+    for (const float* end = moves_.data() + order_.box_end[b + 1] * Dim * count; move < end;
          move += count, ++residual) {
       for (int m = 0; m < count; ++m) sums[m] += move[m] * *residual;
     }
@@ -155,16 +131,16 @@ template <int Dim>
 void SingleBody::add_motions(std::size_t part, const float* residuals, float* motions,
                              const RowsDone& done) const {
   constexpr int count = num_motions<Dim>;
-  std::size_t place = box_end_[part_box_[part]];
+  std::size_t place = order_.box_end[order_.part_box[part]];
   const LanesInMemory* residual = at(residuals) + place * Dim;
   LanesInMemory* motion = at(motions) + place * Dim;
   const float* move = moves_.data() + place * Dim * count;
   const float* block = blocks_.data() + place * Dim * Dim;
-  for (std::size_t b = part_box_[part]; b < part_box_[part + 1]; ++b) {
+  for (std::size_t b = order_.part_box[part]; b < order_.part_box[part + 1]; ++b) {
     const Index* from = factor_.place.data() + b * count;
     Lanes values[count];
     for (int m = 0; m < count; ++m) values[m] = at(coarse_.data())[from[m]];
-    for (place = box_end_[b]; place < box_end_[b + 1]; ++place, residual += Dim) {
+    for (place = order_.box_end[b]; place < order_.box_end[b + 1]; ++place, residual += Dim) {
       for (int a = 0; a < Dim; ++a, move += count, block += Dim, ++motion) {
         Lanes sum = block[0] * residual[0];
         for (int c = 1; c < Dim; ++c) sum += block[c] * residual[c];
@@ -172,7 +148,7 @@ void SingleBody::add_motions(std::size_t part, const float* residuals, float* mo
         *motion = sum;
       }
     }
-    done(part, box_end_[b] * Dim, place * Dim);
+    done(part, order_.box_end[b] * Dim, place * Dim);
   }
 }
 

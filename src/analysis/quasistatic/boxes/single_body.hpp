@@ -13,10 +13,22 @@
 
 namespace perilink {
 
+/// Particles box after box, so that what is near is near in memory.
+struct BoxOrder {
+  BoxOrder(const BoxMotions& motions, Index particles);
+
+  std::vector<Index> place;  ///< where each particle comes
+  /// Places up to which the particles of each box go; zero before the first.
+  std::vector<std::size_t> box_end;
+  /// Boxes up to which parts of about as many particles each go, however many threads there are;
+  /// zero before the first.
+  std::vector<std::size_t> part_box;
+  std::vector<std::size_t> part_end() const;  ///< places up to which each part goes
+};
+
 /// A body of trusses in single precision, for the steps of a search whose residuals are computed
 /// elsewhere: product and preconditioner (docs/theory/large_bodies.md, L-1) of block_width vectors
-/// side by side. Particles come box after box, so that what is near is near in memory. Vectors have
-/// shape (particles, dim, block_width); forces count by the square root of a stiffness, and motions
+/// side by side. Vectors have shape (particles, dim, block_width); forces count by the square root of a stiffness, and motions
 /// by one over it, so that energies are what they are.
 class SingleBody {
  public:
@@ -25,9 +37,10 @@ class SingleBody {
 
   /// \param blocks  inverse ones of the particles, shape (particles, dim, dim)
   /// \param coarse  factor of P'K P
-  /// \param motions, unknowns  kept by reference, as the network
-  SingleBody(const Network& network, const Unknowns& unknowns, Secants secants,
-             const BoxMotions& motions, std::span<const double> blocks, const Factor& coarse);
+  /// \param order, bonds, unknowns  kept by reference, as the network
+  SingleBody(const Network& network, const Unknowns& unknowns, const BoxMotions& motions,
+             const BoxOrder& order, PackedBonds& bonds, std::span<const double> blocks,
+             const Factor& coarse);
 
   /// Takes over what has changed since.
   /// \param ground  springs that hold unknowns, or empty
@@ -38,10 +51,6 @@ class SingleBody {
                 const RowsDone& done) const;
   void precondition(std::span<const float> residuals, std::span<float> motions,
                     const RowsDone& done);
-
-  /// Where a particle comes in the order.
-  Index place(Index particle) const { return place_[particle]; }
-  double unit() const { return unit_; }  ///< stiffness whose root forces count by
 
  private:
   template <int Dim>
@@ -54,12 +63,8 @@ class SingleBody {
 
   const Network& network_;
   const Unknowns& unknowns_;
-  std::vector<Index> place_;
-  /// Places up to which the particles of each box go; zero before the first.
-  std::vector<std::size_t> box_end_;
-  std::vector<std::size_t> part_box_;  ///< boxes up to which each part goes; zero before the first
-  double unit_;
-  PackedBonds bonds_;
+  const BoxOrder& order_;
+  PackedBonds& bonds_;
   std::vector<float> springs_;  ///< to the ground, by the order; empty: none
   std::vector<float> blocks_;   ///< inverse ones, by the order, zero where something is held
   std::vector<float> moves_;    ///< rows of P, by the order, shape (particles, dim, motions)

@@ -38,6 +38,28 @@ TEST(BoxSolver, ACorrectionCountsByTheSolutionThatItCorrects) {
   EXPECT_EQ(solver.iterations(), first);
 }
 
+/// Springs so soft that the body turns ten million times as far as it is strained: bonds in single
+/// precision see no strain, and the network has the last word.
+TEST(BoxSolver, SolvesForBodiesThatTurnFarOnSoftSprings) {
+  AnalysisBody body = make_block({cubic});
+  number(body, [](Index, int) { return false; });
+  body.network.support_stiffness.assign(body.loads.forces.size(), 1e-7 * body.network.stiffness[0]);
+  body.loads.forces[0] += 0.3;  // off the axis
+  const std::vector<double> secants = intact(body.network);
+  BoxSolver solver(body.network, body.unknowns, secants, {.edge = 2});
+  const std::vector<double> load = body.unknowns.restrict(body.loads.forces);
+  std::vector<double> solution(load.size());
+  solver.solve(load, solution);
+  const InternalForce internal =
+      internal_force(body.network, secants, body.unknowns.expand(solution));
+  double missing = 0.0, size = 0.0;
+  for (std::size_t k = 0; k < load.size(); ++k) {
+    missing = std::max(missing, std::abs(load[k] - internal.forces[k]));
+    size = std::max(size, std::abs(load[k]));
+  }
+  EXPECT_LT(missing, 1e-7 * size) << "sixteen digits of motions less seven";
+}
+
 TEST(BoxSolver, RefusesABodyThatNothingHolds) {
   AnalysisBody body = make_block({cubic});
   number(body, [](Index, int) { return false; });

@@ -35,15 +35,19 @@ struct Boxed {
       block = block.inverse().eval();
     }
     blocks = std::move(stiffness.blocks);
-    single = std::make_unique<SingleBody>(body.network, body.unknowns, secants, *motions, blocks,
-                                          *factor);
+    order.emplace(*motions, body.network.particles.size());
+    const double unit = 3.0 * body.network.stiffness[0];
+    bonds =
+        std::make_unique<PackedBonds>(body.network, secants, order->place, unit, order->part_end());
+    single = std::make_unique<SingleBody>(body.network, body.unknowns, *motions, *order, *bonds,
+                                          blocks, *factor);
   }
   /// Numbers of every particle in the order of the body.
   std::vector<float> ordered(const std::vector<double>& values) const {
     const std::size_t row = static_cast<std::size_t>(body.network.dim()) * block_width;
     std::vector<float> result(values.size());
     for (std::size_t k = 0; k < values.size(); ++k) {
-      result[single->place(static_cast<Index>(k / row)) * row + k % row] =
+      result[bonds->place(static_cast<Index>(k / row)) * row + k % row] =
           static_cast<float>(values[k]);
     }
     return result;
@@ -61,6 +65,8 @@ struct Boxed {
   std::optional<BoxMotions> motions;
   std::unique_ptr<Factor> factor;
   std::vector<double> blocks;
+  std::optional<BoxOrder> order;
+  std::unique_ptr<PackedBonds> bonds;
   std::unique_ptr<SingleBody> single;
 };
 
@@ -84,7 +90,7 @@ TEST(SingleBody, MultipliesWithSpringsAsInDoublePrecision) {
     for (std::size_t k = 0; k < motion.size(); ++k) {
       const Index unknown = boxed.body.unknowns.number[k / block_width];
       if (unknown >= 0) expected[k] += ground[unknown] * motion[k];
-      expected[k] /= boxed.single->unit();
+      expected[k] /= boxed.bonds->unit();
     }
     std::vector<float> found(motion.size());
     boxed.single->multiply(boxed.ordered(motion), found,
@@ -113,7 +119,7 @@ TEST(SingleBody, PreconditionsByParticlesAndBoxes) {
     boxed.motions->restrict_block(residual, coarse);
     boxed.factor->solve_all(coarse);
     boxed.motions->add_block(coarse, expected);
-    for (double& value : expected) value *= boxed.single->unit();
+    for (double& value : expected) value *= boxed.bonds->unit();
     std::vector<float> found(residual.size());
     std::vector<std::size_t> complete(most_parts, 0);  // by part
     boxed.single->precondition(boxed.ordered(residual), found,
