@@ -1,10 +1,8 @@
 #include "assembly/internal_force.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "discretization/lattices/make_body.hpp"
 #include "support/small_networks.hpp"
