@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "app/model/body/particle_model.hpp"
@@ -15,6 +14,7 @@
 #include "app/results/bar_file.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
+#include "base/joined_parts.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {
@@ -31,20 +31,15 @@ std::vector<double> densities(const CaseFile& input) {
 Index count_loose_pieces(const Model& model, const BondRunState& state) {
   const Bonds& bonds = model.network.bonds;
   const Index count = model.network.particles.size();
-  std::vector<Index> piece(static_cast<std::size_t>(count));
-  std::iota(piece.begin(), piece.end(), 0);
-  const auto root = [&](Index i) {
-    while (piece[i] != i) i = piece[i] = piece[piece[i]];
-    return i;
-  };
+  JoinedParts pieces(count);
   const std::vector<double> secants = state.bonds.secants();
   for (Index e = 0; e < bonds.size(); ++e) {
-    if (secants[e] != 0.0) piece[root(bonds.first[e])] = root(bonds.second[e]);
+    if (secants[e] != 0.0) pieces.join(bonds.first[e], bonds.second[e]);
   }
-  std::vector<Index> size(piece.size(), 0);
-  std::vector<std::uint8_t> is_held(piece.size(), 0);
+  std::vector<Index> size(static_cast<std::size_t>(count), 0);
+  std::vector<std::uint8_t> is_held(size.size(), 0);
   for (std::size_t slot = 0; slot < model.unknowns.number.size(); ++slot) {
-    const Index own = root(static_cast<Index>(slot / model.unknowns.width));
+    const Index own = pieces.find(static_cast<Index>(slot / model.unknowns.width));
     if (slot % model.unknowns.width == 0) ++size[own];
     const bool on_spring =
         !model.network.support_stiffness.empty() && model.network.support_stiffness[slot] > 0.0;

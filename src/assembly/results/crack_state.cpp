@@ -1,8 +1,8 @@
 #include "assembly/results/crack_state.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "base/joined_parts.hpp"
 #include "material/principal_values.hpp"
 
 namespace perilink {
@@ -50,17 +50,12 @@ double opening_of(const Network& network, const Csr& families, Secants secants,
 
 /// Number of the connected set that each of the bonds belongs to, in the order of their first ones.
 std::vector<Index> connected_sets(const Network& network, std::span<const Index> bonds) {
-  std::vector<Index> parent(static_cast<std::size_t>(network.particles.size()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const Index e : bonds) parent[root(network.bonds.first[e])] = root(network.bonds.second[e]);
-  std::vector<Index> number(parent.size(), no_index), sets;
+  JoinedParts parts(network.particles.size());
+  for (const Index e : bonds) parts.join(network.bonds.first[e], network.bonds.second[e]);
+  std::vector<Index> number(static_cast<std::size_t>(network.particles.size()), no_index), sets;
   Index count = 0;
   for (const Index e : bonds) {
-    Index& own = number[root(network.bonds.first[e])];
+    Index& own = number[parts.find(network.bonds.first[e])];
     if (own == no_index) own = count++;
     sets.push_back(own);
   }
