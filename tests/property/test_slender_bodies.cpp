@@ -13,7 +13,7 @@ using namespace test;
 class SlenderBody : public testing::TestWithParam<SlenderCase> {};
 
 DamageResult collapse(const SlenderCase& bar, Recorder& recorder) {
-  return test::run(make_slender(bar), {}, recorder);
+  return run(make_slender(bar), {}, recorder);
 }
 
 TEST_P(SlenderBody, EndsInTwoAndItsEnergiesBalance) {

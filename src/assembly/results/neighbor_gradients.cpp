@@ -31,17 +31,19 @@ NeighborGradients<Dim>::NeighborGradients(const Particles& particles,
 template <int Dim>
 bool NeighborGradients<Dim>::is_like(const Kind& kind, Index particle) const {
   if (kind.offsets.size() != offsets_.size()) return false;
-  double reach = 0.0, difference = 0.0;
+  const double most = round_off * (largest_coordinate(particles_, particle) + kind.reach);
+  int unlike = 0;
   for (std::size_t k = 0; k < offsets_.size(); ++k) {
-    reach = std::max(reach, std::abs(offsets_[k]));
-    difference = std::max(difference, std::abs(offsets_[k] - kind.offsets[k]));
+    unlike |= std::abs(offsets_[k] - kind.offsets[k]) > most ? 1 : 0;
   }
-  return difference <= round_off * (largest_coordinate(particles_, particle) + reach);
+  return unlike == 0;
 }
 
 template <int Dim>
 void NeighborGradients<Dim>::fit(Kind& kind) const {
   kind.offsets = offsets_;
+  kind.reach = 0.0;
+  for (const double x : offsets_) kind.reach = std::max(kind.reach, std::abs(x));
   kind.weights.assign(offsets_.size(), 0.0);
   kind.settled = !offsets_.empty() && fit_(kind.offsets, kind.weights);
 }

@@ -40,6 +40,7 @@ class NeighborGradients {
   /// Surroundings of a particle.
   struct Kind {
     std::vector<double> offsets, weights;  ///< shape (neighbors, Dim)
+    double reach = 0.0;                    ///< largest component of an offset [length]
     bool settled = false;
   };
 

@@ -35,7 +35,7 @@ void expect_same_without_limits(const Body& body, NetworkInput input) {
   EXPECT_EQ(elastic.first_segment, breakable.first_segment);
 }
 
-TEST(ElasticNetworks, OfJointsAreTheSameWithoutLimits) {
+TEST(WithoutLimits, JointsAreTheSame) {
   for (const JointCase& joint :
        {JointCase{"plane", Pattern::rectangular, 2, 4.0, 3.0},
         JointCase{"space", Pattern::cubic, 3, 4.0, 2.0},
@@ -49,7 +49,7 @@ TEST(ElasticNetworks, OfJointsAreTheSameWithoutLimits) {
   }
 }
 
-TEST(ElasticNetworks, OfBarsThatYieldAreTheSameWithoutLimits) {
+TEST(WithoutLimits, BarsThatYieldAreTheSame) {
   for (const bool anchored : {false, true}) {
     const LatticeInput lattice = body_input(rectangular, 8);
     NetworkInput input = network_input(lattice);
@@ -64,7 +64,7 @@ TEST(ElasticNetworks, OfBarsThatYieldAreTheSameWithoutLimits) {
   }
 }
 
-TEST(ElasticNetworks, OfLargeBoxesAreTheSameWithoutLimits) {
+TEST(WithoutLimits, LargeBoxesAreTheSame) {
   LatticeInput lattice = body_input({"", Pattern::cubic, Surface::calibrated}, 16);
   lattice.horizon = 2.0 * lattice.spacing;
   NetworkInput input = network_input(lattice);
@@ -72,7 +72,7 @@ TEST(ElasticNetworks, OfLargeBoxesAreTheSameWithoutLimits) {
   expect_same_without_limits(make_body(lattice), input);
 }
 
-TEST(ElasticNetworks, OfGluedCellsAreTheSameWithoutLimits) {
+TEST(WithoutLimits, GluedCellsAreTheSame) {
   const Mesh mesh = box_mesh(2, 6);
   const std::vector<Index> material(static_cast<std::size_t>(mesh.num_cells()), 0);
   std::vector<std::uint8_t> glued(material.size(), 0);
@@ -86,7 +86,7 @@ TEST(ElasticNetworks, OfGluedCellsAreTheSameWithoutLimits) {
   expect_same_without_limits(body, input);
 }
 
-TEST(ElasticNetworks, OfBeamsAreTheSameWithoutLimits) {
+TEST(WithoutLimits, BeamsAreTheSame) {
   LatticeInput lattice;
   lattice.spacing = 1.0;
   lattice.thickness = 0.5;
