@@ -9,10 +9,12 @@
 namespace perilink {
 namespace {
 
-/// Of a block: a box has some hundred. Clouds, where no two are alike, fill the table in vain.
+/// Kinds in a table: a block of a box has some hundred. Clouds, where no two are alike, fill it in
+/// vain.
 constexpr std::size_t most_kinds = 256;
 
-/// Of the difference of two positions, over the larger coordinate: each is a product and a sum.
+/// Error of the difference of two positions over the larger coordinate: each is a product and a
+/// sum.
 constexpr double round_off = 8.0 * std::numeric_limits<double>::epsilon();
 
 double largest_coordinate(const Particles& particles, Index particle) {

@@ -23,7 +23,7 @@ class NeighborGradients {
 
   /// Finds the weights.
   /// \param offsets  of the neighbours from the particle, shape (neighbors, Dim) [length]
-  /// \param weights  of the same shape [1/length]
+  /// \param weights  as many of them [1/length]
   /// \return whether the neighbours settle the gradient
   using Fit = bool (*)(std::span<const double> offsets, std::span<double> weights);
 
@@ -52,7 +52,7 @@ class NeighborGradients {
   std::span<const double> motion_;
   std::size_t width_;
   Fit fit_;
-  std::vector<double> offsets_;                    ///< of the present particle
+  std::vector<double> offsets_;                    ///< those of the present particle
   std::unordered_map<std::uint64_t, Kind> kinds_;  ///< by what the numbers of neighbours add up to
   Kind single_;                                    ///< where the table is full, or has another
 };

@@ -82,7 +82,7 @@ bool fit_polynomial(std::span<const double> offsets, double size, std::span<doub
   return true;
 }
 
-/// Of second degree where the neighbours settle that, else linear.
+/// The fit is of second degree where the neighbours settle that, else linear.
 template <int Dim>
 bool fit_gradient(std::span<const double> offsets, std::span<double> weights) {
   double square = 0.0;
