@@ -22,7 +22,7 @@ class NeighborGradients {
   using Gradient = Eigen::Matrix<double, Dim, Dim>;  ///< row a, column b: du_a / dx_b
 
   /// Finds the weights.
-  /// \param offsets  of the neighbours from the particle, shape (neighbors, Dim) [length]
+  /// \param offsets  from the particle to the neighbours, shape (neighbors, Dim) [length]
   /// \param weights  as many of them [1/length]
   /// \return whether the neighbours settle the gradient
   using Fit = bool (*)(std::span<const double> offsets, std::span<double> weights);
