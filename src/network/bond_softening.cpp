@@ -309,7 +309,6 @@ MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const F
 }
 
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
-  if (input.elastic) return;
   const Particles& particles = network.particles;
   // Materials, and the stretch where bonds of the same take unlike energies: those of beams near
   // ends, and those of layers beside other materials. Ties have none.

@@ -121,7 +121,7 @@ std::string encode_array(std::span<const std::byte> bytes) {
   header[0] = blocks;
   header[1] = block_bytes;
   header[2] = bytes.size() % block_bytes;
-  const std::size_t room = compressBound(static_cast<uLong>(block_bytes));
+  const std::size_t room = compressBound(static_cast<uLong>(std::min(block_bytes, bytes.size())));
   std::vector<std::byte> compressed(blocks * room);
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t b = 0; b < blocks; ++b) {

@@ -80,7 +80,7 @@ Network make_beam(const Body& body, const NetworkInput& input) {
     }
   }
   network.first_tie = network.first_anchored_tie = network.first_segment = network.bonds.size();
-  soften_bonds(body, input, network);
+  if (!input.elastic) soften_bonds(body, input, network);
   return network;
 }
 

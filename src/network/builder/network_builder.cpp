@@ -210,9 +210,11 @@ Network build_network(const Body& body, const NetworkInput& input) {
                                        : build_bonds_and_cells(body, input, constants);
   add_bars(
       body, input, [&](Index material) { return constants.tie(material); }, network);
-  soften_bonds(body, input, network);
-  weaken_interfaces(body, input, network);
-  for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
+  if (!input.elastic) {
+    soften_bonds(body, input, network);
+    weaken_interfaces(body, input, network);
+    for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
+  }
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
   }
