@@ -1,53 +1,64 @@
 #include "assembly/fields.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 
 #include "assembly/internal_force.hpp"
-#include "discretization/vector_at.hpp"
+#include "assembly/results/neighbor_gradients.hpp"
 #include "network/frame.hpp"
 
 namespace perilink {
 namespace {
 
+/// Weights of the least squares of G xi = u_j - u_i: G = (sum du xi') (sum xi xi')^-1.
+template <int Dim>
+bool fit_linear(std::span<const double> offsets, std::span<double> weights) {
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  const Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>> xi(
+      offsets.data(), Dim, static_cast<Eigen::Index>(offsets.size() / Dim));
+  const Matrix shape = xi * xi.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix> axes(shape);
+  // Squared sines of the angles between bonds; round-off leaves 1e-15.
+  if (!(axes.eigenvalues()[0] > 1e-10 * axes.eigenvalues()[Dim - 1])) return false;
+  Eigen::Map<Eigen::Matrix<double, Dim, Eigen::Dynamic>>(weights.data(), Dim, xi.cols()) =
+      shape.inverse() * xi;
+  return true;
+}
+
 template <int Dim>
 void fill_principal_strains(const Network& network, const Csr& families, Secants secants,
                             std::span<const double> displacement, std::vector<double>& strains) {
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
-  const Bonds& bonds = network.bonds;
-  const Index num_particles = families.rows();
-#pragma omp parallel for schedule(static)
-  for (Index i = 0; i < num_particles; ++i) {
-    // Least squares of G xi = u_j - u_i: G = (sum du xi') (sum xi xi')^-1.
-    Matrix shape = Matrix::Zero();
-    Matrix moments = Matrix::Zero();
-    for (const Index e : families.row(i)) {
-      if (!(secants[e] > 0.0)) continue;
-      const Index j = bonds.other_end(e, i);
-      const Eigen::Matrix<double, Dim, 1> xi = vector_at<Dim>(network.particles.positions, j) -
-                                               vector_at<Dim>(network.particles.positions, i);
-      shape += xi * xi.transpose();
-      moments +=
-          (vector_at<Dim>(displacement, j) - vector_at<Dim>(displacement, i)) * xi.transpose();
-    }
-    const Eigen::SelfAdjointEigenSolver<Matrix> axes(shape);
-    // Squared sines of the angles between bonds; round-off leaves 1e-15.
-    if (!(axes.eigenvalues()[0] > 1e-10 * axes.eigenvalues()[Dim - 1])) continue;
-    const Matrix gradient = moments * shape.inverse();
-    const Matrix strain = 0.5 * (gradient + gradient.transpose());
-    const auto principal =
-        Eigen::SelfAdjointEigenSolver<Matrix>(strain, Eigen::EigenvaluesOnly).eigenvalues().eval();
-    for (int n = 0; n < Dim; ++n) {
-      strains[static_cast<std::size_t>(i) * Dim + n] = principal[Dim - 1 - n];
+  constexpr Index block = NeighborGradients<Dim>::block;
+#pragma omp parallel for schedule(dynamic)
+  for (Index begin = 0; begin < families.rows(); begin += block) {
+    NeighborGradients<Dim> gradients(network.particles, displacement, Dim, fit_linear<Dim>);
+    std::vector<Index> neighbors;
+    for (Index i = begin; i < std::min(begin + block, families.rows()); ++i) {
+      neighbors.clear();
+      for (const Index e : families.row(i)) {
+        if (secants[e] > 0.0) neighbors.push_back(network.bonds.other_end(e, i));
+      }
+      Matrix gradient;
+      if (!gradients.find(i, neighbors, gradient)) continue;
+      const Matrix strain = 0.5 * (gradient + gradient.transpose());
+      const auto principal = Eigen::SelfAdjointEigenSolver<Matrix>(strain, Eigen::EigenvaluesOnly)
+                                 .eigenvalues()
+                                 .eval();
+      for (int n = 0; n < Dim; ++n) {
+        strains[static_cast<std::size_t>(i) * Dim + n] = principal[Dim - 1 - n];
+      }
     }
   }
 }
 
-std::vector<double> truss_energies(const Network& network, Secants secants,
-                                   std::span<const double> displacement) {
+/// Calls visit(element, energy).
+template <class Visit>
+void for_each_truss_energy(const Network& network, Secants secants,
+                           std::span<const double> displacement, Visit visit) {
   const Bonds& bonds = network.bonds;
   const int dim = network.dim();
-  std::vector<double> energies(static_cast<std::size_t>(bonds.size()));
   for (Index e = 0; e < bonds.size(); ++e) {
     const auto n = bonds.direction(e);
     double extension = 0.0;
@@ -55,35 +66,35 @@ std::vector<double> truss_energies(const Network& network, Secants secants,
       extension += n[axis] * (displacement[static_cast<std::size_t>(bonds.second[e]) * dim + axis] -
                               displacement[static_cast<std::size_t>(bonds.first[e]) * dim + axis]);
     }
-    energies[e] = 0.5 * network.stiffness[e] * secants.axial(e) * extension * extension;
+    visit(e, 0.5 * network.stiffness[e] * secants.axial(e) * extension * extension);
   }
-  return energies;
 }
 
-template <int Dim>
-std::vector<double> frame_energies(const Network& network, Secants secants,
-                                   std::span<const double> motion) {
+template <int Dim, class Visit>
+void for_each_frame_energy(const Network& network, Secants secants, std::span<const double> motion,
+                           Visit visit) {
   using Modes = FrameModes<Dim>;
-  std::vector<double> energies(static_cast<std::size_t>(network.num_elements()), 0.0);
   for (Index e = 0; e < network.num_elements(); ++e) {
     const Modes modes = frame_modes<Dim>(network, e);
     const double* first =
         motion.data() + static_cast<std::size_t>(network.bonds.first[e]) * Modes::width;
     const double* second =
         motion.data() + static_cast<std::size_t>(network.bonds.second[e]) * Modes::width;
+    double energy = 0.0;
     for (int m = 0; m < Modes::count; ++m) {
       const double deformation = modes.deformation(m, first, second);
       const double secant = m == 0 ? secants.axial(e) : secants[e];
-      energies[e] += 0.5 * modes.stiffness[m] * secant * deformation * deformation;
+      energy += 0.5 * modes.stiffness[m] * secant * deformation * deformation;
     }
+    visit(e, energy);
   }
-  return energies;
 }
 
 }  // namespace
 
 std::vector<double> damage_index(const Network& network, const Csr& families, Secants secants) {
   std::vector<double> damage(static_cast<std::size_t>(families.rows()), 0.0);
+  if (secants.size() == 0) return damage;  // nothing is damaged
   for (Index i = 0; i < families.rows(); ++i) {
     double all = 0.0;
     double lost = 0.0;
@@ -119,20 +130,25 @@ std::vector<double> rotations(const Network& network, std::span<const double> mo
   return result;
 }
 
-std::vector<double> strain_energy_density(const Network& network, const Csr& families,
-                                          Secants secants, std::span<const double> motion) {
-  const std::vector<double> energies =
-      !network.carries_moments() ? truss_energies(network, secants, motion)
-      : network.dim() == 2       ? frame_energies<2>(network, secants, motion)
-                                 : frame_energies<3>(network, secants, motion);
-  std::vector<double> density(static_cast<std::size_t>(families.rows()), 0.0);
+std::vector<double> strain_energy_density(const Network& network, Secants secants,
+                                          std::span<const double> motion) {
+  std::vector<double> density(network.particles.volumes.size(), 0.0);
+  const auto add = [&](Index e, double energy) {
+    density[network.bonds.first[e]] += energy;
+    density[network.bonds.second[e]] += energy;
+  };
+  if (!network.carries_moments()) {
+    for_each_truss_energy(network, secants, motion, add);
+  } else if (network.dim() == 2) {
+    for_each_frame_energy<2>(network, secants, motion, add);
+  } else {
+    for_each_frame_energy<3>(network, secants, motion, add);
+  }
   std::vector<double> states;
   if (network.has_states()) states = extension_sums(network, secants, motion);
-  for (Index i = 0; i < families.rows(); ++i) {
-    double sum = 0.0;
-    for (const Index e : families.row(i)) sum += energies[e];
-    if (network.has_states()) sum += network.state_stiffness[i] * states[i] * states[i];
-    density[i] = 0.5 * sum / network.particles.volumes[i];
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    if (network.has_states()) density[i] += network.state_stiffness[i] * states[i] * states[i];
+    density[i] = 0.5 * density[i] / network.particles.volumes[i];
   }
   return density;
 }

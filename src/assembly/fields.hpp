@@ -26,8 +26,8 @@ std::vector<double> rotations(const Network& network, std::span<const double> mo
 /// Half of the energy of the bonds of each particle, and that of its state, per volume
 /// [force/length^2].
 /// \param motion  shape (particles, width)
-std::vector<double> strain_energy_density(const Network& network, const Csr& families,
-                                          Secants secants, std::span<const double> motion);
+std::vector<double> strain_energy_density(const Network& network, Secants secants,
+                                          std::span<const double> motion);
 
 /// Principal strains, largest first, of the least-squares displacement gradient over the intact
 /// bonds of each particle; shape (particles, dim). Zero where the bonds do not span the space.

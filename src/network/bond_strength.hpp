@@ -17,6 +17,11 @@ namespace perilink {
 /// no bond carries a moment.
 std::vector<double> own_bending_ratios(const Network& network);
 
+/// Gives the newest element its critical stretch; elastic analyses ask for none.
+inline void add_critical_stretch(const NetworkInput& input, double stretch, Network& network) {
+  if (!input.elastic) network.critical_stretch.push_back(stretch);
+}
+
 /// Critical stretches from the families of a lattice, the mean over all directions of a crack.
 /// \param cell_volume  volume of a particle inside [length^3]
 void set_critical_stretches(const NetworkInput& input, const LatticeFamilies& families,

@@ -105,7 +105,7 @@ struct Network {
   std::vector<BondLaw> laws = {BondLaw::brittle()};
   std::vector<Index> law_of;
   /// By which each element's law counts its stretches [-]: where brittle bonds break, the yield
-  /// strain of bars; infinity: stays elastic.
+  /// strain of bars; infinity: stays elastic. Empty: all do, as in every elastic analysis.
   std::vector<double> critical_stretch;
   /// Materials whose mean breaks a bond, per element: those of the layers that it belongs to.
   /// Empty: those of its ends.
@@ -180,8 +180,11 @@ struct Network {
     return std::any_of(laws.begin(), laws.end(),
                        [](const BondLaw& law) { return law.keeps_shear(); });
   }
+  double critical_stretch_of(Index element) const {
+    return critical_stretch.empty() ? infinity : critical_stretch[element];
+  }
   /// Whether its law has events, or it stays elastic.
-  bool has_limit(Index element) const { return !std::isinf(critical_stretch[element]); }
+  bool has_limit(Index element) const { return !std::isinf(critical_stretch_of(element)); }
   bool can_break(Index element) const { return has_limit(element) && !law(element).endless(); }
   bool is_segment(Index element) const { return element >= first_segment; }
   Index first_anchor() const { return particles.size() - anchors.size(); }

@@ -83,6 +83,9 @@ struct NetworkInput {
   double radius = 0.0;     ///< the cylinder it lies on, x around it; 0: flat [length]
   Constants micromodulus = Constants::lattice;
   Constants critical_stretch = Constants::lattice;
+  /// Nothing breaks: no bond gets a limit, Network::critical_stretch and bending_ratio stay empty,
+  /// and interfaces are as their surroundings.
+  bool elastic = false;
   std::vector<SolidMaterial> materials;  ///< by Particles::material
   std::vector<Box> solid;  ///< the body is the union of these; bonds that leave it are not made.
                            ///< Empty: every pair within the horizon is bonded

@@ -13,6 +13,7 @@
 #include "support/case_tables.hpp"
 #include "support/process.hpp"
 #include "support/program_cases.hpp"
+#include "support/replaced.hpp"
 
 namespace perilink {
 namespace {
@@ -21,6 +22,7 @@ using test::run_program;
 using test::write_text;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class EditedCase : public ::testing::TestWithParam<test::CaseEntry> {
  protected:
@@ -179,6 +181,29 @@ TEST(ServingCase, KeysOfTheOtherAnalysisAreNoted) {
   EXPECT_THAT(end.out, HasSubstr(note));
   EXPECT_THAT(test::read_text(directory / "work/out/summary.json"),
               HasSubstr("analysis.duration, analysis.rows"));
+}
+
+/// Elastic answers of calibrated lattices do not depend on it.
+TEST(ServingCase, ElasticAnalysesNeedNoFractureEnergy) {
+  const test::TemporaryDirectory directory;
+  const std::string key = "fracture_energy = \"infinite\"\n";
+  std::filesystem::create_directories(directory / "work");
+  std::vector<std::string> histories;
+  for (const std::string& line : {std::string(), key, std::string("fracture_energy = 0.1\n")}) {
+    const std::string text = replaced(test::tension_strip_case, key, line);
+    write_text(directory / "work/case.toml", replaced(text, "\"none\"", "\"calibrated\""));
+    const auto check = run_program(directory / "work", {"check", "case.toml"});
+    EXPECT_THAT(check.out, HasSubstr("breakable bonds    none: the analysis is elastic\n"));
+    const auto end = run_program(directory / "work", {"run", "case.toml", "--out", "r", "--force"});
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+    for (const char* word : {"critical stretch ", "cost of a crack", "strength", "infinite"}) {
+      EXPECT_THAT(check.out, Not(HasSubstr(word))) << line;
+      EXPECT_THAT(end.out, Not(HasSubstr(word))) << line;
+    }
+    histories.push_back(test::read_text(directory / "work/r/history.csv"));
+  }
+  EXPECT_EQ(histories[0], histories[1]);
+  EXPECT_EQ(histories[0], histories[2]);
 }
 
 }  // namespace

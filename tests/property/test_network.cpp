@@ -207,7 +207,7 @@ class BulkProperty : public testing::TestWithParam<LatticeCase> {
     const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
     const Csr families = bonds_of_particles(network.bonds, network.particles.size());
     const auto density =
-        strain_energy_density(network, families, secants, linear_field(network.particles, strain));
+        strain_energy_density(network, secants, linear_field(network.particles, strain));
     return density[middle(network.particles, body.solid[0])];
   }
 };

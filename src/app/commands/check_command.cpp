@@ -59,6 +59,10 @@ std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& c
 
 void print_breakable(const Network& network, const std::vector<double>& crack_cost) {
   if (network.has_states()) return;  // particles crack, not bonds
+  if (network.critical_stretch.empty()) {
+    fmt::print("#   breakable bonds    none: the analysis is elastic\n");
+    return;
+  }
   Index breakable = 0;
   double smallest = INFINITY, largest = 0.0;
   for (Index e = 0; e < network.num_elements(); ++e) {

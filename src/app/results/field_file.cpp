@@ -108,7 +108,7 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
       {"region", 1, as_doubles(network.particles.material)},
       {"kind", 1, as_doubles(network.particles.kind)},
       {"volume", 1, network.particles.volumes},
-      {"strain_energy_density", 1, strain_energy_density(network, families, secants, motion)},
+      {"strain_energy_density", 1, strain_energy_density(network, secants, motion)},
       {"principal_strain", 3,
        network.shell
            ? face_strains(network, families, secants, motion)
@@ -141,16 +141,18 @@ void add_bars(VtuGrid& grid, const BarState& bars) {
 
 void add_stresses(VtuGrid& grid, std::vector<double> stresses, int dim) {
   constexpr std::size_t width = SymmetricTensor{}.size();
-  std::vector<double> principal, first, last;
-  for (std::size_t at = 0; at < stresses.size(); at += width) {
+  const std::size_t count = stresses.size() / width;
+  std::vector<double> principal(3 * count), first(3 * count), last(3 * count);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < count; ++i) {
     SymmetricTensor stress{}, opposite{};
-    for (std::size_t c = 0; c < width; ++c) opposite[c] = -(stress[c] = stresses[at + c]);
+    for (std::size_t c = 0; c < width; ++c) opposite[c] = -(stress[c] = stresses[i * width + c]);
     const PrincipalValues values = principal_values(stress, dim);
-    principal.insert(principal.end(), {values.first, values.middle, dim == 2 ? 0.0 : values.last});
-    const Vector3 most = principal_direction(stress, dim);
-    const Vector3 least = principal_direction(opposite, dim);
-    first.insert(first.end(), most.begin(), most.end());
-    last.insert(last.end(), least.begin(), least.end());
+    const auto at = static_cast<std::ptrdiff_t>(3 * i);
+    std::ranges::copy(Vector3{values.first, values.middle, dim == 2 ? 0.0 : values.last},
+                      principal.begin() + at);
+    std::ranges::copy(principal_direction(stress, dim), first.begin() + at);
+    std::ranges::copy(principal_direction(opposite, dim), last.begin() + at);
   }
   grid.point_data.push_back({"stress", 6, std::move(stresses)});
   grid.point_data.push_back({"principal_stress", 3, std::move(principal)});

@@ -63,7 +63,8 @@ class ElasticRun final : public NetworkRun {
       state.stresses = stresses =
           stresses_of_parts(*answer_.solution.team, model_.network.particles.size(), pieces);
     }
-    files_->add_row(row, gauge_values(model_, state, families_));
+    Csr families;
+    files_->add_row(row, gauge_values(model_, state, families));
     if (const auto places = held_places(input, model_); !places.empty()) {
       files_->write_table("reactions", row.step, reaction_table(places, model_, state));
     }
@@ -79,10 +80,12 @@ class ElasticRun final : public NetworkRun {
       return;
     }
     files_->write_fields(row.step, row.step, [&] {
-      if (families_.rows() == 0) {
-        families_ = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
+      if (families.rows() == 0) {
+        families = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
       }
-      return make_grid(model_, families_, displacement, bars, moment);
+      VtuGrid grid = make_grid(model_, families, displacement, bars, moment);
+      families = {};  // the file takes room, too
+      return grid;
     });
   }
 
@@ -102,7 +105,6 @@ class ElasticRun final : public NetworkRun {
  private:
   ElasticAnswer answer_;
   std::vector<PlaceForce> places_;
-  Csr families_;
 };
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "assembly/results/bond_strain.hpp"
+#include "assembly/results/neighbor_gradients.hpp"
 
 namespace perilink {
 namespace {
@@ -16,10 +18,10 @@ namespace {
 constexpr double smallest_stress_pivot = 1e-7;
 
 /// Solid particles of the same material that are bonded to a particle, and theirs; ascending.
-std::vector<Index> neighbors_of(const StressInput& input, Index particle) {
+void find_neighbors(const StressInput& input, Index particle, std::vector<Index>& found) {
   const Network& network = input.network;
   const Particles& particles = network.particles;
-  std::vector<Index> found;
+  found.clear();
   const auto append = [&](Index i) {
     for (const Index e : input.families.row(i)) {
       if (e >= network.first_tie) continue;
@@ -33,9 +35,9 @@ std::vector<Index> neighbors_of(const StressInput& input, Index particle) {
     const std::vector<Index> first = found;
     for (const Index j : first) append(j);
   }
+  if (std::ranges::is_sorted(found, std::less_equal())) return;
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
 }
 
 /// Columns 0 to Dim - 1 are linear, the others of second degree.
@@ -52,59 +54,46 @@ Eigen::Vector<double, Terms> terms_at(const Eigen::Vector<double, Dim>& x) {
   return terms;
 }
 
-/// Fits the displacements around a particle.
-/// \param size  length that scales the positions
-/// \return whether the neighbours settle the polynomial
+/// Weights of the polynomial that fits best: least squares are linear in what is fitted.
+/// \param size  length that scales the offsets
 template <int Dim, int Terms>
-bool fit_gradient(const Network& network, std::span<const double> motion, Index particle,
-                  std::span<const Index> neighbors, double size,
-                  Eigen::Matrix<double, Dim, Dim>& gradient) {
-  using Vector = Eigen::Map<const Eigen::Vector<double, Dim>>;
-  const auto at = [](std::span<const double> values, Index i, int width) {
-    return Vector(values.data() + static_cast<std::size_t>(i) * width);
+bool fit_polynomial(std::span<const double> offsets, double size, std::span<double> weights) {
+  const std::size_t count = offsets.size() / Dim;
+  if (count < Terms) return false;
+  const auto at = [&](std::size_t k) -> Eigen::Vector<double, Dim> {
+    return Eigen::Map<const Eigen::Vector<double, Dim>>(offsets.data() + k * Dim) / size;
   };
-  const std::vector<double>& positions = network.particles.positions;
-  const int width = network.width();
-  if (neighbors.size() < Terms) return false;
   Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
-  Eigen::Matrix<double, Terms, Dim> right = Eigen::Matrix<double, Terms, Dim>::Zero();
-  for (const Index j : neighbors) {
-    const Eigen::Vector<double, Dim> x =
-        (at(positions, j, Dim) - at(positions, particle, Dim)) / size;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::Vector<double, Dim> x = at(k);
     const Eigen::Vector<double, Terms> terms = terms_at<Dim, Terms>(x);
-    const double weight = 1.0 / x.squaredNorm();
-    normal += weight * terms * terms.transpose();
-    right += weight * terms * (at(motion, j, width) - at(motion, particle, width)).transpose();
+    normal += (1.0 / x.squaredNorm()) * terms * terms.transpose();
   }
   const Eigen::LDLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
   const auto pivots = factor.vectorD();
   if (!(pivots.minCoeff() > smallest_stress_pivot * pivots.maxCoeff())) return false;
-  gradient = factor.solve(right).template topRows<Dim>().transpose() / size;
+  const Eigen::Matrix<double, Terms, Dim> linear =
+      factor.solve(Eigen::Matrix<double, Terms, Dim>::Identity());
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::Vector<double, Dim> x = at(k);
+    Eigen::Map<Eigen::Vector<double, Dim>>(weights.data() + k * Dim) =
+        linear.transpose() * terms_at<Dim, Terms>(x) / (x.squaredNorm() * size);
+  }
   return true;
 }
 
-/// That of the polynomial that fits the displacements around a particle; zero where there is none.
+/// The fit is of second degree where the neighbours settle that, else linear.
 template <int Dim>
-Eigen::Matrix3d fitted_strain(const StressInput& input, std::span<const double> motion,
-                              Index particle) {
-  const Particles& particles = input.network.particles;
-  const std::vector<Index> neighbors = neighbors_of(input, particle);
-  double size = 0.0;
-  for (const Index j : neighbors) {
-    double square = 0.0;
-    for (int a = 0; a < Dim; ++a) {
-      square += std::pow(particles.position(j)[a] - particles.position(particle)[a], 2);
-    }
-    size = std::max(size, std::sqrt(square));
+bool fit_gradient(std::span<const double> offsets, std::span<double> weights) {
+  double square = 0.0;
+  for (std::size_t k = 0; k < offsets.size(); k += Dim) {
+    square = std::max(
+        square, Eigen::Map<const Eigen::Vector<double, Dim>>(offsets.data() + k).squaredNorm());
   }
   constexpr int quadratic = Dim + Dim * (Dim + 1) / 2;
-  Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, Dim, Dim> gradient;
-  if (fit_gradient<Dim, quadratic>(input.network, motion, particle, neighbors, size, gradient) ||
-      fit_gradient<Dim, Dim>(input.network, motion, particle, neighbors, size, gradient)) {
-    strain.topLeftCorner<Dim, Dim>() = 0.5 * (gradient + gradient.transpose());
-  }
-  return strain;
+  const double size = std::sqrt(square);
+  return fit_polynomial<Dim, quadratic>(offsets, size, weights) ||
+         fit_polynomial<Dim, Dim>(offsets, size, weights);
 }
 
 bool is_damaged(const StressInput& input, Index particle) {
@@ -115,42 +104,80 @@ bool is_damaged(const StressInput& input, Index particle) {
   });
 }
 
+/// Finds stresses of a block of particles.
 template <int Dim>
-Stress stress_in(const StressInput& input, std::span<const double> motion, Index particle) {
-  const bool damaged = is_damaged(input, particle);
+class StressFinder {
+ public:
+  StressFinder(const StressInput& input, std::span<const double> motion)
+      : input_(input),
+        motion_(motion),
+        gradients_(input.network.particles, motion, input.network.width(), fit_gradient<Dim>) {}
+
+  Stress at(Index particle);
+
+ private:
+  Eigen::Matrix3d strain_at(Index particle);
+
+  const StressInput& input_;
+  std::span<const double> motion_;
+  NeighborGradients<Dim> gradients_;
+  std::vector<Index> neighbors_;
+};
+
+template <int Dim>
+Eigen::Matrix3d StressFinder<Dim>::strain_at(Index particle) {
   Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
-  if (damaged) {
+  if (is_damaged(input_, particle)) {
     const SymmetricTensor e =
-        bond_strain(input.network, input.families, input.secants, motion, particle);
+        bond_strain(input_.network, input_.families, input_.secants, motion_, particle);
     strain << e[0], e[3], e[5], e[3], e[1], e[4], e[5], e[4], e[2];
-  } else {
-    strain = fitted_strain<Dim>(input, motion, particle);
+    return strain;
   }
-  const HookeConstants& c = input.materials[input.network.particles.material[particle]];
+  find_neighbors(input_, particle, neighbors_);
+  Eigen::Matrix<double, Dim, Dim> gradient;
+  if (gradients_.find(particle, neighbors_, gradient)) {
+    strain.topLeftCorner<Dim, Dim>() = 0.5 * (gradient + gradient.transpose());
+  }
+  return strain;
+}
+
+template <int Dim>
+Stress StressFinder<Dim>::at(Index particle) {
+  const Eigen::Matrix3d strain = strain_at(particle);
+  const HookeConstants& c = input_.materials[input_.network.particles.material[particle]];
   const Eigen::Matrix3d s =
       c.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2.0 * c.mu * strain;
-  const double out_of_plane = input.problem == Problem::plane_stress ? 0.0 : s(2, 2);
+  const double out_of_plane = input_.problem == Problem::plane_stress ? 0.0 : s(2, 2);
   return {s(0, 0), s(1, 1), out_of_plane, s(0, 1), s(1, 2), s(0, 2)};
+}
+
+template <int Dim>
+std::vector<double> stresses_in(const StressInput& input, std::span<const double> motion) {
+  const Particles& particles = input.network.particles;
+  const std::size_t width = Stress{}.size();
+  std::vector<double> stresses(width * static_cast<std::size_t>(particles.size()), 0.0);
+  constexpr Index block = NeighborGradients<Dim>::block;
+#pragma omp parallel for schedule(dynamic)
+  for (Index begin = 0; begin < particles.size(); begin += block) {
+    StressFinder<Dim> finder(input, motion);
+    for (Index i = begin; i < std::min(begin + block, particles.size()); ++i) {
+      if (particles.kind[i] != ParticleKind::solid) continue;
+      const Stress stress = finder.at(i);
+      std::ranges::copy(stress, stresses.begin() + static_cast<std::ptrdiff_t>(i * width));
+    }
+  }
+  return stresses;
 }
 
 }  // namespace
 
 Stress stress_at(const StressInput& input, std::span<const double> motion, Index particle) {
-  return input.network.dim() == 2 ? stress_in<2>(input, motion, particle)
-                                  : stress_in<3>(input, motion, particle);
+  return input.network.dim() == 2 ? StressFinder<2>(input, motion).at(particle)
+                                  : StressFinder<3>(input, motion).at(particle);
 }
 
 std::vector<double> particle_stresses(const StressInput& input, std::span<const double> motion) {
-  const Particles& particles = input.network.particles;
-  const std::size_t width = Stress{}.size();
-  std::vector<double> stresses(width * static_cast<std::size_t>(particles.size()), 0.0);
-#pragma omp parallel for schedule(static)
-  for (Index i = 0; i < particles.size(); ++i) {
-    if (particles.kind[i] != ParticleKind::solid) continue;
-    const Stress stress = stress_at(input, motion, i);
-    std::copy(stress.begin(), stress.end(), stresses.begin() + static_cast<std::size_t>(i) * width);
-  }
-  return stresses;
+  return input.network.dim() == 2 ? stresses_in<2>(input, motion) : stresses_in<3>(input, motion);
 }
 
 }  // namespace perilink

@@ -35,18 +35,15 @@ std::string_view trim(std::string_view text) {
 
 std::size_t base64_length(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
-void compress_block(std::span<const std::byte> block, std::vector<std::byte>& out,
-                    std::uint64_t& compressed_bytes) {
+/// \param out  compressBound() bytes
+/// \return compressed bytes; 0: it could not
+std::size_t compress_block(std::span<const std::byte> block, std::byte* out) {
   uLongf length = compressBound(static_cast<uLong>(block.size()));
-  const std::size_t start = out.size();
-  out.resize(start + length);
   // The fastest level: doubles shrink hardly more at the others, which take several times longer.
-  const int status = compress2(reinterpret_cast<Bytef*>(out.data() + start), &length,
+  const int status = compress2(reinterpret_cast<Bytef*>(out), &length,
                                reinterpret_cast<const Bytef*>(block.data()),
                                static_cast<uLong>(block.size()), Z_BEST_SPEED);
-  if (status != Z_OK) throw std::runtime_error("zlib cannot compress a block");
-  out.resize(start + length);
-  compressed_bytes = length;
+  return status == Z_OK ? length : 0;
 }
 
 struct BlockHeader {
@@ -83,17 +80,15 @@ void check(const BlockHeader& header, std::size_t text_size) {
 }  // namespace
 
 std::string encode_base64(std::span<const std::byte> bytes) {
-  std::string text;
-  text.reserve(base64_length(bytes.size()));
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+  std::string text(base64_length(bytes.size()), '=');
+  char* letter = text.data();
+  for (std::size_t i = 0; i < bytes.size(); i += 3, letter += 4) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t group = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       group = group << 8 | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0U);
     }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? alphabet[group >> (18 - 6 * k) & 63U] : '=';
-    }
+    for (std::size_t k = 0; k <= count; ++k) letter[k] = alphabet[group >> (18 - 6 * k) & 63U];
   }
   return text;
 }
@@ -126,12 +121,23 @@ std::string encode_array(std::span<const std::byte> bytes) {
   header[0] = blocks;
   header[1] = block_bytes;
   header[2] = bytes.size() % block_bytes;
-  std::vector<std::byte> compressed;
+  const std::size_t room = compressBound(static_cast<uLong>(std::min(block_bytes, bytes.size())));
+  std::vector<std::byte> compressed(blocks * room);
+#pragma omp parallel for schedule(dynamic)
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t start = b * block_bytes;
-    compress_block(bytes.subspan(start, std::min(block_bytes, bytes.size() - start)), compressed,
-                   header[3 + b]);
+    header[3 + b] =
+        compress_block(bytes.subspan(start, std::min(block_bytes, bytes.size() - start)),
+                       compressed.data() + b * room);
   }
+  std::size_t end = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    if (header[3 + b] == 0) throw std::runtime_error("zlib cannot compress a block");
+    const std::byte* from = compressed.data() + b * room;
+    std::copy(from, from + header[3 + b], compressed.data() + end);
+    end += header[3 + b];
+  }
+  compressed.resize(end);
   return encode_base64(std::as_bytes(std::span(header))) + encode_base64(compressed);
 }
 

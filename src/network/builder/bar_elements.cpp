@@ -10,6 +10,7 @@
 #include "discretization/cuts/outside_bonds.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/neighbor_search.hpp"
+#include "network/bond_strength.hpp"
 
 namespace perilink {
 namespace {
@@ -50,7 +51,7 @@ void add_bonded_ties(const Body& body, const NetworkInput& input, RebarMesh& mes
     network.bonds.append(particles, solid, node);
     network.stiffness.push_back(micromodulus * particles.volumes[solid] * particles.volumes[node] /
                                 std::max(mesh.ties.lengths[tie], least_length));
-    network.critical_stretch.push_back(perfect[node] ? infinity : stretch);
+    add_critical_stretch(input, perfect[node] ? infinity : stretch, network);
   }
 }
 
@@ -131,14 +132,13 @@ class BarLaws {
 };
 
 void append_element(Network& network, Index first, Index second, double length,
-                    const Vector3& direction, double stiffness, double stretch) {
+                    const Vector3& direction, double stiffness) {
   Bonds& bonds = network.bonds;
   bonds.first.push_back(first);
   bonds.second.push_back(second);
   bonds.lengths.push_back(length);
   bonds.directions.insert(bonds.directions.end(), direction.begin(), direction.begin() + bonds.dim);
   network.stiffness.push_back(stiffness);
-  network.critical_stretch.push_back(stretch);
 }
 
 /// An anchor at the place of a particle.
@@ -210,7 +210,8 @@ class AnchoredTies {
           slips ? bond.curve->initial_stiffness() * bond.perimeter * node.length : firm;
       const bool limited = slips && !bond.elastic;
       const double stretch = limited ? bond.curve->points.front()[0] / spacing_ : infinity;
-      append_element(network_, node.particle, anchor, spacing_, against, stiffness, stretch);
+      append_element(network_, node.particle, anchor, spacing_, against, stiffness);
+      add_critical_stretch(input_, stretch, network_);
       if (limited) laws_.give(node.bar, [&] { return law_of(*bond.curve, BondLaw::usual_ratio); });
     }
   }
@@ -241,7 +242,8 @@ void add_segments(const NetworkInput& input, const RebarMesh& mesh, Network& net
     std::copy(n.begin(), n.end(), direction.begin());
     const double length = mesh.segments.lengths[segment];
     append_element(network, first, second, length, direction,
-                   bar.youngs_modulus * bar.area / length, yield);
+                   bar.youngs_modulus * bar.area / length);
+    add_critical_stretch(input, yield, network);
     if (bar.curve) {
       laws.give(number, [&] { return law_of(*bar.curve, BondLaw::usual_ratio); });
     } else {

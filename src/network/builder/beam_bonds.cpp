@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "network/bond_softening.hpp"
+#include "network/bond_strength.hpp"
 
 namespace perilink {
 namespace {
@@ -73,13 +74,13 @@ Network make_beam(const Body& body, const NetworkInput& input) {
         const double stiffness = bonds.share(from, to) * tension / length;
         network.stiffness.push_back(stiffness);
         network.bending.push_back(stiffness * span.height * span.height / (length * length));
-        network.critical_stretch.push_back(bonds.critical_stretch(material, from, to));
+        add_critical_stretch(input, bonds.critical_stretch(material, from, to), network);
         network.half_height.push_back(0.5 * span.height);
       }
     }
   }
   network.first_tie = network.first_anchored_tie = network.first_segment = network.bonds.size();
-  soften_bonds(body, input, network);
+  if (!input.elastic) soften_bonds(body, input, network);
   return network;
 }
 

@@ -59,13 +59,13 @@ void copy_shares(const Facets& from, const std::vector<Index>& whole_of, Facets&
 }
 
 /// Edges of cells as bonds that carry nothing.
-void append_edges(const Bonds& edges, Network& network) {
+void append_edges(const Bonds& edges, bool elastic, Network& network) {
   for (Index e = 0; e < edges.size(); ++e) {
     network.bonds.append(network.particles, edges.first[e], edges.second[e]);
   }
   const auto count = static_cast<std::size_t>(network.bonds.size());
   network.stiffness.resize(count, 0.0);
-  network.critical_stretch.resize(count, std::numeric_limits<double>::infinity());
+  if (!elastic) network.critical_stretch.resize(count, std::numeric_limits<double>::infinity());
   for (std::vector<double>* values : {&network.bending, &network.bending_ratio}) {
     if (!values->empty()) values->resize(count, 0.0);
   }
@@ -121,7 +121,7 @@ void join_cells(const Body& whole, const BondedPart& part, const NetworkInput& i
   LinearElements cells = elements_of(cells_of(whole, true), whole.particles, input);
   const Bonds edges = edges_of(cells.cells, whole.particles);
   cells.num_edges = edges.size();
-  append_edges(edges, network);
+  append_edges(edges, input.elastic, network);
   network.cells = std::move(cells);
 }
 

@@ -89,12 +89,13 @@ class PairConstants {
   std::vector<BondConstants> pairs_;
 };
 
-void add_bonds(const PairConstants& constants, BondModel model, Network& network) {
+void add_bonds(const PairConstants& constants, const NetworkInput& input, Network& network) {
   const Particles& particles = network.particles;
   const auto count = static_cast<std::size_t>(network.bonds.size());
   network.stiffness.reserve(count);
-  network.critical_stretch.reserve(count);
-  if (model == BondModel::micropolar) network.bending.reserve(count);
+  if (!input.elastic) network.critical_stretch.reserve(count);
+  const bool bends = input.model == BondModel::micropolar;
+  if (bends) network.bending.reserve(count);
   for (Index b = 0; b < network.bonds.size(); ++b) {
     const Index i = network.bonds.first[b];
     const Index j = network.bonds.second[b];
@@ -105,8 +106,8 @@ void add_bonds(const PairConstants& constants, BondModel model, Network& network
     const double length = network.bonds.lengths[b];
     network.stiffness.push_back(moduli.micromodulus * part * particles.volumes[i] *
                                 particles.volumes[j] / length);
-    network.critical_stretch.push_back(stretch);
-    if (model != BondModel::micropolar) continue;
+    add_critical_stretch(input, stretch, network);
+    if (!bends) continue;
     network.bending.push_back(12.0 * (moduli.bending_modulus * part) * particles.volumes[i] *
                               particles.volumes[j] / (length * length * length));
   }
@@ -155,7 +156,7 @@ Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
   }
   remove_loose_ghosts(network.particles, network.bonds);
   network.facets = body.facets;
-  add_bonds(constants, input.model, network);
+  add_bonds(constants, input, network);
   if (input.model == BondModel::micropolar) network.torsion = input.torsion;
   correct_surfaces(body, input, network);
   return network;
@@ -164,6 +165,7 @@ Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
 /// Critical stretches of bonds that were calibrated in a smaller box.
 void set_stretches(const Body& body, const NetworkInput& input, const PairConstants& constants,
                    Network& network) {
+  if (input.elastic) return;
   const std::vector<Index>& material = network.particles.material;
   network.critical_stretch.reserve(network.stiffness.size());
   for (Index b = 0; b < network.bonds.size(); ++b) {
@@ -208,9 +210,11 @@ Network build_network(const Body& body, const NetworkInput& input) {
                                        : build_bonds_and_cells(body, input, constants);
   add_bars(
       body, input, [&](Index material) { return constants.tie(material); }, network);
-  soften_bonds(body, input, network);
-  weaken_interfaces(body, input, network);
-  for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
+  if (!input.elastic) {
+    soften_bonds(body, input, network);
+    weaken_interfaces(body, input, network);
+    for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
+  }
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
   }

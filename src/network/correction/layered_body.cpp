@@ -179,7 +179,7 @@ void Cut::add_bonds(LayerBody& cut) const {
     const double part = share(i) * share(j);
     layer.stiffness.push_back(whole_.stiffness[b] * part *
                               over_mean(&MicropolarModuli::micromodulus, i, j));
-    layer.critical_stretch.push_back(stretch(layer.bonds.size() - 1));
+    if (!input_.elastic) layer.critical_stretch.push_back(stretch(layer.bonds.size() - 1));
     if (!whole_.carries_moments()) continue;
     layer.bending.push_back(whole_.bending[b] * part *
                             over_mean(&MicropolarModuli::bending_modulus, i, j));
@@ -207,7 +207,7 @@ double in_few_steps(double stretch) {
 /// What the bonds of the body become.
 struct NewBonds {
   std::vector<double> stiffness;  // zero so far
-  std::vector<double> stretch;    // critical
+  std::vector<double> stretch;    // critical; empty where none is asked for
 };
 
 /// Stiffnesses and shares of a layer are added to those of the body. Each bond with moments
@@ -218,12 +218,15 @@ void put_back(const LayerBody& layer, NewBonds& made, Network& whole) {
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = layer.particle_of[bonds.first[b]], j = layer.particle_of[bonds.second[b]];
     while (whole.bonds.first[at] != i || whole.bonds.second[at] != j) ++at;
-    const double own = layer.network.stiffness[b], limit = layer.network.critical_stretch[b];
+    const double own = layer.network.stiffness[b];
     double& stiffness = made.stiffness[at];
-    double& stretch = made.stretch[at];
     const bool again = stiffness > 0.0;  // in a plane: of both its layers
-    const double held = stiffness * stretch * stretch + own * limit * limit;
-    stretch = again ? in_few_steps(std::sqrt(held / (stiffness + own))) : limit;
+    if (!made.stretch.empty()) {
+      const double limit = layer.network.critical_stretch[b];
+      double& stretch = made.stretch[at];
+      const double held = stiffness * stretch * stretch + own * limit * limit;
+      stretch = again ? in_few_steps(std::sqrt(held / (stiffness + own))) : limit;
+    }
     stiffness += own;
     if (!whole.materials_of.empty()) {
       const std::vector<Index>& material = layer.body.particles.material;
@@ -233,8 +236,8 @@ void put_back(const LayerBody& layer, NewBonds& made, Network& whole) {
     if (!whole.carries_moments()) continue;
     whole.bending[at] = layer.network.bending[b];
     whole.inflection[at] = layer.network.inflection[b];
-    whole.bending_ratio[at] = layer.network.bending_ratio[b];
     whole.hinged[at] = layer.network.hinged[b];
+    if (!whole.bending_ratio.empty()) whole.bending_ratio[at] = layer.network.bending_ratio[b];
   }
   const Facets& facets = layer.network.facets;
   for (Index f = 0; f < facets.size(); ++f) {
@@ -285,14 +288,16 @@ bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& 
     if (!(report.sum_after <= balanced * particles_in_planes)) return false;
   }
   const std::size_t count = whole.stiffness.size();
-  NewBonds made{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
-  if (std::any_of(input.materials.begin(), input.materials.end(),
+  NewBonds made{std::vector<double>(count, 0.0), {}};
+  if (!input.elastic) made.stretch.assign(count, 0.0);
+  if (!input.elastic &&
+      std::any_of(input.materials.begin(), input.materials.end(),
                   [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); })) {
     whole.materials_of.assign(count, {no_index, no_index});
   }
   if (whole.carries_moments()) {
     whole.inflection.assign(count, 0.5);
-    whole.bending_ratio.assign(count, 0.0);
+    if (!input.elastic) whole.bending_ratio.assign(count, 0.0);
     whole.hinged.assign(count, 0);
   }
   for (const LayerBody& layer : layers) put_back(layer, made, whole);

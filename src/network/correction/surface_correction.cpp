@@ -227,14 +227,14 @@ void Correction::calibrate(bool give_up) {
     calibration.materials.push_back(lame_constants(input_, m));
   }
   // What single bonds lose or gain from here on is no measure of their strength.
-  network_.bending_ratio = own_bending_ratios(network_);
+  if (!input_.elastic) network_.bending_ratio = own_bending_ratios(network_);
   if (input_.draft) {
     network_.calibration = expected_calibration(calibration, micropolar());
   } else {
     balance(calibration);
     network_.calibration->seconds = timer.seconds();
   }
-  set_strength(family);
+  if (!input_.elastic) set_strength(family);
 }
 
 /// Nothing turns in the planes of a joint, where the layers turn unlike.
@@ -276,7 +276,7 @@ bool Correction::calibrate_layers() {
       find_joint(network_.facets, network_.particles, constants, body_.lattice.spacing);
   const auto calibrate_layer = [&](std::size_t layer, const Body& body, Network& network) {
     Correction(body, input_, network).calibrate(true);
-    if (!can_break(input_) || have_stretches(input_)) return;
+    if (input_.elastic || !can_break(input_) || have_stretches(input_)) return;
     toughen_glued_faces(*joint, layer, input_.horizon, body_.lattice.spacing, network);
   };
   if (!joint || !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {

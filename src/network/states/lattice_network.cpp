@@ -1,7 +1,6 @@
 #include "network/states/lattice_network.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 
 namespace perilink {
@@ -86,8 +85,6 @@ LatticeNetwork lattice_network(const LatticeRows& lattice, std::span<const doubl
   }
   result.left_out = lattice.particles() - network.particles.size();
   network.state_stiffness.assign(result.slots.size(), sum_modulus / (2.0 * lattice.spacing));
-  network.critical_stretch.assign(network.stiffness.size(),
-                                  std::numeric_limits<double>::infinity());
   network.first_tie = network.first_segment = network.bonds.size();
   return result;
 }

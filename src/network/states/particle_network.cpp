@@ -1,7 +1,6 @@
 #include "network/states/particle_network.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -136,8 +135,6 @@ void keep_neighbours(const Bonds& candidates, std::span<const double> stiffness,
     network.stiffness.push_back(stiffness[e]);
     network.state_of.push_back(state_of[e]);
   }
-  network.critical_stretch.assign(network.stiffness.size(),
-                                  std::numeric_limits<double>::infinity());
   network.first_tie = network.first_segment = network.bonds.size();
 }
 

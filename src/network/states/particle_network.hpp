@@ -36,7 +36,7 @@ inline constexpr int neighbors_in_plane = 6, neighbors_in_space = 18;
 /// one is a neighbour, and exists where at least one is. Its force is the mean of the two states'
 /// (Eq. 3.7), which derive from the energy
 ///   sum_i 1/4 sum_(j neighbour of i) L_ij F_ij S_ij.
-/// Nothing breaks by a stretch: all critical ones are infinite.
+/// Nothing breaks by a stretch: no bond has a critical one.
 /// \param body       with cells
 /// \param materials  by Particles::material
 /// \param thickness  two-dimensional bodies only [length]

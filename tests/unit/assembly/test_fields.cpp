@@ -41,7 +41,7 @@ TEST(StrainEnergyDensity, SumsToTheEnergyOfTheNetwork) {
   const Network network = make_network({"", Pattern::hexagonal, Surface::none}, 5);
   const auto secants = random_secants(network.num_elements(), 1);
   const auto displacement = random_vector(network.particles.positions.size(), 2);
-  const auto density = strain_energy_density(network, families_of(network), secants, displacement);
+  const auto density = strain_energy_density(network, secants, displacement);
   const double sum =
       std::inner_product(density.begin(), density.end(), network.particles.volumes.begin(), 0.0);
   const double energy = internal_force(network, secants, displacement).energy;

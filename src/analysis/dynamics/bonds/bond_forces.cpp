@@ -108,7 +108,7 @@ void Halves<Half>::add(const Network& network, Index element, bool first) {
 template <class Half>
 double Halves<Half>::limit_of(Index element, int tooth) const {
   return Half::limit_of_demand(
-      network_.critical_stretch[element] * network_.law(element).tooth(tooth).limit,
+      network_.critical_stretch_of(element) * network_.law(element).tooth(tooth).limit,
       network_.bonds.lengths[element]);
 }
 

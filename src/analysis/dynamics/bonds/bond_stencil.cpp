@@ -63,7 +63,7 @@ class Kinds {
     kind.modulus = network.stiffness[element] /
                    (volumes[bonds.first[element]] * volumes[bonds.second[element]]);
     kind.limit =
-        network.critical_stretch[element] * network.law(element).tooth(0).limit * kind.length;
+        network.critical_stretch_of(element) * network.law(element).tooth(0).limit * kind.length;
     return kind;
   }
 

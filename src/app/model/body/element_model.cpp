@@ -1,6 +1,5 @@
 #include "app/model/body/element_model.hpp"
 
-#include <limits>
 #include <vector>
 
 #include "discretization/lattices/triangulate.hpp"
@@ -13,9 +12,7 @@ Network edge_network(const Body& body) {
   Network network;
   network.particles = body.particles;
   network.bonds = edges_of(body.cells, body.particles);
-  const std::size_t count = static_cast<std::size_t>(network.bonds.size());
-  network.stiffness.assign(count, 1.0);
-  network.critical_stretch.assign(count, std::numeric_limits<double>::infinity());
+  network.stiffness.assign(static_cast<std::size_t>(network.bonds.size()), 1.0);
   network.first_tie = network.first_segment = network.bonds.size();
   return network;
 }

@@ -14,9 +14,7 @@ namespace {
 /// where they are equal.
 constexpr double nearly_equal = 1.1;
 
-bool bonds_can_break(const CaseFile& input, const Model& model) {
-  const Network& network = model.network;
-  if (input.analysis.type == AnalysisType::elastic) return false;
+bool bonds_can_break(const Network& network) {
   for (std::size_t e = 0; e < network.critical_stretch.size(); ++e) {
     if (network.can_break(static_cast<Index>(e))) return true;
   }
@@ -36,7 +34,8 @@ double ratio_of_steps(const Lattice& lattice) {
 std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
                                       NetworkInput& network) {
   std::vector<double> costs;
-  if (input.body.critical_stretch != CriticalStretch::dissipated || !body.spans.empty()) {
+  if (network.elastic || input.body.critical_stretch != CriticalStretch::dissipated ||
+      !body.spans.empty()) {
     return costs;
   }
   for (SolidMaterial& material : network.materials) {
@@ -52,19 +51,20 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
   return costs;
 }
 
-std::optional<std::string> short_horizon_note(const CaseFile& input, const Model& model) {
+std::optional<std::string> short_horizon_note(const Model& model) {
   const double ratio = model.horizon / model.lattice.spacing;
   if (ratio > least_ratio_of_cracks - 1e-6 || model.network.is_beam() ||
-      !bonds_can_break(input, model))
+      !bonds_can_break(model.network)) {
     return std::nullopt;
+  }
   return fmt::format(
       "the horizon is {:.3g} spacings: below 3, what a crack dissipates per area differs by 10 % "
       "and more from one path to another; take horizon_ratio = 3 or more where bonds break",
       ratio);
 }
 
-std::optional<std::string> unmeasured_cost_note(const CaseFile& input, const Model& model) {
-  if (model.crack_cost.empty() || !bonds_can_break(input, model)) return std::nullopt;
+std::optional<std::string> unmeasured_cost_note(const Model& model) {
+  if (model.crack_cost.empty() || !bonds_can_break(model.network)) return std::nullopt;
   constexpr const char* what = "what a crack dissipates per area was not measured";
   if (model.lattice.pattern != Pattern::irregular) {
     const double ratio = ratio_of_steps(model.lattice);

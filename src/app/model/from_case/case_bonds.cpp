@@ -82,6 +82,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
   const bool on_lattice =
       rule == CriticalStretch::lattice || (rule == CriticalStretch::dissipated && !input.body.mesh);
   network.critical_stretch = on_lattice ? Constants::lattice : Constants::continuum;
+  network.elastic = input.analysis.type == AnalysisType::elastic;
   for (std::size_t m = 0; m < input.materials.size() && !input.body.mesh; ++m) {
     const std::vector<Box> boxes = boxes_of(input, m);
     network.solid.insert(network.solid.end(), boxes.begin(), boxes.end());
@@ -89,10 +90,9 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
   for (const MaterialSection& material : input.materials) {
     // Stretches need no energy: any will do, and the network says what they take.
     const double energy = has_stretches(material.softening) ? 1.0 : material.fracture_energy;
-    const bool elastic = input.analysis.type == AnalysisType::elastic;
     network.materials.push_back({material.youngs_modulus, energy,
                                  material.poissons_ratio.value_or(0.0),
-                                 elastic ? SofteningMaterial{} : material.softening});
+                                 network.elastic ? SofteningMaterial{} : material.softening});
   }
   for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
   network.bars = bars.lines;
@@ -253,8 +253,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   model.network = build_case_network(input, body, network);
   refuse_cracks_without_bonds(input, model.network);
   refuse_unbreakable_bodies(input, model.network);
-  if (input.analysis.type == AnalysisType::elastic) model.network.strengths.clear();
-  for (const auto& text : {short_horizon_note(input, model), unmeasured_cost_note(input, model),
+  for (const auto& text : {short_horizon_note(model), unmeasured_cost_note(model),
                            calibration_shortfall(model.network)}) {
     if (text) model.notes.push_back(*text);
   }

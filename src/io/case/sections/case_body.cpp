@@ -243,7 +243,8 @@ BodySection read_body(const CaseTable& table, const BodySection& kind) {
   return body;
 }
 
-MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index) {
+MaterialSection read_material(const CaseTable& table, const CaseFile& input, std::size_t index) {
+  const BodySection& body = input.body;
   MaterialSection material;
   material.name = table.text("name").value_or(fmt::format("material {}", index + 1));
   if (material.name.empty()) {
@@ -254,14 +255,15 @@ MaterialSection read_material(const CaseTable& table, const BodySection& body, s
   material.youngs_modulus =
       table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");
   if (has_state_based_particles(body)) {
-    read_state_material(table, body, material);
+    read_state_material(table, input, material);
     return material;
   }
   material.poissons_ratio = read_poissons_ratio(table, body);
   material.softening = read_softening(table);
   if (is_shell(body) || is_beam(body)) settle_thick_softening(table, material.softening);
-  material.fracture_energy = has_stretches(material.softening) ? 0.0 : read_fracture_energy(table);
-  if (std::isinf(material.fracture_energy)) refuse_softening(table);
+  material.fracture_energy =
+      has_stretches(material.softening) ? 0.0 : read_fracture_energy(table, input.analysis.type);
+  if (std::isinf(material.fracture_energy) && table.has("fracture_energy")) refuse_softening(table);
   material.density = table.positive("density");
   return material;
 }

@@ -5,8 +5,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
+#include "base/types.hpp"
 #include "io/case/case_words.hpp"
 
 namespace perilink {
@@ -84,7 +84,7 @@ void read_mesh_file(const CaseTable& table, std::optional<std::string>& mesh,
 double read_energy(const CaseTable& table, const std::string& key, const std::string& meaning) {
   const TomlValue* value = table.value(key);
   if (value != nullptr && value->kind == TomlValue::Kind::text) {
-    if (value->text == infinite_energy) return std::numeric_limits<double>::infinity();
+    if (value->text == infinite_energy) return infinity;
     if (is_number(value->text)) {
       table.refuse(
           key,
@@ -102,7 +102,8 @@ double read_energy(const CaseTable& table, const std::string& key, const std::st
   return table.need(key, table.positive(key), meaning);
 }
 
-double read_fracture_energy(const CaseTable& table) {
+double read_fracture_energy(const CaseTable& table, AnalysisType type) {
+  if (type == AnalysisType::elastic && !table.has("fracture_energy")) return infinity;
   return read_energy(table, "fracture_energy",
                      "the fracture energy, or \"infinite\" for a material that cannot break");
 }

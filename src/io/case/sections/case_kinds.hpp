@@ -52,6 +52,7 @@ inline constexpr const char* infinite_energy = "infinite";
 /// A positive number, or infinity for that word.
 /// \param meaning  what the key is, where it is missing
 double read_energy(const CaseTable& table, const std::string& key, const std::string& meaning);
-double read_fracture_energy(const CaseTable& table);
+/// Infinity where an elastic analysis, which does not need it, has none.
+double read_fracture_energy(const CaseTable& table, AnalysisType type);
 
 }  // namespace perilink

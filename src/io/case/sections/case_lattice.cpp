@@ -107,8 +107,8 @@ void read_lattice_body(const CaseTable& table, BodySection& body) {
   assign(body.variant, table.choice<LatticeRules>("variant"));
 }
 
-void read_state_material(const CaseTable& table, const BodySection& body,
-                         MaterialSection& material) {
+void read_state_material(const CaseTable& table, const CaseFile& input, MaterialSection& material) {
+  const BodySection& body = input.body;
   const double ratio =
       table.need("poissons_ratio", table.number("poissons_ratio"), "Poisson's ratio");
   if (!(ratio > -1.0 && ratio < 0.5)) {
@@ -120,8 +120,12 @@ void read_state_material(const CaseTable& table, const BodySection& body,
   material.poissons_ratio = ratio;
   LatticeMaterialSection& section = material.lattice.emplace();
   material.density = table.need("density", table.positive("density"), "mass per volume");
-  table.need_one_of({"fracture_energy", "critical_opening"});
-  material.fracture_energy = table.has("fracture_energy") ? read_fracture_energy(table) : 0.0;
+  const bool given = table.has("fracture_energy") || table.has("critical_opening");
+  if (given || input.analysis.type != AnalysisType::elastic) {
+    table.need_one_of({"fracture_energy", "critical_opening"});
+  }
+  material.fracture_energy =
+      table.has("critical_opening") ? 0.0 : read_fracture_energy(table, input.analysis.type);
   const bool breakable = !std::isinf(material.fracture_energy);
   if (breakable && dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
     table.refuse(table.has("fracture_energy") ? "fracture_energy" : "critical_opening",
@@ -130,7 +134,7 @@ void read_state_material(const CaseTable& table, const BodySection& body,
   }
   if (breakable) read_crack_opening(table, body, section);
   for (const char* key : softening_keys) {
-    if (breakable || !table.has(key)) continue;
+    if (breakable || !given || !table.has(key)) continue;
     table.refuse(key, "is given, but the material is unbreakable",
                  "delete it, or give a finite fracture_energy");
   }

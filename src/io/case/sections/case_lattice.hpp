@@ -14,8 +14,7 @@ namespace perilink {
 void read_lattice_body(const CaseTable& table, BodySection& body);
 
 /// What materials of state-based particles have, on a lattice or anywhere.
-void read_state_material(const CaseTable& table, const BodySection& body,
-                         MaterialSection& material);
+void read_state_material(const CaseTable& table, const CaseFile& input, MaterialSection& material);
 /// Yield strength and what goes with it.
 void read_lattice_yielding(const CaseTable& table, const BodySection& body,
                            LatticeMaterialSection& section);

@@ -148,7 +148,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.regions = document.needed_list("regions", about(read_region, dim));
   input.materials =
       document.needed_list("materials", [&input](const CaseTable& table, std::size_t index) {
-        return read_material(table, input.body, index);
+        return read_material(table, input, index);
       });
   input.supports = document.list("supports", about(read_support, input.body));
   input.displacements = document.list("displacements", about(read_displacement, input.body));

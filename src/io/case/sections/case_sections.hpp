@@ -18,8 +18,9 @@ namespace perilink {
 BodySection read_body(const CaseTable& table, const BodySection& kind);
 Region read_region(const CaseTable& table, int dim);
 void write_region(TomlWriter& out, const Region& region, int dim);
+/// \param input  its kind and body, read before
 /// \param index  zero-based, for the name of a nameless material
-MaterialSection read_material(const CaseTable& table, const BodySection& body, std::size_t index);
+MaterialSection read_material(const CaseTable& table, const CaseFile& input, std::size_t index);
 SupportSection read_support(const CaseTable& table, const BodySection& body);
 DisplacementSection read_displacement(const CaseTable& table, const BodySection& body);
 LoadSection read_load(const CaseTable& table, const BodySection& body);

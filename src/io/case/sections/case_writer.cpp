@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -48,6 +49,14 @@ void write_body(TomlWriter& out, const BodySection& body) {
   out.write("critical_stretch", word_of(body.critical_stretch));
 }
 
+/// Elastic analyses need none.
+bool needs_no_energy(const CaseFile& input) {
+  return input.analysis.type == AnalysisType::elastic &&
+         std::ranges::all_of(input.materials, [](const MaterialSection& material) {
+           return std::isinf(material.fracture_energy);
+         });
+}
+
 void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
   for (const Region& region : input.regions) write_region(out, region, dim);
   for (const MaterialSection& material : input.materials) {
@@ -58,7 +67,7 @@ void write_solid(TomlWriter& out, const CaseFile& input, int dim) {
     out.write("youngs_modulus", material.youngs_modulus);
     out.write("poissons_ratio", material.poissons_ratio);
     if (std::isinf(material.fracture_energy)) {
-      out.write("fracture_energy", "infinite");
+      if (!needs_no_energy(input)) out.write("fracture_energy", "infinite");
     } else if (material.fracture_energy > 0.0) {
       out.write("fracture_energy", material.fracture_energy);
     }

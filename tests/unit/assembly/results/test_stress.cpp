@@ -1,9 +1,12 @@
 #include "assembly/results/stress.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
 
+#include "assembly/fields.hpp"
+#include "assembly/results/neighbor_gradients.hpp"
 #include "discretization/bonds.hpp"
 #include "discretization/lattices/make_body.hpp"
 #include "support/small_networks.hpp"
@@ -110,6 +113,24 @@ TEST(StressAt, FallsBackToWhatTheNeighborsSettle) {
   const std::vector<HookeConstants> two = {materials[0], materials[0]};
   const Stress none = stress_at({row, families, Problem::plane_stress, two}, displacement, 3);
   EXPECT_EQ(none, Stress{}) << "neighbours of another material do not count";
+}
+
+/// Weights are shared within blocks, and these do not depend on the threads.
+TEST(ParticleStresses, AreTheSameForAnyNumberOfThreads) {
+  const Network network = make_network(test::rectangular, 70);
+  ASSERT_GT(network.particles.size(), NeighborGradients<2>::block);
+  const Csr families = bonds_of_particles(network.bonds, network.particles.size());
+  const std::vector<double> motion = test::random_vector(network.particles.positions.size(), 5);
+  const std::vector<HookeConstants> materials = {hooke_constants(Problem::plane_stress, 30.0, 0.2)};
+  const StressInput input{network, families, Problem::plane_stress, materials};
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const std::vector<double> stresses = particle_stresses(input, motion);
+  const std::vector<double> strains = principal_strains(network, families, {}, motion);
+  omp_set_num_threads(2);
+  EXPECT_EQ(particle_stresses(input, motion), stresses);
+  EXPECT_EQ(principal_strains(network, families, {}, motion), strains);
+  omp_set_num_threads(before);
 }
 
 /// The edges of a cell lead to too few particles for a quadratic field.

@@ -37,9 +37,18 @@ TEST(FractureRule, SharesTheFractureEnergyBetweenBondsAndPath) {
 
 TEST(FractureRule, LeavesUnbreakableMaterialsUnbreakable) {
   CaseFile input = strip_case();
-  input.analysis.type = AnalysisType::elastic;
+  input.analysis.type = AnalysisType::relaxation;
   input.materials[0].fracture_energy = INFINITY;
   EXPECT_TRUE(std::isinf(weakest(input)));
+}
+
+TEST(FractureRule, IsNotAskedInElasticAnalyses) {
+  CaseFile input = strip_case();
+  input.analysis.type = AnalysisType::elastic;
+  const Model model = build_model(input);
+  EXPECT_TRUE(model.network.critical_stretch.empty());
+  EXPECT_TRUE(model.network.strengths.empty());
+  EXPECT_TRUE(model.crack_cost.empty());
 }
 
 /// The bonds between two materials take the mean of what the bonds of each may release.
@@ -105,14 +114,14 @@ TEST(FractureRule, NotesIrregularCloudsInSpaceWhoseBondsBend) {
   model.lattice.pattern = Pattern::irregular;
   model.network.particles.dim = 3;
   model.network.critical_stretch = {INFINITY, 0.1};
-  EXPECT_FALSE(unmeasured_cost_note(strip_case(), model)) << "measured";
+  EXPECT_FALSE(unmeasured_cost_note(model)) << "measured";
   model.network.bending = {1.0, 1.0};
-  EXPECT_TRUE(unmeasured_cost_note(strip_case(), model));
+  EXPECT_TRUE(unmeasured_cost_note(model));
   model.network.particles.dim = 2;
-  EXPECT_FALSE(unmeasured_cost_note(strip_case(), model)) << "measured";
+  EXPECT_FALSE(unmeasured_cost_note(model)) << "measured";
   model.network.particles.dim = 3;
   model.network.critical_stretch = {INFINITY, INFINITY};
-  EXPECT_FALSE(unmeasured_cost_note(strip_case(), model)) << "nothing can break";
+  EXPECT_FALSE(unmeasured_cost_note(model)) << "nothing can break";
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "io/case/sections/case_sections.hpp"
@@ -14,6 +15,7 @@ namespace perilink {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 std::string with_size(const std::string& lines) {
   return message_of(replaced(small_case, "columns = 11\nhorizon_ratio = 3", lines));
@@ -89,6 +91,41 @@ TEST(CaseBody, LinearElementsNeedNoHorizonAndHaveAnyRatio) {
         elements, "youngs_modulus", "poissons_ratio = " + std::string(ratio) + "\nyoungs_modulus");
     EXPECT_EQ(message_of(text), "accepted") << ratio;
   }
+}
+
+/// Where it is left out nothing breaks, whatever else the material says about softening.
+TEST(CaseBody, ElasticAnalysesNeedNoFractureEnergy) {
+  const std::string elastic = std::string(small_case) + "[analysis]\ntype = \"elastic\"\n";
+  for (const char* lines : {"", "tensile_strength = 1\n",
+                            "softening = \"linear\"\n"
+                            "tensile_strength = 1\n"}) {
+    const CaseFile input = parse_case(replaced(elastic, "fracture_energy = 0.1\n", lines), "");
+    EXPECT_EQ(input.materials[0].fracture_energy, INFINITY);
+    const std::string written = write_case(input);
+    EXPECT_THAT(written, Not(HasSubstr("fracture_energy")));
+    EXPECT_EQ(write_case(parse_case(written, "")), written);
+  }
+  EXPECT_EQ(parse_case(elastic, "").materials[0].fracture_energy, 0.1);
+  const std::string damage = replaced(small_case, "fracture_energy = 0.1\n", "");
+  for (const char* type : {"damage", "explicit", "relaxation"}) {
+    EXPECT_THAT(message_of(damage + "[analysis]\ntype = \"" + type + "\"\n"),
+                HasSubstr("materials[1].fracture_energy: is missing"))
+        << type;
+  }
+  EXPECT_THAT(
+      message_of(replaced(elastic, "= 0.1\n", "= \"infinite\"\ntensile_strength = 1\n")),
+      HasSubstr("materials[1].tensile_strength: is given, but the material is unbreakable"));
+}
+
+/// One that can break beside others keeps its word in the written case.
+TEST(CaseBody, ElasticCasesSayWhatIsUnbreakableBesideOthers) {
+  const CaseFile input = parse_case(std::string(small_case) +
+                                        "[[regions]]\nname = \"patch\"\nx = [0, 1]\ny = [0, 1]\n"
+                                        "[[materials]]\nregion = \"patch\"\nyoungs_modulus = 2\n"
+                                        "[analysis]\ntype = \"elastic\"\n",
+                                    "");
+  EXPECT_EQ(input.materials[1].fracture_energy, INFINITY);
+  EXPECT_THAT(write_case(input), HasSubstr("fracture_energy = \"infinite\""));
 }
 
 }  // namespace

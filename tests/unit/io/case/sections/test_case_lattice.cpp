@@ -88,6 +88,15 @@ TEST(CaseLattice, UnbreakableMaterialsHaveNoStrength) {
   EXPECT_FALSE(material.lattice->tensile_strength);
 }
 
+TEST(CaseLattice, ElasticAnalysesNeedNoFractureEnergy) {
+  const std::string text = replaced(lattice_case, "fracture_energy = 1e-5\n", "");
+  EXPECT_THAT(message_of(text), HasSubstr("has none of `fracture_energy` or `critical_opening`"));
+  const CaseFile input = parse_case(replaced(text, "\"explicit\"", "\"elastic\""), "");
+  EXPECT_TRUE(std::isinf(input.materials[0].fracture_energy));
+  EXPECT_FALSE(input.materials[0].lattice->tensile_strength) << "of a law that nothing follows";
+  EXPECT_THAT(message_of(write_case(input)), HasSubstr("accepted"));
+}
+
 TEST(CaseLattice, ReadsTheAnalysis) {
   const CaseFile input = parse_case(lattice_case, "");
   EXPECT_EQ(input.analysis.type, AnalysisType::explicit_);
