@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "assembly/lower_triangle.hpp"
 #include "network/network.hpp"
 #include "network/secants.hpp"
 #include "network/unknowns.hpp"
@@ -72,16 +71,5 @@ class BoxMotions {
   std::vector<double> arms_;  ///< from the centre of the box over its size, shape (particles, dim)
   std::vector<double> size_;  ///< by which rotations of each box are scaled [length]
 };
-
-/// The stiffness of boxes that move rigidly, and that of each particle alone.
-struct BoxStiffness {
-  SparseMatrix coarse;         ///< P' K P, lower triangle
-  std::vector<double> blocks;  ///< K of each particle alone, one where a component is held; shape
-                               ///< (particles, width, width)
-  /// Puts inverses in place of the blocks. \return whether all are positive definite
-  bool invert_blocks(int width);
-};
-BoxStiffness assemble_box_stiffness(const Network& network, Secants secants,
-                                    const Unknowns& unknowns, const BoxMotions& motions);
 
 }  // namespace perilink

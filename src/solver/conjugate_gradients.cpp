@@ -14,20 +14,65 @@ double scalar_product(std::span<const double> first, std::span<const double> sec
   return std::inner_product(first.begin(), first.end(), second.begin(), 0.0);
 }
 
+namespace {
+
+/// a += factor b
+void add(double factor, std::span<const double> b, std::span<double> a) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] += factor * b[k];
+}
+
+/// The solution at the last correction, whose product is known to all digits. Directions stay
+/// conjugate to it: rounding errs most along soft motions, and these are most of a solution.
+class KnownSolution {
+ public:
+  explicit KnownSolution(const ScalarProduct& dot) : dot_(dot) {}
+
+  /// \param residual  of the solution; what more of the solution does is taken from it
+  void remember(std::span<const double> right, std::span<double> solution,
+                std::span<double> residual) {
+    motion_.assign(solution.begin(), solution.end());
+    forces_.assign(right.begin(), right.end());
+    add(-1.0, residual, forces_);
+    energy_ = dot_(motion_, forces_);
+    if (!(energy_ > 0.0)) return;
+    const double share = dot_(motion_, residual) / energy_;
+    add(share, motion_, solution);
+    add(-share, forces_, residual);
+  }
+  void make_conjugate(std::span<double> direction) const {
+    if (energy_ > 0.0) add(-dot_(forces_, direction) / energy_, motion_, direction);
+  }
+
+ private:
+  const ScalarProduct& dot_;
+  std::vector<double> motion_, forces_;
+  double energy_ = 0.0;
+};
+
+/// p <- z + share p
+void renew(std::span<const double> z, double share, std::span<double> p) {
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] = z[k] + share * p[k];
+}
+
+}  // namespace
+
 GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
                                     std::span<const double> right, std::span<double> solution,
                                     double enough, double scale, int most_iterations,
-                                    const ScalarProduct& dot, const Correction& correct) {
+                                    const ScalarProduct& dot, const Correction& correct,
+                                    double too_soft) {
   const std::size_t size = right.size();
   GradientsReport report;
   std::vector<double> r(right.begin(), right.end()), z(size), p(size), q(size);
   EnergyGains gains;
+  KnownSolution known(dot);
   const auto allowed = [&] { return enough * std::sqrt(std::max(report.energy, scale)); };
   precondition(r, z);
   p = z;
   double rz = dot(r, z), rp = rz;
   const double first = rz;
-  double corrected_at = std::sqrt(rz);  // error where the residual was exact last
+  // The error where the residual was exact last, and what of it rounding may have left since.
+  double corrected_at = std::sqrt(rz), rounding = 0.1 * digits_between_corrections;
   if (rz <= negligible_correction * enough * enough * scale) {
     report.error = std::sqrt(rz);
     report.converged = true;
@@ -38,33 +83,35 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
     const double curvature = dot(p, q);
     if (!(curvature > 0.0)) throw NotPositiveDefinite("the stiffness is not positive definite");
     const double step = rp / curvature;
-    for (std::size_t k = 0; k < size; ++k) {
-      solution[k] += step * p[k];
-      r[k] -= step * q[k];
-    }
+    add(step, p, solution);
+    add(-step, q, r);
     gains.add(step * rp);
     report.energy += step * rp;
     report.softest = first / report.energy;
     ++report.iterations;
     report.error = gains.error();
-    const bool is_exact = !correct || 0.1 * digits_between_corrections * corrected_at <= allowed();
+    const bool is_exact = !correct || rounding * corrected_at <= allowed();
     report.converged = report.error <= allowed() && is_exact;
-    if (report.converged) return report;
+    if (report.converged || report.softest < too_soft) return report;
     precondition(r, z);
-    double next = dot(r, z), share = next / rz;
-    rp = next;
-    if (correct && (std::sqrt(next) < digits_between_corrections * corrected_at ||
-                    report.error <= allowed())) {
-      correct(solution, r);
-      precondition(r, z);
-      next = dot(r, z);
-      const double before = std::exchange(corrected_at, std::sqrt(next));
-      if (!(corrected_at < least_gain_of_digits * before)) return report;
-      share = -dot(q, z) / curvature;  // conjugate to the last direction, whatever the residual is
-      rp = next + share * dot(p, r);
+    const double next = dot(r, z), seemed = std::sqrt(next);
+    if (!correct ||
+        (seemed >= digits_between_corrections * corrected_at && report.error > allowed())) {
+      renew(z, next / rz, p);
+      known.make_conjugate(p);
+      rp = rz = next;
+      continue;
     }
-    for (std::size_t k = 0; k < size; ++k) p[k] = z[k] + share * p[k];
-    rz = next;
+    correct(solution, r);
+    known.remember(right, solution, r);
+    precondition(r, z);
+    rz = dot(r, z);
+    const double before = std::exchange(corrected_at, std::sqrt(rz));
+    if (!(corrected_at < least_gain_of_digits * before)) return report;
+    rounding = std::max(rounding, (corrected_at - seemed) / before);
+    renew(z, -dot(q, z) / curvature, p);  // conjugate to the last one, whatever the residual is
+    known.make_conjugate(p);
+    rp = dot(p, r);
   }
   report.converged = !(rz > 0.0);
   return report;

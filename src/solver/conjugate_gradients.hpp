@@ -21,9 +21,9 @@ using ScalarProduct =
 using Correction =
     std::function<void(std::span<const double> solution, std::span<double> residual)>;
 
-/// Corrections of searches whose product has fewer digits than their answer is to have: whenever
-/// errors seem to have fallen by five digits. Where they have not by one of these, the search ends
-/// without an answer.
+/// Corrections of searches whose product has fewer digits than their answer is to have come whenever
+/// errors seem to have fallen by the first factor. Where they have not by the second one, the search
+/// ends without an answer.
 inline constexpr double digits_between_corrections = 1e-5, least_gain_of_digits = 0.1;
 
 /// Sum over the numbers in one order.
@@ -80,12 +80,14 @@ inline constexpr double negligible_correction = 0.01;
 /// \param scale         energy of a solution that this one corrects; 0: none
 /// \param dot           that of whole vectors, where those here are parts of them
 /// \param correct       where the product has few digits, see digits_between_corrections; the
-///                      solution is then from zero. Empty: never
+///                      solution must be zero at first. Empty: never
+/// \param too_soft      ends without an answer where A is known to be softer somewhere, see
+///                      GradientsReport::softest
 /// \throws NotPositiveDefinite where A is not
 GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
                                     std::span<const double> right, std::span<double> solution,
                                     double enough, double scale, int most_iterations,
                                     const ScalarProduct& dot = scalar_product,
-                                    const Correction& correct = {});
+                                    const Correction& correct = {}, double too_soft = 0.0);
 
 }  // namespace perilink

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "assembly/box_stiffness.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {

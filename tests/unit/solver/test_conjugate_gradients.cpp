@@ -125,5 +125,20 @@ TEST(ConjugateGradients, CorrectionsGiveMoreDigitsThanTheProductHas) {
   EXPECT_FALSE(run(2.0 * search.matrix, correct).converged) << "half of the residual is left";
 }
 
+/// A matrix with an eigenvalue of 1e-12 among those from 1 on.
+TEST(ConjugateGradients, EndWhereAMatrixIsTooSoft) {
+  Search search(200, 1e2);
+  const VectorXd soft = VectorXd::Unit(200, 3);
+  const MatrixXd others = MatrixXd::Identity(200, 200) - soft * soft.transpose();
+  search.matrix = (others * search.matrix * others + 1e-12 * soft * soft.transpose()).eval();
+  std::ranges::fill(search.right, 1.0);
+  const GradientsReport report =
+      conjugate_gradients(product_with(search.matrix), identity, search.right, search.solution,
+                          1e-10, 0.0, 1000, scalar_product, {}, 1e-8);
+  EXPECT_FALSE(report.converged);
+  EXPECT_LT(report.softest, 1e-8);
+  EXPECT_LT(report.iterations, 200) << "long before its solution is there";
+}
+
 }  // namespace
 }  // namespace perilink

@@ -3,26 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 
-#include "assembly/block_forces.hpp"
-#include "base/error.hpp"
+#include "assembly/box_stiffness.hpp"
 #include "solver/factor_routes.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
 namespace {
-
-constexpr int most_box_iterations = 20000;
-
-/// From which on the start of threads takes less than the work.
-constexpr Index many_particles = 10'000;
-
-/// An element holds a small part of the energy: solutions in which events are looked for are finer
-/// by this.
-constexpr double finer = 1e-3;
 
 /// Particles along the edge of a box. Where the body is large, larger ones keep the coarse factor
 /// small; solutions that are many pay for one that is larger.
@@ -36,38 +25,6 @@ double edge_of_box(const Network& network, const BoxSolverOptions& options) {
 
 Index particles_of_box(const Network& network, const BoxSolverOptions& options) {
   return static_cast<Index>(std::pow(edge_of_box(network, options), network.dim()));
-}
-
-SolverError not_there(int iterations, double error, double tolerance) {
-  return SolverError(fmt::format(
-      "conjugate gradients stopped after {} iterations with an error of {:.1e} where {:.0e} was "
-      "asked for: parts of the body are held together by very little, or the tolerance is below "
-      "what round-off allows; take solver = \"direct\"",
-      iterations, error, tolerance));
-}
-
-/// By their lag (L-2) estimates leave more digits than they are asked for, and columns need some of
-/// them; behind a correction of single precision they lag less, and bodies that single precision
-/// cannot do need more of them.
-constexpr double finer_of_trusses = 0.1;
-
-/// Energies of right sides where every particle gives way by itself, while all others stand still.
-/// \param blocks  inverse ones of the particles
-BlockRow local_energies(std::span<const double> blocks, int width, std::span<const double> right) {
-  BlockRow energies{};
-  const double* block = blocks.data();
-  const std::size_t size = static_cast<std::size_t>(width) * block_width;
-  for (std::size_t begin = 0; begin < right.size(); begin += size, block += width * width) {
-    for (int a = 0; a < width; ++a) {
-      for (int b = 0; b < width; ++b) {
-        const double* first = right.data() + begin + a * block_width;
-        const double* second = right.data() + begin + b * block_width;
-        const double entry = block[a * width + b];
-        for (int k = 0; k < block_width; ++k) energies[k] += entry * first[k] * second[k];
-      }
-    }
-  }
-  return energies;
 }
 
 double largest_stiffness(const Network& network) {
@@ -128,24 +85,39 @@ BoxSolver::BoxSolver(const LatticePattern& pattern, const Network& places, const
   require_resistance();
 }
 
+SolverError BoxSolver::not_there(int iterations, double error, double tolerance) {
+  return SolverError(fmt::format(
+      "conjugate gradients stopped after {} iterations with an error of {:.1e} where {:.0e} was "
+      "asked for: parts of the body are held together by very little, or the tolerance is below "
+      "what round-off allows; take solver = \"direct\"",
+      iterations, error, tolerance));
+}
+
 /// What moves without resistance shows under forces of any kind; the loads may not stir it. With
 /// the boxes as preconditioner the smallest eigenvalue of whole bodies is 0.1 to 1, of a body held
-/// by the last of its bonds 1e-3, of a mechanism below 1e-16; bonds in single precision resist a
-/// mechanism a little, so that they tell nothing about small ones.
+/// by the last of its bonds 1e-3, of a mechanism below 1e-16. Bonds in single precision resist a
+/// mechanism a little, so that the network looks again where they find a small one.
 void BoxSolver::require_resistance() {
   constexpr double none = 1e-8, doubtful = 1e-4, enough = 1e-4;
   constexpr int most_steps = 2000;
   std::mt19937 random(7);  // fixed: the same verdict in every run
-  std::vector<double> forces(static_cast<std::size_t>(unknowns_.count));
+  std::vector<double> forces(static_cast<std::size_t>(unknowns_.count)), motion;
   for (double& force : forces) force = static_cast<double>(random() % 2) - 0.5;
-  std::vector<double> motion(forces.size(), 0.0);
-  GradientsReport report = search(forces, motion, enough, 0.0, most_steps);
-  if (packed_ && report.softest < doubtful) {
-    std::ranges::fill(motion, 0.0);
-    report = search_by(&BoxSolver::multiply, forces, motion, enough, 0.0, most_steps);
-  }
-  iterations_ += report.iterations;
-  if (report.softest > none) return;
+  double softest = 0.0;
+  const auto look = [&](auto search) {
+    motion.assign(forces.size(), 0.0);
+    const GradientsReport report = search();
+    iterations_ += report.iterations;
+    softest = report.softest;
+  };
+  if (team_) look([&] { return team_->search(forces, motion, enough, 0.0, most_steps); });
+  const auto look_by = [&](auto multiply, double too_soft) {
+    look(
+        [&] { return search_by(multiply, forces, motion, enough, 0.0, most_steps, {}, too_soft); });
+  };
+  if (packed_) look_by(&BoxSolver::multiply_packed, doubtful);
+  if (!team_ && softest < doubtful) look_by(&BoxSolver::multiply, none);
+  if (softest > none) return;
   throw NotPositiveDefinite(
       "the stiffness matrix is singular to working precision: part of the body can move freely");
 }
@@ -153,7 +125,7 @@ void BoxSolver::require_resistance() {
 template <class Multiply>
 GradientsReport BoxSolver::search_by(Multiply multiply, std::span<const double> right,
                                      std::span<double> solution, double enough, double scale,
-                                     int most_steps, const Correction& correct) {
+                                     int most_steps, const Correction& correct, double too_soft) {
   return conjugate_gradients(
       [&](std::span<const double> q, std::span<double> result) {
         product_threads_.run_within([&] { (this->*multiply)(q, result); });
@@ -161,34 +133,47 @@ GradientsReport BoxSolver::search_by(Multiply multiply, std::span<const double> 
       [&](std::span<const double> r, std::span<double> z) {
         inverse_threads_.run_within([&] { precondition(r, z); });
       },
-      right, solution, enough, scale, most_steps, scalar_product, correct);
+      right, solution, enough, scale, most_steps, scalar_product, correct, too_soft);
 }
 
+/// The solution is from zero. Where rounded bonds do not get there the network goes on.
 GradientsReport BoxSolver::search(std::span<const double> right, std::span<double> solution,
                                   double enough, double scale, int most_steps) {
   if (team_) return team_->search(right, solution, enough, scale, most_steps);
-  if (packed_) {
-    const GradientsReport report = search_packed(right, solution, enough, scale, most_steps);
-    if (report.converged) return report;
-    packed_.reset();
-    single_.reset();
-    std::ranges::fill(solution, 0.0);
+  if (!packed_) {
+    return search_by(&BoxSolver::multiply, right, solution, enough, scale, most_steps);
   }
-  return search_by(&BoxSolver::multiply, right, solution, enough, scale, most_steps);
+  const GradientsReport rounded = search_packed(right, solution, enough, scale, most_steps);
+  if (rounded.converged) return rounded;
+  packed_.reset();
+  single_.reset();
+  std::vector<double> left(right.size());
+  find_residual(right, solution, left);
+  GradientsReport report = search_by(&BoxSolver::multiply, left, solution, enough,
+                                     std::max(scale, rounded.energy), most_steps);
+  report.iterations += rounded.iterations;
+  report.energy += rounded.energy;
+  return report;
+}
+
+/// residual = right - K solution
+void BoxSolver::find_residual(std::span<const double> right, std::span<const double> solution,
+                              std::span<double> residual) {
+  multiply(solution, residual);
+  for (std::size_t k = 0; k < residual.size(); ++k) residual[k] = right[k] - residual[k];
 }
 
 /// Steps with bonds in single precision, residuals by the network.
 GradientsReport BoxSolver::search_packed(std::span<const double> right, std::span<double> solution,
                                          double enough, double scale, int most_steps) {
   packed_->follow(secants_);
-  const auto correct = [&](std::span<const double> found, std::span<double> residual) {
-    multiply(found, residual);
-    for (std::size_t k = 0; k < residual.size(); ++k) residual[k] = right[k] - residual[k];
-  };
   try {
     return search_by(&BoxSolver::multiply_packed, right, solution, enough, scale, most_steps,
-                     correct);
+                     [&](std::span<const double> found, std::span<double> residual) {
+                       find_residual(right, found, residual);
+                     });
   } catch (const NotPositiveDefinite&) {
+    std::ranges::fill(solution, 0.0);
     return {};  // double precision has the last word
   }
 }
@@ -253,7 +238,7 @@ void BoxSolver::solve(std::span<const double> right, std::span<double> solution)
   std::fill(solution.begin(), solution.end(), 0.0);
   const double tolerance = options_.tolerance * (options_.blocks ? finer : 1.0);
   const GradientsReport report =
-      search(wanted, solution, tolerance, options_.blocks ? 0.0 : energy_, most_box_iterations);
+      search(wanted, solution, tolerance, options_.blocks ? 0.0 : energy_, most_iterations);
   iterations_ += report.iterations;
   energy_ = options_.blocks ? report.energy : std::max(energy_, report.energy);
   error_ = energy_ > 0.0 ? report.error / std::sqrt(energy_) : 0.0;
@@ -264,140 +249,9 @@ void BoxSolver::correct(std::span<const double> right, std::span<double> solutio
   const double tolerance = options_.tolerance * finer;
   const std::vector<double> wanted(right.begin(), right.end());
   std::ranges::fill(solution, 0.0);
-  const GradientsReport report = search(wanted, solution, tolerance, energy, most_box_iterations);
+  const GradientsReport report = search(wanted, solution, tolerance, energy, most_iterations);
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, tolerance);
-}
-
-void BoxSolver::precondition_block(std::span<const double> residuals, std::span<double> results) {
-  const int width = unknowns_.width;
-  const double* block = blocks_.data();
-  const std::size_t size = static_cast<std::size_t>(width) * block_width;
-  for (std::size_t begin = 0; begin < residuals.size(); begin += size, block += width * width) {
-    for (int a = 0; a < width; ++a) {
-      std::array<double, block_width> sums{};
-      for (int b = 0; b < width; ++b) {
-        const double* residual = residuals.data() + begin + b * block_width;
-        for (int k = 0; k < block_width; ++k) sums[k] += block[a * width + b] * residual[k];
-      }
-      std::copy(sums.begin(), sums.end(), results.data() + begin + a * block_width);
-    }
-  }
-  motions_->restrict_block(residuals, coarse_block_);
-  factor_->solve_all(coarse_block_);
-  motions_->add_block(coarse_block_, results);
-}
-
-void BoxSolver::multiply_block(std::span<const double> motions, std::span<double> results) {
-  block_forces(network_, secants_, motions, results);
-  const std::vector<Index>& number = unknowns_.number;
-  for (std::size_t slot = 0; slot < number.size(); ++slot) {
-    double* result = results.data() + slot * block_width;
-    if (number[slot] < 0) {
-      std::fill_n(result, block_width, 0.0);
-    } else if (ground_ != nullptr && !ground_->empty()) {
-      const double* motion = motions.data() + slot * block_width;
-      for (int k = 0; k < block_width; ++k) result[k] += (*ground_)[number[slot]] * motion[k];
-    }
-  }
-}
-
-GradientsReport BoxSolver::search_block(std::span<double> right, std::span<double> solution,
-                                        const BlockRow& sizes, double enough) {
-  if (team_) return team_->search_block(right, solution, sizes, enough, most_box_iterations);
-  GradientsReport report;
-  if (is_found_in_single(right, solution, sizes, enough, report)) return report;
-  coarse_block_.resize(coarse_.size() * block_width);
-  if (SingleBody::is_made_of(network_)) enough *= finer_of_trusses;
-  block_threads_.run_within([&] {
-    report = block_conjugate_gradients<double>(
-        as_block_map<double>([&](auto q, auto result) { multiply_block(q, result); }),
-        as_block_map<double>([&](auto r, auto z) { precondition_block(r, z); }), right, solution,
-        sizes, enough, most_box_iterations);
-  });
-  return report;
-}
-
-/// Bodies that are stiff and soft by turns, or slender, may ask for more digits than single
-/// precision has: then blocks are left to double precision until boxes are made anew.
-bool BoxSolver::is_found_in_single(std::span<const double> right, std::span<double> solution,
-                                   const BlockRow& sizes, double enough, GradientsReport& report) {
-  if (!single_) return false;
-  try {
-    report = search_in_single(right, solution, sizes, enough);
-  } catch (const NotPositiveDefinite&) {
-    report.converged = false;  // double precision has the last word
-  }
-  if (!report.converged) single_.reset();
-  return report.converged;
-}
-
-GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution,
-                                       double enough, double energy_of_last) {
-  BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
-  if (energy_of_last > 0.0) {
-    const double finer_than_others = options_.tolerance * finer / enough;
-    sizes.back() = energy_of_last * finer_than_others * finer_than_others;
-  }
-  const GradientsReport report = search_block(right, solution, sizes, enough);
-  iterations_ += report.iterations;
-  if (!report.converged) throw not_there(report.iterations, report.error, enough);
-  return report;
-}
-
-/// Steps in single precision; what they have found is added up in double precision, and so is what
-/// is left. Right sides count by the root of their local energies, so that none is too small.
-GradientsReport BoxSolver::search_in_single(std::span<const double> right,
-                                            std::span<double> solution, const BlockRow& sizes,
-                                            double enough) {
-  single_->follow(secants_, ground_ == nullptr ? std::span<const double>() : *ground_);
-  const std::size_t row = static_cast<std::size_t>(unknowns_.width) * block_width;
-  const double root = std::sqrt(packed_->unit());
-  const BlockRow local = local_energies(blocks_, unknowns_.width, right);
-  BlockRow scaled{}, unit;  // sizes, and what a right side and its solution are divided by
-  for (int c = 0; c < block_width; ++c) {
-    unit[c] = local[c] > 0.0 ? std::sqrt(local[c]) : 1.0;
-    scaled[c] = sizes[c] / (unit[c] * unit[c]);
-  }
-  BlockVector<float> found(right.size()), missing(right.size());
-  const auto for_each_particle = [&](auto visit) {
-#pragma omp parallel for schedule(static) if (network_.particles.size() > many_particles)
-    for (Index p = 0; p < network_.particles.size(); ++p) {
-      visit(static_cast<std::size_t>(p) * row, packed_->place(p) * row);
-    }
-  };
-  const auto add = [&](std::span<const float> part) {
-    for_each_particle([&](std::size_t to, std::size_t from) {
-      for (std::size_t k = 0; k < row; ++k) {
-        solution[to + k] += part[from + k] / root * unit[k % block_width];
-      }
-    });
-  };
-  const auto round = [&](std::span<const double> whole, std::span<float> rounded) {
-    for_each_particle([&](std::size_t from, std::size_t to) {
-      for (std::size_t k = 0; k < row; ++k) {
-        rounded[to + k] = static_cast<float>(whole[from + k] / (root * unit[k % block_width]));
-      }
-    });
-  };
-  std::ranges::fill(solution, 0.0);
-  round(right, missing);
-  const auto correct = [&](std::span<const float> part, std::span<float> left) {
-    add(part);
-    BlockVector<double> residual(right.size());
-    multiply_block(solution, residual);
-    for (std::size_t k = 0; k < right.size(); ++k) residual[k] = right[k] - residual[k];
-    round(residual, left);
-  };
-  GradientsReport report;
-  block_threads_.run_within([&] {
-    report = block_conjugate_gradients<float>(
-        [&](auto q, auto result, const RowsDone& done) { single_->multiply(q, result, done); },
-        [&](auto r, auto z, const RowsDone& done) { single_->precondition(r, z, done); }, missing,
-        found, scaled, finer_of_trusses * enough, most_box_iterations, correct);
-  });
-  add(found);
-  return report;
 }
 
 }  // namespace perilink

@@ -10,6 +10,7 @@
 #include "assembly/box_motions.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/block.hpp"
+#include "base/error.hpp"
 #include "base/thread_choice.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
@@ -82,15 +83,25 @@ class BoxSolver {
   const std::shared_ptr<Team>& team() const { return team_; }
 
  private:
+  static constexpr int most_iterations = 20000;
+  /// From which on the start of threads takes less than the work.
+  static constexpr Index many_particles = 10'000;
+  /// An element holds a small part of the energy: solutions in which events are looked for are
+  /// finer by this.
+  static constexpr double finer = 1e-3;
+
+  static SolverError not_there(int iterations, double error, double tolerance);
   void precondition(std::span<const double> residual, std::span<double> result);
   void multiply(std::span<const double> q, std::span<double> result);
   void multiply_packed(std::span<const double> q, std::span<double> result);
   template <class Multiply>
   GradientsReport search_by(Multiply multiply, std::span<const double> right,
                             std::span<double> solution, double enough, double scale, int most_steps,
-                            const Correction& correct = {});
+                            const Correction& correct = {}, double too_soft = 0.0);
   GradientsReport search(std::span<const double> right, std::span<double> solution, double enough,
                          double scale, int most_steps);
+  void find_residual(std::span<const double> right, std::span<const double> solution,
+                     std::span<double> residual);
   GradientsReport search_packed(std::span<const double> right, std::span<double> solution,
                                 double enough, double scale, int most_steps);
   GradientsReport search_block(std::span<double> right, std::span<double> solution,
