@@ -27,7 +27,7 @@ class KnownSolution {
  public:
   explicit KnownSolution(const ScalarProduct& dot) : dot_(dot) {}
 
-  /// \param residual  of the solution; what more of the solution does is taken from it
+  /// \param residual  what the solution leaves; less, once more of it is added
   void remember(std::span<const double> right, std::span<double> solution,
                 std::span<double> residual) {
     motion_.assign(solution.begin(), solution.end());
@@ -48,6 +48,15 @@ class KnownSolution {
   std::vector<double> motion_, forces_;
   double energy_ = 0.0;
 };
+
+/// \param first  r'z of the right side
+void count_step(double gain, double first, EnergyGains& gains, GradientsReport& report) {
+  gains.add(gain);
+  report.energy += gain;
+  report.softest = first / report.energy;
+  report.error = gains.error();
+  ++report.iterations;
+}
 
 /// p <- z + share p
 void renew(std::span<const double> z, double share, std::span<double> p) {
@@ -85,11 +94,7 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
     const double step = rp / curvature;
     add(step, p, solution);
     add(-step, q, r);
-    gains.add(step * rp);
-    report.energy += step * rp;
-    report.softest = first / report.energy;
-    ++report.iterations;
-    report.error = gains.error();
+    count_step(step * rp, first, gains, report);
     const bool is_exact = !correct || rounding * corrected_at <= allowed();
     report.converged = report.error <= allowed() && is_exact;
     if (report.converged || report.softest < too_soft) return report;

@@ -21,9 +21,9 @@ using ScalarProduct =
 using Correction =
     std::function<void(std::span<const double> solution, std::span<double> residual)>;
 
-/// Corrections of searches whose product has fewer digits than their answer is to have come whenever
-/// errors seem to have fallen by the first factor. Where they have not by the second one, the search
-/// ends without an answer.
+/// Corrections of searches whose product has fewer digits than their answer is to have come
+/// whenever errors seem to have fallen by the first factor. Where they have not by the second one,
+/// the search ends without an answer.
 inline constexpr double digits_between_corrections = 1e-5, least_gain_of_digits = 0.1;
 
 /// Sum over the numbers in one order.

@@ -27,7 +27,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/process/serve.cpp", "what ranks wait in: test_team.cpp, test_bond_analysis.cpp"},
       {"app/program.cpp", "only calls the commands; tests/cli runs the program"},
       {"app/rank_main.cpp", "only starts ranks: tests/cli/test_ranks.cpp"},
-      {"assembly/box_stiffness.cpp", "that of box motions: test_box_motions.cpp"},
+      {"assembly/boxes/box_stiffness.cpp", "that of box motions: test_box_motions.cpp"},
       {"discretization/lattices/lattice_conforming.cpp", "a part of make_body: test_make_body.cpp"},
       {"discretization/lattices/lattice_facets.cpp", "a part of make_body: test_facets.cpp"},
       {"discretization/lattices/lattice_fit.cpp", "a part of make_body: test_make_body.cpp"},

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "assembly/box_stiffness.hpp"
+#include "assembly/boxes/box_stiffness.hpp"
 #include "solver/factor_routes.hpp"
 #include "solver/not_positive_definite.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "analysis/quasistatic/boxes/single_body.hpp"
 #include "analysis/quasistatic/ranks/team.hpp"
-#include "assembly/box_motions.hpp"
+#include "assembly/boxes/box_motions.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/block.hpp"
 #include "base/error.hpp"

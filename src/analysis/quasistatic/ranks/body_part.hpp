@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "assembly/box_stiffness.hpp"
+#include "assembly/boxes/box_stiffness.hpp"
 #include "base/parcel.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"

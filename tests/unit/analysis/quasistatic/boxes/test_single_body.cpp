@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "assembly/block_forces.hpp"
-#include "assembly/box_stiffness.hpp"
+#include "assembly/boxes/box_stiffness.hpp"
 #include "solver/factor_routes.hpp"
 #include "support/analysis_bodies.hpp"
 #include "support/small_networks.hpp"

@@ -1,10 +1,10 @@
-#include "assembly/box_motions.hpp"
+#include "assembly/boxes/box_motions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
-#include "assembly/box_stiffness.hpp"
+#include "assembly/boxes/box_stiffness.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {

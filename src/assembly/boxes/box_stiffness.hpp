@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "assembly/box_motions.hpp"
+#include "assembly/boxes/box_motions.hpp"
 #include "assembly/lower_triangle.hpp"
 
 namespace perilink {

@@ -1,4 +1,4 @@
-#include "assembly/box_motions.hpp"
+#include "assembly/boxes/box_motions.hpp"
 
 #include <algorithm>
 #include <cmath>

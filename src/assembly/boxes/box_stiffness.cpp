@@ -1,4 +1,4 @@
-#include "assembly/box_stiffness.hpp"
+#include "assembly/boxes/box_stiffness.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -38,7 +38,7 @@ BoxRow assemble_box(const Blocks& blocks, const Unknowns& unknowns, const BoxMot
   for (const Index i : motions.particles(box)) {
     fields.assign(row.others.size(), Field::Zero());
     std::size_t last = 0;
-    std::array<double, width * width> whole{};  // of the particle alone
+    std::array<double, width * width> whole{};  // block of the particle alone
     blocks.visit(i, [&](Index j, const auto& block) {
       if (j == i) {
         for (int r = 0; r < width; ++r) {
