@@ -95,20 +95,20 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
     add(step, p, solution);
     add(-step, q, r);
     count_step(step * rp, first, gains, report);
-    const bool is_exact = !correct || rounding * corrected_at <= allowed();
+    const bool is_exact = !correct.find_residual || rounding * corrected_at <= allowed();
     report.converged = report.error <= allowed() && is_exact;
     if (report.converged || report.softest < too_soft) return report;
     precondition(r, z);
     const double next = dot(r, z), seemed = std::sqrt(next);
-    if (!correct ||
+    if (!correct.find_residual ||
         (seemed >= digits_between_corrections * corrected_at && report.error > allowed())) {
       renew(z, next / rz, p);
       known.make_conjugate(p);
       rp = rz = next;
       continue;
     }
-    correct(solution, r);
-    known.remember(right, solution, r);
+    correct.find_residual(solution, r);
+    if (correct.keeps_solution) known.remember(right, solution, r);
     precondition(r, z);
     rz = dot(r, z);
     const double before = std::exchange(corrected_at, std::sqrt(rz));

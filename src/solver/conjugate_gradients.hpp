@@ -17,9 +17,15 @@ using LinearMap = std::function<void(std::span<const double> vector, std::span<d
 using ScalarProduct =
     std::function<double(std::span<const double> first, std::span<const double> second)>;
 
-/// Puts the residual of a solution in place of what is left of it by the steps so far.
-using Correction =
-    std::function<void(std::span<const double> solution, std::span<double> residual)>;
+/// For products of few digits.
+struct Correction {
+  /// Puts the residual of a solution in place of what is left of it by the steps so far. Empty:
+  /// never.
+  std::function<void(std::span<const double> solution, std::span<double> residual)> find_residual;
+  /// Whether later directions are conjugate to the solution at a correction, too: fewer steps where
+  /// parts hang on a few bonds, and fewer digits where bodies move far beside what strains them.
+  bool keeps_solution = true;
+};
 
 /// Corrections of searches whose product has fewer digits than their answer is to have come
 /// whenever errors seem to have fallen by the first factor. Where they have not by the second one,

@@ -106,7 +106,7 @@ TEST(ConjugateGradients, RefusesAMatrixThatIsNotPositiveDefinite) {
 TEST(ConjugateGradients, CorrectionsGiveMoreDigitsThanTheProductHas) {
   Search search(200, 1e2);
   const MatrixXd rounded = search.matrix.cast<float>().cast<double>();
-  const Correction correct = [&](std::span<const double> solution, std::span<double> residual) {
+  const auto find_residual = [&](std::span<const double> solution, std::span<double> residual) {
     product_with(search.matrix)(solution, residual);
     for (std::size_t k = 0; k < residual.size(); ++k) residual[k] = search.right[k] - residual[k];
   };
@@ -118,11 +118,14 @@ TEST(ConjugateGradients, CorrectionsGiveMoreDigitsThanTheProductHas) {
   const GradientsReport exact = run(search.matrix, {});
   EXPECT_TRUE(run(rounded, {}).converged);
   EXPECT_GT(search.error(), 1e-8 * search.size());
-  const GradientsReport corrected = run(rounded, correct);
-  EXPECT_TRUE(corrected.converged);
-  EXPECT_LE(search.error(), 1e-10 * search.size());
-  EXPECT_LT(corrected.iterations, exact.iterations + 6) << "a window of steps";
-  EXPECT_FALSE(run(2.0 * search.matrix, correct).converged) << "half of the residual is left";
+  for (const bool keeps_solution : {false, true}) {
+    const GradientsReport corrected = run(rounded, {find_residual, keeps_solution});
+    EXPECT_TRUE(corrected.converged);
+    EXPECT_LE(search.error(), 1e-10 * search.size());
+    EXPECT_LT(corrected.iterations, exact.iterations + 6) << "a window of steps";
+  }
+  EXPECT_FALSE(run(2.0 * search.matrix, {find_residual}).converged)
+      << "half of the residual is left";
 }
 
 /// A matrix with an eigenvalue of 1e-12 among those from 1 on.

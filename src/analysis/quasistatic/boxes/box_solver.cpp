@@ -169,9 +169,10 @@ GradientsReport BoxSolver::search_packed(std::span<const double> right, std::spa
   packed_->follow(secants_);
   try {
     return search_by(&BoxSolver::multiply_packed, right, solution, enough, scale, most_steps,
-                     [&](std::span<const double> found, std::span<double> residual) {
-                       find_residual(right, found, residual);
-                     });
+                     {[&](std::span<const double> found, std::span<double> residual) {
+                        find_residual(right, found, residual);
+                      },
+                      !options_.blocks});  // events ask for all digits
   } catch (const NotPositiveDefinite&) {
     std::ranges::fill(solution, 0.0);
     return {};  // double precision has the last word

@@ -49,8 +49,9 @@ std::vector<double> solve_after_changes(const AnalysisBody& body, Ranks* ranks) 
       right[slots[(7 * c + 1) % slots.size()] * block_width + c] = 1.0 + c;
     solver.solve_block(right, columns, 1e-12);
     results.insert(results.end(), columns.begin(), columns.end());
-    solver.solve(load, columns);
-    results.insert(results.end(), columns.begin(), columns.begin() + body.unknowns.count);
+    std::vector<double> solution(load.size());
+    solver.solve(load, solution);
+    results.insert(results.end(), solution.begin(), solution.end());
   };
   solve_for_all();
   for (std::size_t e = 5; e < axial.size(); e += 6) axial[e] = other[e] = e % 4 == 0 ? 0.0 : 0.4;
