@@ -22,7 +22,7 @@
 namespace perilink::verification {
 namespace {
 
-/// The notch, from which the crack runs up, and how far to its sides bonds belong to the crack [mm].
+/// The notch, from which the crack runs up, and how far to its sides bonds belong to it [mm].
 constexpr double notch_plane = 1.5625, horizon = 6.25, height = 100.0, thickness = 12.5;
 constexpr double spacing = 3.125;
 /// Opening of the darkest colour [mm].
