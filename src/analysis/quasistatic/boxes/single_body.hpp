@@ -28,8 +28,8 @@ struct BoxOrder {
 
 /// A body of trusses in single precision, for the steps of a search whose residuals are computed
 /// elsewhere: product and preconditioner (docs/theory/large_bodies.md, L-1) of block_width vectors
-/// side by side. Vectors have shape (particles, dim, block_width); forces count by the square root
-/// of a stiffness, and motions by one over it, so that energies are what they are.
+/// side by side. Vectors have shape (particles, dim, block_width); forces count by the root of a
+/// stiffness, and motions by one over it, so that energies are what they are.
 class SingleBody {
  public:
   /// Whether a body consists of nothing but trusses.
