@@ -65,8 +65,9 @@ class Parcel {
 
  private:
   void put_bytes(const void* from, std::size_t count) {
-    const auto* const first = static_cast<const std::byte*>(from);
-    bytes_.insert(bytes_.end(), first, first + count);
+    if (count == 0) return;
+    bytes_.resize(bytes_.size() + count);
+    std::memcpy(bytes_.data() + bytes_.size() - count, from, count);
   }
   void get_bytes(void* to, std::size_t count) {
     if (count == 0) return;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/error.hpp"
+#include "calibration/calibration_cost.hpp"
 #include "calibration/calibration_equations.hpp"
 #include "calibration/facet_shares.hpp"
 #include "calibration/least_change/least_change.hpp"
@@ -32,6 +34,9 @@ constexpr double settling_tolerance = 0.01;
 /// Iterations of conjugate gradients in one search. Searches that end need less, up to 4000 in
 /// solids with edges; those of nearly contradictory equations would go on for minutes.
 constexpr int most_iterations = 8000;
+/// The same where bonds are made alike; those that end need some hundred, and single bonds are left
+/// where these do not.
+constexpr int most_alike_iterations = 1500;
 
 /// Price of what is left of the equations of forces and moments. Multipliers of bodies that can be
 /// in balance are up to 1e3.
@@ -48,10 +53,6 @@ constexpr Index least_freedom = 3;
 /// Intermediate passes need no more digits; what they leave is no contradiction.
 constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
 
-/// The matrix of equations of bonds that lie alike is nearly full: so many take 2 GB. Only boxes
-/// whose steps differ along all axes have more, and horizons of four spacings then.
-constexpr Index most_alike_equations = 20000;
-
 class Calibration {
  public:
   Calibration(const CalibrationInput& input, const CalibrationOptions& options,
@@ -60,6 +61,7 @@ class Calibration {
         irregular_(input.all_free()),
         priced_(!in_space_ && (irregular_ || input.give_up)),
         tied_(orbits != nullptr),
+        cautious_(in_space_ && !(tied_ && input.box)),
         moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
         on_search_(options.on_search),
@@ -86,7 +88,10 @@ class Calibration {
 
   bool in_space_, irregular_;
   bool priced_;  // single equations are given up instead of spreading what is left of them
-  bool tied_, moments_;
+  bool tied_;
+  /// Corners may have no solution: finding out takes few digits, where many are dear.
+  bool cautious_;
+  bool moments_;
   double tolerance_;
   CalibrationObserver on_search_;
   int searches_ = 0;
@@ -131,7 +136,7 @@ void Calibration::fit_energies() {
 void Calibration::balance_by(Method method, double charge, double tolerance) {
   LeastChangeOptions options;
   options.tolerance = tolerance;
-  options.iterations = most_iterations;
+  options.iterations = tied_ ? most_alike_iterations : most_iterations;
   options.method = method;
   options.price = charge;
   options.hopeless = hopeless_;
@@ -189,9 +194,7 @@ bool Calibration::fit_and_balance(double tolerance) {
 /// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
 /// all over) every bond keeps something to carry. \return whether the exact forces led anywhere
 bool Calibration::balance_dropping_bonds() {
-  // Corners may have no solution: finding out takes few digits, where many are dear.
-  const bool cautious = in_space_ && !tied_;
-  const double coarse = cautious ? coarse_tolerance : tolerance_;
+  const double coarse = cautious_ ? coarse_tolerance : tolerance_;
   if (!fit_and_balance(coarse)) return false;
   const double floored = unbalanced();
   if (!priced_ && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
@@ -257,29 +260,23 @@ CalibrationReport Calibration::run() {
   return report_;
 }
 
-/// The same constants all over; materials may differ in strength.
-bool uniform(const CalibrationInput& input) {
-  const LameConstants& first = input.materials[input.particles.material.front()];
-  return std::all_of(input.particles.material.begin(), input.particles.material.end(),
-                     [&](Index m) { return input.materials[m] == first; });
-}
-
-/// Bonds of a box that lie alike are made alike: a problem whose size does not depend on the size
-/// of the box. \return what was reached in the whole box, none where it has no exact solution
+/// Bonds that lie alike are made alike: a problem whose size hardly depends on that of the body.
+/// \return what was reached in the whole body, none where it has no exact solution
 std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
                                                  const CalibrationOptions& options,
-                                                 const Facets& facets, BondStiffness& stiffness) {
-  const BondOrbits orbits = find_orbits(*input.box, input.particles, input.bonds, input.free);
-  const Index rows = ForceRows{input.particles.dim, !stiffness.bending.empty()}.count();
-  if (orbits.representatives.empty() ||
-      static_cast<Index>(orbits.representatives.size()) * rows > most_alike_equations) {
-    return std::nullopt;
-  }
+                                                 const Facets& facets, const BondOrbits& orbits,
+                                                 BondStiffness& stiffness) {
   const OrbitSample sample =
       sample_orbits(orbits, input.particles, input.bonds, input.free, stiffness);
-  const CalibrationInput sampled{input.particles, sample.bonds, input.materials, sample.free};
+  const CalibrationInput sampled{input.particles, sample.bonds, input.materials, sample.free,
+                                 input.box};
   Calibration calibration(sampled, options, facets, sample.stiffness, &sample.orbits);
-  CalibrationReport report = calibration.run();
+  CalibrationReport report;
+  try {
+    report = calibration.run();
+  } catch (const SolverError&) {  // too many rows that depend on others for a factor
+    return std::nullopt;
+  }
   CalibrationEquations whole(input, options.least_weight, facets, stiffness);
   whole.report_balance(report);
   report.residual_before = report.residual_after;
@@ -306,8 +303,8 @@ CalibrationReport calibrate_bonds(const CalibrationInput& input, const Calibrati
   balance_shares(facets, input.particles.positions,
                  connected_parts(input.bonds, input.particles.size()), lambda);
   if (stiffness.inflection.empty()) stiffness.inflection.assign(stiffness.bending.size(), 0.5);
-  if (input.box && !input.all_free() && uniform(input)) {
-    if (const auto report = calibrate_alike(input, options, facets, stiffness)) return *report;
+  if (const auto orbits = alike_bonds(input, facets, stiffness)) {
+    if (auto report = calibrate_alike(input, options, facets, *orbits, stiffness)) return *report;
   }
   if (input.only_alike) return {};
   Calibration calibration(input, options, facets, stiffness, nullptr);

@@ -1,13 +1,23 @@
 #pragma once
 
-#include "calibration/calibration.hpp"
+#include <optional>
+
+#include "calibration/bond_orbits.hpp"
+#include "calibration/calibration_input.hpp"
+#include "discretization/facets.hpp"
 
 namespace perilink {
+
+/// The classes of bonds that a calibration makes alike; none where the body has no lattice of one
+/// stiffness, or so little in it repeats that single bonds are cheaper.
+/// \param stiffness  at the start
+std::optional<BondOrbits> alike_bonds(const CalibrationInput& input, const Facets& facets,
+                                      const BondStiffness& stiffness);
 
 /// Estimate of a calibration that has not been done, as its report: how many bonds it may change
 /// and roughly how many seconds it takes on an idle core, by rates of bodies whose search converges
 /// (contradictory equations take longer).
-/// \param moments  whether bonds carry moments
-CalibrationReport expected_calibration(const CalibrationInput& input, bool moments);
+CalibrationReport expected_calibration(const CalibrationInput& input, const Facets& facets,
+                                       const BondStiffness& stiffness);
 
 }  // namespace perilink

@@ -22,9 +22,12 @@ struct CalibrationInput {
   /// clouds).
   std::vector<std::uint8_t> free;
   bool all_free() const { return free.empty(); }
-  /// The box that the particles fill with one lattice; where the material is the same all over,
-  /// bonds that lie alike are then made alike.
+  /// The box that the particles fill with one lattice. Where the material is the same all over,
+  /// bonds that lie alike are made alike.
   std::optional<LatticeBox> box = std::nullopt;
+  /// Step along each axis of a lattice in space that may fill something else: bonds with the same
+  /// surroundings are made alike where much repeats [length].
+  std::optional<Vector3> step = std::nullopt;
   bool only_alike = false;  ///< nothing is changed where they have no solution
   /// In the plane: where particles have no solution, single equations are given up and all others
   /// hold, as in irregular clouds, in place of least squares.
@@ -36,7 +39,7 @@ struct CalibrationInput {
 /// its cell.
 struct CalibrationReport {
   Index free_bonds = 0;
-  bool alike = false;            ///< bonds that lie alike in a box were made alike
+  bool alike = false;            ///< bonds that lie alike were made alike
   double residual_before = 0.0;  ///< largest force out of balance at the start ...
   double residual_after = 0.0;   ///< ... and at the end
   double moment_after = 0.0;  ///< largest moment out of balance of bonds that carry moments, over

@@ -15,6 +15,13 @@ namespace perilink {
 /// Symmetric matrix; only the lower triangle is stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
+/// What is left of the stiffness of an unknown when all before it are free: the smallest pivot
+/// over its entry of the diagonal of K.
+struct SoftestPivot {
+  double ratio = 1.0;
+  Index unknown = no_index;
+};
+
 /// Size and cost of a factor.
 struct FactorStatistics {
   Index size = 0;
@@ -24,6 +31,7 @@ struct FactorStatistics {
   double event_bytes = 0.0;  ///< part of L that the last downdate read (in place only)
   int factorizations = 0;    ///< so far
   int ranks = 1;             ///< processes that share the work
+  SoftestPivot softest;      ///< of the last factorisation (in place only)
 };
 
 /// Cholesky factor of a symmetric positive definite matrix K that follows changes of low rank, and

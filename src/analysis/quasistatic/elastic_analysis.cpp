@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 
+#include "analysis/quasistatic/mechanism.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
@@ -133,14 +134,15 @@ ElasticResult solve_elastic(const Network* network, const Unknowns& unknowns, co
 
 /// By a factor of the matrix that assemble() gives.
 template <class Assemble>
-auto by_factor(const Unknowns& unknowns, int threads, Assemble assemble) {
-  return [&unknowns, threads, assemble](ElasticResult& result) {
+auto by_factor(const Unknowns& unknowns, const Particles* particles, int threads,
+               Assemble assemble) {
+  return [&unknowns, particles, threads, assemble](ElasticResult& result) {
     Timer timer;
     const SparseMatrix stiffness = assemble();
     result.seconds.assembly += timer.seconds();
     timer.restart();
     const std::shared_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
-    factor->factorize(stiffness, unknowns.owners());
+    factorize_stiffness(*factor, stiffness, unknowns, particles);
     result.seconds.factorization = timer.seconds();
     result.factor = factor->statistics();
     return [factor](std::span<const double> right, std::span<double> solution) {
@@ -209,7 +211,7 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
                          internal_of);
   }
   return solve_elastic(&network, unknowns, problem.loads,
-                       by_factor(unknowns, options.threads,
+                       by_factor(unknowns, &network.particles, options.threads,
                                  [&] { return assemble_stiffness(network, intact, unknowns); }),
                        internal_of);
 }
@@ -218,7 +220,8 @@ ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknown
                                    const Loads& loads, int threads) {
   return solve_elastic(
       nullptr, unknowns, loads,
-      by_factor(unknowns, threads, [&] { return assemble_stiffness(elements, unknowns); }),
+      by_factor(unknowns, nullptr, threads,
+                [&] { return assemble_stiffness(elements, unknowns); }),
       [&](std::span<const double> u) { return internal_force(elements, u); });
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calibration/least_change/point_equations.hpp"
+#include "calibration/least_change/point_matrix.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -25,13 +26,11 @@ class EquationsFactor {
   void solve(const std::vector<double>& residual, std::vector<double>& result) const;
 
  private:
-  double* block(Index upper, Index lower, int column);
   void fill(const PointEquations& equations, const std::vector<double>& active,
             const std::vector<double>& diagonal, double floor);
 
-  Index rows_;
-  std::vector<Index> offsets_, later_;  // points after each one that share a variable with it
-  SparseMatrix matrix_;                 // lower triangle
+  int rows_;
+  PointMatrix matrix_;
   std::unique_ptr<Factor> factor_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "calibration/least_change/box_space.hpp"
 #include "calibration/least_change/equations_factor.hpp"
+#include "calibration/least_change/tied_equations.hpp"
 
 namespace perilink {
 
@@ -11,6 +12,7 @@ namespace perilink {
 struct KeptPreconditioner {
   std::unique_ptr<BoxSpace> boxes;
   std::unique_ptr<EquationsFactor> factor;
+  std::unique_ptr<TiedFactor> tied;
 
   void reset() { *this = {}; }
 };

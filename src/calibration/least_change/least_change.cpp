@@ -214,9 +214,10 @@ LeastChange solve(const PointEquations& equations, const LeastChangeOptions& opt
   return DualNewton<Normal>(equations, options, normal).solve();
 }
 
-LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions& options) {
+LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions& options,
+                       KeptPreconditioner& kept) {
   const TiedEquations tied = tie(equations);
-  TiedNormalEquations normal(tied);
+  TiedNormalEquations normal(tied, kept.tied);
   LeastChange change = DualNewton<TiedNormalEquations>(tied.equations, options, normal).solve();
   change.weights = tied.weights(change.weights);
   return change;
@@ -226,7 +227,7 @@ LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions
 
 LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
                          KeptPreconditioner& kept) {
-  if (!equations.unknown.empty()) return solve_tied(equations, options);
+  if (!equations.unknown.empty()) return solve_tied(equations, options, kept);
   const auto are = [&](int rows, int odd, bool grouped) {
     return equations.rows == rows && equations.odd == odd && equations.group.empty() != grouped;
   };

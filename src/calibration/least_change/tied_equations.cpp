@@ -37,10 +37,40 @@ constexpr double least_proximity = 1e-10;
 /// Added to the diagonal of the factor beside that, relative to its mean: round-off must not make
 /// rows negative that depend on others.
 constexpr double factor_floor = 1e-13;
-/// A new factor costs about as much as this many iterations.
+/// A new factor costs as much as this many iterations at least ...
 constexpr int stale_iterations = 10;
+/// ... and operations of a solution take as long as so many of a factor: it waits for memory.
+constexpr double waiting = 16.0;
 /// Where the equations contradict each other more do not help.
 constexpr int most_tied_iterations = 400;
+
+/// Calls visit(first, last) for the entries of a column, [first, last), at one point each.
+template <class Visit>
+void for_each_point(const TiedEquations::Matrix& columns, Index column, Index rows, Visit visit) {
+  const int* begin = columns.innerIndexPtr();
+  for (int k = columns.outerIndexPtr()[column]; k < columns.outerIndexPtr()[column + 1];) {
+    const int first = k;
+    while (k < columns.outerIndexPtr()[column + 1] && begin[k] / rows == begin[first] / rows) ++k;
+    visit(first, k);
+  }
+}
+
+PointMatrix::Pairs shared_points(const TiedEquations::Matrix& columns, Index rows) {
+  PointMatrix::Pairs pairs;
+  std::vector<Index> points;
+  for (Index u = 0; u < static_cast<Index>(columns.rows()); ++u) {
+    points.clear();
+    for_each_point(columns, u, rows, [&](int first, int) {
+      points.push_back(columns.innerIndexPtr()[first] / rows);
+      for (const Index p : points) {
+        if (p != points.back()) pairs.emplace_back(p, points.back());
+      }
+    });
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
 
 }  // namespace
 
@@ -94,16 +124,72 @@ TiedEquations tie(const PointEquations& equations) {
   return tied;
 }
 
-TiedNormalEquations::TiedNormalEquations(const TiedEquations& tied)
+TiedFactor::TiedFactor(const TiedEquations& tied, const TiedEquations::Matrix& columns)
+    : rows_(tied.equations.rows),
+      matrix_(rows_, tied.equations.num_points(), shared_points(columns, rows_)) {}
+
+bool TiedFactor::fits(const TiedEquations& tied, const TiedEquations::Matrix& columns) const {
+  return rows_ == tied.equations.rows &&
+         matrix_.holds(tied.equations.num_points(), shared_points(columns, rows_));
+}
+
+void TiedFactor::factorize(const TiedEquations::Matrix& columns, std::span<const double> mobility,
+                           std::span<const double> shift) {
+  matrix_.set_zero();
+  const int* row_of = columns.innerIndexPtr();
+  const double* value = columns.valuePtr();
+  for (Index u = 0; u < static_cast<Index>(columns.rows()); ++u) {
+    if (mobility[u] == 0.0) continue;
+    for_each_point(columns, u, rows_, [&](int first, int last) {
+      const Index upper = row_of[first] / rows_;
+      const auto add = [&](int from, int to) {
+        const Index lower = row_of[from] / rows_;
+        for (int c = first; c < last; ++c) {
+          const double factor = value[c] * mobility[u];
+          double* entries = matrix_.block(upper, lower, row_of[c] - upper * rows_);
+          for (int r = upper == lower ? c : from; r < to; ++r) {
+            entries[row_of[r] - lower * rows_] += factor * value[r];
+          }
+        }
+      };
+      for_each_point(columns, u, rows_, [&](int from, int to) {
+        if (from >= first) add(from, to);
+      });
+    });
+  }
+  const auto entry = [&](Index k) -> double& {
+    return matrix_.block(k / rows_, k / rows_, k % rows_)[k % rows_];
+  };
+  double trace = 0.0;
+  for (Index k = 0; k < static_cast<Index>(shift.size()); ++k) trace += entry(k);
+  const double floor = factor_floor * trace / static_cast<double>(shift.size());
+  for (Index k = 0; k < static_cast<Index>(shift.size()); ++k) {
+    // Symmetry leaves nothing to some rows.
+    entry(k) += entry(k) > 0.0 ? shift[k] + floor : 1.0;
+  }
+  if (factor_) return factor_->refactorize(matrix_.matrix());
+  factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
+  factor_->factorize(matrix_.matrix(), matrix_.point_of_rows());
+}
+
+int TiedFactor::worth() const {
+  const FactorStatistics statistics = factor_->statistics();
+  const double solutions = statistics.flops / (4.0 * waiting * statistics.entries);
+  return std::max(stale_iterations, static_cast<int>(solutions));
+}
+
+TiedNormalEquations::TiedNormalEquations(const TiedEquations& tied,
+                                         std::unique_ptr<TiedFactor>& kept)
     : mobility(tied.root.size(), 1.0),
       tied_(tied),
       transposed_(tied.matrix.transpose()),
-      shift_(tied.matrix.rows()) {
+      shift_(tied.matrix.rows()),
+      factor_(kept) {
   const std::size_t rows = static_cast<std::size_t>(tied.equations.rows);
   for (std::size_t k = 0; k < static_cast<std::size_t>(shift_.size()); ++k) {
     shift_[static_cast<Eigen::Index>(k)] = tied.equations.ridge_of(k % rows) + least_proximity;
-    point_.push_back(static_cast<Index>(k / rows));
   }
+  if (factor_ && !factor_->fits(tied, transposed_)) factor_.reset();
 }
 
 void TiedNormalEquations::apply_transpose(const Vector& y, std::vector<double>& result) const {
@@ -125,25 +211,13 @@ void TiedNormalEquations::measure(const std::vector<double>& unknowns, const Vec
 }
 
 void TiedNormalEquations::prepare() {
-  TiedEquations::Matrix weighted = transposed_;
-  for (Eigen::Index u = 0; u < weighted.rows(); ++u) {
-    weighted.row(u) *= mobility[static_cast<std::size_t>(u)];
-  }
-  const TiedEquations::Matrix product = tied_.matrix * weighted;
-  SparseMatrix lower = SparseMatrix(product).triangularView<Eigen::Lower>();
-  const double floor = factor_floor * lower.diagonal().mean();
-  for (Index k = 0; k < lower.rows(); ++k) {
-    double& diagonal = lower.coeffRef(k, k);
-    diagonal += diagonal > 0.0 ? shift_[k] + floor : 1.0;  // symmetry leaves nothing to some rows
-  }
-  lower.makeCompressed();
-  factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
-  factor_->factorize(lower, point_);
+  if (!factor_) factor_ = std::make_unique<TiedFactor>(tied_, transposed_);
+  factor_->factorize(transposed_, mobility, {shift_.data(), static_cast<std::size_t>(shift_.size())});
   last_iterations_ = 0;
 }
 
 void TiedNormalEquations::prepare_if_stale(bool) {
-  if (!factor_ || last_iterations_ > stale_iterations) prepare();
+  if (!factor_ || last_iterations_ > factor_->worth()) prepare();
 }
 
 int TiedNormalEquations::solve(const Vector& residual, double reduction, Vector& direction) {

@@ -9,6 +9,7 @@
 #include <Eigen/SparseCore>
 
 #include "calibration/least_change/point_equations.hpp"
+#include "calibration/least_change/point_matrix.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
@@ -30,6 +31,30 @@ struct TiedEquations {
 
 TiedEquations tie(const PointEquations& equations);
 
+/// Factor of the system of tied variables, M D M' + shift.
+class TiedFactor {
+ public:
+  /// \param columns  the matrix, transposed
+  TiedFactor(const TiedEquations& tied, const TiedEquations::Matrix& columns);
+
+  /// Whether it can be made for these columns, too.
+  bool fits(const TiedEquations& tied, const TiedEquations::Matrix& columns) const;
+  /// \param mobility  D
+  /// \param shift     added to the diagonal
+  void factorize(const TiedEquations::Matrix& columns, std::span<const double> mobility,
+                 std::span<const double> shift);
+  void solve(std::span<const double> residual, std::span<double> result) const {
+    factor_->solve(residual, result);
+  }
+  /// Iterations of conjugate gradients that take as long as a new factor.
+  int worth() const;
+
+ private:
+  Index rows_;
+  PointMatrix matrix_;
+  std::unique_ptr<Factor> factor_;
+};
+
 /// The counterpart of NormalEquations for tied variables. The matrices are small but full, and
 /// symmetry makes some rows depend on others: a factor, renewed when it serves badly, preconditions
 /// the conjugate gradients.
@@ -37,7 +62,8 @@ class TiedNormalEquations {
  public:
   using Vector = std::vector<double>;  // shape (points, rows)
 
-  explicit TiedNormalEquations(const TiedEquations& tied);
+  /// \param kept  holds the factor, for the next search
+  TiedNormalEquations(const TiedEquations& tied, std::unique_ptr<TiedFactor>& kept);
 
   void apply_transpose(const Vector& y, std::vector<double>& result) const;
   /// What the unknowns leave of the right sides, less ridge times y.
@@ -60,9 +86,8 @@ class TiedNormalEquations {
  private:
   const TiedEquations& tied_;
   TiedEquations::Matrix transposed_;
-  Eigen::VectorXd shift_;     // added to the diagonal
-  std::vector<Index> point_;  // per row
-  std::unique_ptr<Factor> factor_;
+  Eigen::VectorXd shift_;  // added to the diagonal
+  std::unique_ptr<TiedFactor>& factor_;
   int last_iterations_ = 0;
 };
 

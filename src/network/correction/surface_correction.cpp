@@ -212,7 +212,10 @@ void Correction::calibrate(bool give_up) {
   calibration.only_alike = input_.only_alike;
   if (family) {
     calibration.free = free_bonds(*family);
-    if (network_.hinged.empty()) calibration.box = lattice_box(body_);
+    if (network_.hinged.empty()) {
+      calibration.box = lattice_box(body_);
+      if (network_.dim() == 3) calibration.step = body_.lattice.step;
+    }
   }
   std::vector<double> bulk = network_.stiffness;
   std::vector<double> bulk_bending = network_.bending;
@@ -229,7 +232,8 @@ void Correction::calibrate(bool give_up) {
   // What single bonds lose or gain from here on is no measure of their strength.
   if (!input_.elastic) network_.bending_ratio = own_bending_ratios(network_);
   if (input_.draft) {
-    network_.calibration = expected_calibration(calibration, micropolar());
+    const BondStiffness start{network_.stiffness, network_.bending, {}};
+    network_.calibration = expected_calibration(calibration, network_.facets, start);
   } else {
     balance(calibration);
     network_.calibration->seconds = timer.seconds();

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analysis/quasistatic/mechanism.hpp"
 #include "assembly/linear_elements.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
@@ -97,7 +98,8 @@ void Equilibrium::factorize_anew() {
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
   if (boxes_ != nullptr) return boxes_->begin(*unknowns_, secants(), ground_stiffness_);
-  factor_->factorize(assemble_stiffness(network_, secants(), *unknowns_), unknowns_->owners());
+  factorize_stiffness(*factor_, assemble_stiffness(network_, secants(), *unknowns_), *unknowns_,
+                      &network_.particles);
 }
 
 /// Equilibrium under the unknowns as they are, from a new factor.

@@ -1,0 +1,287 @@
+#include "calibration/bond_surroundings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "base/csr.hpp"
+
+namespace perilink {
+namespace {
+
+using Key = std::uint64_t;
+using Offset = std::array<std::int64_t, 3>;
+
+/// How far places are told apart: what the particles look like that are so many bonds away. Bonds
+/// are told apart by one less.
+constexpr int place_rounds = 2;
+
+/// Stiffnesses and area vectors that differ by less than this part of the largest are the same.
+constexpr double same = 1e-7;
+
+/// Spreads the bits of a key over all of it (the finalizer of SplitMix64: Steele, Lea & Flood
+/// 2014).
+Key mix(Key key) {
+  key = (key ^ key >> 30) * 0xbf58476d1ce4e5b9u;
+  key = (key ^ key >> 27) * 0x94d049bb133111ebu;
+  return key ^ key >> 31;
+}
+
+Key join(Key a, Key b) { return mix(a + 0x9e3779b97f4a7c15u * (b + 1)); }
+
+Key join(Key key, const Offset& steps) {
+  for (const std::int64_t s : steps) key = join(key, static_cast<Key>(s));
+  return key;
+}
+
+/// A turn or mirror that maps the lattice on itself: which axis becomes which, and its sign.
+struct Turn {
+  std::array<int, 3> axis;
+  std::array<int, 3> sign;
+
+  Offset operator()(const Offset& x) const {
+    return {sign[0] * x[axis[0]], sign[1] * x[axis[1]], sign[2] * x[axis[2]]};
+  }
+};
+
+/// The identity first.
+std::vector<Turn> turns_of(const Vector3& step) {
+  std::vector<Turn> turns;
+  std::array<int, 3> axis = {0, 1, 2};
+  do {
+    bool alike = true;
+    for (int a = 0; a < 3; ++a) {
+      alike = alike && std::abs(step[axis[a]] - step[a]) < 1e-9 * step[a];
+    }
+    if (!alike) continue;
+    for (int mirrors = 0; mirrors < 8; ++mirrors) {
+      Turn turn{axis, {}};
+      for (int a = 0; a < 3; ++a) turn.sign[a] = (mirrors >> a & 1) ? -1 : 1;
+      turns.push_back(turn);
+    }
+  } while (std::next_permutation(axis.begin(), axis.end()));
+  return turns;
+}
+
+/// In parts of the largest that count as the same.
+std::vector<std::int64_t> rounded(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  std::vector<std::int64_t> result;
+  for (const double value : values) result.push_back(std::llround(value / (same * most)));
+  return result;
+}
+
+class Surroundings {
+ public:
+  Surroundings(const Vector3& step, const CalibrationInput& input, const Facets& facets,
+               const BondStiffness& stiffness);
+  BondOrbits find();
+
+ private:
+  using Views = std::vector<Key>;  // per particle or per kind of place: what it looks like
+  /// A bond at the example of a kind.
+  struct Neighbour {
+    Key label;
+    Index offset, kind;  // of the other end
+  };
+  void label_bonds(const Vector3& step, const BondStiffness& stiffness);
+  void measure_areas(const Facets& facets);
+  Views first_views(std::span<const Index> particles, const Turn& turn) const;
+  Views turned_offsets(const Turn& turn) const;
+  void sort_places();
+  void find_neighbours();
+  Views look_around(const Views& views, const Views& offsets) const;
+  void turn_places();
+
+  Index start(Index bond, bool reversed) const {
+    return reversed ? input_.bonds.second[bond] : input_.bonds.first[bond];
+  }
+  std::size_t seen(Index bond, bool reversed) const {
+    return kind_[start(bond, reversed)] * offsets_.size() + 2 * offset_of_[bond] + reversed;
+  }
+
+  const CalibrationInput& input_;
+  std::size_t size_;
+  std::vector<Offset> offsets_;   // of bonds, in steps, each followed by its reverse
+  std::vector<Index> offset_of_;  // per bond: half of its number there
+  std::vector<Key> label_;        // per bond: how stiff it is, and whether that may change
+  std::vector<Offset> area_;      // per particle
+  std::vector<Key> on_surface_;   // per particle
+  std::vector<Turn> turns_;
+  std::vector<Index> kind_;     // of the place of each particle, but for moves
+  std::vector<Index> example_;  // a particle of each kind
+  std::vector<std::size_t> first_neighbour_;
+  std::vector<Neighbour> neighbours_;  // of the examples, one after the other
+  Views place_view_;                   // per kind, the least of all turns
+  Views bond_view_;                    // per kind and offset, the least of all turns
+};
+
+Surroundings::Surroundings(const Vector3& step, const CalibrationInput& input,
+                           const Facets& facets, const BondStiffness& stiffness)
+    : input_(input),
+      size_(static_cast<std::size_t>(input.particles.size())),
+      area_(size_, Offset{}),
+      on_surface_(size_, 0),
+      turns_(turns_of(step)) {
+  label_bonds(step, stiffness);
+  measure_areas(facets);
+}
+
+void Surroundings::label_bonds(const Vector3& step, const BondStiffness& stiffness) {
+  const Bonds& bonds = input_.bonds;
+  const std::vector<std::int64_t> axial = rounded(stiffness.axial);
+  const std::vector<std::int64_t> bending = rounded(stiffness.bending);
+  std::unordered_map<Key, Index> numbers;
+  for (Index b = 0; b < bonds.size(); ++b) {
+    Offset offset{};
+    for (int a = 0; a < 3; ++a) {
+      offset[a] = std::llround(bonds.lengths[b] * bonds.direction(b)[a] / step[a]);
+    }
+    const auto [entry, is_new] =
+        numbers.emplace(join(0, offset), static_cast<Index>(numbers.size()));
+    if (is_new) {
+      offsets_.push_back(offset);
+      offsets_.push_back({-offset[0], -offset[1], -offset[2]});
+    }
+    offset_of_.push_back(entry->second);
+    label_.push_back(join(0, {input_.free[b], axial[b], bending.empty() ? 0 : bending[b]}));
+  }
+}
+
+void Surroundings::measure_areas(const Facets& facets) {
+  std::vector<double> area(size_ * 3, 0.0);
+  for (Index f = 0; f < facets.size(); ++f) {
+    if (constants_across(facets, f, input_.materials) == LameConstants{}) continue;
+    for (Index c = facets.corners.offsets[f]; c < facets.corners.offsets[f + 1]; ++c) {
+      const Index i = facets.corners.values[c];
+      on_surface_[i] = 1;
+      for (int a = 0; a < 3; ++a) area[i * 3 + a] += facets.shares[c] * facets.area_vector(f)[a];
+    }
+  }
+  const std::vector<std::int64_t> parts = rounded(area);
+  for (std::size_t k = 0; k < parts.size(); ++k) area_[k / 3][k % 3] = parts[k];
+}
+
+auto Surroundings::first_views(std::span<const Index> particles, const Turn& turn) const -> Views {
+  Views views;
+  for (const Index i : particles) views.push_back(join(on_surface_[i], turn(area_[i])));
+  return views;
+}
+
+auto Surroundings::turned_offsets(const Turn& turn) const -> Views {
+  Views views;
+  for (const Offset& offset : offsets_) views.push_back(join(0, turn(offset)));
+  return views;
+}
+
+/// Kinds of places that a move maps on each other.
+void Surroundings::sort_places() {
+  std::vector<Index> all(size_);
+  std::iota(all.begin(), all.end(), 0);
+  Views views = first_views(all, turns_.front());
+  const Views offsets = turned_offsets(turns_.front());
+  for (int round = 0; round < place_rounds; ++round) {
+    Views sum(size_, 0);  // whatever the order of the bonds
+    for (Index b = 0; b < input_.bonds.size(); ++b) {
+      for (const bool reversed : {false, true}) {
+        sum[start(b, reversed)] +=
+            mix(offsets[2 * offset_of_[b] + reversed] + label_[b] + views[start(b, !reversed)]);
+      }
+    }
+    for (std::size_t i = 0; i < size_; ++i) views[i] = join(views[i], sum[i]);
+  }
+  std::unordered_map<Key, Index> numbers;
+  for (std::size_t i = 0; i < size_; ++i) {
+    const auto [entry, is_new] = numbers.emplace(views[i], static_cast<Index>(numbers.size()));
+    if (is_new) example_.push_back(static_cast<Index>(i));
+    kind_.push_back(entry->second);
+  }
+}
+
+void Surroundings::find_neighbours() {
+  const Csr bonds_of = bonds_of_particles(input_.bonds, input_.particles.size());
+  first_neighbour_.push_back(0);
+  for (const Index i : example_) {
+    for (const Index b : bonds_of.row(i)) {
+      const bool reversed = input_.bonds.first[b] != i;
+      neighbours_.push_back({label_[b], 2 * offset_of_[b] + reversed, kind_[start(b, !reversed)]});
+    }
+    first_neighbour_.push_back(neighbours_.size());
+  }
+}
+
+/// What the kinds look like with what can be seen from their neighbours.
+auto Surroundings::look_around(const Views& views, const Views& offsets) const -> Views {
+  Views result;
+  for (std::size_t k = 0; k < example_.size(); ++k) {
+    Key sum = 0;
+    for (std::size_t n = first_neighbour_[k]; n < first_neighbour_[k + 1]; ++n) {
+      const Neighbour& other = neighbours_[n];
+      sum += mix(offsets[other.offset] + other.label + views[other.kind]);
+    }
+    result.push_back(join(views[k], sum));
+  }
+  return result;
+}
+
+/// Kinds, and bonds at them, that a turn maps on each other.
+void Surroundings::turn_places() {
+  place_view_.assign(example_.size(), ~Key{0});
+  bond_view_.assign(example_.size() * offsets_.size(), ~Key{0});
+  for (const Turn& turn : turns_) {
+    const Views offsets = turned_offsets(turn);
+    const Views near = look_around(first_views(example_, turn), offsets);
+    const Views far = look_around(near, offsets);
+    for (std::size_t k = 0; k < example_.size(); ++k) {
+      place_view_[k] = std::min(place_view_[k], far[k]);
+      for (std::size_t n = first_neighbour_[k]; n < first_neighbour_[k + 1]; ++n) {
+        const Neighbour& other = neighbours_[n];
+        Key& least = bond_view_[k * offsets_.size() + other.offset];
+        least = std::min(least, join(near[k], offsets[other.offset] + other.label) +
+                                    mix(near[other.kind] + offsets[other.offset]));
+      }
+    }
+  }
+}
+
+BondOrbits Surroundings::find() {
+  sort_places();
+  find_neighbours();
+  turn_places();
+  std::unordered_map<Key, Index> numbers;
+  std::vector<Index> number(bond_view_.size());
+  for (std::size_t k = 0; k < number.size(); ++k) {
+    number[k] = numbers.emplace(bond_view_[k], static_cast<Index>(numbers.size())).first->second;
+  }
+  BondOrbits orbits;
+  orbits.num_views = static_cast<Index>(numbers.size());
+  orbits.views.assign(static_cast<std::size_t>(input_.bonds.size()), {no_index, no_index});
+  std::vector<std::uint8_t> touched(size_, 0);
+  for (Index b = 0; b < input_.bonds.size(); ++b) {
+    if (!input_.free[b]) continue;
+    orbits.views[b] = {number[seen(b, false)], number[seen(b, true)]};
+    touched[start(b, false)] = touched[start(b, true)] = 1;
+  }
+  std::unordered_set<Key> known;
+  for (std::size_t i = 0; i < size_; ++i) {
+    if (touched[i] && known.insert(place_view_[kind_[i]]).second) {
+      orbits.representatives.push_back(static_cast<Index>(i));
+    }
+  }
+  return orbits;
+}
+
+}  // namespace
+
+BondOrbits find_surroundings(const Vector3& step, const CalibrationInput& input,
+                             const Facets& facets, const BondStiffness& stiffness) {
+  return Surroundings(step, input, facets, stiffness).find();
+}
+
+}  // namespace perilink

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "calibration/bond_orbits.hpp"
+#include "calibration/calibration_input.hpp"
+#include "discretization/facets.hpp"
+
+/// \file Bonds that lie alike in a lattice of any shape in space.
+
+namespace perilink {
+
+/// Classes of bonds whose surroundings are the same but for a move, a turn or a mirror of the
+/// lattice: which bonds, how stiff, both ends have, and which area vectors the particles there.
+/// Places are alike where that holds for the particles bonded to them as well: all bonds there lie
+/// alike then, and the equations of forces and moments are the same (docs/theory/calibration.md).
+/// \param step       of the lattice along each axis [length]
+/// \param stiffness  at the start of the calibration
+BondOrbits find_surroundings(const Vector3& step, const CalibrationInput& input,
+                             const Facets& facets, const BondStiffness& stiffness);
+
+}  // namespace perilink
