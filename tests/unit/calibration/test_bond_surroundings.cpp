@@ -36,6 +36,27 @@ struct Corner {
   }
 };
 
+/// Takes out the bonds that cross the inner corner, where x and y are above the width.
+void take_bonds_across(Problem& problem, double width) {
+  std::vector<std::uint8_t> keep;
+  std::vector<double> axial, bending;
+  for (Index b = 0; b < problem.bonds.size(); ++b) {
+    const auto p = problem.body.particles.position(problem.bonds.first[b]);
+    const auto q = problem.body.particles.position(problem.bonds.second[b]);
+    bool crosses = false;
+    for (const double t : {0.2, 0.4, 0.5, 0.6, 0.8}) {
+      crosses = crosses || (p[0] + t * (q[0] - p[0]) > width + 1e-9 &&
+                            p[1] + t * (q[1] - p[1]) > width + 1e-9);
+    }
+    keep.push_back(!crosses);
+    if (crosses) continue;
+    axial.push_back(problem.stiffness.axial[b]);
+    if (!problem.stiffness.bending.empty()) bending.push_back(problem.stiffness.bending[b]);
+  }
+  keep_bonds(problem.bonds, keep);
+  problem.stiffness = {std::move(axial), std::move(bending), {}};
+}
+
 /// \param arm    length along x and y
 /// \param width  of both arms
 Corner make_corner(double arm, double width, double depth, double ratio, bool bending = false) {
@@ -44,6 +65,7 @@ Corner make_corner(double arm, double width, double depth, double ratio, bool be
   lattice.material.push_back(0);
   Corner corner;
   corner.problem = make_problem(lattice, ratio, 0.0, bending);
+  take_bonds_across(corner.problem, width);
   if (bending) corner.materials = {{0.8, 1.3}};
   corner.free.assign(static_cast<std::size_t>(corner.problem.bonds.size()), 1);
   return corner;
