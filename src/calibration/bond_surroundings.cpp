@@ -79,9 +79,9 @@ std::vector<std::int64_t> rounded(const std::vector<double>& values) {
 
 class Surroundings {
  public:
-  Surroundings(const Vector3& step, const CalibrationInput& input, const Facets& facets,
+  Surroundings(const CalibrationInput& input, const Facets& facets,
                const BondStiffness& stiffness);
-  BondOrbits find();
+  BondOrbits find(std::size_t most);
 
  private:
   using Views = std::vector<Key>;  // per particle or per kind of place: what it looks like
@@ -90,7 +90,7 @@ class Surroundings {
     Key label;
     Index offset, kind;  // of the other end
   };
-  void label_bonds(const Vector3& step, const BondStiffness& stiffness);
+  void label_bonds(const BondStiffness& stiffness);
   void measure_areas(const Facets& facets);
   Views first_views(std::span<const Index> particles, const Turn& turn) const;
   Views turned_offsets(const Turn& turn) const;
@@ -122,19 +122,20 @@ class Surroundings {
   Views bond_view_;                    // per kind and offset, the least of all turns
 };
 
-Surroundings::Surroundings(const Vector3& step, const CalibrationInput& input,
-                           const Facets& facets, const BondStiffness& stiffness)
+Surroundings::Surroundings(const CalibrationInput& input, const Facets& facets,
+                           const BondStiffness& stiffness)
     : input_(input),
       size_(static_cast<std::size_t>(input.particles.size())),
       area_(size_, Offset{}),
       on_surface_(size_, 0),
-      turns_(turns_of(step)) {
-  label_bonds(step, stiffness);
+      turns_(turns_of(*input.step)) {
+  label_bonds(stiffness);
   measure_areas(facets);
 }
 
-void Surroundings::label_bonds(const Vector3& step, const BondStiffness& stiffness) {
+void Surroundings::label_bonds(const BondStiffness& stiffness) {
   const Bonds& bonds = input_.bonds;
+  const Vector3& step = *input_.step;
   const std::vector<std::int64_t> axial = rounded(stiffness.axial);
   const std::vector<std::int64_t> bending = rounded(stiffness.bending);
   std::unordered_map<Key, Index> numbers;
@@ -250,8 +251,9 @@ void Surroundings::turn_places() {
   }
 }
 
-BondOrbits Surroundings::find() {
+BondOrbits Surroundings::find(std::size_t most) {
   sort_places();
+  if (example_.size() > most * turns_.size()) return {};
   find_neighbours();
   turn_places();
   std::unordered_map<Key, Index> numbers;
@@ -279,9 +281,9 @@ BondOrbits Surroundings::find() {
 
 }  // namespace
 
-BondOrbits find_surroundings(const Vector3& step, const CalibrationInput& input,
-                             const Facets& facets, const BondStiffness& stiffness) {
-  return Surroundings(step, input, facets, stiffness).find();
+BondOrbits find_surroundings(const CalibrationInput& input, const Facets& facets,
+                             const BondStiffness& stiffness, std::size_t most) {
+  return Surroundings(input, facets, stiffness).find(most);
 }
 
 }  // namespace perilink

@@ -12,9 +12,11 @@ namespace perilink {
 /// lattice: which bonds, how stiff, both ends have, and which area vectors the particles there.
 /// Places are alike where that holds for the particles bonded to them as well: all bonds there lie
 /// alike then, and the equations of forces and moments are the same (docs/theory/calibration.md).
-/// \param step       of the lattice along each axis [length]
+/// \param input      with a step
 /// \param stiffness  at the start of the calibration
-BondOrbits find_surroundings(const Vector3& step, const CalibrationInput& input,
-                             const Facets& facets, const BondStiffness& stiffness);
+/// \param most       kinds of places that are of use: more are not looked for
+/// \return no representatives where there are more
+BondOrbits find_surroundings(const CalibrationInput& input, const Facets& facets,
+                             const BondStiffness& stiffness, std::size_t most);
 
 }  // namespace perilink

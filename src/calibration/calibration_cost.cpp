@@ -28,8 +28,12 @@ constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6;
 /// Measured on one core on L, T, U and other shapes of 2 500 to 22 000 particles, reaches of two to
 /// four spacings: a third of this to three times as much.
 constexpr double alike = 4e-6, alike_operations = 1e-10;
+/// Bytes for every bond that may change on its own, in space (17 000 to 1 100 000 bonds: 900 to
+/// 1 600; by a factor 21 000 of 69 000 bonds), and for the square of the number of equations of
+/// bonds that are made alike (11 000: 0.5 GB).
+constexpr double bytes_of_bond = 1300.0, bytes_by_factor = 20000.0, bytes_of_equations = 4.5;
 /// The matrix of their equations is nearly full: so many take 2 GB.
-constexpr Index most_alike_equations = 20000;
+constexpr double most_alike_equations = 20000.0;
 
 /// The same constants all over; materials may differ in strength.
 bool uniform(const CalibrationInput& input) {
@@ -43,6 +47,12 @@ Index count_free(const CalibrationInput& input) {
   return static_cast<Index>(std::count(input.free.begin(), input.free.end(), 1));
 }
 
+/// Whether all equations of a lattice in space are factorised.
+bool by_factor(const CalibrationInput& input, bool moments) {
+  return input.particles.dim == 3 && !moments && !input.all_free() &&
+         input.bonds.size() < few_bonds * input.particles.size();
+}
+
 /// Seconds for every bond on its own.
 double cost_of_single_bonds(const CalibrationInput& input, bool moments) {
   const bool in_plane_only = input.particles.dim == 2;
@@ -50,20 +60,28 @@ double cost_of_single_bonds(const CalibrationInput& input, bool moments) {
                        : moments     ? in_space_with_moments
                                      : in_space;
   double rate = input.all_free() ? rates.cloud : rates.lattice;
-  const bool few = input.bonds.size() < few_bonds * input.particles.size();
-  if (!in_plane_only && few && rate == in_space.lattice) rate = in_space_by_factor;
+  if (by_factor(input, moments)) rate = in_space_by_factor;
   if (input.all_free() && in_plane_only) {
     rate *= std::pow(input.particles.size() / particles_of_rates, growth_of_factor);
   }
   return rate * count_free(input);
 }
 
+double bytes_of_single_bonds(const CalibrationInput& input, bool moments) {
+  if (input.particles.dim == 2) return 0.0;  // less than the run takes
+  return (by_factor(input, moments) ? bytes_by_factor : bytes_of_bond) * count_free(input);
+}
+
+double equations_of(const BondOrbits& orbits, int dim, bool moments) {
+  return static_cast<double>(orbits.representatives.size()) * ForceRows{dim, moments}.count();
+}
+
 double cost_alike(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
-  const double places = static_cast<double>(orbits.representatives.size());
+  const double equations = equations_of(orbits, input.particles.dim, moments);
   const double rows = ForceRows{input.particles.dim, moments}.count();
   const double bonds_of_place = static_cast<double>(input.bonds.size()) / input.particles.size();
   return alike * count_free(input) +
-         alike_operations * bonds_of_place * rows * rows * rows * places * places;
+         alike_operations * bonds_of_place * rows * equations * equations;
 }
 
 }  // namespace
@@ -71,13 +89,14 @@ double cost_alike(const CalibrationInput& input, const BondOrbits& orbits, bool 
 std::optional<BondOrbits> alike_bonds(const CalibrationInput& input, const Facets& facets,
                                       const BondStiffness& stiffness) {
   if (input.all_free() || !(input.box || input.step) || !uniform(input)) return std::nullopt;
+  const bool moments = !stiffness.bending.empty();
+  const double rows = ForceRows{input.particles.dim, moments}.count();
+  const auto most_places = static_cast<std::size_t>(most_alike_equations / rows);
   BondOrbits orbits = input.box
                           ? find_orbits(*input.box, input.particles, input.bonds, input.free)
-                          : find_surroundings(*input.step, input, facets, stiffness);
-  const bool moments = !stiffness.bending.empty();
-  const Index equations = static_cast<Index>(orbits.representatives.size()) *
-                          ForceRows{input.particles.dim, moments}.count();
-  if (equations == 0 || equations > most_alike_equations) return std::nullopt;
+                          : find_surroundings(input, facets, stiffness, most_places);
+  const double equations = equations_of(orbits, input.particles.dim, moments);
+  if (equations == 0.0 || equations > most_alike_equations) return std::nullopt;
   const bool dear =
       !input.box && cost_alike(input, orbits, moments) > cost_of_single_bonds(input, moments);
   return dear ? std::nullopt : std::optional(std::move(orbits));
@@ -89,8 +108,14 @@ CalibrationReport expected_calibration(const CalibrationInput& input, const Face
   report.free_bonds = count_free(input);
   const bool moments = !stiffness.bending.empty();
   const auto orbits = alike_bonds(input, facets, stiffness);
-  report.seconds = orbits ? cost_alike(input, *orbits, moments)
-                          : cost_of_single_bonds(input, moments);
+  if (orbits) {
+    const double equations = equations_of(*orbits, input.particles.dim, moments);
+    report.seconds = cost_alike(input, *orbits, moments);
+    report.bytes = bytes_of_equations * equations * equations;
+  } else {
+    report.seconds = cost_of_single_bonds(input, moments);
+    report.bytes = bytes_of_single_bonds(input, moments);
+  }
   return report;
 }
 

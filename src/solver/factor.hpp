@@ -31,6 +31,7 @@ struct FactorStatistics {
   double event_bytes = 0.0;  ///< part of L that the last downdate read (in place only)
   int factorizations = 0;    ///< so far
   int ranks = 1;             ///< processes that share the work
+  Index boxes = 0;           ///< of conjugate gradients in the place of a factor
   SoftestPivot softest;      ///< of the last factorisation (in place only)
 };
 

@@ -208,7 +208,9 @@ void print_cost(const CaseFile& input, const Network& network,
                    ? "as asked for"
                    : "faster than a factor for so many unknowns");
   }
-  fmt::print("#   memory             {:.3g} GB\n", cost.memory / 1e9);
+  const double to_calibrate = network.calibration ? network.calibration->bytes : 0.0;
+  fmt::print("#   memory             {:.3g} GB\n",
+             std::max(cost.memory, to_calibrate + bytes_of_bonds(network)) / 1e9);
   print_set_up(set_up);
   fmt::print("#   {:<18} {}\n", factor ? "factorisation" : "solution",
              time_text(cost.factorization));

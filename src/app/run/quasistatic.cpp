@@ -72,14 +72,22 @@ std::string text_of_ranks(const FactorStatistics& factor) {
   return factor.ranks > 1 ? fmt::format(" by {} ranks", factor.ranks) : "";
 }
 
+std::string solver_text(const FactorStatistics& factor) {
+  const std::string work =
+      factor.boxes > 0 ? fmt::format("conjugate gradients with {} boxes, begun {} times",
+                                     factor.boxes, factor.factorizations)
+                       : fmt::format("{} factorisations", factor.factorizations);
+  return work + text_of_ranks(factor);
+}
+
 }  // namespace
 
 Equilibria::Equilibria(const DamageResult& result)
     : last(result.last),
       peaks(result.peaks),
+      has_events(true),
       factor(result.factor),
-      solver(fmt::format("{} factorisations{}", result.factor.factorizations,
-                         text_of_ranks(result.factor))),
+      solver(solver_text(result.factor)),
       initial_stiffness(result.initial_stiffness),
       largest_residual(result.largest_residual),
       broken_bonds(result.broken_bonds),
@@ -125,15 +133,18 @@ void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& 
   summary.add("steps", last.step);
   summary.add("broken_bonds", found.broken_bonds);
   summary.add("yield_events", last.yield_events);
-  summary.line("events", "{} broken bonds, {} yield events, {} rows", found.broken_bonds,
-               last.yield_events, last.step);
+  if (found.has_events) {
+    summary.line("events", "{} broken bonds, {} yield events, {} rows", found.broken_bonds,
+                 last.yield_events, last.step);
+  }
   summary.add("external_work", last.external_work);
   summary.add("strain_energy", last.strain_energy);
   summary.add("dissipated_energy", last.dissipated_energy);
   summary.add("energy_error", found.energy_error);
   if (last.step > 0) {
-    summary.line("energy", "{:.6g} dissipated, balance to {:.1e}", last.dissipated_energy,
-                 found.energy_error);
+    const double energy = found.has_events ? last.dissipated_energy : last.strain_energy;
+    summary.line("energy", "{:.6g} {}, balance to {:.1e}", energy,
+                 found.has_events ? "dissipated" : "stored", found.energy_error);
   }
   summary.add("largest_residual", found.largest_residual);
 }
@@ -179,8 +190,9 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   summary.add("factor_bytes", found.factor.bytes);
   if (found.factor.ranks > 1) summary.add("ranks", found.factor.ranks);
   summary.line("solver", "{}, largest residual {:.1e}", found.solver, found.largest_residual);
-  summary.outcome = fmt::format("{} broken bonds, {}, largest residual {:.2e}", found.broken_bonds,
-                                found.solver, found.largest_residual);
+  if (found.has_events) summary.outcome = fmt::format("{} broken bonds, ", found.broken_bonds);
+  summary.outcome += fmt::format("{}, largest residual {:.2e}", found.solver,
+                                 found.largest_residual);
   if (rows > 1) summary.rate = fmt::format("{:.3g} ms per row", 1e3 * seconds / rows);
 }
 

@@ -53,6 +53,7 @@ struct Equilibria {
 
   const StepRecord& last;  ///< row of the history
   const PeakWatch& peaks;
+  bool has_events = false;  ///< bonds break or yield
   const FactorStatistics& factor;
   std::string solver;                             ///< what it took
   double unsolved = 0.0;                          ///< left by iterations, norm of energy [-]

@@ -105,12 +105,13 @@ double time_of_calibration(const CaseFile& input, const Model& model) {
   return build_model(input).network.calibration->seconds;
 }
 
+double bytes_of_bonds(const Network& network) { return 100.0 * network.num_elements(); }
+
 ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor,
                            bool forces_alone) {
-  const double bond_bytes = 100.0 * network.num_elements();
   ExpectedCost cost;
   // The draft is behind us: its peak is known.
-  cost.memory = std::max(peak_memory_bytes(), 1.3 * factor.bytes + 3.0 * bond_bytes);
+  cost.memory = std::max(peak_memory_bytes(), 1.3 * factor.bytes + 3.0 * bytes_of_bonds(network));
   cost.factorization = factor.flops / factor_flops_per_second;
   const double share = forces_alone ? share_that_is_kept(network) : 1.0;
   cost.broken_bond =

@@ -193,6 +193,7 @@ const Without carriers = {
 Without set_aside(Kinds analyses) { return {{analyses, {}, {}}}; }
 
 const Without of_events = set_aside(explicit_ | relaxation);
+const Without of_damage = set_aside(elastic | explicit_ | relaxation);
 const Without of_relaxation = set_aside(damage | elastic | explicit_);
 const Without of_time = set_aside(still);
 const Without solvers = {{elements, no_bonds, bonds_instead}, {explicit_ | relaxation, {}, {}}};
@@ -272,8 +273,8 @@ const std::vector<KeySchema> material_keys = {"name",
                                               {"fundamental_period", lattice_material}};
 
 const std::vector<KeySchema> analysis_keys = {{"type", types},
-                                              {"control", of_events},
-                                              {"load_factors", set_aside(explicit_)},
+                                              {"control", of_damage},
+                                              {"load_factors", set_aside(elastic | explicit_)},
                                               {"rigid_body_modes", {no_lattice_key}},
                                               {"factor", of_events},
                                               {"solver", solvers},
@@ -367,16 +368,16 @@ const std::vector<TableSchema>& case_schema() {
          {{shell | beam, "is given, but stresses of shells and beams are not read",
            "give `axis`"}}}}},
       {"analysis", false, analysis_keys},
-      {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_events},
+      {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_damage},
       {"stages",
        true,
        {"name", "loads", "to", "to_load", "broken_bonds", "load_fraction", "displacement"},
        stages},
       {"output",
        false,
-       {{"fields_at", of_events},
-        {"fields_every", of_events},
-        {"fields_every_rows", of_events},
+       {{"fields_at", of_damage},
+        {"fields_every", of_damage},
+        {"fields_every_rows", of_damage},
         {"fields_times", of_time}}},
   };
   return schema;

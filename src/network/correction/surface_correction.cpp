@@ -214,7 +214,9 @@ void Correction::calibrate(bool give_up) {
     calibration.free = free_bonds(*family);
     if (network_.hinged.empty()) {
       calibration.box = lattice_box(body_);
-      if (network_.dim() == 3) calibration.step = body_.lattice.step;
+      const Pattern pattern = body_.lattice.pattern;
+      const bool in_space = pattern == Pattern::cubic || pattern == Pattern::face_centred;
+      if (in_space) calibration.step = body_.lattice.step;
     }
   }
   std::vector<double> bulk = network_.stiffness;

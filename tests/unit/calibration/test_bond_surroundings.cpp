@@ -31,8 +31,7 @@ struct Corner {
     return result;
   }
   BondOrbits orbits() const {
-    return find_surroundings(problem.body.lattice.step, input(), problem.body.facets,
-                             problem.stiffness);
+    return find_surroundings(input(), problem.body.facets, problem.stiffness, 100000);
   }
 };
 
@@ -145,6 +144,13 @@ TEST(BondSurroundings, PlacesOfAKindHaveTheSameBonds) {
   for (const auto& views : at) {
     EXPECT_TRUE(std::binary_search(known.begin(), known.end(), views));
   }
+}
+
+TEST(BondSurroundings, AreNotLookedForAnyFartherWhereThereAreTooMany) {
+  const Corner corner = make_corner(9, 4, 5, 2.0);
+  const BondOrbits none =
+      find_surroundings(corner.input(), corner.problem.body.facets, corner.problem.stiffness, 1);
+  EXPECT_TRUE(none.representatives.empty());
 }
 
 TEST(BondSurroundings, StiffnessTellsBondsApart) {

@@ -382,6 +382,7 @@ FactorStatistics BoxFactor::statistics() const {
   result.flops = 1000.0 * static_cast<double>(network_.num_elements());
   result.factorizations = begun_;
   result.ranks = solver_ ? solver_->num_ranks() : 1;
+  result.boxes = solver_ ? solver_->num_boxes() : 0;
   return result;
 }
 

@@ -146,7 +146,10 @@ AnalysisSection read_analysis(const CaseTable& table, AnalysisType type) {
   if (relaxes) analysis.load_factors = {1.0};
   if (!table.has("load_factors") && analysis.control != LoadControl::steps) return analysis;
   const std::vector<double> factors = read_load_factors(table);
-  if (is_explicit) return analysis;
+  if (is_explicit || type == AnalysisType::elastic) {
+    analysis.control = LoadControl::events;
+    return analysis;
+  }
   if (!relaxes && analysis.control == LoadControl::events) {
     table.refuse("load_factors", "is given, but control = \"events\" finds the load factors itself",
                  "set control = \"steps\", or delete `load_factors`");
@@ -190,7 +193,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
         "sort the times, each once; the fields at time 0 are always written");
   }
   // As in [analysis], keys of other types are checked and forgotten.
-  if (!is_quasistatic(type)) {
+  if (type != AnalysisType::damage) {
     output.fields_at.clear();
     output.fields_every.reset();
     output.fields_every_rows.reset();

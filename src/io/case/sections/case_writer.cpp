@@ -163,7 +163,8 @@ void write_run(TomlWriter& out, const CaseFile& input) {
     return;
   }
   if (input.analysis.type == AnalysisType::relaxation) return write_relaxation(out, input);
-  out.write("control", word_of(input.analysis.control));
+  const bool breaks = input.analysis.type == AnalysisType::damage;
+  if (breaks) out.write("control", word_of(input.analysis.control));
   if (input.analysis.control == LoadControl::steps) {
     out.write("load_factors", input.analysis.load_factors);
   }
@@ -172,10 +173,9 @@ void write_run(TomlWriter& out, const CaseFile& input) {
   if (input.body.method == BodyMethod::bonds) {
     out.write("solver", word_of(input.analysis.solver));
     out.write("coarse_box", input.analysis.coarse_box);
-    if (input.analysis.type == AnalysisType::elastic) {
-      out.write("tolerance", input.analysis.tolerance);
-    }
+    if (!breaks) out.write("tolerance", input.analysis.tolerance);
   }
+  if (!breaks) return;
   if (input.stages.empty()) {
     out.header("[stop]");
     write_stop(out, input.stop);
