@@ -72,15 +72,15 @@ std::vector<Turn> turns_of(const Vector3& step) {
 std::vector<std::int64_t> rounded(const std::vector<double>& values) {
   double most = 0.0;
   for (const double value : values) most = std::max(most, std::abs(value));
+  const double unit = most > 0.0 ? same * most : 1.0;
   std::vector<std::int64_t> result;
-  for (const double value : values) result.push_back(std::llround(value / (same * most)));
+  for (const double value : values) result.push_back(std::llround(value / unit));
   return result;
 }
 
 class Surroundings {
  public:
-  Surroundings(const CalibrationInput& input, const Facets& facets,
-               const BondStiffness& stiffness);
+  Surroundings(const CalibrationInput& input, const Facets& facets, const BondStiffness& stiffness);
   BondOrbits find(std::size_t most);
 
  private:
@@ -88,7 +88,7 @@ class Surroundings {
   /// A bond at the example of a kind.
   struct Neighbour {
     Key label;
-    Index offset, kind;  // of the other end
+    Index offset, kind;  // its other end: where, and its kind
   };
   void label_bonds(const BondStiffness& stiffness);
   void measure_areas(const Facets& facets);
@@ -108,16 +108,16 @@ class Surroundings {
 
   const CalibrationInput& input_;
   std::size_t size_;
-  std::vector<Offset> offsets_;   // of bonds, in steps, each followed by its reverse
+  std::vector<Offset> offsets_;   // in steps, each followed by its reverse
   std::vector<Index> offset_of_;  // per bond: half of its number there
   std::vector<Key> label_;        // per bond: how stiff it is, and whether that may change
   std::vector<Offset> area_;      // per particle
   std::vector<Key> on_surface_;   // per particle
   std::vector<Turn> turns_;
-  std::vector<Index> kind_;     // of the place of each particle, but for moves
+  std::vector<Index> kind_;     // per particle: its place, but for moves
   std::vector<Index> example_;  // a particle of each kind
   std::vector<std::size_t> first_neighbour_;
-  std::vector<Neighbour> neighbours_;  // of the examples, one after the other
+  std::vector<Neighbour> neighbours_;  // those of the examples, in turn
   Views place_view_;                   // per kind, the least of all turns
   Views bond_view_;                    // per kind and offset, the least of all turns
 };

@@ -274,7 +274,7 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
   CalibrationReport report;
   try {
     report = calibration.run();
-  } catch (const SolverError&) {  // too many rows that depend on others for a factor
+  } catch (const SolverError&) {  // no factor: rows that depend on others, or no memory
     return std::nullopt;
   }
   CalibrationEquations whole(input, options.least_weight, facets, stiffness);

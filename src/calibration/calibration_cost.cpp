@@ -92,9 +92,8 @@ std::optional<BondOrbits> alike_bonds(const CalibrationInput& input, const Facet
   const bool moments = !stiffness.bending.empty();
   const double rows = ForceRows{input.particles.dim, moments}.count();
   const auto most_places = static_cast<std::size_t>(most_alike_equations / rows);
-  BondOrbits orbits = input.box
-                          ? find_orbits(*input.box, input.particles, input.bonds, input.free)
-                          : find_surroundings(input, facets, stiffness, most_places);
+  BondOrbits orbits = input.box ? find_orbits(*input.box, input.particles, input.bonds, input.free)
+                                : find_surroundings(input, facets, stiffness, most_places);
   const double equations = equations_of(orbits, input.particles.dim, moments);
   if (equations == 0.0 || equations > most_alike_equations) return std::nullopt;
   const bool dear =

@@ -31,8 +31,9 @@ class SerialOpenMp {
   int levels_;
 };
 
-void check(cholmod_common* common, const char* phase) {
-  const std::string where = std::string(" while ") + phase;
+void check(cholmod_common* common, const char* phase, std::size_t rows) {
+  const std::string where =
+      std::string(" while ") + phase + " a matrix of " + std::to_string(rows) + " rows";
   switch (common->status) {
     case CHOLMOD_OK: return;
     case CHOLMOD_OUT_OF_MEMORY: throw SolverError("out of memory" + where);
@@ -91,7 +92,7 @@ CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix&
   cholmod_sparse matrix = view_lower(lower);
   CholmodFactorPtr factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, session.get()),
                           CholmodFactorDeleter{session.get()});
-  check(session.get(), "analysing the stiffness matrix");
+  check(session.get(), "analysing", matrix.nrow);
   return factor;
 }
 
@@ -100,7 +101,7 @@ void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
   const SerialOpenMp serial;
   cholmod_sparse matrix = view_lower(lower);
   cholmod_factorize(&matrix, factor, session.get());
-  check(session.get(), "factorising the stiffness matrix");
+  check(session.get(), "factorising", matrix.nrow);
   if (factor->minor < factor->n) {
     const Index unknown = static_cast<const Index*>(factor->Perm)[factor->minor];
     throw NotPositiveDefinite("the stiffness matrix is not positive definite (unknown " +

@@ -31,8 +31,8 @@ struct FactorStatistics {
   double event_bytes = 0.0;  ///< part of L that the last downdate read (in place only)
   int factorizations = 0;    ///< so far
   int ranks = 1;             ///< processes that share the work
-  Index boxes = 0;           ///< of conjugate gradients in the place of a factor
-  SoftestPivot softest;      ///< of the last factorisation (in place only)
+  Index boxes = 0;           ///< where conjugate gradients stand in for a factor
+  SoftestPivot softest;      ///< at the last factorisation (in place only)
 };
 
 /// Cholesky factor of a symmetric positive definite matrix K that follows changes of low rank, and

@@ -8,7 +8,7 @@
 #include <memory>
 #include <numeric>
 
-#include "analysis/quasistatic/mechanism.hpp"
+#include "analysis/quasistatic/equilibrium/mechanism.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
@@ -220,8 +220,7 @@ ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknown
                                    const Loads& loads, int threads) {
   return solve_elastic(
       nullptr, unknowns, loads,
-      by_factor(unknowns, nullptr, threads,
-                [&] { return assemble_stiffness(elements, unknowns); }),
+      by_factor(unknowns, nullptr, threads, [&] { return assemble_stiffness(elements, unknowns); }),
       [&](std::span<const double> u) { return internal_force(elements, u); });
 }
 

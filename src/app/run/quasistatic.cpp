@@ -73,10 +73,10 @@ std::string text_of_ranks(const FactorStatistics& factor) {
 }
 
 std::string solver_text(const FactorStatistics& factor) {
-  const std::string work =
-      factor.boxes > 0 ? fmt::format("conjugate gradients with {} boxes, begun {} times",
-                                     factor.boxes, factor.factorizations)
-                       : fmt::format("{} factorisations", factor.factorizations);
+  const std::string work = factor.boxes > 0
+                               ? fmt::format("conjugate gradients with {} boxes, begun {} times",
+                                             factor.boxes, factor.factorizations)
+                               : fmt::format("{} factorisations", factor.factorizations);
   return work + text_of_ranks(factor);
 }
 
@@ -191,8 +191,8 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   if (found.factor.ranks > 1) summary.add("ranks", found.factor.ranks);
   summary.line("solver", "{}, largest residual {:.1e}", found.solver, found.largest_residual);
   if (found.has_events) summary.outcome = fmt::format("{} broken bonds, ", found.broken_bonds);
-  summary.outcome += fmt::format("{}, largest residual {:.2e}", found.solver,
-                                 found.largest_residual);
+  summary.outcome +=
+      fmt::format("{}, largest residual {:.2e}", found.solver, found.largest_residual);
   if (rows > 1) summary.rate = fmt::format("{:.3g} ms per row", 1e3 * seconds / rows);
 }
 

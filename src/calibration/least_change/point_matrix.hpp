@@ -13,8 +13,8 @@ class PointMatrix {
  public:
   using Pairs = std::vector<std::pair<Index, Index>>;
 
-  /// \param rows   of each point
-  /// \param pairs  of points that share a variable, the lower number first, in any order and more
+  /// \param rows   equations at each point
+  /// \param pairs  points that share a variable, the lower number first, in any order and more
   ///               than once
   PointMatrix(Index rows, Index points, Pairs pairs);
 

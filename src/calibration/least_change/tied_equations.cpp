@@ -212,7 +212,8 @@ void TiedNormalEquations::measure(const std::vector<double>& unknowns, const Vec
 
 void TiedNormalEquations::prepare() {
   if (!factor_) factor_ = std::make_unique<TiedFactor>(tied_, transposed_);
-  factor_->factorize(transposed_, mobility, {shift_.data(), static_cast<std::size_t>(shift_.size())});
+  factor_->factorize(transposed_, mobility,
+                     {shift_.data(), static_cast<std::size_t>(shift_.size())});
   last_iterations_ = 0;
 }
 

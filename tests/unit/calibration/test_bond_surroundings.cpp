@@ -57,7 +57,7 @@ void take_bonds_across(Problem& problem, double width) {
 }
 
 /// \param arm    length along x and y
-/// \param width  of both arms
+/// \param width  that of both arms
 Corner make_corner(double arm, double width, double depth, double ratio, bool bending = false) {
   LatticeInput lattice = box(Pattern::cubic, 1.0, {arm, width, depth});
   lattice.solid.push_back({{0, 0, 0}, {width, arm, depth}});
@@ -164,8 +164,8 @@ TEST(BondSurroundings, StiffnessTellsBondsApart) {
 /// Without and with moments: forces are in balance everywhere, and bonds that are mirrored have
 /// the same stiffness.
 TEST(BondSurroundings, WholeBodiesAreCalibratedByTheirKindsOfPlaces) {
-  for (const auto& [ratio, bending] : {std::pair(2.0, false), std::pair(3.0, false),
-                                       std::pair(2.0, true)}) {
+  for (const auto& [ratio, bending] :
+       {std::pair(2.0, false), std::pair(3.0, false), std::pair(2.0, true)}) {
     Corner corner = make_corner(26, 6, 6, ratio, bending);
     Problem& problem = corner.problem;
     ASSERT_TRUE(alike_bonds(corner.input(), problem.body.facets, problem.stiffness));
@@ -190,9 +190,8 @@ TEST(BondSurroundings, ChangeTheStiffnessesLittleMore) {
   const auto change = [](bool alike) {
     Corner corner = make_corner(20, 5, 5, 2.0);
     const std::vector<double> start = corner.problem.stiffness.axial;
-    const CalibrationReport report =
-        calibrate_bonds(corner.input(alike), {}, corner.problem.body.facets,
-                        corner.problem.stiffness);
+    const CalibrationReport report = calibrate_bonds(
+        corner.input(alike), {}, corner.problem.body.facets, corner.problem.stiffness);
     EXPECT_EQ(report.alike, alike);
     EXPECT_LT(report.residual_after, 1e-10);
     double sum = 0.0;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "analysis/quasistatic/mechanism.hpp"
+#include "analysis/quasistatic/equilibrium/mechanism.hpp"
 #include "assembly/linear_elements.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"

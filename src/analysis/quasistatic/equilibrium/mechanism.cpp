@@ -1,4 +1,4 @@
-#include "analysis/quasistatic/mechanism.hpp"
+#include "analysis/quasistatic/equilibrium/mechanism.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
