@@ -17,12 +17,13 @@ namespace {
 using Key = std::uint64_t;
 using Offset = std::array<std::int64_t, 3>;
 
-/// How far places are told apart: what the particles look like that are so many bonds away. Bonds
-/// are told apart by one less.
+/// Places are compared as far as the particles that are so many bonds away, bonds as far as one
+/// less.
 constexpr int place_rounds = 2;
 
-/// Stiffnesses and area vectors that differ by less than this part of the largest are the same.
-constexpr double same = 1e-7;
+/// Stiffnesses and area vectors that differ by less than this part of the largest are the same. A
+/// power of two: halves and quarters are not rounded to either side by chance.
+constexpr double same = 0x1p-23;
 
 /// Spreads the bits of a key over all of it (the finalizer of SplitMix64: Steele, Lea & Flood
 /// 2014).
@@ -259,6 +260,7 @@ BondOrbits Surroundings::find(std::size_t most) {
   std::unordered_map<Key, Index> numbers;
   std::vector<Index> number(bond_view_.size());
   for (std::size_t k = 0; k < number.size(); ++k) {
+    if (bond_view_[k] == ~Key{0}) continue;  // no such bond
     number[k] = numbers.emplace(bond_view_[k], static_cast<Index>(numbers.size())).first->second;
   }
   BondOrbits orbits;

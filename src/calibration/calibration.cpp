@@ -34,9 +34,6 @@ constexpr double settling_tolerance = 0.01;
 /// Iterations of conjugate gradients in one search. Searches that end need less, up to 4000 in
 /// solids with edges; those of nearly contradictory equations would go on for minutes.
 constexpr int most_iterations = 8000;
-/// The same where bonds are made alike; those that end need some hundred, and single bonds are left
-/// where these do not.
-constexpr int most_alike_iterations = 1500;
 
 /// Price of what is left of the equations of forces and moments. Multipliers of bodies that can be
 /// in balance are up to 1e3.
@@ -68,7 +65,8 @@ class Calibration {
         energies_(irregular_),
         equations_(input, options.least_weight, facets, stiffness, orbits) {}
 
-  CalibrationReport run();
+  /// \param operations  that searches of tied bonds may take
+  CalibrationReport run(double operations = std::numeric_limits<double>::infinity());
   CalibrationEquations::State result() const { return equations_.save(); }
 
  private:
@@ -79,7 +77,7 @@ class Calibration {
   /// What a search lessens, to compare two ends: prices the sum, least squares about the largest.
   double left() const { return priced_ && !soft_moments_ ? report_.sum_after : unbalanced(); }
   void soften_moments();
-  LeastChange find_least_change(const PointEquations& equations, const LeastChangeOptions& options);
+  LeastChange find_least_change(const PointEquations& equations, LeastChangeOptions options);
   bool fit_and_balance(double tolerance);
   bool balance_dropping_bonds();
   void fit_energies();
@@ -95,7 +93,8 @@ class Calibration {
   double tolerance_;
   CalibrationObserver on_search_;
   int searches_ = 0;
-  bool energies_;  // equations of the energies of dilatation take part
+  double operations_ = 0.0;  // left for searches
+  bool energies_;            // equations of the energies of dilatation take part
   bool soft_moments_ = false;
   double hopeless_ = std::numeric_limits<double>::infinity();  // force that ends a search
   CalibrationEquations equations_;
@@ -106,10 +105,12 @@ class Calibration {
 
 /// One search, whose answer becomes the present state.
 LeastChange Calibration::find_least_change(const PointEquations& equations,
-                                           const LeastChangeOptions& options) {
+                                           LeastChangeOptions options) {
   ++searches_;
   if (on_search_) on_search_(searches_, unbalanced());
+  options.operations = operations_;
   LeastChange change = least_change(equations, options, kept_);
+  operations_ -= change.operations;
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
   return change;
@@ -136,7 +137,7 @@ void Calibration::fit_energies() {
 void Calibration::balance_by(Method method, double charge, double tolerance) {
   LeastChangeOptions options;
   options.tolerance = tolerance;
-  options.iterations = tied_ ? most_alike_iterations : most_iterations;
+  options.iterations = most_iterations;
   options.method = method;
   options.price = charge;
   options.hopeless = hopeless_;
@@ -236,7 +237,8 @@ void Calibration::soften_moments() {
   equations_.report_balance(report_);
 }
 
-CalibrationReport Calibration::run() {
+CalibrationReport Calibration::run(double operations) {
+  operations_ = operations;
   equations_.report_balance(report_);
   report_.residual_before = report_.residual_after;
   const double start = unbalanced();
@@ -273,7 +275,7 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
   Calibration calibration(sampled, options, facets, sample.stiffness, &sample.orbits);
   CalibrationReport report;
   try {
-    report = calibration.run();
+    report = calibration.run(alike_budget(input, orbits, !stiffness.bending.empty()));
   } catch (const SolverError&) {  // no factor: rows that depend on others, or no memory
     return std::nullopt;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calibration/bond_surroundings.hpp"
 
@@ -21,17 +22,22 @@ constexpr Rates in_plane{8e-6, 10e-6}, in_plane_with_moments{12e-6, 30e-6};
 /// so many particles and grow with this power of the number (4 000 to 149 000 particles).
 constexpr double particles_of_rates = 12000.0, growth_of_factor = 0.38;
 constexpr Rates in_space{35e-6, 40e-6}, in_space_with_moments{200e-6, 250e-6};
+/// On lattices in space without moments it grows with this power of the number of free bonds and is
+/// that of so many (170 000 to 1 100 000).
+constexpr double bonds_of_rate = 170000.0, growth_in_space = 0.4;
 /// Where particles have fewer bonds than this in space, all equations are factorised.
-constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6;
-/// Bonds that lie alike made alike: for each bond, and for each operation of a factor of their
-/// equations. Those are about so many for n kinds of places, r rows and c bonds at each: c r^3 n^2.
-/// Measured on one core on L, T, U and other shapes of 2 500 to 22 000 particles, reaches of two to
-/// four spacings: a third of this to three times as much.
-constexpr double alike = 4e-6, alike_operations = 1e-10;
+/// That takes longer the more they are: the rate is that of so many.
+constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6, bonds_by_factor = 70000.0;
+/// Bonds that lie alike made alike: seconds for each bond, and operations of factors of their
+/// equations over c r^3 n^2 for n kinds of places with r rows and c bonds each (some factors and a
+/// hundred or two solutions).
+constexpr double alike = 4e-6, alike_operations = 3.0, operations_per_second = 3e10;
+/// They must save so much: they may have no solution, and both costs are rough.
+constexpr double worth_a_try = 2.0;
 /// Bytes for every bond that may change on its own, in space (17 000 to 1 100 000 bonds: 900 to
 /// 1 600; by a factor 21 000 of 69 000 bonds), and for the square of the number of equations of
-/// bonds that are made alike (11 000: 0.5 GB).
-constexpr double bytes_of_bond = 1300.0, bytes_by_factor = 20000.0, bytes_of_equations = 4.5;
+/// bonds that are made alike (9 600: 0.67 GB, 11 000: 0.8).
+constexpr double bytes_of_bond = 1300.0, bytes_by_factor = 20000.0, bytes_of_equations = 7.0;
 /// The matrix of their equations is nearly full: so many take 2 GB.
 constexpr double most_alike_equations = 20000.0;
 
@@ -60,11 +66,16 @@ double cost_of_single_bonds(const CalibrationInput& input, bool moments) {
                        : moments     ? in_space_with_moments
                                      : in_space;
   double rate = input.all_free() ? rates.cloud : rates.lattice;
-  if (by_factor(input, moments)) rate = in_space_by_factor;
+  const double free_bonds = count_free(input);
+  if (by_factor(input, moments)) {
+    rate = in_space_by_factor * free_bonds / bonds_by_factor;
+  } else if (!in_plane_only && !moments && !input.all_free()) {
+    rate *= std::pow(free_bonds / bonds_of_rate, growth_in_space);
+  }
   if (input.all_free() && in_plane_only) {
     rate *= std::pow(input.particles.size() / particles_of_rates, growth_of_factor);
   }
-  return rate * count_free(input);
+  return rate * free_bonds;
 }
 
 double bytes_of_single_bonds(const CalibrationInput& input, bool moments) {
@@ -76,12 +87,17 @@ double equations_of(const BondOrbits& orbits, int dim, bool moments) {
   return static_cast<double>(orbits.representatives.size()) * ForceRows{dim, moments}.count();
 }
 
-double cost_alike(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
+/// Operations of a factor, all in all.
+double operations_alike(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
   const double equations = equations_of(orbits, input.particles.dim, moments);
   const double rows = ForceRows{input.particles.dim, moments}.count();
   const double bonds_of_place = static_cast<double>(input.bonds.size()) / input.particles.size();
+  return alike_operations * bonds_of_place * rows * equations * equations;
+}
+
+double cost_alike(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
   return alike * count_free(input) +
-         alike_operations * bonds_of_place * rows * equations * equations;
+         operations_alike(input, orbits, moments) / operations_per_second;
 }
 
 }  // namespace
@@ -96,9 +112,14 @@ std::optional<BondOrbits> alike_bonds(const CalibrationInput& input, const Facet
                                 : find_surroundings(input, facets, stiffness, most_places);
   const double equations = equations_of(orbits, input.particles.dim, moments);
   if (equations == 0.0 || equations > most_alike_equations) return std::nullopt;
-  const bool dear =
-      !input.box && cost_alike(input, orbits, moments) > cost_of_single_bonds(input, moments);
+  const bool dear = !input.box && worth_a_try * cost_alike(input, orbits, moments) >
+                                      cost_of_single_bonds(input, moments);
   return dear ? std::nullopt : std::optional(std::move(orbits));
+}
+
+double alike_budget(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
+  return input.box ? std::numeric_limits<double>::infinity()
+                   : 2.0 * operations_alike(input, orbits, moments);
 }
 
 CalibrationReport expected_calibration(const CalibrationInput& input, const Facets& facets,

@@ -14,9 +14,14 @@ namespace perilink {
 std::optional<BondOrbits> alike_bonds(const CalibrationInput& input, const Facets& facets,
                                       const BondStiffness& stiffness);
 
+/// Operations of factors that making these alike may take, until single bonds are tried instead:
+/// twice as many as are expected.
+double alike_budget(const CalibrationInput& input, const BondOrbits& orbits, bool moments);
+
 /// Estimate of a calibration that has not been done, as its report: how many bonds it may change
 /// and roughly how many seconds it takes on an idle core, by rates of bodies whose search converges
 /// (contradictory equations take longer).
+/// \param stiffness  at the start
 CalibrationReport expected_calibration(const CalibrationInput& input, const Facets& facets,
                                        const BondStiffness& stiffness);
 

@@ -111,25 +111,6 @@ void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
   }
 }
 
-SoftestPivot find_softest(const SparseMatrix& lower, const cholmod_factor& factor) {
-  SoftestPivot result;
-  const auto* permutation = static_cast<const Index*>(factor.Perm);
-  const auto* first = static_cast<const Index*>(factor.super);
-  const auto* values = static_cast<const Index*>(factor.px);
-  const auto* rows = static_cast<const Index*>(factor.pi);
-  for (Index s = 0; s < static_cast<Index>(factor.nsuper); ++s) {
-    const double* block = static_cast<const double*>(factor.x) + values[s];
-    const std::size_t stride = static_cast<std::size_t>(rows[s + 1] - rows[s]) + 1;
-    for (Index j = first[s]; j < first[s + 1]; ++j) {
-      const double pivot = block[(j - first[s]) * stride];
-      const Index unknown = permutation[j];
-      const double own = lower.valuePtr()[lower.outerIndexPtr()[unknown]];
-      if (pivot * pivot < result.ratio * own) result = {pivot * pivot / own, unknown};
-    }
-  }
-  return result;
-}
-
 FactorStatistics measure_factor(const cholmod_factor& factor, double flops) {
   FactorStatistics result;
   result.size = static_cast<Index>(factor.n);

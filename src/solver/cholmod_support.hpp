@@ -44,9 +44,6 @@ CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix&
 void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
                            cholmod_factor* factor);
 
-/// \param factor  supernodal L L' of the matrix
-SoftestPivot find_softest(const SparseMatrix& lower, const cholmod_factor& factor);
-
 /// Size of a factor, supernodal or simplicial.
 /// \param flops  for one factorisation
 FactorStatistics measure_factor(const cholmod_factor& factor, double flops);

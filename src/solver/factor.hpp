@@ -15,13 +15,6 @@ namespace perilink {
 /// Symmetric matrix; only the lower triangle is stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
-/// What is left of the stiffness of an unknown when all before it are free: the smallest pivot
-/// over its entry of the diagonal of K.
-struct SoftestPivot {
-  double ratio = 1.0;
-  Index unknown = no_index;
-};
-
 /// Size and cost of a factor.
 struct FactorStatistics {
   Index size = 0;
@@ -32,7 +25,6 @@ struct FactorStatistics {
   int factorizations = 0;    ///< so far
   int ranks = 1;             ///< processes that share the work
   Index boxes = 0;           ///< where conjugate gradients stand in for a factor
-  SoftestPivot softest;      ///< at the last factorisation (in place only)
 };
 
 /// Cholesky factor of a symmetric positive definite matrix K that follows changes of low rank, and

@@ -74,7 +74,6 @@ class InPlaceFactor final : public Factor {
   Index size_ = 0;
   int factorizations_ = 0;
   double flops_ = 0.0;  ///< for one factorisation
-  SoftestPivot softest_;
 
   std::vector<Index> position_;      ///< per unknown: its place in the factor's order
   std::vector<Index> supernode_of_;  ///< per column

@@ -134,15 +134,15 @@ ElasticResult solve_elastic(const Network* network, const Unknowns& unknowns, co
 
 /// By a factor of the matrix that assemble() gives.
 template <class Assemble>
-auto by_factor(const Unknowns& unknowns, const Particles* particles, int threads,
-               Assemble assemble) {
-  return [&unknowns, particles, threads, assemble](ElasticResult& result) {
+auto by_factor(const Unknowns& unknowns, const Particles* particles, int threads, Assemble assemble,
+               const InternalForceOf& internal_of) {
+  return [=, &unknowns, &internal_of](ElasticResult& result) {
     Timer timer;
     const SparseMatrix stiffness = assemble();
     result.seconds.assembly += timer.seconds();
     timer.restart();
     const std::shared_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
-    factorize_stiffness(*factor, stiffness, unknowns, particles);
+    factorize_stiffness(*factor, stiffness, unknowns, particles, internal_of);
     result.seconds.factorization = timer.seconds();
     result.factor = factor->statistics();
     return [factor](std::span<const double> right, std::span<double> solution) {
@@ -201,7 +201,7 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
   const Network& network = problem.network;
   const Unknowns& unknowns = problem.unknowns;
   const Secants intact;
-  const auto internal_of = [&](std::span<const double> u) {
+  const InternalForceOf internal_of = [&](std::span<const double> u) {
     return internal_force(network, intact, u);
   };
   if (is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)) {
@@ -210,18 +210,22 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
     }),
                          internal_of);
   }
-  return solve_elastic(&network, unknowns, problem.loads,
-                       by_factor(unknowns, &network.particles, options.threads,
-                                 [&] { return assemble_stiffness(network, intact, unknowns); }),
-                       internal_of);
+  return solve_elastic(
+      &network, unknowns, problem.loads,
+      by_factor(
+          unknowns, &network.particles, options.threads,
+          [&] { return assemble_stiffness(network, intact, unknowns); }, internal_of),
+      internal_of);
 }
 
 ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknowns& unknowns,
                                    const Loads& loads, int threads) {
-  return solve_elastic(
-      nullptr, unknowns, loads,
-      by_factor(unknowns, nullptr, threads, [&] { return assemble_stiffness(elements, unknowns); }),
-      [&](std::span<const double> u) { return internal_force(elements, u); });
+  const InternalForceOf internal_of = [&](std::span<const double> u) {
+    return internal_force(elements, u);
+  };
+  const auto assemble = [&] { return assemble_stiffness(elements, unknowns); };
+  return solve_elastic(nullptr, unknowns, loads,
+                       by_factor(unknowns, nullptr, threads, assemble, internal_of), internal_of);
 }
 
 }  // namespace perilink

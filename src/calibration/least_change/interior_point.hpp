@@ -28,13 +28,12 @@ class InteriorPoint {
  public:
   using Vector = std::vector<double>;  // shape (points, rows)
 
-  /// \param proximity  factor on the multipliers; 0: that of the system
-  /// \param hopeless   the search ends where an equation will be left by more
-  InteriorPoint(const PointEquations& equations, Normal& normal, double proximity, double hopeless)
+  InteriorPoint(const PointEquations& equations, Normal& normal, const LeastChangeOptions& options)
       : equations_(equations),
         normal_(normal),
-        proximity_(proximity),
-        hopeless_(hopeless),
+        proximity_(options.proximity),
+        hopeless_(options.hopeless),
+        operations_(options.operations),
         lower_(equations.lower),
         upper_(equations.upper),
         y_(equations.right.size(), 0.0),
@@ -87,7 +86,7 @@ class InteriorPoint {
 
   const PointEquations& equations_;
   Normal& normal_;
-  double proximity_, hopeless_;
+  double proximity_, hopeless_, operations_;
   bool contradictory_ = false;
   std::span<const double> lower_, upper_;
   Vector y_;
@@ -237,6 +236,7 @@ bool InteriorPoint<Normal>::solve(double target, int most, int& iterations) {
   bool full = true;  // the last step
   Vector residual;
   for (int step = 0; step < most_steps && iterations < most; ++step) {
+    if (normal_.spent() > operations_) break;
     measure(weights_, residual);
     for_each_rest([&](std::size_t k, double over, double, double under, double) {
       residual[k] -= over - under;

@@ -131,6 +131,7 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
   for (int step = 0; step < most_newton_steps; ++step) {
     const double size = norm(residual_);
     if (size <= reached() || result_.iterations >= options_.iterations) break;
+    if (normal_.spent() > options_.operations) break;
     if (step == 0) start = size;
     if (size > most * start) break;
     const bool settled =
@@ -180,7 +181,7 @@ LeastChange DualNewton<Normal>::solve() {
   } else {
     // Newton's method finishes where it can: prices leave it lost between their kinks.
     const bool finished = std::isfinite(options_.price) || options_.tolerance >= rough;
-    InteriorPoint<Normal> interior(equations_, normal_, options_.proximity, options_.hopeless);
+    InteriorPoint<Normal> interior(equations_, normal_, options_);
     result_.converged = interior.solve(finished ? target : rough * root_of_points(),
                                        options_.iterations, result_.iterations);
     normal_.proximity = 0.0;
@@ -193,6 +194,7 @@ LeastChange DualNewton<Normal>::solve() {
 
 template <class Normal>
 void DualNewton<Normal>::report() {
+  result_.operations = normal_.spent();
   for (std::size_t v = 0; v < weights_.size(); ++v) {
     result_.at_lower += weights_[v] <= equations_.lower[v] + at_bound;
   }

@@ -73,6 +73,8 @@ class NormalEquations {
   void prepare_if_stale(bool settled);
   /// S direction = residual, the residual reduced by the factor. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
+  /// Only tied equations count operations.
+  static double spent() { return 0.0; }
 
   std::vector<double> mobility;
   /// What an exact equation gives way per unit of its multiplier, shape (points, Rows); empty where

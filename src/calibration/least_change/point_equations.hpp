@@ -74,6 +74,9 @@ struct LeastChangeOptions {
   /// Interior-point method with a proximity only: the search is given up where the multipliers tell
   /// that an equation will be left by more.
   double hopeless = std::numeric_limits<double>::infinity();
+  /// Tied variables only: operations after which no step begins, those of a factor; solutions
+  /// count by their time.
+  double operations = std::numeric_limits<double>::infinity();
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
 };

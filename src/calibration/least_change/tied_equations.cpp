@@ -39,8 +39,9 @@ constexpr double least_proximity = 1e-10;
 constexpr double factor_floor = 1e-13;
 /// A new factor costs as much as this many iterations at least ...
 constexpr int stale_iterations = 10;
-/// ... and operations of a solution take as long as so many of a factor: it waits for memory.
-constexpr double waiting = 16.0;
+/// ... and more of large factors: an operation of a solution, whose speed is that of the memory,
+/// takes as long as so many of a factor. New factors are worth more than their time.
+constexpr double slower = 4.0, worth_more = 4.0;
 /// Where the equations contradict each other more do not help.
 constexpr int most_tied_iterations = 400;
 
@@ -167,16 +168,21 @@ void TiedFactor::factorize(const TiedEquations::Matrix& columns, std::span<const
     // Symmetry leaves nothing to some rows.
     entry(k) += entry(k) > 0.0 ? shift[k] + floor : 1.0;
   }
-  if (factor_) return factor_->refactorize(matrix_.matrix());
-  factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
-  factor_->factorize(matrix_.matrix(), matrix_.point_of_rows());
+  if (factor_) {
+    factor_->refactorize(matrix_.matrix());
+  } else {
+    factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
+    factor_->factorize(matrix_.matrix(), matrix_.point_of_rows());
+    statistics_ = factor_->statistics();
+  }
 }
 
 int TiedFactor::worth() const {
-  const FactorStatistics statistics = factor_->statistics();
-  const double solutions = statistics.flops / (4.0 * waiting * statistics.entries);
+  const double solutions = statistics_.flops / (worth_more * operations_of_solution());
   return std::max(stale_iterations, static_cast<int>(solutions));
 }
+
+double TiedFactor::operations_of_solution() const { return 4.0 * slower * statistics_.entries; }
 
 TiedNormalEquations::TiedNormalEquations(const TiedEquations& tied,
                                          std::unique_ptr<TiedFactor>& kept)
@@ -214,6 +220,7 @@ void TiedNormalEquations::prepare() {
   if (!factor_) factor_ = std::make_unique<TiedFactor>(tied_, transposed_);
   factor_->factorize(transposed_, mobility,
                      {shift_.data(), static_cast<std::size_t>(shift_.size())});
+  spent_ += factor_->operations();
   last_iterations_ = 0;
 }
 
@@ -245,6 +252,7 @@ int TiedNormalEquations::solve(const Vector& residual, double reduction, Vector&
     p = z + next / rz * p;
     rz = next;
   }
+  spent_ += count * factor_->operations_of_solution();
   return last_iterations_ = count;
 }
 

@@ -48,9 +48,13 @@ class TiedFactor {
   }
   /// Iterations of conjugate gradients that take as long as a new factor.
   int worth() const;
+  /// What a factor takes, and a solution in operations of a factor.
+  double operations() const { return statistics_.flops; }
+  double operations_of_solution() const;
 
  private:
   Index rows_;
+  FactorStatistics statistics_;
   PointMatrix matrix_;
   std::unique_ptr<Factor> factor_;
 };
@@ -74,6 +78,9 @@ class TiedNormalEquations {
   /// S direction = residual, the residual reduced by the factor. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
 
+  /// Operations so far.
+  double spent() const { return spent_; }
+
   /// Tied equations have no price.
   static constexpr double price() { return std::numeric_limits<double>::infinity(); }
   static constexpr bool has_price(std::size_t) { return false; }
@@ -89,6 +96,7 @@ class TiedNormalEquations {
   Eigen::VectorXd shift_;  // added to the diagonal
   std::unique_ptr<TiedFactor>& factor_;
   int last_iterations_ = 0;
+  double spent_ = 0.0;
 };
 
 }  // namespace perilink

@@ -98,8 +98,11 @@ void Equilibrium::factorize_anew() {
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
   if (boxes_ != nullptr) return boxes_->begin(*unknowns_, secants(), ground_stiffness_);
+  const auto forces_of = [&](std::span<const double> u) {
+    return internal_force(network_, secants(), u);
+  };
   factorize_stiffness(*factor_, assemble_stiffness(network_, secants(), *unknowns_), *unknowns_,
-                      &network_.particles);
+                      &network_.particles, forces_of);
 }
 
 /// Equilibrium under the unknowns as they are, from a new factor.

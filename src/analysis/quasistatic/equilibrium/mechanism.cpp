@@ -3,15 +3,20 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
 namespace {
 
-/// Pivots over the diagonal: mechanisms leave 1e-17 to 1e-15.
-constexpr double none = 1e-14;
+/// Energy and work that differ by less than this factor are the same but for round-off; in
+/// mechanisms they differ by many orders.
+constexpr double alike = 2.0;
 
 /// Where an unknown acts; empty for those of the nodes of elements.
 std::string place_of(Index unknown, const Unknowns& unknowns, const Particles* particles) {
@@ -23,24 +28,43 @@ std::string place_of(Index unknown, const Unknowns& unknowns, const Particles* p
   return {};
 }
 
+/// The unknown that moves most where energy and work of random forces differ, else none.
+Index find_mechanism(Factor& factor, const Unknowns& unknowns, const InternalForceOf& internal_of) {
+  if (unknowns.count == 0) return no_index;
+  std::mt19937 random(7);  // fixed: the same verdict in every run
+  std::vector<double> forces(static_cast<std::size_t>(unknowns.count)), motion(forces.size());
+  for (double& force : forces) force = static_cast<double>(random() % 2) - 0.5;
+  factor.solve(forces, motion);
+  double work = 0.0;
+  for (std::size_t k = 0; k < forces.size(); ++k) work += 0.5 * forces[k] * motion[k];
+  std::vector<double> displacement = unknowns.expand(motion);
+  for (std::size_t slot = 0; slot < displacement.size(); ++slot) {
+    displacement[slot] -= unknowns.prescribed[slot];
+  }
+  const double energy = internal_of(displacement).energy;
+  if (energy < alike * work && work < alike * energy) return no_index;
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  return static_cast<Index>(std::ranges::max_element(motion, smaller) - motion.begin());
+}
+
 }  // namespace
 
 void factorize_stiffness(Factor& factor, const SparseMatrix& stiffness, const Unknowns& unknowns,
-                         const Particles* particles) {
-  Index softest = no_index;
+                         const Particles* particles, const InternalForceOf& internal_of) {
+  Index moves = no_index;
   try {
     factor.factorize(stiffness, unknowns.owners());
-    const SoftestPivot pivot = factor.statistics().softest;
-    if (pivot.ratio > none) return;
-    softest = pivot.unknown;
+    moves = find_mechanism(factor, unknowns, internal_of);
+    if (moves == no_index) return;
   } catch (const NotPositiveDefinite& error) {
-    softest = error.unknown();
+    moves = error.unknown();
   }
-  throw NotPositiveDefinite("part of the body can move freely" +
-                                place_of(softest, unknowns, particles) +
-                                ", or it is too slender to tell: its stiffness matrix is singular "
-                                "to working precision",
-                            softest);
+  throw NotPositiveDefinite(
+      "part of the body can move freely" + place_of(moves, unknowns, particles) +
+          ", or it is so slender, or held so softly, that a factor cannot tell: its stiffness "
+          "matrix is singular to working precision; conjugate gradients (solver = \"iterative\") "
+          "lose less",
+      moves);
 }
 
 }  // namespace perilink

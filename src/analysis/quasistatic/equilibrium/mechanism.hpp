@@ -1,5 +1,6 @@
 #pragma once
 
+#include "assembly/stiffness.hpp"
 #include "discretization/particles.hpp"
 #include "network/unknowns.hpp"
 #include "solver/factor.hpp"
@@ -7,12 +8,11 @@
 namespace perilink {
 
 /// Factorises the stiffness of a body, and refuses it where a part can move without resistance.
-/// Round-off may leave a mechanism a stiffness of 1e-16, and a factor: its pivot over the
-/// diagonal tells. Whole bodies have more: a strip of one row of cells and n columns, clamped at
-/// one end, has about 1 / n^3.
+/// Round-off may stand in for a stiffness there and the factor exist; but then the work of forces
+/// of random signs, under which everything moves that can, is not the energy of the bonds.
 /// \param particles  null: the message tells no place
-/// \throws NotPositiveDefinite, with the place
+/// \throws NotPositiveDefinite, with the place that moves most
 void factorize_stiffness(Factor& factor, const SparseMatrix& stiffness, const Unknowns& unknowns,
-                         const Particles* particles);
+                         const Particles* particles, const InternalForceOf& internal_of);
 
 }  // namespace perilink

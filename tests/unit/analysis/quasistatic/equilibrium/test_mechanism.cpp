@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,15 +38,10 @@ AnalysisBody make_boxes(std::vector<Box> solid, double right) {
   return body;
 }
 
-/// Two squares that share a particle at (5, 5), and bonds beyond it only where they end there.
-AnalysisBody make_hinge() {
-  return make_boxes({{{0, 0, 0}, {5, 5, 0}}, {{5, 5, 0}, {10, 10, 0}}}, 10.0);
-}
-
-/// The second square turns about the particle: round-off must not hold it.
-TEST(Mechanism, IsRefusedInsideABody) {
-  AnalysisBody body = make_hinge();
-  // Bonds across the gap beside the particle are taken away.
+/// Two squares that share a particle, with bonds between them only there.
+AnalysisBody make_hinge(double side) {
+  AnalysisBody body = make_boxes(
+      {{{0, 0, 0}, {side, side, 0}}, {{side, side, 0}, {2 * side, 2 * side, 0}}}, 2 * side);
   std::vector<std::uint8_t> keep;
   const Network& network = body.network;
   for (Index e = 0; e < network.num_elements(); ++e) {
@@ -53,34 +49,42 @@ TEST(Mechanism, IsRefusedInsideABody) {
     const auto q = network.particles.position(network.bonds.second[e]);
     const double most = std::max({p[0], p[1], q[0], q[1]});
     const double least = std::min({p[0], p[1], q[0], q[1]});
-    keep.push_back(most < 5.5 || least > 4.5);
+    keep.push_back(most < side + 0.5 || least > side - 0.5);
   }
   keep_elements(body.network, keep);
-  for (const bool damage : {false, true}) {
-    try {
-      if (damage) {
-        Equilibrium equilibrium(body, {});
-      } else {
-        run_elastic_analysis(body);
-      }
-      FAIL() << "a mechanism was solved";
-    } catch (const NotPositiveDefinite& error) {
-      const std::string message = error.what();
-      EXPECT_NE(message.find("can move freely, at ("), std::string::npos) << message;
-      const auto unknown = std::ranges::find(body.unknowns.number, error.unknown());
-      const Index particle =
-          static_cast<Index>(unknown - body.unknowns.number.begin()) / body.unknowns.width;
-      EXPECT_GT(body.network.particles.position(particle)[0], 5.0);
+  return body;
+}
+
+void expect_refusal(const AnalysisBody& body, double side, const std::function<void()>& solve) {
+  try {
+    solve();
+    FAIL() << "a mechanism was solved";
+  } catch (const NotPositiveDefinite& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("can move freely, at ("), std::string::npos) << message;
+    const auto unknown = std::ranges::find(body.unknowns.number, error.unknown());
+    const Index particle =
+        static_cast<Index>(unknown - body.unknowns.number.begin()) / body.unknowns.width;
+    EXPECT_GE(body.network.particles.position(particle)[0], side);
+  }
+}
+
+/// The second square turns about the particle, and round-off holds it the more the larger it is.
+TEST(Mechanism, IsRefusedInsideABody) {
+  for (const double side : {5.0, 10.0, 20.0, 60.0}) {
+    const AnalysisBody body = make_hinge(side);
+    expect_refusal(body, side, [&] { run_elastic_analysis(body); });
+    for (const FactorRoute route : routes) {
+      expect_refusal(body, side, [&] { Equilibrium(body, with_route(route)); });
     }
   }
 }
 
-/// A strip of one row of cells: its softest pivot is far above that of a mechanism.
+/// Nor is a strip of one row of cells one, a thousand times as long as it is high.
 TEST(Mechanism, SlenderBodiesAreNone) {
   const AnalysisBody strip = make_boxes({{{0, 0, 0}, {1000, 1, 0}}}, 1000.0);
-  const ElasticResult result = run_elastic_analysis(strip);
-  EXPECT_GT(result.factor.softest.ratio, 1e-11);
-  EXPECT_LT(result.factor.softest.ratio, 1e-3);
+  EXPECT_NO_THROW(run_elastic_analysis(strip));
+  EXPECT_NO_THROW(Equilibrium(strip, {}));
 }
 
 }  // namespace
