@@ -143,13 +143,14 @@ AnalysisSection read_analysis(const CaseTable& table, AnalysisType type) {
   read_explicit_analysis(table, is_explicit ? analysis : other);
   read_relaxation(table, relaxes ? analysis : other);
   read_events(table, is_explicit || relaxes ? other : analysis);
+  if (type == AnalysisType::elastic) {
+    analysis.control = other.control;
+    analysis.factor = other.factor;
+  }
   if (relaxes) analysis.load_factors = {1.0};
   if (!table.has("load_factors") && analysis.control != LoadControl::steps) return analysis;
   const std::vector<double> factors = read_load_factors(table);
-  if (is_explicit || type == AnalysisType::elastic) {
-    analysis.control = LoadControl::events;
-    return analysis;
-  }
+  if (is_explicit || type == AnalysisType::elastic) return analysis;
   if (!relaxes && analysis.control == LoadControl::events) {
     table.refuse("load_factors", "is given, but control = \"events\" finds the load factors itself",
                  "set control = \"steps\", or delete `load_factors`");

@@ -169,7 +169,7 @@ void write_run(TomlWriter& out, const CaseFile& input) {
     out.write("load_factors", input.analysis.load_factors);
   }
   out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
-  out.write("factor", word_of(input.analysis.factor));
+  if (breaks) out.write("factor", word_of(input.analysis.factor));
   if (input.body.method == BodyMethod::bonds) {
     out.write("solver", word_of(input.analysis.solver));
     out.write("coarse_box", input.analysis.coarse_box);

@@ -45,9 +45,10 @@ TEST(CaseUnused, OneCaseServesAllAnalyses) {
   EXPECT_EQ(damage.output.fields_every, 5);
 
   const CaseFile elastic = parse_case(serving_all("elastic"), "a.toml");
-  EXPECT_THAT(elastic.unused, ElementsAre("analysis.control", "analysis.duration", "analysis.rows",
-                                          "analysis.damping_rate", "stop", "output.fields_every",
-                                          "output.fields_times"));
+  EXPECT_THAT(
+      elastic.unused,
+      ElementsAre("analysis.control", "analysis.factor", "analysis.duration", "analysis.rows",
+                  "analysis.damping_rate", "stop", "output.fields_every", "output.fields_times"));
   EXPECT_FALSE(elastic.stop.broken_bonds);
   EXPECT_FALSE(elastic.output.fields_every);
 
