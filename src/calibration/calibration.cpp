@@ -46,8 +46,6 @@ constexpr double proximity = 1e-8;
 /// With fewer variables per equation (horizons of two spacings) a third of all fields on boxes are
 /// soft, and a factor of all equations is made as fast.
 constexpr Index least_freedom = 3;
-/// A factor for so many variables takes 6 GB, and more soon has no room at all.
-constexpr Index most_by_factor = 300000;
 
 /// Intermediate passes need no more digits; what they leave is no contradiction.
 constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
@@ -146,7 +144,6 @@ void Calibration::balance_by(Method method, double charge, double tolerance) {
   if (in_space_ && irregular_) options.proximity = proximity;
   const PointEquations equations = equations_.balance();
   const bool tight =
-      equations.num_variables() < most_by_factor &&
       equations.num_variables() / least_freedom < static_cast<Index>(equations.right.size());
   options.preconditioner = !in_space_             ? Preconditioner::factor
                            : tight && !irregular_ ? Preconditioner::blocks_then_factor
