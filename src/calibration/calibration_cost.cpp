@@ -34,7 +34,7 @@ constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6, bonds_by_factor 
 constexpr double alike = 4e-6, alike_operations = 3.0, operations_per_second = 3e10;
 /// They must save so much: they may have no solution, and both costs are rough.
 constexpr double worth_a_try = 2.0;
-/// Bytes for every bond that may change on its own, in space (17 000 to 1 100 000 bonds: 900 to
+/// Bytes for every bond that may change on its own, in space (170 000 to 1 100 000 bonds: 900 to
 /// 1 600; by a factor 21 000 of 69 000 bonds), and for the square of the number of equations of
 /// bonds that are made alike (9 600: 0.67 GB, 11 000: 0.8).
 constexpr double bytes_of_bond = 1300.0, bytes_by_factor = 20000.0, bytes_of_equations = 7.0;
