@@ -153,7 +153,7 @@ std::vector<double> bond_stresses(const Network& network, const std::vector<doub
     // At a node the solid takes the difference of the forces of its segments, over half of each; at
     // an end of the bar what its tie bears, or else all of it.
     const auto length_of = [&](std::size_t k) {
-      return network.bonds.lengths[network.first_segment + static_cast<Index>(k)];
+      return network.bonds.length(network.first_segment + static_cast<Index>(k));
     };
     const std::size_t before = neighbours[s][0], after = neighbours[s][1];
     const double at_begin =
@@ -191,7 +191,7 @@ BarState bar_state(const Network& network, Secants secants, std::span<const doub
       }
     }
     const double force = network.stiffness[e] * secants.axial(e) * extension;
-    state.strain.push_back(extension / bonds.lengths[e]);
+    state.strain.push_back(extension / bonds.length(e));
     state.force.push_back(force);
     state.stress.push_back(force / bars.area[s]);
     state.slip.push_back(bars.turned[s] != 0 ? 0.0 - slip : slip);

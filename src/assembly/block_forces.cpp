@@ -45,7 +45,7 @@ void add_trusses(const Network& network, Secants secants, const double* motions,
       for (Index e = begin; e < end; ++e) {
         const double stiffness = network.stiffness[e] * secants.axial(e);
         if (stiffness == 0.0) continue;
-        const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
+        const double* n = bonds.direction(e).data();
         const std::size_t other = begin_of<Dim>(bonds.second[e]) + part;
         Lanes tension{};
         for (int a = 0; a < Dim; ++a) {

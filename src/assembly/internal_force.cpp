@@ -35,7 +35,7 @@ void add_elements(const Network& network, const Elements& elements, Secants seca
     }
     for (; k < count && bonds.first[elements[k]] == own; ++k) {
       const Index e = elements[k];
-      const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
+      const double* n = bonds.direction(e).data();
       const std::size_t second = static_cast<std::size_t>(bonds.second[e]) * Dim;
       Real* other_force = forces + second;
       Real extension = 0.0;
@@ -85,7 +85,7 @@ void add_states(const Network& network, Secants secants, std::span<const Real> d
     tension[i] *= network.state_stiffness[i];
   }
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const double* n = bonds.directions.data() + static_cast<std::size_t>(e) * Dim;
+    const double* n = bonds.direction(e).data();
     const std::size_t first = bonds.first[e], second = bonds.second[e];
     const Real pull = secants[e] * ((network.counts_for(e, first_end) ? tension[first] : Real()) +
                                     (network.counts_for(e, second_end) ? tension[second] : Real()));

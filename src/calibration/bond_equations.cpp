@@ -144,7 +144,7 @@ std::vector<double> forces_out_of_balance(const ForceRows& equations, const Face
     double* second = rest.data() + bonds.second[b] * rows;
     for (const bool bends : {false, true}) {
       if (bends && stiffness.bending.empty()) break;
-      equations.fill(bonds.lengths[b], bonds.direction(b), bends, row.data());
+      equations.fill(bonds.length(b), bonds.direction(b), bends, row.data());
       const double k = bends ? stiffness.bending[b] : stiffness.axial[b];
       const double at_first = bends ? 2.0 * stiffness.inflection[b] : 1.0;
       for (std::size_t r = 0; r < odd; ++r) {

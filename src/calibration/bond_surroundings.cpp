@@ -143,7 +143,7 @@ void Surroundings::label_bonds(const BondStiffness& stiffness) {
   for (Index b = 0; b < bonds.size(); ++b) {
     Offset offset{};
     for (int a = 0; a < 3; ++a) {
-      offset[a] = std::llround(bonds.lengths[b] * bonds.direction(b)[a] / step[a]);
+      offset[a] = std::llround(bonds.length(b) * bonds.direction(b)[a] / step[a]);
     }
     const auto [entry, is_new] =
         numbers.emplace(join(0, offset), static_cast<Index>(numbers.size()));

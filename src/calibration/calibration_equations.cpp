@@ -92,9 +92,9 @@ void CalibrationEquations::measure_particles() {
   std::vector<double> forces(count, 0.0);
   const Bonds& bonds = input_.bonds;
   for (Index b = 0; b < bonds.size(); ++b) {
-    const double force = stiffness_.axial[b] * bonds.lengths[b];
+    const double force = stiffness_.axial[b] * bonds.length(b);
     for (const Index i : {bonds.first[b], bonds.second[b]}) {
-      modulus_[i] += 0.5 * force * bonds.lengths[b];
+      modulus_[i] += 0.5 * force * bonds.length(b);
       forces[i] += 0.5 * force;
     }
   }
@@ -206,11 +206,11 @@ void CalibrationEquations::fill_row(const ForceRows& form, const Variable& varia
                                     double* row) const {
   const Bonds& bonds = input_.bonds;
   if (variable.kind == Kind::axial) {
-    form.axial(bonds.lengths[variable.index], bonds.direction(variable.index), row);
+    form.axial(bonds.length(variable.index), bonds.direction(variable.index), row);
     return;
   }
   if (variable.kind == Kind::couple) {
-    form.shear(bonds.lengths[variable.index], bonds.direction(variable.index), row);
+    form.shear(bonds.length(variable.index), bonds.direction(variable.index), row);
     // Away from the first particle, and the whole couple instead of one half at each end.
     for (int r = 0; r < form.odd(); ++r) row[r] *= variable.end == 0 ? 1.0 : -1.0;
     for (int r = form.odd(); r < form.balance(); ++r) row[r] *= 2.0;

@@ -25,10 +25,10 @@ std::vector<Index> surface_columns(const Bonds& bonds, const Facets& facets,
     const Index ends[2] = {bonds.first[b], bonds.second[b]};
     for (const int side : {0, 1}) {
       const Index below = ends[side], above = ends[1 - side];
-      if (of_surface[above] > 0.0 || bonds.lengths[b] >= distance[below]) continue;
+      if (of_surface[above] > 0.0 || bonds.length(b) >= distance[below]) continue;
       if (head[above] == no_index || head[below] == no_index) continue;
       if (particles.material[above] != particles.material[below]) continue;
-      distance[below] = bonds.lengths[b];
+      distance[below] = bonds.length(b);
       head[below] = above;
     }
   }

@@ -1,7 +1,9 @@
 #include "discretization/bonds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -33,10 +35,97 @@ void Bonds::append(const Particles& particles, Index i, Index j) {
   Vector3 vector{};
   for (int axis = 0; axis < dim; ++axis) vector[axis] = to[axis] - from[axis];
   const double length = std::hypot(vector[0], vector[1], vector[2]);
+  for (int axis = 0; axis < dim; ++axis) vector[axis] /= length;
+  append(i, j, length, std::span(vector).first(static_cast<std::size_t>(dim)));
+}
+
+void Bonds::begin_alike(const Bonds& others, std::size_t count) {
+  dim = others.dim;
+  lengths = others.lengths;
+  directions = others.directions;
+  first.reserve(count);
+  second.reserve(count);
+  kind.reserve(count);
+}
+
+void Bonds::append_alike(Index i, Index j, Index as) {
+  first.push_back(i);
+  second.push_back(j);
+  kind.push_back(as);
+}
+
+void Bonds::append(Index i, Index j, double length, std::span<const double> towards) {
+  if (!kind.empty()) kind.push_back(static_cast<Index>(lengths.size()));
   first.push_back(i);
   second.push_back(j);
   lengths.push_back(length);
-  for (int axis = 0; axis < dim; ++axis) directions.push_back(vector[axis] / length);
+  directions.insert(directions.end(), towards.begin(), towards.end());
+}
+
+namespace {
+
+/// Lengths and directions that differ by more than round-off.
+class BondKinds {
+ public:
+  explicit BondKinds(const Bonds& bonds) : bonds_(bonds) { shared.dim = bonds.dim; }
+
+  Index find(Index b) {
+    // Bonds of a lattice follow each other in the same order at every particle.
+    const Index guess = last_ == no_index ? no_index : behind_[last_];
+    const Index found = guess != no_index && is_alike(guess, b) ? guess : look_up(b);
+    if (last_ != no_index) behind_[last_] = found;
+    return last_ = found;
+  }
+
+  Bonds shared;  ///< one of each kind
+
+ private:
+  using Cell = std::array<long long, 4>;
+
+  Index look_up(Index b) {
+    const auto [entry, is_new] = number_.try_emplace(cell_of(b), shared.size());
+    if (!is_new && is_alike(entry->second, b)) return entry->second;
+    shared.append(0, 1, bonds_.length(b), bonds_.direction(b));
+    behind_.push_back(no_index);
+    return shared.size() - 1;
+  }
+  bool is_alike(Index kind, Index b) const {
+    constexpr double same = 1e-12;
+    const auto is_near = [](double x, double y, double size) {
+      return std::abs(x - y) <= same * size;
+    };
+    return is_near(shared.length(kind), bonds_.length(b), bonds_.length(b)) &&
+           std::ranges::equal(shared.direction(kind), bonds_.direction(b),
+                              [&](double x, double y) { return is_near(x, y, 1.0); });
+  }
+  /// Far wider than round-off, far narrower than what differs.
+  Cell cell_of(Index b) const {
+    constexpr double cells = 1e7;
+    Cell cell{std::llround(cells * bonds_.length(b) / bonds_.length(0))};
+    for (int a = 0; a < bonds_.dim; ++a) cell[a + 1] = std::llround(cells * bonds_.direction(b)[a]);
+    return cell;
+  }
+
+  const Bonds& bonds_;
+  std::map<Cell, Index> number_;
+  std::vector<Index> behind_;  // kind that came behind each last
+  Index last_ = no_index;
+};
+
+}  // namespace
+
+void share_directions(Bonds& bonds) {
+  constexpr Index few = 1000, least_repeats = 16;
+  if (!bonds.kind.empty()) return;
+  BondKinds kinds(bonds);
+  std::vector<Index> kind(bonds.first.size());
+  for (Index b = 0; b < bonds.size(); ++b) {
+    kind[b] = kinds.find(b);
+    if (kinds.shared.size() > few + b / least_repeats) return;
+  }
+  bonds.kind = std::move(kind);
+  bonds.lengths = std::move(kinds.shared.lengths);
+  bonds.directions = std::move(kinds.shared.directions);
 }
 
 Bonds make_bonds(const Particles& particles, double horizon) {
@@ -79,6 +168,10 @@ Index keep_bonds(Bonds& bonds, std::span<const std::uint8_t> keep) {
   const Index before = bonds.size();
   keep_values(bonds.first, 1);
   keep_values(bonds.second, 1);
+  if (!bonds.kind.empty()) {
+    keep_values(bonds.kind, 1);
+    return before - bonds.size();
+  }
   keep_values(bonds.lengths, 1);
   keep_values(bonds.directions, static_cast<std::size_t>(bonds.dim));
   return before - bonds.size();

@@ -16,12 +16,16 @@ struct Bonds {
   int dim = 2;
   std::vector<Index> first;
   std::vector<Index> second;
-  std::vector<double> lengths;     ///< xi [length]
-  std::vector<double> directions;  ///< unit vector from first to second, shape (size, dim)
+  std::vector<double> lengths;     ///< xi [length], per kind
+  std::vector<double> directions;  ///< unit vectors from first to second, shape (kinds, dim)
+  std::vector<Index> kind;         ///< of each bond; empty: every bond is its own
 
   Index size() const { return static_cast<Index>(first.size()); }
+  Index kind_of(Index b) const { return kind.empty() ? b : kind[b]; }
+  double length(Index b) const { return lengths[kind_of(b)]; }
   std::span<const double> direction(Index b) const {
-    return {directions.data() + static_cast<std::size_t>(b) * dim, static_cast<std::size_t>(dim)};
+    return {directions.data() + static_cast<std::size_t>(kind_of(b)) * dim,
+            static_cast<std::size_t>(dim)};
   }
   Index other_end(Index b, Index particle) const {
     return first[b] == particle ? second[b] : first[b];
@@ -29,7 +33,16 @@ struct Bonds {
   void reserve(std::size_t count);
   /// Appends the bond between two distinct particles; the caller keeps the order.
   void append(const Particles& particles, Index i, Index j);
+  /// No bonds yet, room for some that have the kinds of others.
+  void begin_alike(const Bonds& others, std::size_t count);
+  void append_alike(Index i, Index j, Index as);
+  /// \param towards  unit vector from i to j, size dim
+  void append(Index i, Index j, double length, std::span<const double> towards);
 };
+
+/// Keeps one length and direction for all bonds that have the same but for round-off, where there
+/// are far fewer of these than bonds: elsewhere they are most of what a network of trusses takes.
+void share_directions(Bonds& bonds);
 
 /// Distances up to horizon * (1 + horizon_tolerance) are inside the horizon: a neighbour that lies
 /// on the horizon by construction must not be lost to round-off.

@@ -56,7 +56,7 @@ std::vector<InnerBonds> sum_inner_bonds(const Network& network, std::size_t num_
     if (inner[i]) sums[material[i]].volume += network.particles.volumes[i];
   }
   for (Index b = 0; b < network.bonds.size(); ++b) {
-    const double cube = std::pow(network.bonds.lengths[b], 3);
+    const double cube = std::pow(network.bonds.length(b), 3);
     const bool bends = network.carries_moments() && network.bending_ratio[b] > 0.0;
     const double bending = bends ? network.bending[b] / network.bending_ratio[b] : 0.0;
     for (const Index i : {network.bonds.first[b], network.bonds.second[b]}) {

@@ -155,7 +155,7 @@ namespace detail {
 inline FrameModes<3> ribbon_modes(const Network& network, Index element, double xi, double k,
                                   double kb, double inflection) {
   const Shell& shell = *network.shell;
-  const double* n = network.bonds.directions.data() + static_cast<std::size_t>(element) * 3;
+  const double* n = network.bonds.direction(element).data();
   const double* m = shell.normals.data() + static_cast<std::size_t>(element) * 3;
   const double square = shell.thickness * shell.thickness / 12.0;
   const double rise = shell.rise[element];
@@ -188,8 +188,8 @@ inline FrameModes<3> ribbon_modes(const Network& network, Index element, double 
 /// trusses, whose other modes have no stiffness.
 template <int Dim>
 FrameModes<Dim> frame_modes(const Network& network, Index element) {
-  const double* n = network.bonds.directions.data() + static_cast<std::size_t>(element) * Dim;
-  const double xi = network.bonds.lengths[element];
+  const double* n = network.bonds.direction(element).data();
+  const double xi = network.bonds.length(element);
   const double k = network.stiffness[element];
   const double kb = network.bending[element];
   const double inflection = network.inflection_of(element);

@@ -117,11 +117,8 @@ bool PatternBonds::is_loose(const GridPoint& point) const {
   bool turns = !sample.carries_moments();
   for_each_of(point, [&](const GridPoint& other, Index element, bool comes_first) {
     if (comes_first ? is_cut(point, other) : is_cut(other, point)) return;
-    bonds.first.push_back(0);
-    bonds.second.push_back(1);
+    bonds.append(0, 1, sample.bonds.length(element), sample.bonds.direction(element));
     turns = turns || sample.bending[element] > 0.0;
-    const auto n = sample.bonds.direction(element);
-    bonds.directions.insert(bonds.directions.end(), n.begin(), n.end());
   });
   return !turns || loosely_held(bonds, 2).front() != 0;
 }

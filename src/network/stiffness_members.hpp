@@ -14,6 +14,7 @@ void for_each_stiffness_member(AnyNetwork& network, Visit visit) {
   visit(network.bonds.second);
   visit(network.bonds.lengths);
   visit(network.bonds.directions);
+  visit(network.bonds.kind);
   visit(network.stiffness);
   visit(network.bending);
   visit(network.bending_ratio);

@@ -181,7 +181,7 @@ Face measure(const Body& body, const NetworkInput& input, const Network& network
     Axes both = axes.at(i);
     add(axes.at(j), both);
     const Vector3 n = direction_of(network, e);
-    const double length = network.bonds.lengths[e];
+    const double length = network.bonds.length(e);
     const double area = network.stiffness[e] * length / stress;
     const double square = network.stiffness[e] * length * length;
     const double own = std::abs(cosine_between(n, principal_direction(both, dim)));

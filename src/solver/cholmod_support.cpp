@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/huge_pages.hpp"
 #include "solver/dense_kernels.hpp"
 #include "solver/not_positive_definite.hpp"
 #include "solver/ordering.hpp"
@@ -49,6 +50,11 @@ void check(cholmod_common* common, const char* phase, std::size_t rows) {
 
 CholmodSession::CholmodSession() {
   prepare_blas();
+#if SUITESPARSE_MAIN_VERSION >= 7
+  SuiteSparse_config_malloc_func_set(allocate_memory);
+#else
+  SuiteSparse_config.malloc_func = allocate_memory;
+#endif
   cholmod_start(&common_);
   common_.print = 0;
   common_.supernodal = CHOLMOD_SUPERNODAL;

@@ -26,7 +26,7 @@ bool StrainWatch::is_beyond(std::span<const double> motion, double factor, const
     double extension = 0.0;
     for (int a = 0; a < network_.dim(); ++a) extension += n[a] * (to[a] - from[a]);
     const double most = std::max(0.1, 10.0 * network_.critical_stretch[e]);
-    largest = std::max(largest, -factor * extension / (most * network_.bonds.lengths[e]));
+    largest = std::max(largest, -factor * extension / (most * network_.bonds.length(e)));
   }
   if (largest > 0.5) due_at_ = looked_at_ / largest;
   return largest > 1.0;

@@ -67,7 +67,7 @@ void add_bond(const Network& network, Secants secants, std::span<const double> m
   using Vector = Eigen::Vector<double, Dim>;
   const auto width = static_cast<std::size_t>(network.width());
   const Vector n = Eigen::Map<const Vector>(network.bonds.direction(e).data());
-  const double length = network.bonds.lengths[e], stiffness = network.stiffness[e];
+  const double length = network.bonds.length(e), stiffness = network.stiffness[e];
   const double* first = motion.data() + network.bonds.first[e] * width;
   const double* second = motion.data() + network.bonds.second[e] * width;
   const auto force = [&](double extension) { return stiffness * secants.axial(e) * extension; };

@@ -50,7 +50,7 @@ void add_bonded_ties(const Body& body, const NetworkInput& input, RebarMesh& mes
     const auto [micromodulus, stretch] = constants_of(particles.material[solid]);
     network.bonds.append(particles, solid, node);
     network.stiffness.push_back(micromodulus * particles.volumes[solid] * particles.volumes[node] /
-                                std::max(mesh.ties.lengths[tie], least_length));
+                                std::max(mesh.ties.length(tie), least_length));
     add_critical_stretch(input, perfect[node] ? infinity : stretch, network);
   }
 }
@@ -133,11 +133,8 @@ class BarLaws {
 
 void append_element(Network& network, Index first, Index second, double length,
                     const Vector3& direction, double stiffness) {
-  Bonds& bonds = network.bonds;
-  bonds.first.push_back(first);
-  bonds.second.push_back(second);
-  bonds.lengths.push_back(length);
-  bonds.directions.insert(bonds.directions.end(), direction.begin(), direction.begin() + bonds.dim);
+  const auto dim = static_cast<std::size_t>(network.dim());
+  network.bonds.append(first, second, length, std::span(direction).first(dim));
   network.stiffness.push_back(stiffness);
 }
 
@@ -179,7 +176,7 @@ class AnchoredTies {
     std::vector<double> arms;
     for (std::size_t k = begin; k < end; ++k) {
       for (std::size_t a = 0; a < dim; ++a) {
-        arms.push_back(-ways_.lengths[k] * ways_.directions[k * dim + a]);
+        arms.push_back(-ways_.length(static_cast<Index>(k)) * ways_.directions[k * dim + a]);
       }
     }
     for (double& arm : arms) arm = std::isnan(arm) ? 0.0 : arm;  // a particle at the node
@@ -240,7 +237,7 @@ void add_segments(const NetworkInput& input, const RebarMesh& mesh, Network& net
     const auto n = mesh.segments.direction(segment);
     Vector3 direction{};
     std::copy(n.begin(), n.end(), direction.begin());
-    const double length = mesh.segments.lengths[segment];
+    const double length = mesh.segments.length(segment);
     append_element(network, first, second, length, direction,
                    bar.youngs_modulus * bar.area / length);
     add_critical_stretch(input, yield, network);

@@ -103,7 +103,7 @@ void add_bonds(const PairConstants& constants, const NetworkInput& input, Networ
     const bool ghost = particles.kind[j] == ParticleKind::ghost;
     const auto& [moduli, stretch] = constants.of(own, ghost ? own : particles.material[j]);
     const double part = ghost ? 0.5 : 1.0;
-    const double length = network.bonds.lengths[b];
+    const double length = network.bonds.length(b);
     network.stiffness.push_back(moduli.micromodulus * part * particles.volumes[i] *
                                 particles.volumes[j] / length);
     add_critical_stretch(input, stretch, network);
@@ -221,6 +221,8 @@ Network build_network(const Body& body, const NetworkInput& input) {
   if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
   if (!network.hinged.empty()) network.hinged.resize(network.stiffness.size(), 0);
   if (input.shell) make_shell(input, network);
+  constexpr Index many = 100'000;
+  if (input.elastic && network.num_elements() > many) share_directions(network.bonds);
   return network;
 }
 

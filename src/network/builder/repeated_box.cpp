@@ -61,6 +61,7 @@ std::optional<Network> repeat_smaller_box(
   Body small = body_of(pattern->small, body.lattice, input.thickness);
   std::ranges::fill(small.particles.material, body.particles.material.front());
   pattern->sample = make(small, small_input);
+  share_directions(pattern->sample.bonds);
   const Network& sample = pattern->sample;
   if (!input.draft && !sample.calibration->alike) return std::nullopt;
 
@@ -71,15 +72,14 @@ std::optional<Network> repeat_smaller_box(
   network.calibration->alike = true;
   network.torsion = sample.torsion;
   const LatticeGrid& grid = pattern->grid;
-  network.bonds.dim = grid.dim;
   std::vector<Index> like;
   const auto count = static_cast<std::size_t>(pattern->num_bonds());
-  network.bonds.reserve(count);
+  network.bonds.begin_alike(sample.bonds, count);
   like.reserve(count);
   PatternBonds(*pattern).for_each_first(
       grid.all(), [&](const GridPoint& first, const GridPoint& second, Index element) {
-        network.bonds.append(network.particles, grid.number(grid.all(), first),
-                             grid.number(grid.all(), second));
+        network.bonds.append_alike(grid.number(grid.all(), first), grid.number(grid.all(), second),
+                                   sample.bonds.kind_of(element));
         like.push_back(element);
       });
   network.stiffness = repeated(sample.stiffness, like);

@@ -101,7 +101,7 @@ void make_shell(const NetworkInput& input, Network& network) {
     shell.normals.insert(shell.normals.end(), normal.begin(), normal.end());
     shell.rise.push_back(surface.rise(to - from));
     shell.shear_ratio.push_back(
-        shear_ratio(0.5 * (ratio(i) + ratio(j)), bonds.lengths[e], input.thickness));
+        shear_ratio(0.5 * (ratio(i) + ratio(j)), bonds.length(e), input.thickness));
   }
   network.bonds = std::move(bonds);
   turn_facets(surface, sheet, network.facets);

@@ -75,11 +75,11 @@ void CutsAlongFace::measure(const std::vector<double>& share, double per_force) 
   for (Index b = 0; b < network_.bonds.size(); ++b) {
     const auto [from, to] = crossed(b);
     if (from >= to) continue;
-    const double force = share[b] * network_.stiffness[b] * network_.bonds.lengths[b];
+    const double force = share[b] * network_.stiffness[b] * network_.bonds.length(b);
     const double rise = depth(network_.bonds.second[b]) - depth(network_.bonds.first[b]);
-    energy_[slot(from, to)] += force * network_.bonds.lengths[b];
+    energy_[slot(from, to)] += force * network_.bonds.length(b);
     for (std::size_t k = from; k < to; ++k) {
-      wanted_[k] += force * std::abs(rise) / network_.bonds.lengths[b] * per_force;
+      wanted_[k] += force * std::abs(rise) / network_.bonds.length(b) * per_force;
     }
   }
 }
@@ -140,7 +140,7 @@ double energy_per_force(const Joint& joint, const Network& network) {
   const std::vector<double> share = far_shares(network, near_facets(network, true));
   double energy = 0.0, force = 0.0;
   for (Index b = 0; b < network.bonds.size(); ++b) {
-    const double length = network.bonds.lengths[b];
+    const double length = network.bonds.length(b);
     const double rise = std::abs(joint.height(network.bonds.direction(b)));
     energy += share[b] * network.stiffness[b] * length * length * length * rise;
     force += share[b] * network.stiffness[b] * length * length * rise * rise;

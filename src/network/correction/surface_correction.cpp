@@ -20,7 +20,7 @@ namespace {
 std::vector<double> moduli_of_particles(const Network& network, std::span<const double> stiffness) {
   std::vector<double> modulus(static_cast<std::size_t>(network.particles.size()), 0.0);
   for (Index b = 0; b < network.bonds.size(); ++b) {
-    const double xi = network.bonds.lengths[b];
+    const double xi = network.bonds.length(b);
     modulus[network.bonds.first[b]] += 0.5 * stiffness[b] * xi * xi;
     modulus[network.bonds.second[b]] += 0.5 * stiffness[b] * xi * xi;
   }
@@ -85,7 +85,7 @@ class Correction {
 void Correction::fade_at_horizon() {
   for (Index b = 0; b < network_.bonds.size(); ++b) {
     const double part =
-        partial_volume(network_.bonds.lengths[b], input_.horizon, body_.lattice.spacing);
+        partial_volume(network_.bonds.length(b), input_.horizon, body_.lattice.spacing);
     network_.stiffness[b] *= part;
     if (micropolar()) network_.bending[b] *= part;
   }
@@ -96,7 +96,7 @@ void Correction::fade_at_horizon() {
 /// by the shortest bonds (docs/theory/calibration.md).
 void Correction::favor_short_bonds() {
   for (Index b = 0; b < network_.bonds.size(); ++b) {
-    const double part = std::pow(input_.horizon / network_.bonds.lengths[b], network_.dim());
+    const double part = std::pow(input_.horizon / network_.bonds.length(b), network_.dim());
     network_.stiffness[b] *= part;
     if (micropolar()) network_.bending[b] *= part;
   }
@@ -107,7 +107,7 @@ void Correction::take_bulk_families(const LatticeFamilies& families) {
   const double volume = body_.lattice.cell_volume;
   for (Index e = 0; e < network_.bonds.size(); ++e) {
     const Index i = network_.bonds.first[e], j = network_.bonds.second[e];
-    const Index k = families.find(network_.bonds.direction(e), network_.bonds.lengths[e]);
+    const Index k = families.find(network_.bonds.direction(e), network_.bonds.length(e));
     if (k == no_index) continue;
     const double share =
         network_.particles.volumes[i] / volume * (network_.particles.volumes[j] / volume);
@@ -156,7 +156,7 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
     if (!(constants[material(i)] == constants[material(j)])) continue;
-    if (families.find(bonds.direction(b), bonds.lengths[b]) == no_index) continue;
+    if (families.find(bonds.direction(b), bonds.length(b)) == no_index) continue;
     ++regular[i];
     ++regular[j];
   }

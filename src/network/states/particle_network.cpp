@@ -64,7 +64,7 @@ class Families {
   Family of(Index particle) const {
     std::vector<Index> nearest(around_.row(particle).begin(), around_.row(particle).end());
     std::stable_sort(nearest.begin(), nearest.end(), [&](Index a, Index b) {
-      return candidates_.lengths[a] < candidates_.lengths[b];
+      return candidates_.length(a) < candidates_.length(b);
     });
     Family family = of_nearest(particle, nearest, count_);
     for (std::size_t more = count_ + 1;
@@ -80,12 +80,12 @@ class Families {
   Family of_nearest(Index particle, std::span<const Index> nearest, std::size_t count) const {
     Family family;
     if (!nearest.empty()) {
-      const double last = candidates_.lengths[nearest[std::min(count, nearest.size()) - 1]];
+      const double last = candidates_.length(nearest[std::min(count, nearest.size()) - 1]);
       for (const Index e : nearest) {
-        if (candidates_.lengths[e] > last * (1.0 + tie)) break;
+        if (candidates_.length(e) > last * (1.0 + tie)) break;
         family.elements.push_back(e);
         FamilyBond bond;
-        bond.length = candidates_.lengths[e];
+        bond.length = candidates_.length(e);
         bond.far = bond.length > far_from * last;
         const auto n = candidates_.direction(e);
         // Signs do not matter: products n n'.

@@ -106,7 +106,7 @@ class AnchoredTies final : public ExplicitBonds {
 
   double limit_of(Index element, int tooth) const {
     return network_.critical_stretch[element] * network_.law(element).tooth(tooth).limit *
-           network_.bonds.lengths[element];
+           network_.bonds.length(element);
   }
 
   double extension(Index tie, std::span<const double> motion) const {

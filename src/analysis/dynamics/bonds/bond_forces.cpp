@@ -109,7 +109,7 @@ template <class Half>
 double Halves<Half>::limit_of(Index element, int tooth) const {
   return Half::limit_of_demand(
       network_.critical_stretch_of(element) * network_.law(element).tooth(tooth).limit,
-      network_.bonds.lengths[element]);
+      network_.bonds.length(element));
 }
 
 template <class Half>

@@ -59,7 +59,7 @@ class Kinds {
     const std::vector<double>& volumes = network.particles.volumes;
     BondKind kind;
     for (int a = 0; a < network.dim(); ++a) kind.direction[a] = bonds.direction(element)[a];
-    kind.length = bonds.lengths[element];
+    kind.length = bonds.length(element);
     kind.modulus = network.stiffness[element] /
                    (volumes[bonds.first[element]] * volumes[bonds.second[element]]);
     kind.limit =

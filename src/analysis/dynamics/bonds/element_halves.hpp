@@ -81,7 +81,7 @@ struct GreenHalf {
   GreenHalf(const Network& network, Index element, bool first)
       : k(network.stiffness[element]),
         other(first ? network.bonds.second[element] : network.bonds.first[element]) {
-    const double length = network.bonds.lengths[element];
+    const double length = network.bonds.length(element);
     flexibility = 1.0 / (length * length);
     for (int a = 0; a < Dim; ++a) {
       before[a] = (first ? length : -length) * network.bonds.direction(element)[a];
@@ -146,7 +146,7 @@ struct FrameHalf {
         kb(network.bending[element]),
         other(at_first ? network.bonds.second[element] : network.bonds.first[element]),
         first(at_first) {
-    const double length = network.bonds.lengths[element];
+    const double length = network.bonds.length(element);
     for (int a = 0; a < Dim; ++a) n[a] = network.bonds.direction(element)[a];
     first_arm = network.inflection_of(element) * length;
     second_arm = (1.0 - network.inflection_of(element)) * length;

@@ -248,7 +248,7 @@ double Equilibrium::ground_stiffness_of(Index unknown) const {
   }
   double largest = 0.0;
   for (Index e = 0; e < network_.first_tie; ++e) {
-    largest = std::max(largest, network_.bending[e] * std::pow(network_.bonds.lengths[e], 2));
+    largest = std::max(largest, network_.bending[e] * std::pow(network_.bonds.length(e), 2));
   }
   return largest;
 }

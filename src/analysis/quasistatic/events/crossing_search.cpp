@@ -79,7 +79,7 @@ CrossingSearch::CrossingSearch(const Network& network)
     element.first = network.bonds.first[e] * width;
     element.second = network.bonds.second[e] * width;
     for (int a = 0; a < dim_; ++a) element.n[a] = network.bonds.direction(e)[a];
-    const double length = network.bonds.lengths[e];
+    const double length = network.bonds.length(e);
     if (turns_) {
       element.first_arm = network.inflection_of(e) * length;
       element.second_arm = (1.0 - network.inflection_of(e)) * length;

@@ -28,7 +28,7 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
     : network_(network), dim_(network.dim()), torsion_(network.torsion) {
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!network.has_limit(e)) continue;
-    const double length = network.bonds.lengths[e];
+    const double length = network.bonds.length(e);
     const Sense sense = network.law(e).sense();
     const double share = sense == Sense::each ? 0.0 : network.ratio_of_bending(e);
     Bond bond{network.bonds.first[e] * network.width(),
@@ -49,7 +49,7 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
 }
 
 double FrameLimitSearch::inverse_of(Index element, double limit) const {
-  const double length = network_.bonds.lengths[element];
+  const double length = network_.bonds.length(element);
   return std::isinf(limit) ? 0.0 : 1.0 / (length * limit * length * limit);
 }
 

@@ -43,7 +43,7 @@ void LimitSearch::set_gradient(Group& group, std::size_t place, double limit) {
   const std::span<const double> n = network_.bonds.direction(element);
   for (int a = 0; a < dim_; ++a) {
     group.gradient[a][place] =
-        std::isinf(limit) ? 0.0 : n[a] / (network_.bonds.lengths[element] * limit);
+        std::isinf(limit) ? 0.0 : n[a] / (network_.bonds.length(element) * limit);
   }
 }
 

@@ -51,7 +51,7 @@ Event SingleEventEngine::next_event() {
 bool SingleEventEngine::is_within(double noise, const BreakSearch::Hit& hit) const {
   const Index element = hit.element;
   if (network_.carries_moments()) {  // the search compares with shear and bending
-    return hit.ratio * limit_of(element) * network_.bonds.lengths[element] <= noise;
+    return hit.ratio * limit_of(element) * network_.bonds.length(element) <= noise;
   }
   const Extension change = extension_of(element);
   return std::abs(change.value) <= change.round_off + noise;
@@ -80,7 +80,7 @@ void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::H
     if (secants()[e] == 0.0) continue;
     const Extension change = extension_of(e);
     const double beyond = std::abs(change.value) - change.round_off - noise;
-    const double reached = hit.ratio * limit_of(e) * network_.bonds.lengths[e];
+    const double reached = hit.ratio * limit_of(e) * network_.bonds.length(e);
     if (beyond > far_more * reached) return;
   }
   throw SolverError(

@@ -49,7 +49,7 @@ bool StagedEngine::leave_flow() {
     const double plastic = (1.0 - secant) * extension;
     flowed_.resize(motion.size(), 0.0);
     for (std::size_t a = 0; a < n.size(); ++a) flowed_[j + a] -= plastic * n[a];
-    flow_[e] += std::abs(plastic) / network.bonds.lengths[e];
+    flow_[e] += std::abs(plastic) / network.bonds.length(e);
     teeth_[e] = 0;
     harden(e);
     flown.push_back(e);

@@ -79,15 +79,12 @@ void cut_elements(const Network& network, Secants secants, const std::vector<int
                   LocalNumbers& local, BodyPart& part) {
   Network& own = part.network;
   const std::vector<bool> is_source = sources(network, owners, rank);
-  const std::size_t dim = static_cast<std::size_t>(network.dim());
   for (Index e = 0; e < network.num_elements(); ++e) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
     if (!is_source[i] && !is_source[j]) continue;
-    own.bonds.first.push_back(local.of(GlobalIndex{i}));
-    own.bonds.second.push_back(local.of(GlobalIndex{j}));
-    own.bonds.lengths.push_back(network.bonds.lengths[e]);
-    const double* n = network.bonds.directions.data() + static_cast<std::size_t>(e) * dim;
-    own.bonds.directions.insert(own.bonds.directions.end(), n, n + dim);
+    // One after the other: numbers are given as particles are met.
+    const Index own_first = local.of(GlobalIndex{i}), own_second = local.of(GlobalIndex{j});
+    own.bonds.append(own_first, own_second, network.bonds.length(e), network.bonds.direction(e));
     own.stiffness.push_back(network.stiffness[e]);
     if (!network.bending.empty()) own.bending.push_back(network.bending[e]);
     if (!network.inflection.empty()) own.inflection.push_back(network.inflection[e]);

@@ -50,13 +50,13 @@ class PartMaker {
   void make() {
     Network& network = part_.network;
     const Network& sample = share_.pattern.sample;
-    network.particles.dim = network.bonds.dim = grid_.dim;
+    network.particles.dim = grid_.dim;
     network.torsion = sample.torsion;
     grid_.for_each(own_, [&](const GridPoint& point) { add_particle(point); });
     const PatternBonds pattern(share_.pattern);
     std::size_t count = 0;
     pattern.for_each(own_, [&](const GridPoint&, const GridPoint&, Index) { ++count; });
-    network.bonds.reserve(count);
+    network.bonds.begin_alike(sample.bonds, count);
     for (const auto member : members_) {
       if (!(sample.*member).empty()) (network.*member).reserve(count);
     }
@@ -64,7 +64,7 @@ class PartMaker {
       if (!own_.contains(first)) part_.others_elements.push_back(network.num_elements());
       // One after the other: numbers are given as particles are met.
       const Index i = number(first), j = number(second);
-      network.bonds.append(network.particles, i, j);
+      network.bonds.append_alike(i, j, sample.bonds.kind_of(element));
       for (const auto member : members_) {
         if (!(sample.*member).empty()) (network.*member).push_back((sample.*member)[element]);
       }

@@ -181,7 +181,7 @@ void stretch_bars(const CaseFile& input, const Model& model, const std::string& 
     const RebarSection& bar = input.rebar[model.entry_of_bar[network.bars.bar[s]]];
     if (bar.prestrain == 0.0 || (!stage.empty() && bar.stage != stage)) continue;
     const Index e = network.first_segment + static_cast<Index>(s);
-    const double extension = bar.prestrain * network.bonds.lengths[e];
+    const double extension = bar.prestrain * network.bonds.length(e);
     const std::size_t slot = static_cast<std::size_t>(network.bonds.second[e]) * network.width();
     for (int a = 0; a < network.dim(); ++a) {
       prescription.value[slot + a] = extension * network.bonds.direction(e)[a];

@@ -184,6 +184,7 @@ std::optional<LatticePattern> find_pattern(const CaseFile& input, const BondOpti
   const std::vector<Crack> cracks = std::exchange(network.cracks, {});
   network.only_alike = body.lattice.surface == Surface::calibrated;
   pattern.sample = build_case_network(input, sample, network);
+  share_directions(pattern.sample.bonds);
   if (!can_repeat(pattern.sample) || !cut_bonds(pattern, cracks, by_crack)) return std::nullopt;
   return pattern;
 }

@@ -111,8 +111,14 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   pick(network.bonds.second, own.bonds.second);
   for (Index& particle : own.bonds.first) particle -= first;
   for (Index& particle : own.bonds.second) particle -= first;
-  pick(network.bonds.lengths, own.bonds.lengths);
-  pick(network.bonds.directions, own.bonds.directions, static_cast<std::size_t>(network.dim()));
+  if (network.bonds.kind.empty()) {
+    pick(network.bonds.lengths, own.bonds.lengths);
+    pick(network.bonds.directions, own.bonds.directions, static_cast<std::size_t>(network.dim()));
+  } else {
+    pick(network.bonds.kind, own.bonds.kind);
+    own.bonds.lengths = network.bonds.lengths;
+    own.bonds.directions = network.bonds.directions;
+  }
   pick(network.stiffness, own.stiffness);
   pick(network.bending, own.bending);
   pick(network.bending_ratio, own.bending_ratio);

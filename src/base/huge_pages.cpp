@@ -1,0 +1,37 @@
+#include "base/huge_pages.hpp"
+
+#include <malloc.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+namespace perilink {
+
+void* allocate_memory(std::size_t bytes) noexcept {
+  constexpr std::size_t large = std::size_t{1} << 20;
+  void* memory = std::malloc(bytes > 0 ? bytes : 1);
+  if (bytes < large || memory == nullptr) return memory;
+  static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory), end = begin + bytes;
+  const std::uintptr_t first = (begin + page - 1) / page * page;
+  // Advice: where it is not taken pages stay small.
+  (void)madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+  return memory;
+}
+
+}  // namespace perilink
+
+// Inlined, compilers would take free() for a mistake beside new.
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
+  void* memory = perilink::allocate_memory(bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*bytes*/) noexcept {
+  std::free(memory);
+}
