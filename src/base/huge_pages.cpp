@@ -1,6 +1,5 @@
 #include "base/huge_pages.hpp"
 
-#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 

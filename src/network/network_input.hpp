@@ -99,6 +99,7 @@ struct NetworkInput {
   bool only_alike = false;
   bool draft = false;  ///< bonds as they are before calibration: whatever does not depend on it can
                        ///< be asked before it is paid for
+  bool estimates_cost = false;  ///< drafts tell what the calibration is expected to cost
 };
 
 /// Constants c [force/length^6] and d [force/length^4] of the bonds of a material of the body; d is

@@ -69,7 +69,7 @@ std::optional<Network> repeat_smaller_box(
   network.particles = body.particles;
   network.facets = body.facets;
   network.calibration = sample.calibration;
-  network.calibration->alike = true;
+  if (network.calibration) network.calibration->alike = true;
   network.torsion = sample.torsion;
   const LatticeGrid& grid = pattern->grid;
   std::vector<Index> like;

@@ -233,10 +233,10 @@ void Correction::calibrate(bool give_up) {
   }
   // What single bonds lose or gain from here on is no measure of their strength.
   if (!input_.elastic) network_.bending_ratio = own_bending_ratios(network_);
-  if (input_.draft) {
+  if (input_.estimates_cost) {
     const BondStiffness start{network_.stiffness, network_.bending, {}};
     network_.calibration = expected_calibration(calibration, network_.facets, start);
-  } else {
+  } else if (!input_.draft) {
     balance(calibration);
     network_.calibration->seconds = timer.seconds();
   }

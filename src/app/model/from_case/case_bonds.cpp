@@ -224,7 +224,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   NetworkInput network = network_input(input, model.problem, model.horizon, bars);
   network.on_search = options.on_search;
   network.interfaces = weak_interfaces(input, body);
-  network.draft = options.draft;
+  network.draft = network.estimates_cost = options.draft;
   if (body.spans.empty()) refuse_poissons_ratios(input, body, network);
   if (network.shell) refuse_impossible_shell(input, body, network);
   refuse_impossible_cracks(input, body.particles.dim);
