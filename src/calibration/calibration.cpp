@@ -18,6 +18,10 @@ namespace {
 /// Forces out of balance above this have no solution with the floors of all bonds.
 constexpr double met = CalibrationEquations::met;
 
+/// Where a factor gives every step a hundredth of the residual at most, coarse searches take it for a
+/// contradiction when a tenth is left.
+constexpr double contradiction_by_factor = 0.1;
+
 /// In space searches are repeated until forces and moments are less out of balance than this.
 constexpr double exact = 1e-10;
 constexpr int most_refinements = 3;
@@ -99,6 +103,8 @@ class Calibration {
   double hopeless_ = std::numeric_limits<double>::infinity();  // force that ends a search
   CalibrationEquations equations_;
   CalibrationEquations::State settled_;  // where the exact forces began
+  std::vector<double> multipliers_;      // of the last search for them
+  std::vector<double> start_;            // of the next one; empty: zero
   CalibrationReport report_;
   KeptPreconditioner kept_;  // for the force equations
 };
@@ -148,7 +154,9 @@ void Calibration::balance_by(Method method, double charge, double tolerance) {
   options.preconditioner = !in_space_             ? Preconditioner::factor
                            : tight && !irregular_ ? Preconditioner::blocks_then_factor
                                                   : Preconditioner::blocks_then_boxes;
-  find_least_change(equations, options);
+  if (tied_ && tolerance > tolerance_) options.contradiction = contradiction_by_factor;
+  options.start = std::exchange(start_, {});
+  multipliers_ = find_least_change(equations, options).multipliers;
   equations_.report_balance(report_);
 }
 
@@ -206,6 +214,7 @@ bool Calibration::balance_dropping_bonds() {
     hopeless_ = std::numeric_limits<double>::infinity();
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();
+      start_ = std::move(multipliers_);  // what is gone has carried nothing
       fit_and_balance(tolerance_);
       if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
     }

@@ -14,8 +14,6 @@
 namespace perilink {
 namespace {
 
-/// A step at settled weights that leaves more than this of the residual leaves contradictions.
-constexpr double contradiction = 0.9;
 constexpr int most_newton_steps = 40;
 /// Newton's method is lost where the dual function stops growing this early along a step.
 constexpr double shortest_step = 1e-5;
@@ -136,7 +134,7 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
     if (size > most * start) break;
     const bool settled =
         last_length == 1.0 && pattern == normal_.mobility && given_up == normal_.compliance;
-    if (settled && size > contradiction * last_size) break;
+    if (settled && size > options_.contradiction * last_size) break;
     last_size = size;
     normal_.prepare_if_stale(settled);
     pattern = normal_.mobility;
@@ -150,6 +148,7 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
     if (length < shortest_step) break;
   }
   result_.converged = norm(residual_) <= reached();
+  result_.multipliers = std::move(y);
 }
 
 /// Norm of what the weights leave of the exact equations.
@@ -177,7 +176,7 @@ template <class Normal>
 LeastChange DualNewton<Normal>::solve() {
   const double target = options_.tolerance * root_of_points();
   if (options_.method == Method::newton) {
-    climb(Vector(residual_.size(), 0.0), target);
+    climb(options_.start.empty() ? Vector(residual_.size(), 0.0) : options_.start, target);
   } else {
     // Newton's method finishes where it can: prices leave it lost between their kinks.
     const bool finished = std::isfinite(options_.price) || options_.tolerance >= rough;

@@ -15,11 +15,12 @@ namespace perilink {
 /// What came out.
 struct LeastChange {
   std::vector<double> weights;
-  double residual = 0.0;         ///< largest scaled residual of an equation
-  Index worst_point = no_index;  ///< where it is
-  Index at_lower = 0;            ///< number of weights at their lower bound
-  int iterations = 0;            ///< conjugate gradients, in all
-  double operations = 0.0;       ///< tied variables only
+  double residual = 0.0;            ///< largest scaled residual of an equation
+  Index worst_point = no_index;     ///< where it is
+  Index at_lower = 0;               ///< number of weights at their lower bound
+  int iterations = 0;               ///< conjugate gradients, in all
+  double operations = 0.0;          ///< tied variables only
+  std::vector<double> multipliers;  ///< of the equations, by Newton's method
   /// False: no weights within the bounds satisfy all equations, or too few iterations; what can be
   /// met is met.
   bool converged = false;

@@ -74,11 +74,16 @@ struct LeastChangeOptions {
   /// Interior-point method with a proximity only: the search is given up where the multipliers tell
   /// that an equation will be left by more.
   double hopeless = std::numeric_limits<double>::infinity();
+  /// Newton's method only: a step at settled weights that leaves more than this of the residual
+  /// leaves contradictions.
+  double contradiction = 0.9;
   /// Tied variables only: operations after which no step begins, those of a factor; solutions
   /// count by their time.
   double operations = std::numeric_limits<double>::infinity();
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
+  /// Newton's method only: multipliers to start from, those of nearly the same problem. Empty: none.
+  std::vector<double> start = {};
 };
 
 }  // namespace perilink

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "discretization/bonds.hpp"
 #include "discretization/lattices/lattice.hpp"
@@ -117,6 +119,72 @@ TEST(ConnectedParts, AreNumberedByTheirFirstParticles) {
   bonds.append(particles, 1, 3);
   bonds.append(particles, 0, 2);
   EXPECT_EQ(connected_parts(bonds, 6), (std::vector<Index>{0, 1, 0, 1, 2, 0}));
+}
+
+/// Differences of positions of one unit leave some 1e-15 of a length of 0.1.
+constexpr double of_round_off = 1e-14;
+
+void expect_alike(const Bonds& shared, const Bonds& single) {
+  ASSERT_EQ(shared.first, single.first);
+  ASSERT_EQ(shared.second, single.second);
+  for (Index b = 0; b < single.size(); ++b) {
+    ASSERT_NEAR(shared.length(b), single.length(b), of_round_off);
+    for (int a = 0; a < single.dim; ++a) {
+      ASSERT_NEAR(shared.direction(b)[a], single.direction(b)[a], of_round_off);
+    }
+  }
+}
+
+TEST(SharedDirections, AreThoseOfAFamily) {
+  const Body body = square(Surface::none);
+  const Bonds single = make_bonds(body.particles, 0.3);
+  Bonds shared = single;
+  share_directions(shared);
+  EXPECT_EQ(shared.lengths.size(), 14u) << "half of the 28 neighbours";
+  EXPECT_EQ(shared.directions.size(), 28u);
+  expect_alike(shared, single);
+}
+
+TEST(SharedDirections, GoWithTheirBonds) {
+  const Body body = square(Surface::none);
+  Bonds single = make_bonds(body.particles, 0.3), shared = single;
+  share_directions(shared);
+  std::vector<std::uint8_t> keep(single.first.size(), 1);
+  for (std::size_t b = 0; b < keep.size(); b += 3) keep[b] = 0;
+  EXPECT_EQ(keep_bonds(shared, keep), keep_bonds(single, keep));
+  const std::vector<double> along = {0.6, 0.8};
+  for (Bonds* bonds : {&shared, &single}) bonds->append(3, 5, 0.25, along);
+  expect_alike(shared, single);
+  const std::size_t kinds = shared.lengths.size();
+  share_directions(shared);
+  EXPECT_EQ(shared.lengths.size(), kinds) << "once is enough";
+}
+
+TEST(SharedDirections, AreNoneWhereBondsDiffer) {
+  Bonds bonds;
+  for (Index b = 0; b < 3000; ++b) {
+    const double angle = 1e-3 * b;
+    const std::vector<double> towards = {std::cos(angle), std::sin(angle)};
+    bonds.append(b, b + 1, 1.0 + 1e-6 * b, towards);
+  }
+  const std::vector<double> lengths = bonds.lengths;
+  share_directions(bonds);
+  EXPECT_TRUE(bonds.kind.empty());
+  EXPECT_EQ(bonds.lengths, lengths);
+}
+
+TEST(SharedDirections, TellApartWhatIsNearlyTheSame) {
+  Bonds bonds;
+  const std::vector<double> along = {1.0, 0.0}, beside = {1.0, 1e-11};
+  for (Index b = 0; b < 40; ++b) bonds.append(b, b + 1, b % 2 ? 1.0 : 1.0 + 1e-10, along);
+  bonds.append(0, 2, 1.0, beside);
+  const Bonds single = bonds;
+  share_directions(bonds);
+  ASSERT_FALSE(bonds.kind.empty());
+  for (Index b = 0; b < single.size(); ++b) {
+    EXPECT_NEAR(bonds.length(b), single.length(b), 1e-12) << b;
+    EXPECT_NEAR(bonds.direction(b)[1], single.direction(b)[1], 1e-12) << b;
+  }
 }
 
 }  // namespace

@@ -25,6 +25,7 @@
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "analysis/quasistatic/elastic_analysis.hpp"
 #include "app/model/from_case/configure.hpp"
+#include "app/process/threads.hpp"
 #include "app/run/summary.hpp"
 #include "base/timer.hpp"
 #include "io/case/case_file.hpp"
@@ -183,7 +184,9 @@ bool compare_events(int columns, Index count, bool direct, const std::string& on
   return good;
 }
 
+/// By one thread.
 std::string measure(const Series& series, int columns, LinearSolver solver) {
+  set_threads(1);
   const Timer timer;
   const Model model =
       build_model(parse_case(case_text(series, columns) + "type = \"elastic\"\n", "body"));

@@ -66,8 +66,13 @@ TEST_P(RepeatedBoxes, AreThoseThatAreMadeInOnePiece) {
   const Network repeated = build_network(body, input);
   EXPECT_EQ(repeated.bonds.first, whole.bonds.first);
   EXPECT_EQ(repeated.bonds.second, whole.bonds.second);
-  EXPECT_EQ(repeated.bonds.lengths, whole.bonds.lengths);
-  EXPECT_EQ(repeated.bonds.directions, whole.bonds.directions);
+  EXPECT_LT(repeated.bonds.lengths.size(), 100u) << "as many as a particle has bonds at most";
+  for (Index b = 0; b < whole.bonds.size(); ++b) {  // positions in spacings: up to 45
+    ASSERT_NEAR(repeated.bonds.length(b), whole.bonds.length(b), 1e-14);
+    for (int a = 0; a < 3; ++a) {
+      ASSERT_NEAR(repeated.bonds.direction(b)[a], whole.bonds.direction(b)[a], 1e-13);
+    }
+  }
   EXPECT_EQ(repeated.cut_by_crack, whole.cut_by_crack);
   EXPECT_GT(repeated.cut_by_crack.front(), 0);
   expect_same(repeated.stiffness, whole.stiffness);
