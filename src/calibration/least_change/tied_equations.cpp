@@ -33,7 +33,9 @@ void multiply(const TiedEquations::Matrix& matrix, const Column& x, Column& prod
 
 /// Weight of the method of multipliers, as without a factor. With less, Newton's method gets lost
 /// where many weights pass their bounds: symmetry leaves rows that depend on each other.
-constexpr double least_proximity = 1e-10;
+/// Where no weight passes its bound any more a part of it does: along the softest fields a step with
+/// all of it would leave a half of the residual.
+constexpr double least_proximity = 1e-10, settled_proximity = 1e-12;
 /// Added to the diagonal of the factor beside that, relative to its mean: round-off must not make
 /// rows negative that depend on others.
 constexpr double factor_floor = 1e-13;
@@ -224,7 +226,8 @@ void TiedNormalEquations::prepare() {
   last_iterations_ = 0;
 }
 
-void TiedNormalEquations::prepare_if_stale(bool) {
+void TiedNormalEquations::prepare_if_stale(bool settled) {
+  eased_ = settled ? least_proximity - settled_proximity : 0.0;
   if (!factor_ || last_iterations_ > factor_->worth()) prepare();
 }
 
@@ -243,7 +246,7 @@ int TiedNormalEquations::solve(const Vector& residual, double reduction, Vector&
     multiply(transposed_, p, stretch);
     stretch.array() *= map(mobility).array();
     multiply(tied_.matrix, stretch, q);
-    q += shift_.cwiseProduct(p);
+    q += (shift_.array() - eased_).matrix().cwiseProduct(p);
     const double step = rz / p.dot(q);
     x += step * p;
     r -= step * q;

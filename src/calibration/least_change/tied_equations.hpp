@@ -94,6 +94,7 @@ class TiedNormalEquations {
   const TiedEquations& tied_;
   TiedEquations::Matrix transposed_;
   Eigen::VectorXd shift_;  // added to the diagonal
+  double eased_ = 0.0;     // and taken back in the products, but not in the factor
   std::unique_ptr<TiedFactor>& factor_;
   int last_iterations_ = 0;
   double spent_ = 0.0;
