@@ -18,8 +18,8 @@ namespace {
 /// Forces out of balance above this have no solution with the floors of all bonds.
 constexpr double met = CalibrationEquations::met;
 
-/// Where a factor gives every step a hundredth of the residual at most, coarse searches take it for a
-/// contradiction when a tenth is left.
+/// Where a factor leaves every step a hundredth of the residual at most, coarse searches take it
+/// for a contradiction when a tenth is left.
 constexpr double contradiction_by_factor = 0.1;
 
 /// In space searches are repeated until forces and moments are less out of balance than this.
@@ -103,8 +103,8 @@ class Calibration {
   double hopeless_ = std::numeric_limits<double>::infinity();  // force that ends a search
   CalibrationEquations equations_;
   CalibrationEquations::State settled_;  // where the exact forces began
-  std::vector<double> multipliers_;      // of the last search for them
-  std::vector<double> start_;            // of the next one; empty: zero
+  std::vector<double> multipliers_;      // where the last search for them ended
+  std::vector<double> start_;            // where the next one starts; empty: zero
   CalibrationReport report_;
   KeptPreconditioner kept_;  // for the force equations
 };
@@ -214,7 +214,7 @@ bool Calibration::balance_dropping_bonds() {
     hopeless_ = std::numeric_limits<double>::infinity();
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();
-      start_ = std::move(multipliers_);  // what is gone has carried nothing
+      if (tied_) start_ = std::move(multipliers_);  // what is gone has carried nothing
       fit_and_balance(tolerance_);
       if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
     }

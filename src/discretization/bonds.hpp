@@ -18,7 +18,7 @@ struct Bonds {
   std::vector<Index> second;
   std::vector<double> lengths;     ///< xi [length], per kind
   std::vector<double> directions;  ///< unit vectors from first to second, shape (kinds, dim)
-  std::vector<Index> kind;         ///< of each bond; empty: every bond is its own
+  std::vector<Index> kind;         ///< per bond; empty: every bond is its own
 
   Index size() const { return static_cast<Index>(first.size()); }
   Index kind_of(Index b) const { return kind.empty() ? b : kind[b]; }

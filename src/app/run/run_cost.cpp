@@ -17,7 +17,7 @@ constexpr double search_seconds_per_bond = 1e-9;
 /// Boxes and some 55 iterations (verification/studies/large_bodies).
 constexpr double box_seconds_per_bond = 0.5e-6, box_seconds_per_frame_bond = 3e-6;
 constexpr double box_bytes_per_bond = 145.0, box_bytes_per_frame_bond = 580.0, box_bytes = 50e6;
-/// Of elastic runs, and where bonds share their directions (952 875 unknowns: 1.47 and 0.95 GB).
+/// Elastic runs, and those where bonds share their directions (952 875 unknowns: 1.47, 0.95 GB).
 constexpr double elastic_bytes_per_bond = 76.0, elastic_bytes_per_alike_bond = 49.0;
 /// An event of the smallest body: row, bookkeeping, progress (meshes/rc_cantilever.toml).
 constexpr double seconds_per_row = 15e-6;

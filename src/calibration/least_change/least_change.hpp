@@ -20,7 +20,7 @@ struct LeastChange {
   Index at_lower = 0;               ///< number of weights at their lower bound
   int iterations = 0;               ///< conjugate gradients, in all
   double operations = 0.0;          ///< tied variables only
-  std::vector<double> multipliers;  ///< of the equations, by Newton's method
+  std::vector<double> multipliers;  ///< by Newton's method
   /// False: no weights within the bounds satisfy all equations, or too few iterations; what can be
   /// met is met.
   bool converged = false;

@@ -82,7 +82,7 @@ struct LeastChangeOptions {
   double operations = std::numeric_limits<double>::infinity();
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
-  /// Newton's method only: multipliers to start from, those of nearly the same problem. Empty: none.
+  /// Newton's method only: multipliers to start from, of nearly the same problem. Empty: none.
   std::vector<double> start = {};
 };
 
