@@ -23,6 +23,8 @@ void* allocate_memory(std::size_t bytes) noexcept {
 
 }  // namespace perilink
 
+#ifndef __SANITIZE_ADDRESS__  // whose own find pieces that are given back in another way
+
 // Inlined, compilers would take free() for a mistake beside new.
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
   void* memory = perilink::allocate_memory(bytes);
@@ -34,3 +36,5 @@ void* allocate_memory(std::size_t bytes) noexcept {
 [[gnu::noinline]] void operator delete(void* memory, std::size_t /*bytes*/) noexcept {
   std::free(memory);
 }
+
+#endif

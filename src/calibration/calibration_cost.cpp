@@ -37,6 +37,8 @@ constexpr double worth_a_try = 2.0;
 /// Bytes for every bond that may change on its own, in space (170 000 to 1 100 000 bonds: 900 to
 /// 1 600; by a factor 21 000 of 69 000 bonds), and for the square of the number of equations of
 /// bonds that are made alike (9 600: 0.67 GB, 11 000: 0.8).
+/// With all of them there are the bonds themselves.
+constexpr double bytes_of_any_bond = 100.0;
 constexpr double bytes_of_bond = 1300.0, bytes_by_factor = 20000.0, bytes_of_equations = 7.0;
 /// The matrix of their equations is nearly full: so many take 2 GB.
 constexpr double most_alike_equations = 20000.0;
@@ -136,6 +138,7 @@ CalibrationReport expected_calibration(const CalibrationInput& input, const Face
     report.seconds = cost_of_single_bonds(input, moments);
     report.bytes = bytes_of_single_bonds(input, moments);
   }
+  report.bytes += bytes_of_any_bond * input.bonds.size();
   return report;
 }
 

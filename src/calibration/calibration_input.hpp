@@ -54,7 +54,7 @@ struct CalibrationReport {
   Index dropped = 0;          ///< bonds that may carry nothing: their stiffness is zero
   int iterations = 0;         ///< conjugate gradients, in all
   double seconds = 0.0;       ///< wall time, with that of the families of a lattice
-  double bytes = 0.0;         ///< memory beside the network; expected ones only
+  double bytes = 0.0;         ///< memory with the network; expected ones only
 };
 
 }  // namespace perilink

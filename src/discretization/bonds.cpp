@@ -55,7 +55,8 @@ void Bonds::append_alike(Index i, Index j, Index as) {
 }
 
 void Bonds::append(Index i, Index j, double length, std::span<const double> towards) {
-  if (!kind.empty()) kind.push_back(static_cast<Index>(lengths.size()));
+  const bool has_kinds = !kind.empty() || lengths.size() != first.size();
+  if (has_kinds) kind.push_back(static_cast<Index>(lengths.size()));
   first.push_back(i);
   second.push_back(j);
   lengths.push_back(length);

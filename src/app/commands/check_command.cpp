@@ -209,8 +209,7 @@ void print_cost(const CaseFile& input, const Network& network,
                    : "faster than a factor for so many unknowns");
   }
   const double to_calibrate = network.calibration ? network.calibration->bytes : 0.0;
-  fmt::print("#   memory             {:.3g} GB\n",
-             std::max(cost.memory, to_calibrate + bytes_of_bonds(network)) / 1e9);
+  fmt::print("#   memory             {:.3g} GB\n", std::max(cost.memory, to_calibrate) / 1e9);
   print_set_up(set_up);
   fmt::print("#   {:<18} {}\n", factor ? "factorisation" : "solution",
              time_text(cost.factorization));

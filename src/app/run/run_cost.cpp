@@ -17,8 +17,10 @@ constexpr double search_seconds_per_bond = 1e-9;
 /// Boxes and some 55 iterations (verification/studies/large_bodies).
 constexpr double box_seconds_per_bond = 0.5e-6, box_seconds_per_frame_bond = 3e-6;
 constexpr double box_bytes_per_bond = 145.0, box_bytes_per_frame_bond = 580.0, box_bytes = 50e6;
-/// Elastic runs, and those where bonds share their directions (952 875 unknowns: 1.47, 0.95 GB).
-constexpr double elastic_bytes_per_bond = 76.0, elastic_bytes_per_alike_bond = 49.0;
+/// Elastic runs with bonds of their own, and with bonds that share their directions (horizons of
+/// three spacings, 952 875 unknowns: 1.47 and 0.95 GB; of two, 3 090 231 unknowns: 1.48 GB).
+constexpr double elastic_bytes_per_bond = 63.0, elastic_bytes_per_alike_bond = 35.0;
+constexpr double elastic_bytes_per_particle = 820.0;
 /// An event of the smallest body: row, bookkeeping, progress (meshes/rc_cantilever.toml).
 constexpr double seconds_per_row = 15e-6;
 
@@ -106,13 +108,11 @@ double time_of_calibration(const CaseFile& input, const Model& model) {
   return build_model(input).network.calibration->seconds;
 }
 
-double bytes_of_bonds(const Network& network) { return 100.0 * network.num_elements(); }
-
 ExpectedCost expected_cost(const Network& network, const FactorStatistics& factor,
                            bool forces_alone) {
   ExpectedCost cost;
   // The draft is behind us: its peak is known.
-  cost.memory = std::max(peak_memory_bytes(), 1.3 * factor.bytes + 3.0 * bytes_of_bonds(network));
+  cost.memory = std::max(peak_memory_bytes(), 1.3 * factor.bytes + 300.0 * network.num_elements());
   cost.factorization = factor.flops / factor_flops_per_second;
   const double share = forces_alone ? share_that_is_kept(network) : 1.0;
   cost.broken_bond =
@@ -134,11 +134,13 @@ ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
   const double bonds = network.num_elements();
   ExpectedCost cost;
   const bool frames = network.carries_moments();
+  const bool bars = !frames && !events;
   const double bond_bytes = frames                       ? box_bytes_per_frame_bond
                             : events                     ? box_bytes_per_bond
                             : network.bonds.kind.empty() ? elastic_bytes_per_bond
                                                          : elastic_bytes_per_alike_bond;
   cost.memory = box_bytes + bonds * bond_bytes;
+  if (bars) cost.memory += elastic_bytes_per_particle * network.particles.size();
   cost.factorization = bonds * (frames ? box_seconds_per_frame_bond : box_seconds_per_bond);
   cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   if (!events) return cost;

@@ -29,9 +29,6 @@ struct ExpectedCost {
   double field_file = 0.0;     ///< [s]
 };
 
-/// Memory of a network with what belongs to its bonds [bytes].
-double bytes_of_bonds(const Network& network);
-
 /// Field files of a run until so many bonds are broken.
 Index field_files(const OutputSection& output, Index broken_bonds);
 

@@ -138,12 +138,12 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
     last_size = size;
     // Near the end one step has to do: what the dual function gains from there on is round-off of
     // its sums.
-    const bool near = settled || (step == 0 && !options_.start.empty());
-    normal_.prepare_if_stale(near);
+    const bool last = settled || (step == 0 && !options_.start.empty());
+    normal_.prepare_if_stale(settled, last);
     pattern = normal_.mobility;
     given_up = normal_.compliance;
     // The first steps only find out which weights are at their bounds.
-    const double coarse = near ? 0.0 : step == 0 ? 1e-2 : 1e-3;
+    const double coarse = last ? 0.0 : step == 0 ? 1e-2 : 1e-3;
     const double reduction = std::max({coarse, 0.3 * target / size, 1e-12});
     result_.iterations += normal_.solve(residual_, reduction, direction);
     const double length = last_length = search_line(residual_, direction, y);

@@ -70,7 +70,9 @@ class NormalEquations {
   /// while it takes less time than a new one.
   void prepare();
   /// The factor of an earlier mobility serves until it needs too many iterations.
-  void prepare_if_stale(bool settled);
+  /// \param settled  the weights between their bounds are those of the last step
+  /// \param last     the step is to meet the equations; tied ones make use of it
+  void prepare_if_stale(bool settled, bool last);
   /// S direction = residual, the residual reduced by the factor. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
   /// Only tied equations count operations.
@@ -264,7 +266,7 @@ void NormalEquations<Rows, Odd, Grouped>::prepare() {
 }
 
 template <int Rows, int Odd, bool Grouped>
-void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled) {
+void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled, bool /*last*/) {
   if (!by_factor_) {
     if (!settled) build_blocks();
   } else if (!kept_.factor || last_iterations_ > stale_iterations ||

@@ -226,8 +226,8 @@ void TiedNormalEquations::prepare() {
   last_iterations_ = 0;
 }
 
-void TiedNormalEquations::prepare_if_stale(bool settled) {
-  eased_ = settled ? least_proximity - settled_proximity : 0.0;
+void TiedNormalEquations::prepare_if_stale(bool /*settled*/, bool last) {
+  eased_ = last ? least_proximity - settled_proximity : 0.0;
   if (!factor_ || last_iterations_ > factor_->worth()) prepare();
 }
 

@@ -74,7 +74,7 @@ class TiedNormalEquations {
   void measure(const std::vector<double>& unknowns, const Vector& y, Vector& residual) const;
   /// Makes the factor for the mobility as it is now.
   void prepare();
-  void prepare_if_stale(bool settled);
+  void prepare_if_stale(bool settled, bool last);
   /// S direction = residual, the residual reduced by the factor. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
 

@@ -176,7 +176,8 @@ class AnchoredTies {
     std::vector<double> arms;
     for (std::size_t k = begin; k < end; ++k) {
       for (std::size_t a = 0; a < dim; ++a) {
-        arms.push_back(-ways_.length(static_cast<Index>(k)) * ways_.directions[k * dim + a]);
+        arms.push_back(-ways_.length(static_cast<Index>(k)) *
+                       ways_.direction(static_cast<Index>(k))[a]);
       }
     }
     for (double& arm : arms) arm = std::isnan(arm) ? 0.0 : arm;  // a particle at the node

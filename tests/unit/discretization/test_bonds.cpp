@@ -187,5 +187,16 @@ TEST(SharedDirections, TellApartWhatIsNearlyTheSame) {
   }
 }
 
+TEST(SharedDirections, MoreMayComeWhereAllAreGone) {
+  const Body body = square(Surface::none);
+  Bonds bonds = make_bonds(body.particles, 0.3);
+  share_directions(bonds);
+  keep_bonds(bonds, std::vector<std::uint8_t>(bonds.first.size(), 0));
+  const std::vector<double> along = {0.6, 0.8};
+  bonds.append(0, 1, 0.25, along);
+  EXPECT_EQ(bonds.length(0), 0.25);
+  EXPECT_EQ(bonds.direction(0)[1], 0.8);
+}
+
 }  // namespace
 }  // namespace perilink

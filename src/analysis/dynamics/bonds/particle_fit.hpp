@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "discretization/bonds.hpp"
 #include "material/j2_plasticity.hpp"
 
 namespace perilink {
@@ -18,9 +19,8 @@ class ParticleStrains {
  public:
   /// Appends a particle.
   /// \param halves   its bonds: direction, element, and whether they lead to neighbours (mine)
-  /// \param lengths  per element [length]
   template <class Half>
-  void add(std::span<const Half> halves, std::span<const double> lengths) {
+  void add(std::span<const Half> halves, const Bonds& bonds) {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Index>(halves.size()), entries);
     for (std::size_t k = 0; k < halves.size(); ++k) {
       if (!halves[k].mine) continue;
@@ -35,13 +35,13 @@ class ParticleStrains {
     for (int c = 0; c < entries; ++c) {
       double sum = 0.0;
       for (std::size_t k = 0; k < halves.size(); ++k) {
-        sum += std::abs(inverse(c, static_cast<Index>(k))) / lengths[halves[k].element];
+        sum += std::abs(inverse(c, static_cast<Index>(k))) / bonds.length(halves[k].element);
       }
       largest = std::max(largest, sum);
     }
     for (std::size_t k = 0; k < halves.size(); ++k) {
       for (int c = 0; c < entries; ++c) {
-        inverse_.push_back(inverse(c, static_cast<Index>(k)) / lengths[halves[k].element]);
+        inverse_.push_back(inverse(c, static_cast<Index>(k)) / bonds.length(halves[k].element));
       }
     }
     largest_.push_back(largest);

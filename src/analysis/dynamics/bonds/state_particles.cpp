@@ -157,7 +157,7 @@ StateParticles<Dim>::StateParticles(const Network& network, Problem problem,
   check_bands(network.particles, materials, thickness);
   for (Index i = 0; i < network.particles.size(); ++i) {
     band_.push_back(band_of(network.particles, i, thickness));
-    strains_.add(halves_of(i), std::span<const double>(bonds.lengths));
+    strains_.add(halves_of(i), bonds);
     const HookeConstants& hooke = hooke_of(i);
     // Neighbours' damage at most doubles a share.
     calm_.push_back(material(i).softening.strength /

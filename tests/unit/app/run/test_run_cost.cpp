@@ -72,5 +72,23 @@ TEST(RunCost, ADraftHasTheSizesOfTheModel) {
   EXPECT_NE(draft.network.stiffness, model.network.stiffness);
 }
 
+/// Bonds that share their directions take 28 bytes less each.
+TEST(RunCost, CountsTheMemoryOfParticlesAndBonds) {
+  Model draft = draft_model(test::strip_case());
+  Network& network = draft.network;
+  const double single = expected_cost_of_boxes(network, false).memory;
+  EXPECT_GT(single, 800.0 * network.particles.size() + 60.0 * network.num_elements());
+  share_directions(network.bonds);
+  ASSERT_FALSE(network.bonds.kind.empty());
+  EXPECT_NEAR(single - expected_cost_of_boxes(network, false).memory, 28.0 * network.num_elements(),
+              1.0);
+}
+
+TEST(RunCost, CalibrationsHaveTheBondsInMemory) {
+  const Model draft = draft_model(test::strip_case());
+  ASSERT_TRUE(draft.network.calibration.has_value());
+  EXPECT_GE(draft.network.calibration->bytes, 100.0 * draft.network.num_elements());
+}
+
 }  // namespace
 }  // namespace perilink

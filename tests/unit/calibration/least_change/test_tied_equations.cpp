@@ -136,5 +136,58 @@ TEST(TiedNormalEquations, SolvesDependentRows) {
   EXPECT_NEAR(change.weights[1], 1.8, 1e-10);
 }
 
+/// Two equations that differ by 2e-5: their softest direction has an eigenvalue of 1e-10, as the
+/// shift of a step before weights are settled, which leaves a half. From 4e-6 to the tolerance
+/// twelve such steps would be needed.
+TEST(TiedNormalEquations, SettledStepsMeetSoftEquations) {
+  PointEquations equations;
+  equations.rows = 2;
+  equations.first = {0, 0};
+  equations.second = {no_index, no_index};
+  equations.unknown = {0, 1};
+  constexpr double apart = 2e-5;
+  equations.coefficients = {1.0, 1.0, 1.0, 1.0 + apart};
+  equations.lower.assign(2, 0.0);
+  equations.upper.assign(2, 10.0);
+  equations.right = {1.9, 1.9 + 0.7 * apart};
+  equations.scale.assign(2, 1.0);
+  equations.positions = {0.0, 0.0};
+  LeastChangeOptions options;
+  options.tolerance = 1e-9;
+  const LeastChange change = least_change(equations, options);
+  EXPECT_TRUE(change.converged);
+  EXPECT_LT(change.iterations, 8);
+  EXPECT_NEAR(change.weights[0], 1.2, 1e-4);  // the tolerance over what they differ by
+  EXPECT_NEAR(change.weights[1], 0.7, 1e-4);
+}
+
+/// The minimum is unique, wherever the search starts.
+TEST(TiedNormalEquations, GoOnFromMultipliers) {
+  const PointEquations equations = make_ring(20, 9, 0.9).one;
+  const LeastChange whole = least_change(equations, {});
+  LeastChangeOptions options;
+  options.tolerance = 1e-4;
+  const LeastChange coarse = least_change(equations, options);
+  ASSERT_EQ(coarse.multipliers.size(), equations.right.size());
+  EXPECT_LT(coarse.iterations, whole.iterations);
+  options.tolerance = 1e-12;
+  options.start = coarse.multipliers;
+  const LeastChange end = least_change(equations, options);
+  EXPECT_TRUE(end.converged);
+  EXPECT_LT(end.iterations, whole.iterations);
+  for (std::size_t v = 0; v < whole.weights.size(); ++v) {
+    EXPECT_NEAR(end.weights[v], whole.weights[v], 1e-9);
+  }
+}
+
+/// Where nothing may be left by a step at settled weights the first such step ends the search.
+TEST(TiedNormalEquations, EndWhereASettledStepLeavesTooMuch) {
+  const PointEquations equations = make_ring(20, 9, 0.9).one;
+  LeastChangeOptions options;
+  options.contradiction = 0.0;
+  EXPECT_FALSE(least_change(equations, options).converged);
+  EXPECT_TRUE(least_change(equations, {}).converged);
+}
+
 }  // namespace
 }  // namespace perilink

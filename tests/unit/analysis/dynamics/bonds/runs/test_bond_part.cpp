@@ -92,6 +92,18 @@ TEST_F(BondPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
   }
 }
 
+TEST_F(BondPartTest, KeepsWhatBondsShare) {
+  const BondPart apart = part(1);
+  share_directions(body_.network.bonds);
+  ASSERT_FALSE(body_.network.bonds.kind.empty());
+  const Bonds &single = apart.body.network.bonds, &shared = part(1).body.network.bonds;
+  ASSERT_EQ(shared.second, single.second);
+  for (Index e = 0; e < single.size(); ++e) {
+    EXPECT_NEAR(shared.length(e), single.length(e), 1e-12 * single.length(e));
+    EXPECT_NEAR(shared.direction(e)[0], single.direction(e)[0], 1e-12);
+  }
+}
+
 TEST_F(BondPartTest, ArrivesAsItWasSent) {
   const BondPart sent = part(1);
   const Parcel parcel = sent.pack();
