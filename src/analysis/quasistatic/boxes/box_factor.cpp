@@ -18,7 +18,7 @@ constexpr std::size_t fewest_blocks = 64 / block_width;
 constexpr double slower = 1.3;
 
 /// Pivots below which the window begins anew.
-constexpr double small_pivot = 0.05;
+constexpr double small_pivot = 0.1;
 
 /// Errors of columns over those of solutions: an event moves the body by little, and what that
 /// leaves is taken away at every check.
