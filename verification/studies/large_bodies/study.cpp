@@ -7,7 +7,7 @@
 //                          events of all scenes, or one, without a factor, and with one beside it
 //
 // Exit status 1 when iterations grow by more than 15 % from the smallest body of a series to the
-// largest, or events differ. A quarter of an hour, and 12 GB for the largest factor.
+// largest, or events differ. Six minutes, and 6 GB for the largest factor.
 
 #include <fmt/format.h>
 #include <sys/wait.h>
