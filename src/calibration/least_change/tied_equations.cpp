@@ -33,8 +33,8 @@ void multiply(const TiedEquations::Matrix& matrix, const Column& x, Column& prod
 
 /// Weight of the method of multipliers, as without a factor. With less, Newton's method gets lost
 /// where many weights pass their bounds: symmetry leaves rows that depend on each other.
-/// Where none passes its bound any more a part of it does: along the softest fields a step with all
-/// of it would leave a half of the residual.
+/// Where none passes its bound any more a part of it does: with all, a step would leave a half of
+/// the residual along the softest fields.
 constexpr double least_proximity = 1e-10, settled_proximity = 1e-12;
 /// Added to the diagonal of the factor beside that, relative to its mean: round-off must not make
 /// rows negative that depend on others.

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "calibration/least_change/least_change.hpp"
 
@@ -117,19 +119,25 @@ TEST(TiedEquations, OfOnePointLeadToTheSolutionOfAll) {
   }
 }
 
-/// A row without variables and one that repeats another, as symmetry makes them, do no harm.
-TEST(TiedNormalEquations, SolvesDependentRows) {
+/// Two weights of their own at one point.
+PointEquations two_weights(std::vector<double> coefficients, std::vector<double> right) {
   PointEquations equations;
-  equations.rows = 3;
+  equations.rows = static_cast<int>(right.size());
   equations.first = {0, 0};
   equations.second = {no_index, no_index};
   equations.unknown = {0, 1};
-  equations.coefficients = {1.0, 1.0, 0.0, 2.0, 2.0, 0.0};
+  equations.coefficients = std::move(coefficients);
   equations.lower.assign(2, 0.0);
   equations.upper.assign(2, 10.0);
-  equations.right = {5.0, 5.0, 0.0};
-  equations.scale.assign(3, 1.0);
+  equations.scale.assign(right.size(), 1.0);
+  equations.right = std::move(right);
   equations.positions = {0.0, 0.0};
+  return equations;
+}
+
+/// A row without variables and one that repeats another, as symmetry makes them, do no harm.
+TEST(TiedNormalEquations, SolvesDependentRows) {
+  const PointEquations equations = two_weights({1.0, 1.0, 0.0, 2.0, 2.0, 0.0}, {5.0, 5.0, 0.0});
   const LeastChange change = least_change(equations, {});
   EXPECT_TRUE(change.converged);
   EXPECT_NEAR(change.weights[0], 1.4, 1e-10);  // (1, 2) 0.4 from (1, 1)
@@ -140,18 +148,9 @@ TEST(TiedNormalEquations, SolvesDependentRows) {
 /// shift of a step before weights are settled, which leaves a half. From 4e-6 to the tolerance
 /// twelve such steps would be needed.
 TEST(TiedNormalEquations, SettledStepsMeetSoftEquations) {
-  PointEquations equations;
-  equations.rows = 2;
-  equations.first = {0, 0};
-  equations.second = {no_index, no_index};
-  equations.unknown = {0, 1};
   constexpr double apart = 2e-5;
-  equations.coefficients = {1.0, 1.0, 1.0, 1.0 + apart};
-  equations.lower.assign(2, 0.0);
-  equations.upper.assign(2, 10.0);
-  equations.right = {1.9, 1.9 + 0.7 * apart};
-  equations.scale.assign(2, 1.0);
-  equations.positions = {0.0, 0.0};
+  const PointEquations equations =
+      two_weights({1.0, 1.0, 1.0, 1.0 + apart}, {1.9, 1.9 + 0.7 * apart});
   LeastChangeOptions options;
   options.tolerance = 1e-9;
   const LeastChange change = least_change(equations, options);
