@@ -33,11 +33,17 @@ PointMatrix::Pairs shared_points(const PointEquations& equations) {
   return pairs;
 }
 
+std::vector<Index> first_rows(const PointEquations& equations) {
+  std::vector<Index> first;
+  for (Index p = 0; p <= equations.num_points(); ++p) first.push_back(p * equations.rows);
+  return first;
+}
+
 }  // namespace
 
 EquationsFactor::EquationsFactor(const PointEquations& equations)
     : rows_(equations.rows),
-      matrix_(equations.rows, equations.num_points(), shared_points(equations)) {}
+      matrix_(first_rows(equations), shared_points(equations)) {}
 
 void EquationsFactor::fill(const PointEquations& equations, const std::vector<double>& active,
                            const std::vector<double>& diagonal, double floor) {

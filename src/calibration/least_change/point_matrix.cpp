@@ -4,34 +4,42 @@
 
 namespace perilink {
 
-PointMatrix::PointMatrix(Index rows, Index points, Pairs pairs) : rows_(rows) {
+PointMatrix::PointMatrix(std::vector<Index> first_row, Pairs pairs)
+    : first_row_(std::move(first_row)) {
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  offsets_.assign(static_cast<std::size_t>(points) + 1, 0);
+  offsets_.assign(first_row_.size(), 0);
   for (const auto& [point, later] : pairs) {
     ++offsets_[point + 1];
     later_.push_back(later);
   }
-  for (Index p = 0; p < points; ++p) offsets_[p + 1] += offsets_[p];
-  const Index size = points * rows;
-  matrix_.resize(size, size);
-  matrix_.resizeNonZeros(static_cast<Index>(later_.size()) * rows * rows +
-                         points * rows * (rows + 1) / 2);
+  Index numbers = 0;
+  for (Index p = 0; p < points(); ++p) {
+    offsets_[p + 1] += offsets_[p];
+    Index behind = 0;
+    for (Index k = offsets_[p]; k < offsets_[p + 1]; ++k) {
+      below_.push_back(behind);
+      behind += rows(later_[k]);
+    }
+    numbers += rows(p) * (rows(p) + 1) / 2 + rows(p) * behind;
+  }
+  matrix_.resize(first_row_.back(), first_row_.back());
+  matrix_.resizeNonZeros(numbers);
   Index next = 0;
-  for (Index p = 0; p < points; ++p) {
-    for (Index c = 0; c < rows; ++c) {
-      matrix_.outerIndexPtr()[p * rows + c] = next;
-      for (Index r = c; r < rows; ++r) matrix_.innerIndexPtr()[next++] = p * rows + r;
+  for (Index p = 0; p < points(); ++p) {
+    for (Index c = first_row_[p]; c < first_row_[p + 1]; ++c) {
+      matrix_.outerIndexPtr()[c] = next;
+      for (Index r = c; r < first_row_[p + 1]; ++r) matrix_.innerIndexPtr()[next++] = r;
       for (Index k = offsets_[p]; k < offsets_[p + 1]; ++k) {
-        for (Index r = 0; r < rows; ++r) matrix_.innerIndexPtr()[next++] = later_[k] * rows + r;
+        const Index last = first_row_[later_[k] + 1];
+        for (Index r = first_row_[later_[k]]; r < last; ++r) matrix_.innerIndexPtr()[next++] = r;
       }
     }
   }
-  matrix_.outerIndexPtr()[size] = next;
+  matrix_.outerIndexPtr()[first_row_.back()] = next;
 }
 
-bool PointMatrix::holds(Index points, const Pairs& pairs) const {
-  if (static_cast<std::size_t>(points) + 1 != offsets_.size()) return false;
+bool PointMatrix::holds(const Pairs& pairs) const {
   return std::ranges::all_of(pairs, [&](const std::pair<Index, Index>& pair) {
     return std::binary_search(later_.begin() + offsets_[pair.first],
                               later_.begin() + offsets_[pair.first + 1], pair.second);
@@ -39,17 +47,18 @@ bool PointMatrix::holds(Index points, const Pairs& pairs) const {
 }
 
 double* PointMatrix::block(Index upper, Index lower, Index column) {
-  double* begin = matrix_.valuePtr() + matrix_.outerIndexPtr()[upper * rows_ + column];
+  double* begin = matrix_.valuePtr() + matrix_.outerIndexPtr()[first_row_[upper] + column];
   if (upper == lower) return begin - column;
   const auto first = later_.begin() + offsets_[upper], last = later_.begin() + offsets_[upper + 1];
-  return begin + rows_ - column + (std::lower_bound(first, last, lower) - first) * rows_;
+  const auto found = std::lower_bound(first, last, lower);
+  return begin + rows(upper) - column + below_[found - later_.begin()];
 }
 
 void PointMatrix::set_zero() { std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0); }
 
 std::vector<Index> PointMatrix::point_of_rows() const {
   std::vector<Index> points;
-  for (Index k = 0; k < matrix_.cols(); ++k) points.push_back(k / rows_);
+  for (Index p = 0; p < this->points(); ++p) points.insert(points.end(), rows(p), p);
   return points;
 }
 

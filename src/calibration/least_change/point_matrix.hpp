@@ -13,13 +13,13 @@ class PointMatrix {
  public:
   using Pairs = std::vector<std::pair<Index, Index>>;
 
-  /// \param rows   equations at each point
-  /// \param pairs  points that share a variable, the lower number first, in any order and more
-  ///               than once
-  PointMatrix(Index rows, Index points, Pairs pairs);
+  /// \param first_row  where the rows of each point begin, and at the end the number of all
+  /// \param pairs      points that share a variable, the lower number first, in any order and more
+  ///                   than once
+  PointMatrix(std::vector<Index> first_row, Pairs pairs);
 
-  /// Whether the pattern holds these pairs of as many points.
-  bool holds(Index points, const Pairs& pairs) const;
+  /// Whether the pattern holds these pairs.
+  bool holds(const Pairs& pairs) const;
 
   /// Where the rows of a point begin in a column of another one before it, or in its own (where
   /// those above the column are not stored).
@@ -30,8 +30,12 @@ class PointMatrix {
   std::vector<Index> point_of_rows() const;
 
  private:
-  Index rows_;
+  Index points() const { return static_cast<Index>(first_row_.size()) - 1; }
+  Index rows(Index point) const { return first_row_[point + 1] - first_row_[point]; }
+
+  std::vector<Index> first_row_;
   std::vector<Index> offsets_, later_;  // points after each one that share a variable with it
+  std::vector<Index> below_;            // per later point: rows behind those of the point itself
   SparseMatrix matrix_;
 };
 

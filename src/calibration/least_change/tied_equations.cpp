@@ -75,6 +75,41 @@ PointMatrix::Pairs shared_points(const TiedEquations::Matrix& columns, Index row
   return pairs;
 }
 
+/// Rows of one point that differ from a combination of those before them by more than this part of
+/// the longest (squares). Round-off leaves 1e-17, rows that count 1e-9.
+constexpr double independent = 1e-13;
+
+/// Which of the rows of a point do not follow from those before it, with their products with each
+/// other.
+std::vector<bool> independent_rows(Eigen::MatrixXd products) {
+  const Eigen::Index count = products.rows();
+  const double least = independent * products.diagonal().maxCoeff();
+  std::vector<bool> kept;
+  for (Eigen::Index r = 0; r < count; ++r) {
+    kept.push_back(products(r, r) > least);
+    if (!kept.back()) continue;
+    const Eigen::VectorXd column = products.col(r) / std::sqrt(products(r, r));
+    products -= column * column.transpose();
+  }
+  return kept;
+}
+
+/// Drops equations that follow from others of their point: symmetry of a place lets forces along
+/// what it mirrors vanish, and makes others the same.
+void drop_dependent_rows(TiedEquations& tied) {
+  const Eigen::Index rows = tied.equations.rows;
+  std::vector<bool> kept;
+  for (Eigen::Index first = 0; first < tied.matrix.rows(); first += rows) {
+    const TiedEquations::Matrix own = tied.matrix.middleRows(first, rows);
+    const std::vector<bool> here = independent_rows((own * own.transpose()).toDense());
+    kept.insert(kept.end(), here.begin(), here.end());
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (!kept[k]) tied.equations.right[k] = 0.0;
+  }
+  tied.matrix.prune([&](Eigen::Index row, Eigen::Index, double) { return kept[row]; });
+}
+
 }  // namespace
 
 std::vector<double> TiedEquations::weights(std::span<const double> unknowns) const {
@@ -124,16 +159,31 @@ TiedEquations tie(const PointEquations& equations) {
   tied.matrix.resize(static_cast<Eigen::Index>(small.right.size()),
                      static_cast<Eigen::Index>(tied.root.size()));
   tied.matrix.setFromTriplets(entries.begin(), entries.end());
+  drop_dependent_rows(tied);
   return tied;
 }
 
+/// Where the rows of each point begin, without those that hold nothing.
+std::vector<Index> TiedFactor::place_rows(const TiedEquations& tied) {
+  std::vector<Index> first_row;
+  for (Index k = 0; k < static_cast<Index>(tied.matrix.rows()); ++k) {
+    if (k % rows_ == 0) first_row.push_back(static_cast<Index>(row_.size()));
+    place_.push_back(static_cast<Index>(row_.size()) - first_row.back());
+    if (tied.matrix.outerIndexPtr()[k + 1] > tied.matrix.outerIndexPtr()[k]) row_.push_back(k);
+  }
+  first_row.push_back(static_cast<Index>(row_.size()));
+  return first_row;
+}
+
 TiedFactor::TiedFactor(const TiedEquations& tied, const TiedEquations::Matrix& columns)
-    : rows_(tied.equations.rows),
-      matrix_(rows_, tied.equations.num_points(), shared_points(columns, rows_)) {}
+    : rows_(tied.equations.rows), matrix_(place_rows(tied), shared_points(columns, rows_)) {}
 
 bool TiedFactor::fits(const TiedEquations& tied, const TiedEquations::Matrix& columns) const {
-  return rows_ == tied.equations.rows &&
-         matrix_.holds(tied.equations.num_points(), shared_points(columns, rows_));
+  if (rows_ != tied.equations.rows || place_.size() != tied.equations.right.size()) return false;
+  const auto holds = [&](Index row) { return std::ranges::binary_search(row_, row); };
+  const std::span<const int> used(columns.innerIndexPtr(),
+                                  static_cast<std::size_t>(columns.nonZeros()));
+  return std::ranges::all_of(used, holds) && matrix_.holds(shared_points(columns, rows_));
 }
 
 void TiedFactor::factorize(const TiedEquations::Matrix& columns, std::span<const double> mobility,
@@ -149,9 +199,9 @@ void TiedFactor::factorize(const TiedEquations::Matrix& columns, std::span<const
         const Index lower = row_of[from] / rows_;
         for (int c = first; c < last; ++c) {
           const double factor = value[c] * mobility[u];
-          double* entries = matrix_.block(upper, lower, row_of[c] - upper * rows_);
+          double* entries = matrix_.block(upper, lower, place_[row_of[c]]);
           for (int r = upper == lower ? c : from; r < to; ++r) {
-            entries[row_of[r] - lower * rows_] += factor * value[r];
+            entries[place_[row_of[r]]] += factor * value[r];
           }
         }
       };
@@ -160,16 +210,13 @@ void TiedFactor::factorize(const TiedEquations::Matrix& columns, std::span<const
       });
     });
   }
-  const auto entry = [&](Index k) -> double& {
-    return matrix_.block(k / rows_, k / rows_, k % rows_)[k % rows_];
+  const auto entry = [&](Index row) -> double& {
+    return matrix_.block(row / rows_, row / rows_, place_[row])[place_[row]];
   };
   double trace = 0.0;
-  for (Index k = 0; k < static_cast<Index>(shift.size()); ++k) trace += entry(k);
-  const double floor = factor_floor * trace / static_cast<double>(shift.size());
-  for (Index k = 0; k < static_cast<Index>(shift.size()); ++k) {
-    // Symmetry leaves nothing to some rows.
-    entry(k) += entry(k) > 0.0 ? shift[k] + floor : 1.0;
-  }
+  for (const Index row : row_) trace += entry(row);
+  const double floor = factor_floor * trace / static_cast<double>(row_.size());
+  for (const Index row : row_) entry(row) += entry(row) > 0.0 ? shift[row] + floor : 1.0;
   if (factor_) {
     factor_->refactorize(matrix_.matrix());
   } else {
@@ -177,6 +224,14 @@ void TiedFactor::factorize(const TiedEquations::Matrix& columns, std::span<const
     factor_->factorize(matrix_.matrix(), matrix_.point_of_rows());
     statistics_ = factor_->statistics();
   }
+}
+
+void TiedFactor::solve(std::span<const double> residual, std::span<double> result) const {
+  std::vector<double> some;
+  for (const Index row : row_) some.push_back(residual[row]);
+  factor_->solve(some, some);
+  std::ranges::fill(result, 0.0);
+  for (std::size_t k = 0; k < row_.size(); ++k) result[row_[k]] = some[k];
 }
 
 int TiedFactor::worth() const {

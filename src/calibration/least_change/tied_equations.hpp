@@ -21,7 +21,8 @@ struct TiedEquations {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
   PointEquations equations;       ///< right sides, scale and ridge; bounds of the unknowns
-  Matrix matrix;                  ///< scaled, shape (points * rows, unknowns)
+  /// Scaled, shape (points * rows, unknowns); rows that follow from others of their point are zero.
+  Matrix matrix;
   std::vector<double> root;       ///< sqrt(n) of each unknown
   std::vector<Index> unknown_of;  ///< per variable
 
@@ -43,9 +44,7 @@ class TiedFactor {
   /// \param shift     added to the diagonal
   void factorize(const TiedEquations::Matrix& columns, std::span<const double> mobility,
                  std::span<const double> shift);
-  void solve(std::span<const double> residual, std::span<double> result) const {
-    factor_->solve(residual, result);
-  }
+  void solve(std::span<const double> residual, std::span<double> result) const;
   /// Iterations of conjugate gradients that take as long as a new factor.
   int worth() const;
   /// What a factor takes, and a solution in operations of a factor.
@@ -53,7 +52,11 @@ class TiedFactor {
   double operations_of_solution() const;
 
  private:
+  std::vector<Index> place_rows(const TiedEquations& tied);
+
   Index rows_;
+  std::vector<Index> row_;    // those that hold something, ascending
+  std::vector<Index> place_;  // per row: its place among those of its point
   FactorStatistics statistics_;
   PointMatrix matrix_;
   std::unique_ptr<Factor> factor_;

@@ -18,7 +18,8 @@ namespace {
 constexpr double least_ratio_refused = 20.0;
 
 /// What a run holds for a bond, its factor not counted: about what `perilink check` estimates.
-constexpr double bytes_per_bond = 300.0;
+/// Elastic answers by boxes hold less.
+constexpr double bytes_per_bond = 300.0, elastic_bytes_per_bond = 65.0;
 
 constexpr const char* usual = "two to four spacings are usual: horizon_ratio = 3";
 
@@ -46,7 +47,8 @@ double neighbours_of(const HorizonReach& reach) {
 void refuse_too_many_bonds(const CaseFile& input, const HorizonReach& reach) {
   const double neighbours = neighbours_of(reach);
   const double bonds = 0.5 * neighbours * reach.particles;
-  const double bytes = bytes_per_bond * bonds;
+  const bool elastic = input.analysis.type == AnalysisType::elastic;
+  const double bytes = (elastic ? elastic_bytes_per_bond : bytes_per_bond) * bonds;
   const bool numbered = bonds / reach.parts <= std::numeric_limits<Index>::max();
   if (numbered && bytes * reach.parts_here / reach.parts <= reach.memory) return;
   throw InputError(

@@ -135,6 +135,32 @@ PointEquations two_weights(std::vector<double> coefficients, std::vector<double>
   return equations;
 }
 
+TEST(TiedEquations, DropRowsThatFollowFromOthersOfTheirPoint) {
+  const TiedEquations tied = tie(two_weights({1.0, 1.0, 0.0, 2.0, 2.0, 0.0}, {5.0, 5.0, 0.0}));
+  EXPECT_EQ(tied.matrix.nonZeros(), 2);
+  EXPECT_EQ(tied.matrix.coeff(0, 1), 2.0);
+  EXPECT_EQ(tied.equations.right, (std::vector<double>{5.0, 0.0, 0.0}));
+  EXPECT_EQ(tie(two_weights({1.0, 1.0, 1.0, 1.0 + 1e-5}, {2.0, 2.0})).matrix.nonZeros(), 4);
+}
+
+/// The same factor serves behind bonds that are gone, whose rows follow from others then.
+TEST(TiedFactor, FitsEquationsWithFewerRows) {
+  const TiedEquations two = tie(two_weights({1.0, 1.0, 1.0, 2.0}, {2.0, 3.0}));
+  const TiedEquations one = tie(two_weights({1.0, 1.0, 1.0, 1.0}, {2.0, 2.0}));
+  const TiedEquations::Matrix columns_of_two = two.matrix.transpose();
+  const TiedEquations::Matrix columns_of_one = one.matrix.transpose();
+  TiedFactor large(two, columns_of_two);
+  const TiedFactor small(one, columns_of_one);
+  EXPECT_TRUE(large.fits(one, columns_of_one));
+  EXPECT_FALSE(small.fits(two, columns_of_two));
+  const std::vector<double> mobility = {1.0, 1.0}, shift = {0.0, 0.0}, right = {4.0, 0.0};
+  std::vector<double> result(2);
+  large.factorize(columns_of_one, mobility, shift);
+  large.solve(right, result);
+  EXPECT_NEAR(result[0], 2.0, 1e-11);  // the row that is left: (1, 1) times itself
+  EXPECT_EQ(result[1], 0.0);
+}
+
 /// A row without variables and one that repeats another, as symmetry makes them, do no harm.
 TEST(TiedNormalEquations, SolvesDependentRows) {
   const PointEquations equations = two_weights({1.0, 1.0, 0.0, 2.0, 2.0, 0.0}, {5.0, 5.0, 0.0});

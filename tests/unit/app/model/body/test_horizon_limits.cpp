@@ -16,8 +16,9 @@ using test::strip_case;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string answer(const HorizonReach& reach) {
+std::string answer(const HorizonReach& reach, AnalysisType type = AnalysisType::damage) {
   CaseFile input = strip_case();
+  input.analysis.type = type;
   try {
     refuse_impossible_horizon(input, reach);
   } catch (const InputError& error) {
@@ -42,6 +43,12 @@ TEST(HorizonLimits, HoldTheBondsAgainstMemoryAndNumbers) {
                     HasSubstr("1.5e+09 bonds and 458 GB; this machine has 100 GB")));
   EXPECT_EQ(answer(block(3, 5e11)), "accepted");
   EXPECT_THAT(answer(block(6, 1e99)), HasSubstr("at most 2.1e+09 bonds can be numbered"));
+}
+
+/// 10 million unknowns by two ranks hold 65 bytes a bond at most, not 300.
+TEST(HorizonLimits, HoldFewerBytesForElasticBonds) {
+  EXPECT_EQ(answer(block(3, 1e11), AnalysisType::elastic), "accepted");
+  EXPECT_THAT(answer(block(3, 9e10), AnalysisType::elastic), HasSubstr("and 99.2 GB"));
 }
 
 TEST(HorizonLimits, HoldTheBondsOfAPartAgainstTheMachineThatMakesIt) {
