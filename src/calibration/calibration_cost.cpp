@@ -29,18 +29,18 @@ constexpr double bonds_of_rate = 170000.0, growth_in_space = 0.4;
 /// That takes longer the more they are: the rate is that of so many.
 constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6, bonds_by_factor = 70000.0;
 /// Bonds that lie alike made alike: seconds for each bond, and operations of factors of their
-/// equations over c r^3 n^2 for n kinds of places with r rows and c bonds each (some factors and a
-/// hundred or two solutions).
-constexpr double alike = 4e-6, alike_operations = 3.0, operations_per_second = 3e10;
+/// equations over c r^3 n^2 for n kinds of places with r rows and c bonds each (a factor and a
+/// hundred solutions).
+constexpr double alike = 0.6e-6, alike_operations = 1.7, operations_per_second = 3e10;
 /// They must save so much: they may have no solution, and both costs are rough.
 constexpr double worth_a_try = 2.0;
 /// Bytes for every bond that may change on its own, in space (170 000 to 1 100 000 bonds: 900 to
 /// 1 600; by a factor 21 000 of 69 000 bonds), and for the square of the number of equations of
-/// bonds that are made alike (9 600: 0.67 GB, 11 000: 0.8).
+/// bonds that are made alike (9 600: 0.48 GB in all, 14 800: 1.16).
 /// With all of them there are the bonds themselves.
 constexpr double bytes_of_any_bond = 100.0;
-constexpr double bytes_of_bond = 1300.0, bytes_by_factor = 20000.0, bytes_of_equations = 7.0;
-/// The matrix of their equations is nearly full: so many take 2 GB.
+constexpr double bytes_of_bond = 1300.0, bytes_by_factor = 20000.0, bytes_of_equations = 4.5;
+/// The matrix of their equations is nearly full: so many take 1.8 GB.
 constexpr double most_alike_equations = 20000.0;
 
 /// The same constants all over; materials may differ in strength.
