@@ -270,10 +270,12 @@ GradientsReport block_conjugate_gradients(
     const BlockMap<Number>& product, const BlockMap<Number>& precondition, std::span<Number> right,
     std::span<Number> solution, const BlockRow& sizes, double enough, int most_iterations,
     const std::function<void(std::span<const Number> solution, std::span<Number> right)>& correct,
-    const SumOverParts& sum) {
+    const SumOverParts& sum, BlockSpace<Number>* space) {
   constexpr double epsilon = std::numeric_limits<Number>::epsilon();
   constexpr double same = std::max(10.0 * epsilon, 1e-12);
-  BlockVector<Number> z(right.size()), p(right.size()), q(right.size());
+  BlockSpace<Number> own;
+  auto& [p, q, z] = space != nullptr ? *space : own;
+  for (BlockVector<Number>* vectors : {&p, &q, &z}) vectors->resize(right.size());
   std::ranges::fill(solution, Number{0});
   std::array<EnergyGains, width> gains;
   Products now{};
@@ -325,11 +327,13 @@ GradientsReport block_conjugate_gradients(
 template GradientsReport block_conjugate_gradients<double>(
     const BlockMap<double>&, const BlockMap<double>&, std::span<double>, std::span<double>,
     const BlockRow&, double, int,
-    const std::function<void(std::span<const double>, std::span<double>)>&, const SumOverParts&);
+    const std::function<void(std::span<const double>, std::span<double>)>&, const SumOverParts&,
+    BlockSpace<double>*);
 template GradientsReport block_conjugate_gradients<float>(
     const BlockMap<float>&, const BlockMap<float>&, std::span<float>, std::span<float>,
     const BlockRow&, double, int,
-    const std::function<void(std::span<const float>, std::span<float>)>&, const SumOverParts&);
+    const std::function<void(std::span<const float>, std::span<float>)>&, const SumOverParts&,
+    BlockSpace<float>*);
 
 void add_combination(std::span<const double> columns, std::span<const double> weights,
                      std::span<double> result) {

@@ -128,7 +128,9 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
     unit[c] = local[c] > 0.0 ? std::sqrt(local[c]) : 1.0;
     scaled[c] = sizes[c] / (unit[c] * unit[c]);
   }
-  BlockVector<float> found(right.size()), missing(right.size());
+  auto& [found, missing, residual, space] = single_space_;
+  for (BlockVector<float>* vectors : {&found, &missing}) vectors->resize(right.size());
+  residual.resize(right.size());
   const auto for_each_particle = [&](auto visit) {
 #pragma omp parallel for schedule(static) if (network_.particles.size() > many_particles)
     for (Index p = 0; p < network_.particles.size(); ++p) {
@@ -153,7 +155,6 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
   round(right, missing);
   const auto correct = [&](std::span<const float> part, std::span<float> left) {
     add(part);
-    BlockVector<double> residual(right.size());
     multiply_block(solution, residual);
     for (std::size_t k = 0; k < right.size(); ++k) residual[k] = right[k] - residual[k];
     round(residual, left);
@@ -163,7 +164,7 @@ GradientsReport BoxSolver::search_in_single(std::span<const double> right,
     report = block_conjugate_gradients<float>(
         [&](auto q, auto result, const RowsDone& done) { single_->multiply(q, result, done); },
         [&](auto r, auto z, const RowsDone& done) { single_->precondition(r, z, done); }, missing,
-        found, scaled, finer_of_trusses * enough, most_iterations, correct);
+        found, scaled, finer_of_trusses * enough, most_iterations, correct, {}, &space);
   });
   add(found);
   return report;

@@ -239,20 +239,20 @@ std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& mis
 void BoxFactor::take_in(std::span<const SparseVector> x, Correction* correction) {
   const auto before = static_cast<Eigen::Index>(window_.size());
   const auto size = before + static_cast<Eigen::Index>(x.size());
-  BlockVector<double> right(unknowns_->number.size() * block_width, 0.0);
+  right_.assign(unknowns_->number.size() * block_width, 0.0);
   for (std::size_t c = 0; c < x.size(); ++c) {
     for (int k = 0; k < x[c].size(); ++k) {
-      right[slot_of_[x[c].rows[k]] * block_width + c] = x[c].values[k];
+      right_[slot_of_[x[c].rows[k]] * block_width + c] = x[c].values[k];
     }
     put_in_window(x[c], now_);
   }
   for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
-    right[slot_of_[k] * block_width + block_width - 1] = correction->residual[k];
+    right_[slot_of_[k] * block_width + block_width - 1] = correction->residual[k];
   }
-  blocks_.emplace_back(right.size());
+  blocks_.emplace_back(right_.size());
   const double enough = coarser * options_.tolerance;
   const int iterations = solver_
-                             ->solve_block(right, blocks_.back(), enough,
+                             ->solve_block(right_, blocks_.back(), enough,
                                            correction != nullptr ? correction->energy : 0.0)
                              .iterations;
   if (first_iterations_ == 0) first_iterations_ = iterations;

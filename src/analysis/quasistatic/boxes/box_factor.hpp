@@ -127,6 +127,7 @@ class BoxFactor final : public Factor {
   /// Columns of K^-1 as it was when they were solved for, block after block, each of shape
   /// (particles, width, block_width).
   std::vector<BlockVector<double>> blocks_;
+  BlockVector<double> right_;   ///< right sides of a block, of the same shape
   Eigen::MatrixXd shares_;      ///< F: the present columns are those of the blocks times F
   Eigen::MatrixXd compliance_;  ///< H: e' K^-1 e of the present columns
   std::optional<DeferredMotion> deferred_;

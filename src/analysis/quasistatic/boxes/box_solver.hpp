@@ -131,6 +131,12 @@ class BoxSolver {
   std::vector<double> motion_;           // shape (particles, width), zero where it is prescribed
   BlockVector<double> packed_motion_, packed_forces_;  // the same in the order of packed bonds
   BlockVector<double> coarse_block_;
+  /// Of search_in_single(), shape (n, block_width).
+  struct SingleSpace {
+    BlockVector<float> found, missing;
+    BlockVector<double> residual;
+    BlockSpace<float> search;
+  } single_space_;
   ThreadChoice product_threads_{omp_get_max_threads()}, inverse_threads_ = product_threads_;
   ThreadChoice block_threads_ = product_threads_;
   InternalForce forces_;
