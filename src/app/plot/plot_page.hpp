@@ -36,7 +36,7 @@ struct KeyEntry {
 
 /// What the colours of the particles mean.
 struct ColorBar {
-  std::string label = "damage index";
+  std::string label = "damage";
   double low = 0.0;
   double high = 1.0;
 };
