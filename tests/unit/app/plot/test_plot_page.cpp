@@ -44,5 +44,14 @@ TEST(BodyPage, FrameNamesAxesUnitsAndKey) {
   }
 }
 
+TEST(BodyPage, FrameShowsTheAxesOfSpace) {
+  const BodyPage page = make_page(PlotBody{}, {});
+  Svg svg(page.width, page.height);
+  draw_page(svg, page, 3, {}, "", {}, {});
+  for (const char* axis : {">x<", ">y<", ">z<"}) {
+    EXPECT_NE(svg.str().find(axis), std::string::npos) << axis;
+  }
+}
+
 }  // namespace
 }  // namespace perilink
