@@ -1,5 +1,6 @@
 #include "assembly/distributed_loads.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -101,13 +102,14 @@ std::size_t width_of(const Particles& particles, const Loads& loads) {
 }
 
 double cell_volume(const Particles& particles, std::span<const Index> cell) {
+  const int dim = static_cast<int>(cell.size()) - 1;  // a sheet in space has triangles
   std::array<Vector3, 3> edges{};
-  for (int k = 0; k < particles.dim; ++k) {
-    for (int a = 0; a < particles.dim; ++a) {
+  for (int k = 0; k < dim; ++k) {
+    for (int a = 0; a < dim; ++a) {
       edges[k][a] = particles.position(cell[k + 1])[a] - particles.position(cell[0])[a];
     }
   }
-  if (particles.dim == 2) {
+  if (dim == 2) {
     return 0.5 * std::abs(edges[0][0] * edges[1][1] - edges[0][1] * edges[1][0]);
   }
   double product = 0.0;
@@ -116,6 +118,36 @@ double cell_volume(const Particles& particles, std::span<const Index> cell) {
     product += edges[0][a] * (edges[1][b] * edges[2][c] - edges[1][c] * edges[2][b]);
   }
   return std::abs(product) / 6.0;
+}
+
+/// Whether the members of a region are flagged at all corners.
+bool is_whole(std::span<const Index> corners, std::span<const std::uint8_t> is_member) {
+  return std::all_of(corners.begin(), corners.end(), [&](Index i) { return is_member[i] != 0; });
+}
+
+std::vector<double> cell_shares(const Particles& particles, const Simplices& cells,
+                                std::span<const std::uint8_t> is_member) {
+  std::vector<double> shares(is_member.size(), 0.0);
+  for (Index number = 0; number < cells.size(); ++number) {
+    const std::span<const Index> cell = cells.cell(number);
+    if (!is_whole(cell, is_member)) continue;
+    for (const Index i : cell) shares[i] += cell_volume(particles, cell);
+  }
+  return shares;
+}
+
+std::vector<double> facet_shares(const Facets& facets, std::span<const std::uint8_t> is_member) {
+  std::vector<double> shares(is_member.size(), 0.0);
+  for (Index facet = 0; facet < facets.size(); ++facet) {
+    const std::span<const Index> corners = facets.corners.row(facet);
+    if (!facets.on_surface(facet) || !is_whole(corners, is_member)) continue;
+    double square = 0.0;
+    for (const double component : facets.area_vector(facet)) square += component * component;
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      shares[corners[c]] += std::sqrt(square) * facets.shares[facets.corners.offsets[facet] + c];
+    }
+  }
+  return shares;
 }
 
 }  // namespace
@@ -153,6 +185,19 @@ double add_surface_load(const Particles& particles, const Facets& facets,
     }
   }
   return sizes;
+}
+
+std::vector<double> force_shares(const Particles& particles, const Simplices& cells,
+                                 const Facets& facets, std::span<const Index> members) {
+  std::vector<std::uint8_t> is_member(static_cast<std::size_t>(particles.size()), 0);
+  for (const Index i : members) is_member[i] = 1;
+  const auto misses_some = [&](const std::vector<double>& shares) {
+    return std::any_of(members.begin(), members.end(), [&](Index i) { return shares[i] == 0.0; });
+  };
+  std::vector<double> shares = cell_shares(particles, cells, is_member);
+  if (cells.size() > 0 && misses_some(shares)) shares = facet_shares(facets, is_member);
+  if (misses_some(shares)) shares = particles.volumes;
+  return shares;
 }
 
 void add_lumped_body_load(const Particles& particles, std::span<const Index> members,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "base/types.hpp"
 #include "discretization/facets.hpp"
@@ -29,6 +30,15 @@ using BodyLoad = std::function<Vector3(std::span<const double> position)>;
 /// \return the integral of |t| [force]
 double add_surface_load(const Particles& particles, const Facets& facets,
                         std::span<const Index> members, const SurfaceLoad& load, Loads& loads);
+
+/// What the particles of a region bear of a force that is spread over it evenly, in proportion:
+/// volumes of the cells whose corners are all members, else areas of such facets of the surface
+/// (then a uniform traction). Where these miss a member or there are no cells, its volume V_i.
+/// \param cells    empty: a lattice of bonds, on whose faces volumes are in proportion to areas
+/// \param members  the region; the shares of others mean nothing
+/// \return per particle [length^3], of facets [length^2]
+std::vector<double> force_shares(const Particles& particles, const Simplices& cells,
+                                 const Facets& facets, std::span<const Index> members);
 
 /// Adds b(x_i) V_i for the particles of a region: the rule of lattices.
 void add_lumped_body_load(const Particles& particles, std::span<const Index> members,

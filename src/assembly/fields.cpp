@@ -92,7 +92,7 @@ void for_each_frame_energy(const Network& network, Secants secants, std::span<co
 
 }  // namespace
 
-std::vector<double> damage_index(const Network& network, const Csr& families, Secants secants) {
+std::vector<double> particle_damage(const Network& network, const Csr& families, Secants secants) {
   std::vector<double> damage(static_cast<std::size_t>(families.rows()), 0.0);
   if (secants.size() == 0) return damage;  // nothing is damaged
   for (Index i = 0; i < families.rows(); ++i) {

@@ -11,9 +11,9 @@
 
 namespace perilink {
 
-/// Damage index: the part of the stiffness that bonds have lost, weighted by the volumes at their
+/// Damage: the part of the stiffness that bonds have lost, weighted by the volumes at their
 /// other ends, per particle [-]. Bars that yield are not damaged.
-std::vector<double> damage_index(const Network& network, const Csr& families, Secants secants);
+std::vector<double> particle_damage(const Network& network, const Csr& families, Secants secants);
 
 /// The displacements without the rotations, shape (particles, dim).
 /// \param motion  shape (particles, width)

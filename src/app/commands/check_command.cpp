@@ -63,28 +63,46 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
     fmt::print("#   breakable bonds    none: the analysis is elastic\n");
     return;
   }
-  Index breakable = 0;
+  Index breakable = 0, softening = 0;
   double smallest = INFINITY, largest = 0.0;
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!network.can_break(e)) continue;
     const double limit = network.critical_stretch[e] * network.law(e).tooth(0).limit;
     ++breakable;
+    if (network.law(e).tooth(1).secant > 0.0) {  // its first event does not break it
+      ++softening;
+      continue;
+    }
     smallest = std::min(smallest, limit);
     largest = std::max(largest, limit);
   }
   if (breakable == 0) {
     fmt::print("#   breakable bonds    none\n");
   } else {
-    const std::string stretches = largest > (1.0 + 1e-9) * smallest
-                                      ? fmt::format("{:.5g} to {:.5g}", smallest, largest)
-                                      : fmt::format("{:.5g}", smallest);
-    fmt::print("#   breakable bonds    {}, critical stretch {}\n", breakable, stretches);
+    fmt::print("#   breakable bonds    {}", breakable);
+    if (softening == breakable) {
+      fmt::print(", which soften");
+    } else if (softening > 0) {
+      fmt::print(", {} of which soften", softening);
+    }
+    if (softening < breakable) {
+      fmt::print(", critical stretch {}{:.5g}", softening > 0 ? "of the others " : "", smallest);
+      if (largest > (1.0 + 1e-9) * smallest) fmt::print(" to {:.5g}", largest);
+    }
+    fmt::print("\n");
   }
   for (std::size_t m = 0; m < crack_cost.size() && breakable > 0; ++m) {
     if (crack_cost[m] == 1.0) continue;  // bonds that soften have none
     fmt::print("#   cost of a crack    {:.4g} of what its bonds release, material {}\n",
                crack_cost[m], m + 1);
   }
+}
+
+/// What a law of many teeth comes to.
+void print_softening(const MaterialStrength& strength) {
+  fmt::print("#   softening          at stretches from {:.5g} to {:.5g} in {} teeth\n",
+             strength.first_stretch, strength.last_stretch, strength.teeth);
+  fmt::print("#   fracture energy    {:.5g}\n", strength.fracture_energy);
 }
 
 void print_strengths(const std::vector<MaterialStrength>& strengths) {
@@ -94,14 +112,12 @@ void print_strengths(const std::vector<MaterialStrength>& strengths) {
     fmt::print("#   tensile strength   {:.5g}, process zone E G/f^2 = {:.4g}, material {}\n",
                strength.tensile_strength, strength.process_zone, m + 1);
     if (strength.compressive_strength > 0.0) {
-      fmt::print("#   compression        strength {:.5g}; fracture energy {:.5g}\n",
-                 strength.compressive_strength, strength.fracture_energy);
+      fmt::print("#   compression        strength {:.5g}\n", strength.compressive_strength);
     }
     if (strength.teeth == 1) {
       fmt::print("#                      by the horizon, as brittle bonds have it\n");
     } else {
-      fmt::print("#   softening          at stretches from {:.5g} to {:.5g} in {} teeth\n",
-                 strength.first_stretch, strength.last_stretch, strength.teeth);
+      print_softening(strength);
     }
   }
 }
@@ -112,6 +128,7 @@ void print_interfaces(const std::vector<InterfaceBonds>& interfaces) {
     fmt::print(
         "#   interface {}        {} bonds cross about {:.2g} of area, tensile strength {:.5g}{}\n",
         k + 1, count, area, strength.tensile_strength, strength.teeth > 1 ? "" : " by the horizon");
+    if (strength.teeth > 1) print_softening(strength);
   }
 }
 

@@ -99,6 +99,22 @@ void compare_energies(Pair& pair) {
   }
 }
 
+/// In a history of one row the peak is at its end.
+void compare_gauges(Pair& pair) {
+  const bool have_peaks = pair.a.records.size() > 1 || pair.b.records.size() > 1;
+  for (const RunResult* result : {&pair.a, &pair.b}) {
+    for (const auto& [name, value] : result->gauges) {
+      const std::string key = "gauge." + name;
+      if (pair.has(key + ".at_end")) continue;
+      if (have_peaks) {
+        pair.add(key + ".at_peak_load", "", number_of(pair.a.gauges_at_peak, name),
+                 number_of(pair.b.gauges_at_peak, name));
+      }
+      pair.add(key + ".at_end", "", number_of(pair.a.gauges, name), number_of(pair.b.gauges, name));
+    }
+  }
+}
+
 void compare_cracks(Pair& pair) {
   const double tolerance = std::max(pair.a.horizon, pair.b.horizon);
   CrackOverlap cracks{no_value, no_value, no_value, no_value, no_value};
@@ -183,6 +199,7 @@ Comparison compare_results(const RunResult& a, const RunResult& b) {
   }
   compare_curves(pair);
   compare_energies(pair);
+  compare_gauges(pair);
   compare_cracks(pair);
   compare_summaries(pair);
   return std::move(pair.found);

@@ -79,7 +79,11 @@ void read_rows(const fs::path& directory, RunResult& result) {
   }
   if (table.cut_off) result.notes.push_back(cut_off_note);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    result.last_row.emplace_back(table.columns[c], table.rows.back()[c]);
+    const std::string& name = table.columns[c];
+    result.last_row.emplace_back(name, table.rows.back()[c]);
+    if (is_history_column(name)) continue;
+    result.gauges.push_back(result.last_row.back());
+    result.gauges_at_peak.emplace_back(name, table.rows[peak_row(result.records)][c]);
   }
 }
 

@@ -22,12 +22,13 @@ struct RunResult {
   std::string directory;  ///< as given
   std::string name;       ///< last part of its path
   PlotLabels labels;
-  std::string units;                 ///< from summary.json; empty: none
-  std::string status;                ///< from summary.json; empty: there is none
-  NamedNumbers summary;              ///< numbers of summary.json, those of `seconds` as seconds.KEY
-  std::vector<StepRecord> records;   ///< rows of history.csv
-  NamedNumbers last_row;             ///< all columns of history.csv
-  std::optional<CrackPattern> body;  ///< from the last field file
+  std::string units;                ///< from summary.json; empty: none
+  std::string status;               ///< from summary.json; empty: there is none
+  NamedNumbers summary;             ///< numbers of summary.json, those of `seconds` as seconds.KEY
+  std::vector<StepRecord> records;  ///< rows of history.csv
+  NamedNumbers last_row;            ///< all columns of history.csv
+  NamedNumbers gauges, gauges_at_peak;  ///< at the last row, and at that of peak_row()
+  std::optional<CrackPattern> body;     ///< from the last field file
   /// From summary.json, else the longest broken bond, or two spacings where that is more: the reach
   /// of a lattice whose bonds see the neighbours of either end; 0 without fields [length].
   double horizon = 0.0;

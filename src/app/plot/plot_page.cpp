@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -104,6 +105,26 @@ void draw_key(Svg& svg, const BodyPage& page, const std::vector<KeyEntry>& key) 
   }
 }
 
+/// Which way the axes of space go, in the upper right corner.
+void draw_triad(Svg& svg, const BodyPage& page) {
+  constexpr double length = 30.0, beyond = 1.36;  // to the middle of the letter
+  const SvgPoint origin{page.width - 64.0, 48.0};
+  const auto end = [&](int axis, double part) {
+    Vector3 unit{};
+    unit[axis] = part * length;
+    const Vector3 seen = view(unit, 3);
+    return SvgPoint{origin.x + seen[0], origin.y - seen[1]};
+  };
+  constexpr std::array<const char*, 3> names = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    svg.line(origin, end(axis, 1.0),
+             "stroke=\"#444\" stroke-width=\"1.6\" stroke-linecap=\"round\"");
+    const SvgPoint letter_at = end(axis, beyond);
+    svg.text({letter_at.x, letter_at.y + 4.5}, names[axis], "middle", small_style);
+  }
+  svg.circle(origin, 2.2, "fill=\"#444\"");
+}
+
 }  // namespace
 
 BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen) {
@@ -150,6 +171,7 @@ void draw_page(Svg& svg, const BodyPage& page, int dim, const PlotLabels& labels
               {page.low[1], page.low[1] + tall, page.bottom, page.top},
               with_unit("x", labels.length), with_unit("y", labels.length), Grid::none);
   }
+  if (dim == 3) draw_triad(svg, page);
   draw_color_bar(svg, page, colors);
   draw_scale_bar(svg, page, labels.length);
   draw_key(svg, page, key);

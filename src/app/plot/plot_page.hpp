@@ -36,12 +36,13 @@ struct KeyEntry {
 
 /// What the colours of the particles mean.
 struct ColorBar {
-  std::string label = "damage index";
+  std::string label = "damage";
   double low = 0.0;
   double high = 1.0;
 };
 
-/// Title, line of numbers, axes (two-dimensional bodies), scale bar, colour bar and key.
+/// Title, line of numbers, axes (of bodies in space their directions, in a corner), scale bar,
+/// colour bar and key.
 void draw_page(Svg& svg, const BodyPage& page, int dim, const PlotLabels& labels,
                const std::string& caption, const ColorBar& colors,
                const std::vector<KeyEntry>& key);

@@ -104,7 +104,7 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
   append_cells(grid, network, broken_elements_in_order);
   grid.point_data = {
       {"displacement", 3, padded_to_three(displacement, dim)},
-      {"damage", 1, damage_index(network, families, secants)},
+      {"damage", 1, particle_damage(network, families, secants)},
       {"region", 1, as_doubles(network.particles.material)},
       {"kind", 1, as_doubles(network.particles.kind)},
       {"volume", 1, network.particles.volumes},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -129,6 +130,12 @@ std::vector<std::string> history_columns(const CaseFile& input) {
     if (column.is_shown(bonds_break)) names.emplace_back(column.name);
   }
   return names;
+}
+
+bool is_history_column(const std::string& name) {
+  const auto named = [&](const auto& column) { return column.name == name; };
+  return std::any_of(columns.begin(), columns.end(), named) ||
+         std::any_of(time_columns.begin(), time_columns.end(), named);
 }
 
 HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input)

@@ -15,6 +15,9 @@ namespace perilink {
 /// Columns of the history of a case, without its gauges.
 std::vector<std::string> history_columns(const CaseFile& input);
 
+/// Whether a column belongs to runs of some kind; else it is that of a gauge.
+bool is_history_column(const std::string& name);
+
 /// Writes DIR/history.csv (what happened, the same in every run on a machine) and DIR/timing.csv
 /// (how long each row took) of any run. Rows reach the disk at most twice a second, since runs make
 /// thousands of events per second, and when the writer is destroyed.

@@ -8,6 +8,7 @@
 #include "app/results/field_pieces.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
+#include "app/run/run_warnings.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {
@@ -33,6 +34,43 @@ VtuGrid make_grid(const Model& model, const Csr& families, std::span<const doubl
 bool has_stress_gauges(const Model& model) {
   return std::any_of(model.gauges.begin(), model.gauges.end(),
                      [](const Gauge& gauge) { return gauge.stress.has_value(); });
+}
+
+/// Calls visit(first, second) for the ends of all bonds of the solid, or edges of linear elements.
+template <class Visit>
+void for_each_bond(const Model& model, Visit visit) {
+  if (model.pattern) {
+    const LatticeGrid& grid = model.pattern->grid;
+    const GridWindow all = grid.all();
+    PatternBonds(*model.pattern)
+        .for_each(all, [&](const GridPoint& first, const GridPoint& second, Index) {
+          visit(grid.number(all, first), grid.number(all, second));
+        });
+    return;
+  }
+  const Bonds& bonds = model.network.bonds;
+  for (Index e = 0; e < model.network.first_tie; ++e) visit(bonds.first[e], bonds.second[e]);
+}
+
+/// Share of the bonds whose vectors change by more than a tenth of their lengths.
+/// \param motion  shape (particles, width)
+double share_of_large_motion(const Model& model, std::span<const double> motion) {
+  constexpr double small = 0.1;
+  const Particles& particles = model.network.particles;
+  const std::size_t width = model.network.width();
+  double large = 0.0, all = 0.0;
+  for_each_bond(model, [&](Index i, Index j) {
+    double length = 0.0, change = 0.0;  // squares
+    for (int a = 0; a < particles.dim; ++a) {
+      const double u = motion[j * width + a] - motion[i * width + a];
+      const double x = particles.position(j)[a] - particles.position(i)[a];
+      change += u * u;
+      length += x * x;
+    }
+    all += 1.0;
+    if (change > small * small * length) large += 1.0;
+  });
+  return all > 0.0 ? large / all : 0.0;
 }
 
 /// A run with type = "elastic".
@@ -94,6 +132,10 @@ class ElasticRun final : public NetworkRun {
   void tell(Summary& summary) const override {
     Equilibria found(answer_);
     found.places = places_;
+    if (!answer_.solution.displacement.empty()) {
+      const double share = share_of_large_motion(model_, answer_.solution.displacement);
+      if (auto doubt = doubt_about_motion(share)) found.doubts.push_back(std::move(*doubt));
+    }
     tell_quasistatic(summary, input, model_, found, seconds.analysis);
     const ElasticResult& solution = answer_.solution;
     if (solution.boxes == 0) return;

@@ -102,6 +102,16 @@ std::optional<std::string> doubt_about_size(const CurvePoint& peak, double lengt
       peak.load, peak.displacement, part);
 }
 
+std::optional<std::string> doubt_about_motion(double share) {
+  constexpr double few = 0.01;  // around point loads strains have no limit
+  if (share <= few) return std::nullopt;
+  return fmt::format(
+      "{:.2g} % of the body is stretched or turned by more than a tenth, where the theory, one of "
+      "small displacements, is no good: take smaller loads; are loads and moduli in units of one "
+      "system?",
+      100.0 * share);
+}
+
 std::string doubt_about_crushing(const CurvePoint& peak) {
   return fmt::format(
       "bonds are shorter than small strains allow, or were about to be: the peak, {:.6g} at "

@@ -59,6 +59,11 @@ std::vector<std::string> doubts_at_rest(const EnergyBalance& energy);
 /// \param length  longest side of the body [length]
 std::optional<std::string> doubt_about_size(const CurvePoint& peak, double length);
 
+/// The same of an elastic run: more than a hundredth of the bonds change by more than a tenth of
+/// their lengths, longer or turned.
+/// \param share  how many do, over all bonds or edges of linear elements [-]
+std::optional<std::string> doubt_about_motion(double share);
+
 /// The largest load of a run that went on, or ended, where bonds are too short for small strains.
 std::string doubt_about_crushing(const CurvePoint& peak);
 

@@ -203,6 +203,7 @@ void compare_series(const StudyFile& study, const std::vector<StudyMember*>& mem
     const StudyMember* coarser = nullptr;
     for (StudyMember* member : members) {
       const double value = member->values[e];
+      member->references.push_back(reference);
       member->errors.push_back(
           error.is_field() ? value : std::abs(value - reference) / std::abs(reference));
       member->orders.push_back(coarser == nullptr
@@ -356,6 +357,7 @@ void compare_members(const StudyFile& study, std::vector<StudyMember>& members) 
     return a.spacing > b.spacing;
   });
   for (StudyMember& member : members) {
+    member.references.clear();
     member.errors.clear();
     member.orders.clear();
   }

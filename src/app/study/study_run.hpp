@@ -40,6 +40,8 @@ struct StudyMember {
   double horizon = 0.0;  ///< [length]
   Index particles = 0, bonds = 0, unknowns = 0;
   std::vector<double> values;  ///< per error: the quantity, or the error of a field
+  /// Per error: what the quantity is compared with; not-a-number without, and of fields.
+  std::vector<double> references;
   std::vector<double> errors;  ///< per error, relative; not-a-number without a reference
   std::vector<double> orders;  ///< per error, against the next coarser member; not-a-number without
   MemberSeconds seconds;       ///< from the fastest repeat

@@ -26,6 +26,25 @@ std::string cell(double value, const char* format, int width) {
                            : fmt::format(fmt::runtime(format), value, width);
 }
 
+/// "4, as given", "3.98, the finest member's", or the formulas of a closed form.
+std::string reference_text(const ErrorSection& error, double reference) {
+  if (error.is_field()) {
+    std::string formulas;
+    for (const Expression& axis : error.displacement) {
+      formulas += formulas.empty() ? "" : ", ";
+      formulas += axis.is_constant() ? fmt::format("{}", axis.number) : axis.formula;
+    }
+    const bool removed = error.rigid_motion == RigidMotion::removed;
+    return fmt::format("closed form ({}){}", formulas, removed ? ", rigid motion removed" : "");
+  }
+  if (error.reference == Reference::number) return fmt::format("{:.8g}, as given", reference);
+  if (error.reference == Reference::finest) {
+    return fmt::format("{:.8g}, the finest member's", reference);
+  }
+  return std::isnan(reference) ? "none: the finest members approach no limit"
+                               : fmt::format("{:.8g}, extrapolated", reference);
+}
+
 class Report {
  public:
   explicit Report(const StudyFile& study) : study_(study) {}
@@ -34,6 +53,7 @@ class Report {
     append("\n{}\n", name);
     append("  {:>14} {:>10}", word_of(study_.vary.refinement), "unknowns");
     for (const ErrorSection& error : study_.errors) {
+      if (!error.is_field()) append(" {:>{}}", error.name, value_width_of(error));
       append(" {:>{}} {:>6}", "error of " + error.name, width_of(error), "order");
     }
     append(" {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "set-up s", "calibr.", "assembly", "factor",
@@ -52,7 +72,11 @@ class Report {
       below_ += fmt::format("  {}: note: {}\n", refinement_text(member.refinement), member.note);
     }
     append(" {:>10}", member.unknowns);
+    finest_ = &member;
     for (std::size_t e = 0; e < study_.errors.size(); ++e) {
+      if (!study_.errors[e].is_field()) {
+        append(" {}", cell(member.values[e], "{:>{}.8g}", value_width_of(study_.errors[e])));
+      }
       append(" {} {}", cell(member.errors[e], "{:>{}.3e}", width_of(study_.errors[e])),
              cell(member.orders[e], "{:>{}.2f}", 6));
     }
@@ -62,6 +86,11 @@ class Report {
   }
 
   void end_series() {
+    for (std::size_t e = 0; finest_ != nullptr && e < study_.errors.size(); ++e) {
+      append("  reference of {}: {}\n", study_.errors[e].name,
+             reference_text(study_.errors[e], finest_->references[e]));
+    }
+    finest_ = nullptr;
     text_ += below_;
     below_.clear();
   }
@@ -76,8 +105,12 @@ class Report {
   static int width_of(const ErrorSection& error) {
     return std::max(10, static_cast<int>(error.name.size()) + 9);
   }
+  static int value_width_of(const ErrorSection& error) {
+    return std::max(14, static_cast<int>(error.name.size()));
+  }
 
   const StudyFile& study_;
+  const StudyMember* finest_ = nullptr;  ///< the last of the series that has a result
   std::string text_;
   std::string below_;  ///< what is to be said of the members of a series
 };
@@ -111,7 +144,7 @@ std::string study_table(const StudyFile& study, std::span<const StudySeries> ser
   header.text("combination").text(refined).text("method").text("surface");
   header.text("mean_spacing").text("horizon").text("particles").text("bonds").text("unknowns");
   for (const ErrorSection& error : study.errors) {
-    if (!error.is_field()) header.text(error.name);
+    if (!error.is_field()) header.text(error.name).text(error.name + "_reference");
     header.text(error.name + "_error").text(error.name + "_order");
   }
   std::string table = header.text("failure").text("note").end();
@@ -126,7 +159,9 @@ std::string study_table(const StudyFile& study, std::span<const StudySeries> ser
     }
     for (std::size_t e = 0; e < study.errors.size(); ++e) {
       const bool field = study.errors[e].is_field();
-      if (!field) failed ? row.empty() : row.number(member.values[e]);
+      if (!field) {
+        failed ? row.empty().empty() : row.number(member.values[e]).number(member.references[e]);
+      }
       failed ? row.empty().empty() : row.number(member.errors[e]).number(member.orders[e]);
     }
     table += row.text(first_line(member.failure)).text(member.note).end();

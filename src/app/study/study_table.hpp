@@ -11,11 +11,12 @@
 
 namespace perilink {
 
-/// For people: one block per series with errors, orders and seconds, then what failed and why.
+/// For people: one block per series with values, errors, orders and seconds, then the references
+/// of the errors, what failed and why.
 std::string study_report(const StudyFile& study, std::span<const StudySeries> series,
                          std::span<const StudyMember> members);
 
-/// table.csv: sizes, values, errors and orders; nothing that depends on the clock.
+/// table.csv: sizes, values, references, errors and orders; nothing that depends on the clock.
 std::string study_table(const StudyFile& study, std::span<const StudySeries> series,
                         std::span<const StudyMember> members);
 

@@ -196,7 +196,6 @@ const Without of_events = set_aside(explicit_ | relaxation);
 const Without of_damage = set_aside(elastic | explicit_ | relaxation);
 const Without of_relaxation = set_aside(damage | elastic | explicit_);
 const Without of_time = set_aside(still);
-const Without solvers = {{elements, no_bonds, bonds_instead}, {explicit_ | relaxation, {}, {}}};
 const NotFor no_lattice_key{lattice | explicit_, "is given, but lattice particles do not have it",
                             "delete it; damping of lattices is a matter of [[materials]]"};
 const Without of_bonds_in_time = {{still, {}, {}}, no_lattice_key};
@@ -277,7 +276,7 @@ const std::vector<KeySchema> analysis_keys = {{"type", types},
                                               {"load_factors", set_aside(elastic | explicit_)},
                                               {"rigid_body_modes", {no_lattice_key}},
                                               {"factor", of_damage},
-                                              {"solver", solvers},
+                                              {"solver", of_events},
                                               {"coarse_box", of_events},
                                               {"duration", of_time},
                                               {"ramp_time", of_time},

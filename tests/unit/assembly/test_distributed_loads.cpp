@@ -159,6 +159,27 @@ TEST(DistributedLoads, OverTheVolumeOfALatticeAreValuesTimesVolumes) {
   EXPECT_EQ(loads.forces, (std::vector<double>{0, 0, 0, 0.25, 0.5, 0, 0.5, 0.5, 0}));
 }
 
+/// Two triangles over the rectangle 2 by 3, with the diagonal from particle 0 to 2, and volumes
+/// that no rule of areas gives.
+TEST(DistributedLoads, ForcesAreSharedByCellsElseByFacetsElseByVolumes) {
+  const Particles particles = particles_at(2, {0, 0, 2, 0, 2, 3, 0, 3});
+  Simplices cells;
+  cells.vertices = {0, 1, 2, 0, 2, 3};
+  cells.material = {0, 0};
+  const Facets facets = facets_of(cells, particles.positions, 1.0);
+  const auto shares = [&](const std::vector<Index>& members, const Simplices& of) {
+    const std::vector<double> all = force_shares(particles, of, facets, members);
+    std::vector<double> own;
+    for (const Index i : members) own.push_back(all[i]);
+    return own;
+  };
+  EXPECT_EQ(shares({0, 1, 2, 3}, cells), (std::vector<double>{6, 3, 6, 3})) << "areas of cells";
+  EXPECT_EQ(shares({1, 2}, cells), (std::vector<double>{1.5, 1.5})) << "half the edge of 3 each";
+  EXPECT_EQ(shares({0, 2}, cells), (std::vector<double>{0.25, 0.25})) << "no face: volumes";
+  EXPECT_EQ(shares({3}, cells), (std::vector<double>{0.25})) << "a point";
+  EXPECT_EQ(shares({1, 2}, Simplices{}), (std::vector<double>{0.25, 0.25})) << "a lattice of bonds";
+}
+
 /// Integrals of barycentric products over a simplex of volume V in dimension d:
 /// d! V a! b! c! / (a + b + c + d)!, here of N_0 N_1^2.
 TEST(DistributedLoads, OverCellsIntegrateQuadraticForces) {

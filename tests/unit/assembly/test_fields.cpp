@@ -20,10 +20,10 @@ TEST(DamageIndex, IsTheBrokenShareOfTheFamilyVolume) {
   const Network network = make_network({"", Pattern::rectangular, Surface::none}, 5);
   const Csr families = families_of(network);
   std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
-  for (const double damage : damage_index(network, families, secants)) EXPECT_EQ(damage, 0.0);
+  for (const double damage : particle_damage(network, families, secants)) EXPECT_EQ(damage, 0.0);
   // Break all bonds of particle 0, a corner.
   for (const Index b : families.row(0)) secants[b] = 0.0;
-  const auto damage = damage_index(network, families, secants);
+  const auto damage = particle_damage(network, families, secants);
   EXPECT_EQ(damage[0], 1.0);
   double volume = 0.0;
   for (const Index b : families.row(1)) {
@@ -34,7 +34,7 @@ TEST(DamageIndex, IsTheBrokenShareOfTheFamilyVolume) {
   EXPECT_EQ(damage.back(), 0.0);
   // What has lost a part of its stiffness is damaged by that part.
   for (const Index b : families.row(0)) secants[b] = 0.25;
-  EXPECT_DOUBLE_EQ(damage_index(network, families, secants)[0], 0.75);
+  EXPECT_DOUBLE_EQ(particle_damage(network, families, secants)[0], 0.75);
 }
 
 TEST(StrainEnergyDensity, SumsToTheEnergyOfTheNetwork) {

@@ -23,8 +23,8 @@ std::vector<double> damage_of(const Model& model, std::span<const Index> broken_
   const Network& network = model.network;
   std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
   for (const Index b : broken_bonds) secants[b] = 0.0;
-  return damage_index(network, bonds_of_particles(network.bonds, network.particles.size()),
-                      secants);
+  return particle_damage(network, bonds_of_particles(network.bonds, network.particles.size()),
+                         secants);
 }
 
 /// Particles of the ligament with at least `least` damage, those of each row gathered where less

@@ -32,20 +32,21 @@ std::vector<Index> solid_particles_of(const CaseFile& input, const Model& model,
   return members;
 }
 
-/// Shares a total force over the solid particles of a region in proportion to their volumes, or
-/// integrates a uniform body force.
-void add_uniform_load(const LoadSection& section, const Particles& particles,
-                      std::span<const Index> region, Loads& loads, LoadedPlace& place) {
+/// Shares a total force over the solid particles of a region, or integrates a uniform body force.
+void add_uniform_load(const LoadSection& section, const Model& model, std::span<const Index> region,
+                      Loads& loads, LoadedPlace& place) {
+  const Particles& particles = model.network.places();
   const std::size_t width = loads.forces.size() / static_cast<std::size_t>(particles.size());
-  double volume = 0.0;
-  for (const Index i : region) volume += particles.volumes[i];
+  const Simplices& cells = model.elements ? model.elements->cells : model.cells;
+  const std::vector<double> shares =
+      section.force ? force_shares(particles, cells, model.facets, region) : particles.volumes;
+  double whole = 0.0;
+  for (const Index i : region) whole += shares[i];
   Vector3 sum{};
   for (int a = 0; a < particles.dim; ++a) {
-    sum[a] = section.force ? (*section.force)[a] : (*section.body_force)[a].number * volume;
+    sum[a] = section.force ? (*section.force)[a] : (*section.body_force)[a].number * whole;
     place.force[a] += sum[a];
-    for (const Index i : region) {
-      loads.forces[i * width + a] += sum[a] * particles.volumes[i] / volume;
-    }
+    for (const Index i : region) loads.forces[i * width + a] += sum[a] * shares[i] / whole;
   }
   place.sizes += std::hypot(sum[0], sum[1], sum[2]);
 }
@@ -171,7 +172,7 @@ AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width,
         solid_particles_of(input, model, section.region, item_key("loads", k, "region"));
     LoadedPlace& place = place_named(all.places, section.region);
     if (section.force || section.body_force->is_constant()) {
-      add_uniform_load(section, particles, region, all.loads, place);
+      add_uniform_load(section, model, region, all.loads, place);
       continue;
     }
     Loads entry{std::vector<double>(all.loads.forces.size(), 0.0)};

@@ -298,6 +298,14 @@ void refuse_on_ghosts(const CaseFile& input, const std::string& key) {
                    "surface = \"none\" in [body]");
 }
 
+void check_solver_of_elements(const CaseFile& input) {
+  if (input.body.method != BodyMethod::linear_elements) return;
+  if (input.analysis.solver != LinearSolver::iterative) return;
+  throw InputError(input.where("analysis.solver"),
+                   "is \"iterative\", but linear elements are solved by a factor alone",
+                   "allowed with method = \"linear_elements\": \"auto\", \"direct\"");
+}
+
 }  // namespace
 
 void check_rules(const CaseFile& input) {
@@ -353,6 +361,7 @@ void check_rules(const CaseFile& input) {
     check_elements(input);
   }
   check_contradictions(input);
+  check_solver_of_elements(input);
   check_driven(input);
 }
 

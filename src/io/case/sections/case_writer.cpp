@@ -170,8 +170,8 @@ void write_run(TomlWriter& out, const CaseFile& input) {
   }
   out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
   if (breaks) out.write("factor", word_of(input.analysis.factor));
+  out.write("solver", word_of(input.analysis.solver));
   if (input.body.method == BodyMethod::bonds) {
-    out.write("solver", word_of(input.analysis.solver));
     out.write("coarse_box", input.analysis.coarse_box);
     if (!breaks) out.write("tolerance", input.analysis.tolerance);
   }

@@ -80,6 +80,24 @@ TEST(Comparison, TakesQuantitiesThatOnlyOneHas) {
   EXPECT_THAT(comparison_csv(a, b, found), HasSubstr("\nkinetic_energy,kN m,,0.125,,\n"));
 }
 
+TEST(Comparison, ComparesGaugesAtThePeakAndAtTheEnd) {
+  RunResult a = result_of("one", 4.0), b = result_of("two", 5.0);
+  a.gauges = {{"tip", 2.0}, {"other", 1.0}};
+  a.gauges_at_peak = {{"tip", 1.0}, {"other", 0.5}};
+  b.gauges = {{"tip", 3.0}};
+  b.gauges_at_peak = {{"tip", 1.5}};
+  const Comparison found = compare_results(a, b);
+  EXPECT_EQ(quantity(found, "gauge.tip.at_peak_load").difference_percent(), 50.0);
+  EXPECT_EQ(quantity(found, "gauge.tip.at_end").b, 3.0);
+  EXPECT_EQ(quantity(found, "gauge.other.at_end").a, 1.0);
+  EXPECT_TRUE(std::isnan(quantity(found, "gauge.other.at_end").b));
+  a.records.resize(1);
+  b.records.resize(1);
+  const Comparison elastic = compare_results(a, b);
+  EXPECT_EQ(quantity(elastic, "gauge.tip.at_end").a, 2.0);
+  EXPECT_THROW(quantity(elastic, "gauge.tip.at_peak_load"), std::out_of_range);
+}
+
 TEST(Comparison, DifferentUnitsAreNoted) {
   RunResult a = result_of("one", 4.0), b = result_of("two", 4.0);
   b.units = "N, mm";

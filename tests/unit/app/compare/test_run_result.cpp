@@ -64,6 +64,13 @@ TEST_F(RunResults, IsReadAsARunLeavesIt) {
   EXPECT_EQ(crack_overlap(*result.body, *result.body, 7.0).volume_a, 32.0);
 }
 
+TEST_F(RunResults, ColumnsThatNoRunHasAreGauges) {
+  write("history.csv", "step,time,load,displacement,tip\n1,0,3,0.1,7\n2,1,2,0.3,8\n");
+  const RunResult result = read();
+  EXPECT_EQ(result.gauges, (NamedNumbers{{"tip", 8.0}}));
+  EXPECT_EQ(result.gauges_at_peak, (NamedNumbers{{"tip", 7.0}}));
+}
+
 TEST_F(RunResults, VolumesAreThoseOfTheFile) {
   write("history.csv", history);
   VtuGrid grid = test::make_cracked_field({}, false);

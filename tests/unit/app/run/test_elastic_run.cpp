@@ -67,5 +67,25 @@ TEST(ElasticRun, TellsTheForcesOfItsPlaces) {
   EXPECT_NEAR(json["places"][1]["force"][1], load, 1e-10 * load);
 }
 
+/// The middle of the strip, 40 long, is stretched or sheared.
+TEST(ElasticRun, DoubtsStrainsAndRotationsAboveATenth) {
+  const auto doubts = [](int axis, double value) {
+    CaseFile input = elastic_case();
+    input.loads.clear();
+    DisplacementSection driven;
+    driven.region = "upper end";
+    driven.value[0] = driven.value[1] = 0.0;
+    driven.value[axis] = value;
+    input.displacements.push_back(driven);
+    return test::WholeRun(input).summary.json["doubts"];
+  };
+  for (const int axis : {0, 1}) {
+    EXPECT_TRUE(doubts(axis, 2.0).empty());
+    const auto found = doubts(axis, 8.0);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NE(found[0].get<std::string>().find("by more than a tenth"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace perilink

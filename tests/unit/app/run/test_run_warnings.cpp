@@ -132,6 +132,13 @@ TEST(RunDoubts, SeePeaksThatLieBeyondSmallDisplacements) {
                             HasSubstr("by 2 of its longest side")));
 }
 
+TEST(RunDoubts, SeeMotionThatIsNotSmall) {
+  EXPECT_EQ(doubt_about_motion(0.01), std::nullopt);
+  const auto doubt = doubt_about_motion(0.25);
+  ASSERT_TRUE(doubt);
+  EXPECT_THAT(*doubt, HasSubstr("25 % of the body is stretched or turned by more than a tenth"));
+}
+
 TEST(RunDoubts, NameWhatIsNotANumber) {
   EXPECT_THAT(doubts_of_balance(NAN, 0.0), ElementsAre(HasSubstr("out of balance")));
 }

@@ -170,6 +170,48 @@ TEST(Loads, FormulasThatAreZeroEverywhereAreRefused) {
   expect_refused(input, "tractions[1]", "nothing loads the body");
 }
 
+/// A body of triangles or tetrahedra, 5 by 3 cells in the plane, whose region "loaded" bears 10
+/// along x. \return the first moments of the force over the force: where it acts, z last
+Vector3 place_of_force(bool in_space, const std::string& loaded) {
+  const auto region = [&](const std::string& name, const std::string& box) {
+    return "[[regions]]\nname = \"" + name + "\"\n" + box + (in_space ? "z = [0, 3]\n" : "");
+  };
+  const Model model = build_model(parse_case(
+      "[body]\nmethod = \"linear_elements\"\nspacing = 1\nproblem = \"" +
+          std::string(in_space ? "three_dimensional" : "plane_stress") + "\"\n" +
+          region("body of it", "x = [0, 5]\ny = [0, 3]\n") + region("loaded", loaded) +
+          region("left", "x = [0, 0]\ny = [0, 3]\n") +
+          "[[materials]]\nregion = \"body of it\"\nyoungs_modulus = 1\n[[supports]]\nregion = "
+          "\"left\"\n" +
+          (in_space ? "fix = [\"x\", \"y\", \"z\"]\n" : "fix = [\"x\", \"y\"]\n") +
+          "[[loads]]\nregion = \"loaded\"\nforce = " + (in_space ? "[10, 0, 0]" : "[10, 0]") +
+          "\n[analysis]\ntype = \"elastic\"\n",
+      "elements.toml"));
+  Vector3 place{};
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    const std::span<const double> x = model.network.particles.position(i);
+    for (std::size_t a = 0; a < x.size(); ++a) place[a] += 0.1 * force_on(model, i, 0) * x[a];
+  }
+  EXPECT_NEAR(force_on_all(model, 0), 10.0, 1e-13);
+  return place;
+}
+
+TEST(Loads, ForcesActAtTheCentroidsOfFacesAndVolumesOfLinearElements) {
+  for (const bool in_space : {false, true}) {
+    const auto expect_at = [&](const std::string& loaded, double x, double y) {
+      const Vector3 place = place_of_force(in_space, loaded);
+      EXPECT_NEAR(place[0], x, 1e-13) << loaded;
+      EXPECT_NEAR(place[1], y, 1e-13) << loaded;
+      if (in_space) {
+        EXPECT_NEAR(place[2], 1.5, 1e-13) << loaded;
+      }
+    };
+    expect_at("x = [5, 5]\ny = [0, 3]\n", 5.0, 1.5);
+    expect_at("x = [0, 2]\ny = [3, 3]\n", 1.0, 3.0);
+    expect_at("x = [3, 5]\ny = [0, 1]\n", 4.0, 0.5);
+  }
+}
+
 /// A mesh of two triangles over a rectangle; cells carry the body force, not the particles.
 TEST(Loads, BodyForcesOnAMeshAreIntegratedOverItsCells) {
   CaseFile input = strip_with_top();

@@ -66,12 +66,13 @@ TEST(CaseWriter, WritesMicropolarBodies) {
 }
 
 TEST(CaseWriter, WritesBodiesOfLinearElements) {
-  const CaseFile input =
-      parse_case(replaced(fmt::format("{}[analysis]\ntype = \"elastic\"\n", small_case),
-                          "horizon_ratio = 3", "method = \"linear_elements\""),
-                 "");
+  const CaseFile input = parse_case(
+      replaced(fmt::format("{}[analysis]\ntype = \"elastic\"\nsolver = \"direct\"\n", small_case),
+               "horizon_ratio = 3", "method = \"linear_elements\""),
+      "");
   const std::string written = write_case(input);
   EXPECT_EQ(parse_case(written, "").body.method, BodyMethod::linear_elements);
+  EXPECT_EQ(parse_case(written, "").analysis.solver, LinearSolver::direct);
   EXPECT_EQ(write_case(parse_case(written, "")), written);
 }
 
