@@ -123,12 +123,13 @@ LeastChange Calibration::find_least_change(const PointEquations& equations,
 }
 
 /// Energies of dilatation, and forces beside them. In the plane a step of Newton's method is cheap,
-/// but it can get lost.
+/// but it can get lost. The preconditioner of the exact forces serves behind that, too.
 void Calibration::fit_energies() {
   const CalibrationEquations::State start = equations_.save();
   LeastChangeOptions options;
   options.tolerance = settling_tolerance;
   options.preconditioner = Preconditioner::blocks_then_boxes;
+  KeptPreconditioner of_forces = std::exchange(kept_, {});
   for (const Method method : {Method::newton, Method::interior_point}) {
     if (in_space_ && method == Method::newton) continue;
     equations_.restore(start);
@@ -136,7 +137,7 @@ void Calibration::fit_energies() {
     kept_.reset();  // coefficients are those of the stiffnesses now
     if (find_least_change(equations_.settling(), options).converged) break;
   }
-  kept_.reset();
+  kept_ = std::move(of_forces);
 }
 
 /// One solution of the exact equations.

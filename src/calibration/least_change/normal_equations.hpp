@@ -99,8 +99,9 @@ class NormalEquations {
   /// A factor is made anew when the last solution needed more iterations than this.
   static constexpr int stale_iterations = 40;
   /// Iterations of a solution after which blocks get help, or boxes other fields. Fields take the
-  /// time of about 500 iterations of blocks alone, and serve several solutions.
-  static constexpr int patience = 200, stale_fields = 200;
+  /// time of about 500 iterations of blocks alone, and serve several solutions; with those of an
+  /// earlier search help takes that of a coarse system.
+  static constexpr int patience = 200, patience_with_fields = 40, stale_fields = 200;
   /// The coarse system of boxes takes the time of about forty iterations.
   static constexpr int stale_coarse = 80;
   /// Blocks take the time of so many iterations: until then a solution may as well be more exact,
@@ -301,7 +302,8 @@ int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double re
     if (go_on(stale_coarse)) return count;
     renew_coarse();
   }
-  if (go_on(with_boxes_ ? stale_fields : alone() ? patience : options_.iterations)) return count;
+  const int most_alone = kept_.boxes ? patience_with_fields : patience;
+  if (go_on(with_boxes_ ? stale_fields : alone() ? most_alone : options_.iterations)) return count;
   if (!alone() && !with_boxes_) return count;
   if (options_.preconditioner == Preconditioner::blocks_then_factor) {
     by_factor_ = true;
