@@ -62,7 +62,7 @@ halo = 0.01
 [stop]
 broken_bonds = 150
 [output]
-fields_every = 5
+fields_every = 10
 )";
 
 class Kills : public testing::TestWithParam<Campaign> {
@@ -74,10 +74,10 @@ class Kills : public testing::TestWithParam<Campaign> {
   std::vector<std::string> prepare() const {
     const std::string name = GetParam().name;
     std::string text = small_ghost_case;
-    if (name == "damage") text.replace(text.find("fields_at = [10, 20]"), 20, "fields_every = 2");
+    if (name == "damage") text.replace(text.find("fields_at = [10, 20]"), 20, "fields_every = 4");
     if (name == "explicit") {
       text = lattice_strip_case(0.1) + "\n[output]\nfields_times = [";
-      for (int k = 1; k < 40; ++k) text += fmt::format("{}, ", 0.05 * k);
+      for (int k = 1; k < 20; ++k) text += fmt::format("{}, ", 0.1 * k);
       text += "2]\n";
     }
     if (name == "elements") text = late_elements_case;

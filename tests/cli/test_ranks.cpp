@@ -41,7 +41,7 @@ std::string explicit_case(const std::string& body, const std::string& law) {
 /// behind it only, which begin in proportion to it.
 std::string relaxation_case(const std::string& law, const std::string& factors) {
   std::string text = driven(
-      breaking_case(false, "", law, "tolerance = 1e-3\nload_factors = [1e-4, " + factors + "]\n"));
+      breaking_case(false, "", law, "tolerance = 1e-2\nload_factors = [1e-4, " + factors + "]\n"));
   text = replaced(text, "\"damage\"\nsolver = \"iterative\"", "\"relaxation\"");
   return replaced(text, "spacing = 1", "spacing = 0.25");
 }
@@ -119,7 +119,8 @@ std::string prolonged(const std::string& text) {
 std::string many_load_steps() {
   std::string factors = "1e-4";
   for (int k = 1; k < 1000; ++k) factors += fmt::format(", {}e-7", 1000 + k);
-  return replaced(relaxation_case("", factors), "tolerance", "strain = \"green\"\ntolerance");
+  return replaced(relaxation_case("", factors), "tolerance = 1e-2",
+                  "strain = \"green\"\ntolerance = 1e-3");
 }
 
 const std::string softening = "tensile_strength = 3\nsoftening = \"linear\"\n";

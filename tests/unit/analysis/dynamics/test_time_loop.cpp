@@ -13,7 +13,7 @@ namespace {
 struct Nothing {};
 
 /// Counts what it is told of.
-struct Watcher {
+struct LoopWatcher {
   void on_row(const ExplicitRecord& record, const Nothing&) {
     if (record.step == throws_at) throw std::runtime_error("a full disk");
     rows.push_back(record.step);
@@ -29,7 +29,7 @@ struct Watcher {
 
 /// Thousand steps of one with ten rows, energies from `energy`.
 template <class Energy>
-ExplicitResult run_rows(Watcher& watcher, Energy energy, int rows = 10) {
+ExplicitResult run_rows(LoopWatcher& watcher, Energy energy, int rows = 10) {
   ExplicitOptions options;
   options.duration = 1000.0;
   options.ramp = 500.0;
@@ -55,7 +55,7 @@ EnergyBalance balanced(Index step) {
 
 /// Where the step cannot be the reason it is not named as one.
 TEST(ExplicitLoop, TellsWhyAMotionMayHaveGrown) {
-  Watcher watcher;
+  LoopWatcher watcher;
   const ExplicitResult result = run_rows(watcher, [](Index step) {
     EnergyBalance energy;
     energy.kinetic = 1.0 * step;
@@ -69,7 +69,7 @@ TEST(ExplicitLoop, TellsWhyAMotionMayHaveGrown) {
 }
 
 TEST(ExplicitLoop, RowsAreEvenAndTheLastStepIsOne) {
-  Watcher watcher;
+  LoopWatcher watcher;
   const ExplicitResult result = run_rows(watcher, balanced);
   EXPECT_EQ(watcher.rows,
             (std::vector<Index>{0, 100, 200, 300, 400, 500, 600, 700, 800, 900, 1000}));
@@ -83,7 +83,7 @@ TEST(ExplicitLoop, RowsAreEvenAndTheLastStepIsOne) {
 }
 
 TEST(ExplicitLoop, LargestSurplusIsOverTheWork) {
-  Watcher watcher;
+  LoopWatcher watcher;
   const ExplicitResult result = run_rows(watcher, [](Index step) {
     EnergyBalance energy = balanced(step);
     energy.stored += step == 500 ? 4.0 : 1.0;  // two thousandths and less of the work at the end
@@ -94,7 +94,7 @@ TEST(ExplicitLoop, LargestSurplusIsOverTheWork) {
 
 TEST(ExplicitLoop, EnergyOutOfNothingEndsTheRun) {
   for (const double kinetic : {1e6, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
-    Watcher watcher;
+    LoopWatcher watcher;
     const ExplicitResult result = run_rows(
         watcher,
         [&](Index step) {
@@ -116,7 +116,7 @@ TEST(ExplicitLoop, EnergyOutOfNothingEndsTheRun) {
 }
 
 TEST(ExplicitLoop, StopsBetweenRowsWhenAsked) {
-  Watcher watcher;
+  LoopWatcher watcher;
   watcher.stop_at = 150;
   const ExplicitResult result = run_rows(watcher, balanced, 1);
   EXPECT_EQ(result.ending, Ending::interrupted);
@@ -125,7 +125,7 @@ TEST(ExplicitLoop, StopsBetweenRowsWhenAsked) {
 }
 
 TEST(ExplicitLoop, WhatObserversThrowEndsTheRunWithWhatWasFound) {
-  Watcher watcher;
+  LoopWatcher watcher;
   watcher.throws_at = 200;
   const ExplicitResult result = run_rows(watcher, balanced);
   EXPECT_EQ(result.ending, Ending::failed);

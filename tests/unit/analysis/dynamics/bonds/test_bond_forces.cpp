@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-BondMotion random_motion(const AnalysisBody& body, double size, unsigned seed) {
+BondMotion motion_of_body(const AnalysisBody& body, double size, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(-size, size);
   BondMotion motion;
@@ -57,7 +57,7 @@ TEST_P(HalvesOfBlocks, ForcesAreThoseOfTheNetwork) {
     }
   }
   std::fill(body.network.critical_stretch.begin(), body.network.critical_stretch.end(), INFINITY);
-  const BondMotion motion = random_motion(body, 1.0, 3);
+  const BondMotion motion = motion_of_body(body, 1.0, 3);
   const auto bonds = make_explicit_bonds(body.network);
   const Forces found = all_forces(body, *bonds, motion, 0.1);
   const InternalForce expected =
@@ -79,7 +79,7 @@ TEST_P(HalvesOfBlocks, ForcesAreThoseOfTheNetwork) {
 TEST_P(HalvesOfBlocks, BondsBreakWhereTheirEnergyIsTooLarge) {
   const AnalysisBody body = make_block(GetParam());
   const Network& network = body.network;
-  const BondMotion motion = random_motion(body, 0.04, 5);
+  const BondMotion motion = motion_of_body(body, 0.04, 5);
   const auto bonds = make_explicit_bonds(network);
   const Forces found = all_forces(body, *bonds, motion, 0.1);
   const std::vector<double> secants = bonds->secants();
@@ -112,7 +112,7 @@ TEST_P(HalvesOfBlocks, BondsBreakWhereTheirEnergyIsTooLarge) {
 /// u_(n-1)' (K before - K after) u_n / 2 is what was lost.
 TEST_P(HalvesOfBlocks, LossesAreTheDifferenceOfStoredEnergies) {
   const AnalysisBody body = make_block(GetParam());
-  const BondMotion motion = random_motion(body, 0.04, 7);
+  const BondMotion motion = motion_of_body(body, 0.04, 7);
   const auto bonds = make_explicit_bonds(body.network);
   const Index all = body.network.particles.size();
   const double before = bonds->stored(0, all, 0.3, motion);

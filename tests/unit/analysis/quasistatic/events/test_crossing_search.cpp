@@ -18,16 +18,20 @@ struct Scan {
   const Network& network;
   const std::vector<double>&now, &growing;
 
-  bool fails(Index e, double d) const {
+  std::vector<double> at(double d) const {
     std::vector<double> u = now;
     for (std::size_t k = 0; k < u.size(); ++k) u[k] += d * growing[k];
+    return u;
+  }
+  bool fails(Index e, const std::vector<double>& u) const {
     double value = stretch(network, u, e) / network.critical_stretch[e];
     if (network.law(e).sense() == Sense::both) value = std::abs(value);
     return value > 1.0;
   }
   bool any_fails(double d) const {
+    const std::vector<double> u = at(d);
     for (Index e = 0; e < network.num_elements(); ++e) {
-      if (network.has_limit(e) && fails(e, d)) return true;
+      if (network.has_limit(e) && fails(e, u)) return true;
     }
     return false;
   }
@@ -65,7 +69,7 @@ TEST_P(Crossings, AheadIsWhereTheFirstElementBeginsToFail) {
       const auto found = search.ahead(now, growing, sense, tie_tolerance, 1 + seed % 2);
       ASSERT_NE(found.element, no_index);
       EXPECT_GT(sense * found.distance, 0.0);
-      EXPECT_TRUE(scan.fails(found.element, found.distance * (1.0 + 1e-6)));
+      EXPECT_TRUE(scan.fails(found.element, scan.at(found.distance * (1.0 + 1e-6))));
       for (int k = 0; k <= 200; ++k) {
         EXPECT_FALSE(scan.any_fails(found.distance * (1.0 - 1e-6) * k / 200.0)) << "seed " << seed;
       }

@@ -26,7 +26,7 @@ void shake(const ExplicitModel& model, ExplicitState& state, double size) {
   }
 }
 
-ExplicitModel block(Problem problem, LatticeRules rules, bool breakable = false) {
+ExplicitModel kernel_block(Problem problem, LatticeRules rules, bool breakable = false) {
   LatticeMaterial material = elastic_concrete();
   material.breakable = breakable;
   if (problem != Problem::three_dimensional) {
@@ -41,7 +41,7 @@ ExplicitModel block(Problem problem, LatticeRules rules, bool breakable = false)
 TEST(ExplicitKernels, ForcesAreTheDerivativeOfTheStoredEnergy) {
   for (const Problem problem :
        {Problem::plane_stress, Problem::plane_strain, Problem::three_dimensional}) {
-    const ExplicitModel model = block(problem, LatticeRules::consistent, true);
+    const ExplicitModel model = kernel_block(problem, LatticeRules::consistent, true);
     const LatticeRows& lattice = model.lattice;
     ExplicitState state(model);
     weaken(model, state);
@@ -69,7 +69,7 @@ TEST(ExplicitKernels, ForcesAreTheDerivativeOfTheStoredEnergy) {
 
 TEST(ExplicitKernels, RigidMotionCostsNothing) {
   for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
-    const ExplicitModel model = block(problem, LatticeRules::consistent);
+    const ExplicitModel model = kernel_block(problem, LatticeRules::consistent);
     const LatticeRows& lattice = model.lattice;
     ExplicitState state(model);
     const double angle = 1.1;
@@ -93,7 +93,7 @@ TEST(ExplicitKernels, RulesAgreeInAUniformStrainFarFromEdges) {
   std::vector<double> reference;
   for (const LatticeRules rules :
        {LatticeRules::consistent, LatticeRules::mean_2017, LatticeRules::least_2018}) {
-    const ExplicitModel model = block(Problem::plane_stress, rules);
+    const ExplicitModel model = kernel_block(Problem::plane_stress, rules);
     const LatticeRows& lattice = model.lattice;
     ExplicitState state(model);
     for (const Index slot : lattice.particle_slot) {
@@ -120,8 +120,8 @@ TEST(ExplicitKernels, RulesAgreeInAUniformStrainFarFromEdges) {
 }
 
 TEST(ExplicitKernels, SmallerForceStateActsWhereTheyAgreeInSign) {
-  const ExplicitModel least = block(Problem::plane_stress, LatticeRules::least_2018);
-  const ExplicitModel mean = block(Problem::plane_stress, LatticeRules::mean_2017);
+  const ExplicitModel least = kernel_block(Problem::plane_stress, LatticeRules::least_2018);
+  const ExplicitModel mean = kernel_block(Problem::plane_stress, LatticeRules::mean_2017);
   ExplicitState a(least), b(mean);
   shake(least, a, 1e-6);
   shake(mean, b, 1e-6);
