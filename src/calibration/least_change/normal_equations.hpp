@@ -101,7 +101,7 @@ class NormalEquations {
   /// Iterations of a solution after which blocks get help, or boxes other fields. Fields take the
   /// time of about 500 iterations of blocks alone, and serve several solutions; with those of an
   /// earlier search help takes that of a coarse system.
-  static constexpr int patience = 200, patience_with_fields = 40, stale_fields = 200;
+  static constexpr int patience = 200, patience_with_fields = 100, stale_fields = 200;
   /// The coarse system of boxes takes the time of about forty iterations.
   static constexpr int stale_coarse = 80;
   /// Blocks take the time of so many iterations: until then a solution may as well be more exact,
