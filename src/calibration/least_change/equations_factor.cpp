@@ -42,8 +42,7 @@ std::vector<Index> first_rows(const PointEquations& equations) {
 }  // namespace
 
 EquationsFactor::EquationsFactor(const PointEquations& equations)
-    : rows_(equations.rows),
-      matrix_(first_rows(equations), shared_points(equations)) {}
+    : rows_(equations.rows), matrix_(first_rows(equations), shared_points(equations)) {}
 
 void EquationsFactor::fill(const PointEquations& equations, const std::vector<double>& active,
                            const std::vector<double>& diagonal, double floor) {

@@ -20,7 +20,7 @@ namespace perilink {
 struct TiedEquations {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-  PointEquations equations;       ///< right sides, scale and ridge; bounds of the unknowns
+  PointEquations equations;  ///< right sides, scale and ridge; bounds of the unknowns
   /// Scaled, shape (points * rows, unknowns); rows that follow from others of their point are zero.
   Matrix matrix;
   std::vector<double> root;       ///< sqrt(n) of each unknown

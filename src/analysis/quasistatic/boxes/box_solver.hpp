@@ -131,7 +131,7 @@ class BoxSolver {
   std::vector<double> motion_;           // shape (particles, width), zero where it is prescribed
   BlockVector<double> packed_motion_, packed_forces_;  // the same in the order of packed bonds
   BlockVector<double> coarse_block_;
-  /// Of search_in_single(), shape (n, block_width).
+  /// Vectors for search_in_single(), shape (n, block_width), kept for the next block.
   struct SingleSpace {
     BlockVector<float> found, missing;
     BlockVector<double> residual;
