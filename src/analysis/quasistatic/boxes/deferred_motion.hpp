@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "base/block.hpp"
@@ -22,15 +23,29 @@ struct DeferredMotion {
   int restarts = 0;           ///< so often the solution has changed in other ways
   int renewals = 0;           ///< so often columns have gone or become others
 
-  /// What the displacement at a slot lacks of them.
-  double step_at(std::size_t slot) const {
-    double sum = 0.0;
+  /// What the displacements at so many slots from one on, three at most, lack of them.
+  std::array<double, 3> steps_at(std::size_t slot, std::size_t count) const {
+    constexpr int lanes = 8;
+    constexpr std::size_t ahead = 4;  // rows of other blocks are far away in memory
+    double part[3][lanes] = {};
     const double* step = steps.data();
-    for (std::size_t b = 0; b * block_width < steps.size(); ++b) {
+    for (std::size_t b = 0; b * block_width < steps.size(); ++b, step += block_width) {
       const double* column = (*blocks)[b].data() + slot * block_width;
-      for (int c = 0; c < block_width; ++c) sum += column[c] * *step++;
+      if (b + ahead < blocks->size()) {
+        const double* later = (*blocks)[b + ahead].data() + slot * block_width;
+        for (std::size_t k = 0; k < count * block_width; k += lanes) __builtin_prefetch(later + k);
+      }
+      for (std::size_t a = 0; a < count; ++a, column += block_width) {
+        for (int c = 0; c < block_width; c += lanes) {
+          for (int k = 0; k < lanes; ++k) part[a][k] += column[c + k] * step[c + k];
+        }
+      }
     }
-    return sum;
+    std::array<double, 3> sums{};
+    for (std::size_t a = 0; a < count; ++a) {
+      for (const double lane : part[a]) sums[a] += lane;
+    }
+    return sums;
   }
 
   /// The columns go.

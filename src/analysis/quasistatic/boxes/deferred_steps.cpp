@@ -55,7 +55,7 @@ std::vector<double> BoxFactor::present_extensions(std::span<const SparseVector> 
   for (std::size_t a = 0; is_behind() && a < x.size(); ++a) {
     for (int k = 0; k < x[a].size(); ++k) {
       const std::size_t slot = slot_of_[x[a].rows[k]];
-      result[a] += x[a].values[k] * deferred_->step_at(slot);
+      result[a] += x[a].values[k] * deferred_->steps_at(slot, 1)[0];
     }
   }
   return result;

@@ -65,13 +65,14 @@ Index DozingColumns::likeliest() const {
 
 void DozingColumns::look(Index block) {
   if (!motion_->is_behind()) return;
+  const auto dim = static_cast<std::size_t>(dim_);
   ends_of_(block, [&](std::size_t slot) {
-    int& seen = seen_[slot / static_cast<std::size_t>(dim_)];
-    if (std::exchange(seen, motion_->changes) == motion_->changes) return;
-    for (std::size_t k = slot; k < slot + static_cast<std::size_t>(dim_); ++k) {
-      const Index unknown_here = motion_->unknowns->number[k];
+    if (std::exchange(seen_[slot / dim], motion_->changes) == motion_->changes) return;
+    const std::array<double, 3> steps = motion_->steps_at(slot, dim);
+    for (std::size_t a = 0; a < dim; ++a) {
+      const Index unknown_here = motion_->unknowns->number[slot + a];
       if (unknown_here == no_index) continue;
-      (*motion_->displacement)[k] = (*motion_->solution)[unknown_here] + motion_->step_at(k);
+      (*motion_->displacement)[slot + a] = (*motion_->solution)[unknown_here] + steps[a];
     }
   });
 }

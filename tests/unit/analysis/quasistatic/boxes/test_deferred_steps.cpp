@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "analysis/quasistatic/boxes/box_factor.hpp"
@@ -36,7 +37,11 @@ TEST(DeferredMotion, LeavesStepsOutUntilItIsAskedForThem) {
   double largest = 0.0;
   for (const double value : motion) largest = std::max(largest, std::abs(value));
   for (std::size_t k = 0; k < motion.size(); ++k) {
-    EXPECT_NEAR(start[k] + steps.step_at(slots[k]), motion[k], 1e-9 * largest);
+    EXPECT_NEAR(start[k] + steps.steps_at(slots[k], 1)[0], motion[k], 1e-9 * largest);
+  }
+  const std::array<double, 3> together = steps.steps_at(slots[0], 3);
+  for (std::size_t a = 0; a < 3; ++a) {
+    EXPECT_NEAR(together[a], steps.steps_at(slots[0] + a, 1)[0], 1e-15 * largest);
   }
   EXPECT_THROW(later.defer_no_more(), std::logic_error);
   later.catch_up(deferred);
