@@ -32,6 +32,8 @@ constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6, bonds_by_factor 
 /// equations over c r^3 n^2 for n kinds of places with r rows and c bonds each (a factor and a
 /// hundred solutions).
 constexpr double alike = 0.6e-6, alike_operations = 1.7, operations_per_second = 3e10;
+/// So many end the attempt: bodies that need most of them take a half of it.
+constexpr double most_alike_operations = 6.0;
 /// They must save so much: they may have no solution, and both costs are rough.
 constexpr double worth_a_try = 2.0;
 /// Bytes for every bond that may change on its own, in space (170 000 to 1 100 000 bonds: 900 to
@@ -89,17 +91,17 @@ double equations_of(const BondOrbits& orbits, int dim, bool moments) {
   return static_cast<double>(orbits.representatives.size()) * ForceRows{dim, moments}.count();
 }
 
-/// Operations of a factor, all in all.
-double operations_alike(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
+/// Operations of a factor over alike_operations.
+double unit_alike(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
   const double equations = equations_of(orbits, input.particles.dim, moments);
   const double rows = ForceRows{input.particles.dim, moments}.count();
   const double bonds_of_place = static_cast<double>(input.bonds.size()) / input.particles.size();
-  return alike_operations * bonds_of_place * rows * equations * equations;
+  return bonds_of_place * rows * equations * equations;
 }
 
 double cost_alike(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
   return alike * count_free(input) +
-         operations_alike(input, orbits, moments) / operations_per_second;
+         alike_operations * unit_alike(input, orbits, moments) / operations_per_second;
 }
 
 }  // namespace
@@ -121,7 +123,7 @@ std::optional<BondOrbits> alike_bonds(const CalibrationInput& input, const Facet
 
 double alike_budget(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
   return input.box ? std::numeric_limits<double>::infinity()
-                   : 2.0 * operations_alike(input, orbits, moments);
+                   : most_alike_operations * unit_alike(input, orbits, moments);
 }
 
 CalibrationReport expected_calibration(const CalibrationInput& input, const Facets& facets,

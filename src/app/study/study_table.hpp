@@ -11,8 +11,8 @@
 
 namespace perilink {
 
-/// For people: one block per series with values, errors, orders and seconds, then the references
-/// of the errors, what failed and why.
+/// For people: one block per series with values, errors, orders and seconds, then what errors are
+/// measured against, what failed and why.
 std::string study_report(const StudyFile& study, std::span<const StudySeries> series,
                          std::span<const StudyMember> members);
 

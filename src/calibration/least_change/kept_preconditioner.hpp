@@ -1,6 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <vector>
+
+#include <Eigen/Dense>
 
 #include "calibration/least_change/box_space.hpp"
 #include "calibration/least_change/equations_factor.hpp"
@@ -13,6 +16,7 @@ struct KeptPreconditioner {
   std::unique_ptr<BoxSpace> boxes;
   std::unique_ptr<EquationsFactor> factor;
   std::unique_ptr<TiedFactor> tied;
+  std::vector<Eigen::MatrixXd> bases;  ///< tie()
 
   void reset() { *this = {}; }
 };

@@ -220,7 +220,7 @@ LeastChange solve(const PointEquations& equations, const LeastChangeOptions& opt
 
 LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions& options,
                        KeptPreconditioner& kept) {
-  const TiedEquations tied = tie(equations);
+  const TiedEquations tied = tie(equations, kept.bases);
   TiedNormalEquations normal(tied, kept.tied);
   LeastChange change = DualNewton<TiedNormalEquations>(tied.equations, options, normal).solve();
   change.weights = tied.weights(change.weights);

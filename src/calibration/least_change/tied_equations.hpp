@@ -21,7 +21,8 @@ struct TiedEquations {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
   PointEquations equations;  ///< right sides, scale and ridge; bounds of the unknowns
-  /// Scaled, shape (points * rows, unknowns); rows that follow from others of their point are zero.
+  /// Scaled, shape (points * rows, unknowns). Where rows of a point follow from each other they are
+  /// those of a basis, and zero behind it.
   Matrix matrix;
   std::vector<double> root;       ///< sqrt(n) of each unknown
   std::vector<Index> unknown_of;  ///< per variable
@@ -30,7 +31,9 @@ struct TiedEquations {
   std::vector<double> weights(std::span<const double> unknowns) const;
 };
 
-TiedEquations tie(const PointEquations& equations);
+/// \param bases  of the rows of each point, shape (rows, rows): empty at first, and kept for the
+///               next search, whose factor and multipliers go by them
+TiedEquations tie(const PointEquations& equations, std::vector<Eigen::MatrixXd>& bases);
 
 /// Factor of the system of tied variables, M D M' + shift.
 class TiedFactor {

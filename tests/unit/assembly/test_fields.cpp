@@ -16,7 +16,7 @@ Csr families_of(const Network& network) {
   return bonds_of_particles(network.bonds, network.particles.size());
 }
 
-TEST(DamageIndex, IsTheBrokenShareOfTheFamilyVolume) {
+TEST(ParticleDamage, IsTheBrokenShareOfTheFamilyVolume) {
   const Network network = make_network({"", Pattern::rectangular, Surface::none}, 5);
   const Csr families = families_of(network);
   std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);

@@ -46,7 +46,8 @@ TEST(TiedEquations, BoundsHoldForTheUnknown) {
 }
 
 TEST(TiedEquations, ColumnsAreSumsOverTheVariables) {
-  const TiedEquations tied = tie(three_weights(6.0));
+  std::vector<Eigen::MatrixXd> bases;
+  const TiedEquations tied = tie(three_weights(6.0), bases);
   ASSERT_EQ(tied.matrix.cols(), 2);
   EXPECT_NEAR(tied.root[0], std::sqrt(2.0), 1e-15);
   EXPECT_NEAR(tied.matrix.coeff(0, 0), 0.5 * 2.0 / std::sqrt(2.0), 1e-15);
@@ -135,29 +136,38 @@ PointEquations two_weights(std::vector<double> coefficients, std::vector<double>
   return equations;
 }
 
-TEST(TiedEquations, DropRowsThatFollowFromOthersOfTheirPoint) {
-  const TiedEquations tied = tie(two_weights({1.0, 1.0, 0.0, 2.0, 2.0, 0.0}, {5.0, 5.0, 0.0}));
+/// (1, 2), the same again and nothing: one row that is as long as all of them.
+TEST(TiedEquations, HaveABasisForRowsThatFollowFromEachOther) {
+  std::vector<Eigen::MatrixXd> bases, others;
+  const TiedEquations tied =
+      tie(two_weights({1.0, 1.0, 0.0, 2.0, 2.0, 0.0}, {5.0, 5.0, 0.0}), bases);
   EXPECT_EQ(tied.matrix.nonZeros(), 2);
-  EXPECT_EQ(tied.matrix.coeff(0, 1), 2.0);
-  EXPECT_EQ(tied.equations.right, (std::vector<double>{5.0, 0.0, 0.0}));
-  EXPECT_EQ(tie(two_weights({1.0, 1.0, 1.0, 1.0 + 1e-5}, {2.0, 2.0})).matrix.nonZeros(), 4);
+  EXPECT_NEAR(tied.matrix.squaredNorm(), 10.0, 1e-14);
+  EXPECT_NEAR(tied.matrix.coeff(0, 1), 2.0 * tied.matrix.coeff(0, 0), 1e-14);
+  EXPECT_NEAR(tied.equations.right[0], 5.0 * tied.matrix.coeff(0, 0), 1e-14);
+  EXPECT_EQ(tie(two_weights({1.0, 1.0, 1.0, 1.0 + 1e-5}, {2.0, 2.0}), others).matrix.nonZeros(), 4);
+  // A basis of an earlier search stays, but where it would miss something.
+  const auto next = tie(two_weights({1.0, 1.0, 0.0, 0.5, 0.5, 0.0}, {5.0, 5.0, 0.0}), bases);
+  EXPECT_EQ(next.matrix.nonZeros(), 2);
+  const auto other = tie(two_weights({1.0, 1.0, 0.0, 1.0, 0.0, 0.0}, {5.0, 5.0, 0.0}), bases);
+  EXPECT_EQ(other.matrix.nonZeros(), 4);
 }
 
-/// The same factor serves behind bonds that are gone, whose rows follow from others then.
+/// The same factor serves behind bonds that are gone, not for rows that it does not have.
 TEST(TiedFactor, FitsEquationsWithFewerRows) {
-  const TiedEquations two = tie(two_weights({1.0, 1.0, 1.0, 2.0}, {2.0, 3.0}));
-  const TiedEquations one = tie(two_weights({1.0, 1.0, 1.0, 1.0}, {2.0, 2.0}));
+  std::vector<Eigen::MatrixXd> bases, others;
+  const TiedEquations one = tie(two_weights({1.0, 1.0, 1.0, 1.0}, {2.0, 2.0}), others);
+  const TiedEquations two = tie(two_weights({1.0, 1.0, 1.0, 2.0}, {2.0, 3.0}), bases);
   const TiedEquations::Matrix columns_of_two = two.matrix.transpose();
   const TiedEquations::Matrix columns_of_one = one.matrix.transpose();
-  TiedFactor large(two, columns_of_two);
-  const TiedFactor small(one, columns_of_one);
+  TiedFactor large(two, columns_of_two), small(one, columns_of_one);
   EXPECT_TRUE(large.fits(one, columns_of_one));
   EXPECT_FALSE(small.fits(two, columns_of_two));
   const std::vector<double> mobility = {1.0, 1.0}, shift = {0.0, 0.0}, right = {4.0, 0.0};
   std::vector<double> result(2);
-  large.factorize(columns_of_one, mobility, shift);
-  large.solve(right, result);
-  EXPECT_NEAR(result[0], 2.0, 1e-11);  // the row that is left: (1, 1) times itself
+  small.factorize(columns_of_one, mobility, shift);
+  small.solve(right, result);
+  EXPECT_NEAR(result[0], 1.0, 1e-11);  // the row that is left has the square 4
   EXPECT_EQ(result[1], 0.0);
 }
 

@@ -16,9 +16,11 @@ using test::strip_case;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string answer(const HorizonReach& reach, AnalysisType type = AnalysisType::damage) {
+std::string answer(const HorizonReach& reach, AnalysisType type = AnalysisType::damage,
+                   LinearSolver solver = LinearSolver::automatic) {
   CaseFile input = strip_case();
   input.analysis.type = type;
+  input.analysis.solver = solver;
   try {
     refuse_impossible_horizon(input, reach);
   } catch (const InputError& error) {
@@ -49,6 +51,8 @@ TEST(HorizonLimits, HoldTheBondsAgainstMemoryAndNumbers) {
 TEST(HorizonLimits, HoldFewerBytesForElasticBonds) {
   EXPECT_EQ(answer(block(3, 1e11), AnalysisType::elastic), "accepted");
   EXPECT_THAT(answer(block(3, 9e10), AnalysisType::elastic), HasSubstr("and 99.2 GB"));
+  EXPECT_THAT(answer(block(3, 1e11), AnalysisType::elastic, LinearSolver::direct),
+              HasSubstr("and 458 GB"));
 }
 
 TEST(HorizonLimits, HoldTheBondsOfAPartAgainstTheMachineThatMakesIt) {
