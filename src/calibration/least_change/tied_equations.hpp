@@ -31,7 +31,7 @@ struct TiedEquations {
   std::vector<double> weights(std::span<const double> unknowns) const;
 };
 
-/// \param bases  of the rows of each point, shape (rows, rows): empty at first, and kept for the
+/// \param bases  for the rows of each point, shape (rows, rows): empty at first, and kept for the
 ///               next search, whose factor and multipliers go by them
 TiedEquations tie(const PointEquations& equations, std::vector<Eigen::MatrixXd>& bases);
 
