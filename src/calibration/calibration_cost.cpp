@@ -38,7 +38,7 @@ constexpr double most_alike_operations = 6.0;
 constexpr double worth_a_try = 2.0;
 /// Bytes for every bond that may change on its own, in space (170 000 to 1 100 000 bonds: 900 to
 /// 1 600; by a factor 21 000 of 69 000 bonds), and for the square of the number of equations of
-/// bonds that are made alike (9 600: 0.48 GB in all, 14 800: 1.16).
+/// bonds that are made alike (9 600: 0.50 GB in all, 14 800: 1.18).
 /// With all of them there are the bonds themselves.
 constexpr double bytes_of_any_bond = 100.0;
 constexpr double bytes_of_bond = 1300.0, bytes_by_factor = 20000.0, bytes_of_equations = 4.5;
