@@ -82,9 +82,10 @@ constexpr double independent = 1e-13;
 constexpr double missed = 1e-9;
 
 /// The independent directions of the rows of a point, as columns, and zeros behind them.
-Eigen::MatrixXd basis_of(const TiedEquations::Matrix& own) {
-  const Eigen::Index rows = own.rows();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares((own * own.transpose()).toDense());
+/// \param products  A A'
+Eigen::MatrixXd basis_of(const Eigen::MatrixXd& products) {
+  const Eigen::Index rows = products.rows();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares(products);
   const Eigen::VectorXd& sizes = squares.eigenvalues();  // ascending
   const Eigen::Index none = (sizes.array() <= independent * sizes[rows - 1]).count();
   if (none == 0) return Eigen::MatrixXd::Identity(rows, rows);
@@ -104,11 +105,13 @@ void turn_rows(TiedEquations& tied, std::vector<Eigen::MatrixXd>& bases) {
   for (std::size_t p = 0; p < bases.size(); ++p) {
     const Eigen::Index first = static_cast<Eigen::Index>(p) * rows;
     const TiedEquations::Matrix own = tied.matrix.middleRows(first, rows);
+    const Eigen::MatrixXd products = (own * own.transpose()).toDense();
     Eigen::MatrixXd& basis = bases[p];
     const auto misses_some = [&] {
-      return (basis.transpose() * own).squaredNorm() < (1.0 - missed) * own.squaredNorm();
+      const double held = (basis.transpose() * products * basis).trace();
+      return held < (1.0 - missed) * products.trace();
     };
-    if (basis.rows() != rows || misses_some()) basis = basis_of(own);
+    if (basis.rows() != rows || misses_some()) basis = basis_of(products);
     for (Eigen::Index r = 0; r < rows; ++r) {
       for (TiedEquations::Matrix::InnerIterator entry(own, r); entry; ++entry) {
         for (Eigen::Index k = 0; k < rows; ++k) {

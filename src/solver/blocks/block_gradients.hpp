@@ -39,7 +39,7 @@ BlockMap<Number> as_block_map(Map map) {
 using SumOverParts = std::function<void(std::span<double> parts)>;
 
 /// Directions, their products and residuals behind the preconditioner, shape (n, block_width): kept
-/// from one search to the next, since new memory takes a tenth of the time of a search.
+/// from one search to the next, which saves page faults.
 template <class Number>
 struct BlockSpace {
   BlockVector<Number> p, q, z;
