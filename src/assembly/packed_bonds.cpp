@@ -4,15 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/lanes.hpp"
+
 namespace perilink {
 namespace {
-
-template <class Number, std::size_t Count>
-using Lanes [[gnu::vector_size(sizeof(Number) * Count)]] = Number;
-template <class Number, std::size_t Count>
-using LanesInMemory
-    [[gnu::vector_size(sizeof(Number) * Count), gnu::aligned(sizeof(Number)), gnu::may_alias]] =
-        Number;
 
 /// What a particle has in a block of vectors.
 template <int Dim>
@@ -58,16 +53,20 @@ struct RowOfVector {
   struct Pull {
     /// In space the number behind the components is read with them.
     explicit Pull(const float* numbers) {
-      Lanes<float, size> read = *reinterpret_cast<const LanesInMemory<float, size>*>(numbers);
-      if constexpr (Dim == 3) read[3] = 0.0F;
-      parts = __builtin_convertvector(read, Components);
+      if constexpr (Dim == 3) {
+        parts = widen(numbers);
+        parts[3] = 0.0;
+      } else {
+        const Lanes<float, 2> read = *reinterpret_cast<const LanesInMemory<float, 2>*>(numbers);
+        parts = __builtin_convertvector(read, Components);
+      }
     }
     Components parts;
   };
   static double tension(const Pull& pull, const RowOfVector& own, const RowOfVector& other) {
     const Components terms = pull.parts * (own.parts - other.parts);
     if constexpr (Dim == 2) return terms[0] + terms[1];
-    if constexpr (Dim == 3) return (terms[0] + terms[2]) + (terms[1] + terms[3]);
+    if constexpr (Dim == 3) return add_up(terms);
   }
   void add(const Pull& pull, double tension) { parts += pull.parts * tension; }
 
