@@ -216,7 +216,10 @@ bool Calibration::balance_dropping_bonds() {
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();
       if (tied_) start_ = std::move(multipliers_);  // what is gone has carried nothing
-      fit_and_balance(tolerance_);
+      // The few bonds that are gone hardly change the energies of clouds.
+      settled_ = equations_.without_dropped(std::move(settled_));
+      equations_.restore(settled_);
+      balance(tolerance_);
       if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
     }
     equations_.take_all_back();

@@ -13,9 +13,6 @@ namespace {
 constexpr double most_weight = 100.0;
 constexpr double round_off = 1e-12;
 
-/// Where a bond may fall to zero, it is on its way there below this weight.
-constexpr double vanishing = 1e-3;
-
 /// Energies of dilatation are soft equations: squares weigh 1 / ridge against those of the changes.
 /// In space the forces beside them are a little soft too: at edges and corners positive weights
 /// often cannot do both.
@@ -103,13 +100,6 @@ void CalibrationEquations::measure_particles() {
   }
 }
 
-void CalibrationEquations::take_all_back() {
-  start_ = given_;
-  kept_ = free_bonds_;
-  std::fill(floor_.begin(), floor_.end(), Floor::least_weight);
-  start_over();
-}
-
 CalibrationEquations::Variable CalibrationEquations::axial_variable(Index b) const {
   const double k = stiffness_.axial[b], start = start_.stiffness.axial[b];
   const double scale = std::max(k, least_weight_ * start);
@@ -195,6 +185,7 @@ void CalibrationEquations::change(const Variable& variable, double value) {
 void CalibrationEquations::apply(std::span<const double> weights) {
   auto weight = weights.begin();
   std::vector<std::pair<Variable, double>> changes;
+  changes.reserve(weights.size());
   for_each_variable([&](const Variable& variable) {
     changes.emplace_back(variable, variable.present + variable.scale * (*weight++ - 1.0));
   });
@@ -233,6 +224,11 @@ PointEquations CalibrationEquations::make_equations(const ForceRows& form) const
   equations.odd = form.odd();
   equations.one_ended = static_cast<Index>(kept_.size());
   std::vector<double> row(static_cast<std::size_t>(form.count()));
+  const std::size_t most = kept_.size() * (carries_moments() ? 3 : 1) +
+                           (shares_vary() ? facets_.corners.values.size() : 0);
+  equations.coefficients.reserve(most * row.size());
+  for (auto* ends : {&equations.first, &equations.second}) ends->reserve(most);
+  for (auto* bounds : {&equations.lower, &equations.upper}) bounds->reserve(most);
   for_each_variable([&](const Variable& variable) {
     equations.first.push_back(point_of_[variable.first]);
     equations.second.push_back(point_of_[variable.second]);
@@ -344,55 +340,6 @@ void CalibrationEquations::report_weights(CalibrationReport& report) const {
     report.smallest_weight = std::min(report.smallest_weight, weight);
     report.largest_weight = std::max(report.largest_weight, weight);
   }
-}
-
-bool CalibrationEquations::allow_zero(double limit) {
-  const std::vector<double> rest = out_of_balance();
-  const std::size_t rows = static_cast<std::size_t>(forces_.count());
-  const auto unmet = [&](Index i) {
-    if (point_of_[i] == no_index) return false;
-    const auto forces = rest.begin() + static_cast<std::ptrdiff_t>(i * rows);
-    return std::any_of(forces, forces + forces_.odd(), [&](double force) {
-      return std::abs(force) * length_[i] > limit * modulus_[i];
-    });
-  };
-  std::vector<std::uint8_t> loose(orbits_ ? orbits_->num_views : floor_.size(), 0);
-  for (const Index b : free_bonds_) {
-    if (unmet(input_.bonds.first[b]) || unmet(input_.bonds.second[b])) loose[class_of(b)] = 1;
-  }
-  bool any = false;
-  for (const Index b : free_bonds_) {
-    if (floor_[b] == Floor::none || !loose[class_of(b)]) continue;
-    floor_[b] = Floor::none;
-    any = true;
-  }
-  return any;
-}
-
-void CalibrationEquations::drop_vanishing() {
-  std::vector<Index> stay;
-  for (const Index b : kept_) {
-    double& start = start_.stiffness.axial[b];
-    if (floor_[b] != Floor::none || stiffness_.axial[b] >= vanishing * start) {
-      if (floor_[b] == Floor::none) floor_[b] = Floor::small;
-      stay.push_back(b);
-      continue;
-    }
-    start = 0.0;
-    if (carries_moments()) start_.stiffness.bending[b] = 0.0;
-  }
-  kept_ = std::move(stay);
-}
-
-bool CalibrationEquations::hollow() const {
-  std::vector<Index> kept_minus_lost(static_cast<std::size_t>(input_.particles.size()), 0);
-  for (Index b = 0; b < input_.bonds.size(); ++b) {
-    const Index vote = stiffness_.axial[b] > 0.0 ? 1 : -1;
-    for (const Index i : {input_.bonds.first[b], input_.bonds.second[b]})
-      kept_minus_lost[i] += vote;
-  }
-  return std::any_of(particle_of_.begin(), particle_of_.end(),
-                     [&](Index i) { return kept_minus_lost[i] < 0; });
 }
 
 }  // namespace perilink

@@ -65,9 +65,13 @@ class CalibrationEquations {
     facets_.shares = std::move(state.shares);
   }
   void start_over() { restore(start_); }  ///< without what was dropped
-  void take_all_back();                   ///< with all bonds and their floors again
+  /// A state with zero for bonds that were dropped.
+  State without_dropped(State state) const;
+  void take_all_back();  ///< with all bonds and their floors again
 
  private:
+  /// Where a bond may fall to zero, it is on its way there below this weight.
+  static constexpr double vanishing = 1e-3;
   enum class Kind { axial, couple, share };
   /// Lower bound of the axial stiffness; small: for bonds that stay after others fell to zero.
   enum class Floor : std::uint8_t { least_weight, none, small };

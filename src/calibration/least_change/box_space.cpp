@@ -11,7 +11,6 @@
 #include "calibration/least_change/variable_parts.hpp"
 #include "discretization/point_boxes.hpp"
 #include "solver/dense_kernels.hpp"
-#include "solver/factor_routes.hpp"
 
 namespace perilink {
 namespace {
@@ -25,6 +24,8 @@ constexpr Index points_in_plane = 36, points_in_space = 96;
 /// Fields whose stiffness over that of the points' own blocks is below this are left to the coarse
 /// system.
 constexpr double soft = 0.003;
+/// Boxes of a body that threads share in a correction.
+constexpr Index boxes_for_threads = 80;
 /// About so many of each box for each equation of a point.
 constexpr int expected_fields = 10;
 
@@ -51,8 +52,15 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
       }
     }
   });
+  finish_blocks(diagonal, blocks);
+  return blocks;
+}
+
+void finish_blocks(const std::vector<double>& diagonal, std::vector<double>& blocks) {
+  const std::size_t rows = blocks.size() / std::max<std::size_t>(diagonal.size(), 1);
+  const Eigen::Index size = static_cast<Eigen::Index>(rows);
   for (std::size_t p = 0; p < diagonal.size() / rows; ++p) {
-    Eigen::Map<MatrixXd> block(blocks.data() + p * rows * rows, equations.rows, equations.rows);
+    Eigen::Map<MatrixXd> block(blocks.data() + p * rows * rows, size, size);
     // What no variable between the bounds acts on keeps the identity.
     const double floor = 1e-11 * block.trace();
     for (std::size_t r = 0; r < rows; ++r) {
@@ -60,7 +68,6 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
       entry += entry > 0.0 ? floor + diagonal[p * rows + r] : 1.0;
     }
   }
-  return blocks;
 }
 
 BoxSpace::BoxSpace(const PointEquations& equations, const std::vector<double>& active,
@@ -100,7 +107,9 @@ void BoxSpace::find_fields(const PointEquations& equations, const std::vector<do
 #pragma omp parallel for schedule(dynamic) num_threads(threads_)
   for (Index b = 0; b < num_boxes(); ++b) {
     try {
-      fields_[b] = soft_fields(b, inside[b], equations, active, blocks);
+      const MatrixXd fields = soft_fields(b, inside[b], equations, active, blocks);
+      fields_[b] = {static_cast<std::size_t>(fields.cols()),
+                    {fields.data(), static_cast<std::size_t>(fields.size())}};
     } catch (...) {
 #pragma omp critical
       error = std::current_exception();
@@ -109,11 +118,11 @@ void BoxSpace::find_fields(const PointEquations& equations, const std::vector<do
   if (error) std::rethrow_exception(error);
   first_field_.assign(boxes_.size() + 1, 0);
   for (Index b = 0; b < num_boxes(); ++b) {
-    first_field_[b + 1] = first_field_[b] + static_cast<Index>(fields_[b].rows());
+    first_field_[b + 1] = first_field_[b] + static_cast<Index>(fields_[b].count());
   }
 }
 
-/// Those of one box, as rows.
+/// Those of one box, as columns.
 /// \param inside  variables that act on no other box
 /// \param blocks  per point
 MatrixXd BoxSpace::soft_fields(Index box, const std::vector<Index>& inside,
@@ -158,7 +167,7 @@ MatrixXd BoxSpace::soft_fields(Index box, const std::vector<Index>& inside,
     auto part = vectors.middleRows(static_cast<Eigen::Index>(k) * rows_, rows_);
     own[k].matrixU().solveInPlace(part);
   }
-  return vectors.transpose();
+  return vectors;
 }
 
 /// The variables by the boxes on which they act, and the blocks of the coarse system that these
@@ -168,9 +177,9 @@ void BoxSpace::sort_variables(const PointEquations& equations) {
   first_ = equations.first;
   second_ = equations.second;
   order_.clear();
+  order_.reserve(equations.first.size());
   groups_.clear();
   pairs_.clear();
-  factor_.reset();
   for (Index b = 0; b < num_boxes(); ++b) pairs_.emplace_back(b, b);
   for (Index v = 0; v < equations.num_variables(); ++v) {
     Key key;
@@ -202,27 +211,33 @@ void BoxSpace::sort_variables(const PointEquations& equations) {
 
 /// Adds what the diagonal of the system gives to a box's own block.
 void BoxSpace::add_diagonal(Index box, const std::vector<double>& diagonal, MatrixXd& own) const {
-  MatrixXd weighted = fields_[box];
+  const std::vector<double> values = fields_[box].values();
+  const Eigen::Index count = own.rows();
+  const Eigen::Map<const MatrixXd> fields(
+      values.data(), count,
+      static_cast<Eigen::Index>(values.size()) / std::max<Eigen::Index>(count, 1));
+  MatrixXd weighted = fields;
   for (std::size_t k = 0; k < boxes_[box].size(); ++k) {
     for (int r = 0; r < rows_; ++r) {
       weighted.col(static_cast<Eigen::Index>(k) * rows_ + r) *=
           diagonal[boxes_[box][k] * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(r)];
     }
   }
-  add_product(weighted, fields_[box], own);
+  add_product(weighted, MatrixXd(fields), own);
 }
 
 /// What the variables of a group give to the blocks of its boxes, by pairs of these.
 auto BoxSpace::products(std::size_t group, const PointEquations& equations,
                         const std::vector<double>& active) const -> GroupProducts {
   constexpr std::size_t most = 256;
+  const std::size_t rows = static_cast<std::size_t>(rows_);
   const Key& key = order_[groups_[group]].first;
   int count = 0;
   while (count < 4 && key[count] != no_index) ++count;
   GroupProducts sums;
   for (int k = 0; k < count; ++k) {
     for (int l = 0; l <= k; ++l) {
-      sums[k][l] = MatrixXd::Zero(fields_[key[k]].rows(), fields_[key[l]].rows());
+      sums[k][l] = MatrixXd::Zero(num_fields(key[k]), num_fields(key[l]));
     }
   }
   std::array<MatrixXd, 4> work;
@@ -231,7 +246,7 @@ auto BoxSpace::products(std::size_t group, const PointEquations& equations,
   const std::size_t last = groups_[group + 1];
   for (std::size_t begin = groups_[group], end; begin < last; begin = end) {
     end = std::min(last, begin + most);
-    for (int k = 0; k < count; ++k) work[k].setZero(fields_[key[k]].rows(), end - begin);
+    for (int k = 0; k < count; ++k) work[k].setZero(num_fields(key[k]), end - begin);
     for (std::size_t n = begin; n < end; ++n) {
       const Index v = order_[n].second;
       if (active[v] == 0.0) continue;
@@ -241,8 +256,10 @@ auto BoxSpace::products(std::size_t group, const PointEquations& equations,
         const Index p = column.keys[c];
         const int k =
             static_cast<int>(std::find(key.begin(), key.begin() + count, box_of_[p]) - key.begin());
-        work[k].col(static_cast<Eigen::Index>(n - begin)).noalias() +=
-            fields_[box_of_[p]].middleCols(place_[p] * rows_, rows_) * (root * column.blocks[c]);
+        column.blocks[c] *= root;
+        fields_[box_of_[p]].add_sums(static_cast<std::size_t>(place_[p] * rows_),
+                                     {column.blocks[c].data(), rows},
+                                     work[k].col(static_cast<Eigen::Index>(n - begin)).data());
       }
     }
     for (int k = 0; k < count; ++k) {
@@ -252,15 +269,36 @@ auto BoxSpace::products(std::size_t group, const PointEquations& equations,
   return sums;
 }
 
+/// Adds what variables between the boxes of the key give, those inside of a large box to its own.
+void BoxSpace::add(const Key& key, const GroupProducts& sums, BoxMatrix& matrix,
+                   BoxMatrix* inside) {
+  for (int k = 0; k < 4 && key[k] != no_index; ++k) {
+    if (CoarseSystem::large_box(key[k]) != CoarseSystem::large_box(key[0])) inside = nullptr;
+  }
+  for (int k = 0; k < 4; ++k) {
+    for (int l = 0; l <= k; ++l) {
+      if (sums[k][l].size() == 0) continue;
+      matrix.block(key[l], key[k]) += sums[k][l];
+      if (inside != nullptr) inside->block(key[l], key[k]) += sums[k][l];
+    }
+  }
+}
+
 void BoxSpace::refactorize(const PointEquations& equations, const std::vector<double>& active,
                            const std::vector<double>& diagonal) {
   if (num_fields() == 0) return;
   sort_variables(equations);
-  std::vector<MatrixXd> blocks;
+  BoxMatrix matrix{first_field_, pairs_, {}}, inside{first_field_, pairs_, {}};
   for (const auto& [a, b] : pairs_) {
-    blocks.push_back(MatrixXd::Zero(fields_[b].rows(), fields_[a].rows()));
-    if (a == b) add_diagonal(b, diagonal, blocks.back());
+    matrix.blocks.push_back(MatrixXd::Zero(num_fields(b), num_fields(a)));
   }
+  // What large boxes are made of, once.
+  const bool parts = CoarseSystem::is_nested(num_boxes()) && !coarse_.has_fields();
+  for (const auto& [a, b] : pairs_) {
+    const bool joined = parts && CoarseSystem::large_box(a) == CoarseSystem::large_box(b);
+    inside.blocks.push_back(joined ? MatrixXd::Zero(num_fields(b), num_fields(a)) : MatrixXd());
+  }
+  for (Index b = 0; b < num_boxes(); ++b) add_diagonal(b, diagonal, matrix.block(b, b));
   const Index num_groups = static_cast<Index>(groups_.size()) - 1;
   std::exception_ptr error;
   // Sums in the order of the groups, whichever thread makes them.
@@ -274,73 +312,32 @@ void BoxSpace::refactorize(const PointEquations& equations, const std::vector<do
       error = std::current_exception();
     }
 #pragma omp ordered
-    for (int k = 0; k < 4; ++k) {
-      for (int l = 0; l <= k; ++l) {
-        if (sums[k][l].size() == 0) continue;
-        const Key& key = order_[groups_[g]].first;
-        blocks[static_cast<std::size_t>(
-            std::lower_bound(pairs_.begin(), pairs_.end(), std::pair(key[l], key[k])) -
-            pairs_.begin())] += sums[k][l];
-      }
-    }
+    add(order_[groups_[g]].first, sums, matrix, parts ? &inside : nullptr);
   }
   if (error) std::rethrow_exception(error);
-  factorize(blocks);
-}
-
-/// \param blocks  those of the coarse system, by pairs_
-void BoxSpace::factorize(const std::vector<MatrixXd>& blocks) {
-  SparseMatrix coarse(num_fields(), num_fields());
-  Index size = 0;
-  for (const MatrixXd& block : blocks) size += static_cast<Index>(block.size());
-  coarse.resizeNonZeros(size);
-  std::vector<Index> group;
-  Index next = 0;
-  for (std::size_t first = 0, last; first < pairs_.size(); first = last) {
-    const Index box = pairs_[first].first;
-    for (last = first; last < pairs_.size() && pairs_[last].first == box;) ++last;
-    for (Eigen::Index c = 0; c < fields_[box].rows(); ++c) {
-      coarse.outerIndexPtr()[group.size()] = next;
-      group.push_back(box);
-      for (std::size_t n = first; n < last; ++n) {
-        for (Eigen::Index r = n == first ? c : 0; r < blocks[n].rows(); ++r, ++next) {
-          double value = blocks[n](r, c);
-          if (n == first && r == c) value = value > 0.0 ? (1.0 + 1e-13) * value : 1.0;
-          coarse.innerIndexPtr()[next] = first_field_[pairs_[n].second] + static_cast<Index>(r);
-          coarse.valuePtr()[next] = value;
-        }
-      }
-    }
-  }
-  coarse.outerIndexPtr()[num_fields()] = next;
-  coarse.resizeNonZeros(next);
-  if (factor_) return factor_->refactorize(coarse);
-  factor_ = make_factor(FactorRoute::in_place, 1);  // threads wait longer than they work
-  factor_->factorize(coarse, group);
+  coarse_.factorize(matrix, inside);
 }
 
 void BoxSpace::add_correction(const double* residual, double* result) const {
   if (num_fields() == 0) return;
-  VectorXd coarse(num_fields()), local;
-  const auto at = [](auto* values, Index point, int rows) {
-    return Eigen::Map<std::conditional_t<std::is_const_v<std::remove_pointer_t<decltype(values)>>,
-                                         const VectorXd, VectorXd>>(
-        values + static_cast<std::size_t>(point) * static_cast<std::size_t>(rows), rows);
-  };
+  const std::size_t rows = static_cast<std::size_t>(rows_);
+  std::vector<double> coarse(static_cast<std::size_t>(num_fields()), 0.0);
+#pragma omp parallel for schedule(static) if (num_boxes() > boxes_for_threads)
   for (Index b = 0; b < num_boxes(); ++b) {
-    local.resize(fields_[b].cols());
     for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
-      local.segment(static_cast<Eigen::Index>(k) * rows_, rows_) =
-          at(residual, boxes_[b][k], rows_);
+      fields_[b].add_sums(k * rows,
+                          {residual + static_cast<std::size_t>(boxes_[b][k]) * rows, rows},
+                          coarse.data() + first_field_[b]);
     }
-    coarse.segment(first_field_[b], fields_[b].rows()).noalias() = fields_[b] * local;
   }
-  const std::size_t size = static_cast<std::size_t>(coarse.size());
-  factor_->solve({coarse.data(), size}, {coarse.data(), size});
+  coarse_.solve(coarse);
+#pragma omp parallel for schedule(static) if (num_boxes() > boxes_for_threads)
   for (Index b = 0; b < num_boxes(); ++b) {
-    local.noalias() = fields_[b].transpose() * coarse.segment(first_field_[b], fields_[b].rows());
-    for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
-      at(result, boxes_[b][k], rows_) += local.segment(static_cast<Eigen::Index>(k) * rows_, rows_);
+    std::vector<double> local(boxes_[b].size() * rows, 0.0);
+    fields_[b].add_fields({coarse.data() + first_field_[b], coarse.data() + first_field_[b + 1]},
+                          local.data());
+    for (std::size_t k = 0; k < local.size(); ++k) {
+      result[static_cast<std::size_t>(boxes_[b][k / rows]) * rows + k % rows] += local[k];
     }
   }
 }

@@ -8,6 +8,8 @@
 
 #include <Eigen/Dense>
 
+#include "calibration/least_change/box_fields.hpp"
+#include "calibration/least_change/coarse_system.hpp"
 #include "calibration/least_change/point_equations.hpp"
 #include "solver/factor.hpp"
 
@@ -32,16 +34,19 @@ class BoxSpace {
   void add_correction(const double* residual, double* result) const;
 
   Index num_fields() const { return first_field_.back(); }
+  /// Whether the coarse system is not solved exactly, which takes more iterations.
+  bool is_nested() const { return CoarseSystem::is_nested(num_boxes()); }
 
  private:
   Index num_boxes() const { return static_cast<Index>(boxes_.size()); }
+  Index num_fields(Index box) const { return first_field_[box + 1] - first_field_[box]; }
   using Key = std::array<Index, 4>;  // boxes on which a variable acts, ascending
   using GroupProducts = std::array<std::array<Eigen::MatrixXd, 4>, 4>;
   void sort_variables(const PointEquations& equations);
   void add_diagonal(Index box, const std::vector<double>& diagonal, Eigen::MatrixXd& own) const;
   GroupProducts products(std::size_t group, const PointEquations& equations,
                          const std::vector<double>& active) const;
-  void factorize(const std::vector<Eigen::MatrixXd>& blocks);
+  static void add(const Key& key, const GroupProducts& sums, BoxMatrix& matrix, BoxMatrix* inside);
   void make_boxes(const PointEquations& equations);
   void find_fields(const PointEquations& equations, const std::vector<double>& active,
                    const std::vector<double>& diagonal);
@@ -57,13 +62,17 @@ class BoxSpace {
   std::vector<std::pair<Key, Index>> order_;    // variables, by boxes
   std::vector<std::size_t> groups_;             // where those of the same boxes begin in order_
   std::vector<std::pair<Index, Index>> pairs_;  // pairs of boxes that variables join, ascending
-  std::vector<Eigen::MatrixXd> fields_;         // per box, shape (fields, points * rows)
+  std::vector<BoxFields> fields_;               // per box
   std::vector<Index> first_field_;              // per box, and at the end the number of all
-  std::unique_ptr<Factor> factor_;
+  CoarseSystem coarse_;
 };
 
 /// Blocks of the single points of the system, shape (points, rows, rows).
 std::vector<double> point_blocks(const PointEquations& equations, const std::vector<double>& active,
                                  const std::vector<double>& diagonal);
+
+/// Adds the diagonal to the blocks of the single points of A D A'; what no variable acts on gets a
+/// one.
+void finish_blocks(const std::vector<double>& diagonal, std::vector<double>& blocks);
 
 }  // namespace perilink

@@ -3,30 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
 
+#include "calibration/least_change/direction_search.hpp"
 #include "calibration/least_change/kept_preconditioner.hpp"
+#include "calibration/least_change/packed_product.hpp"
 #include "calibration/least_change/point_equations.hpp"
 #include "calibration/least_change/system_product.hpp"
 #include "calibration/least_change/variable_parts.hpp"
 
 namespace perilink {
-
-inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-  return sum;
-}
-
-inline double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
-
-/// Round-off that multipliers leave in the residual, over their norm (a tenth of an ulp, measured
-/// on strips of up to 60 000 particles). Those of long waves along thin bodies reach 1e9, and
-/// iterations below this only move digits that do not exist.
-constexpr double round_off = 2e-17;
 
 /// The matrices A, A' and S = A D A' + ridge of least_change(), scaled equations by weights, and
 /// conjugate gradients for S. D, the mobility of the variables, is between 0 (at a bound) and 1.
@@ -51,6 +41,7 @@ class NormalEquations {
         with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes &&
                     options.method == Method::newton) {
     if (std::isfinite(options.price)) compliance.assign(size_, 0.0);
+    if (!by_factor_ && PackedProduct::serves(equations)) packed_.emplace(equations);
   }
 
   void apply_transpose(const Vector& y, std::vector<double>& result);
@@ -104,16 +95,19 @@ class NormalEquations {
   static constexpr int patience = 200, patience_with_fields = 100, stale_fields = 200;
   /// The coarse system of boxes takes the time of about forty iterations.
   static constexpr int stale_coarse = 80;
-  /// Blocks take the time of so many iterations: until then a solution may as well be more exact,
-  /// by this factor.
+  /// Blocks take the time of so many iterations.
   static constexpr int cheap_iterations = 10;
-  static constexpr double cheap_reduction = 0.1;
+  static constexpr std::size_t points_for_threads = 8000;
+  /// Products of single precision serve until residuals have fallen by this factor; where they have
+  /// not by the second one they do not serve.
+  static constexpr double digits_of_steps = 1e-4, least_gain = 0.1;
 
   template <class Values>
   auto& last_row(Values& values, Index point) const {
     return values[static_cast<std::size_t>(equations_.group[point]) * Rows + own];
   }
-  int iterate(const Vector& residual, double reduction, int most, Vector& direction);
+  void find_direction(DirectionSearch& search);
+  bool iterate(DirectionSearch& search, int most);
   void apply_system(const Vector& shift, const Vector& y, Vector& result);
   void precondition(const Vector& residual, Vector& result) const;
   /// Whether blocks work alone so far, although they may get help.
@@ -134,6 +128,7 @@ class NormalEquations {
   KeptPreconditioner& kept_;
   bool by_factor_;
   bool with_boxes_;
+  std::optional<PackedProduct> packed_;  // for the steps of a search
   bool own_factor_ = false;  // made for these equations, not for those of the last search
   int last_iterations_ = 0;
   std::vector<double> coarse_of_;  // mobility of the coarse system; empty: of another search
@@ -220,14 +215,23 @@ void NormalEquations<Rows, Odd, Grouped>::measure(const std::vector<double>& wei
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
   const std::vector<double> added = diagonal();
-  const std::vector<double> blocks = point_blocks(equations_, mobility, added);
+  std::vector<double> blocks;
+  if (packed_) {
+    packed_->set(mobility);
+    blocks = packed_->blocks();
+    finish_blocks(added, blocks);
+  } else {
+    blocks = point_blocks(equations_, mobility, added);
+  }
   inverse_blocks_.resize(size_ / Rows);
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
     inverse_blocks_[p] =
         Eigen::Map<const Block>(blocks.data() + p * Rows * Rows).llt().solve(Block::Identity());
   }
   // The coarse system serves other weights too; the blocks are cheap.
-  if (with_boxes_ && last_iterations_ > stale_coarse) renew_coarse();
+  if (with_boxes_ && last_iterations_ > (kept_.boxes->is_nested() ? 2 : 1) * stale_coarse) {
+    renew_coarse();
+  }
 }
 
 template <int Rows, int Odd, bool Grouped>
@@ -281,7 +285,9 @@ void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
                                                        Vector& result) const {
   using Column = Eigen::Matrix<double, Rows, 1>;
   if (by_factor_) return kept_.factor->solve(residual, result);
-  for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
+  const std::size_t points = inverse_blocks_.size();
+#pragma omp parallel for schedule(static) if (packed_ && points > points_for_threads)
+  for (std::size_t p = 0; p < points; ++p) {
     Eigen::Map<Column>(result.data() + p * Rows).noalias() =
         inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
   }
@@ -291,20 +297,24 @@ void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
 template <int Rows, int Odd, bool Grouped>
 int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double reduction,
                                                Vector& direction) {
-  direction.assign(size_, 0.0);
-  int count = 0;
-  const auto go_on = [&](int most) {
-    last_iterations_ = iterate(residual, reduction, most, direction);
-    count += last_iterations_;
-    return last_iterations_ < most;
-  };
+  DirectionSearch search{residual, reduction * norm(residual), residual, Vector(size_, 0.0)};
+  search.rounded = packed_.has_value();
+  find_direction(search);
+  direction = std::move(search.direction);
+  return search.iterations;
+}
+
+/// Blocks, or what has helped them so far, with more help whenever they take long.
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search) {
+  const int times = kept_.boxes && kept_.boxes->is_nested() ? 2 : 1;
   if (with_boxes_ && coarse_of_ != mobility) {
-    if (go_on(stale_coarse)) return count;
+    if (iterate(search, times * stale_coarse)) return;
     renew_coarse();
   }
   const int most_alone = kept_.boxes ? patience_with_fields : patience;
-  if (go_on(with_boxes_ ? stale_fields : alone() ? most_alone : options_.iterations)) return count;
-  if (!alone() && !with_boxes_) return count;
+  const int most = with_boxes_ ? times * stale_fields : alone() ? most_alone : options_.iterations;
+  if (iterate(search, most) || (!alone() && !with_boxes_)) return;
   if (options_.preconditioner == Preconditioner::blocks_then_factor) {
     by_factor_ = true;
     build_factor();
@@ -312,46 +322,31 @@ int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double re
     if (!with_boxes_ && kept_.boxes) {
       with_boxes_ = true;
       renew_coarse();
-      if (go_on(stale_coarse)) return count;
+      if (iterate(search, times * stale_coarse)) return;
     }
     with_boxes_ = true;
     kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal());
     coarse_of_ = mobility;
   }
-  go_on(options_.iterations);
-  return count;
+  iterate(search, options_.iterations);
 }
 
-/// Conjugate gradients on (S + proximity) direction = residual, from the direction as it is.
+/// Goes on with a search, by so many iterations at most. \return whether the target is reached
 template <int Rows, int Odd, bool Grouped>
-int NormalEquations<Rows, Odd, Grouped>::iterate(const Vector& residual, double reduction, int most,
-                                                 Vector& direction) {
+bool NormalEquations<Rows, Odd, Grouped>::iterate(DirectionSearch& search, int most) {
   const Vector shift = diagonal();
-  Vector r(size_), z(size_), q(size_);
-  apply_system(shift, direction, r);
-  for (std::size_t k = 0; k < size_; ++k) r[k] = residual[k] - r[k];
-  precondition(r, z);
-  Vector p = z;
-  double rz = dot(r, z);
-  const double target = reduction * norm(residual);
-  const bool blocks_alone = !by_factor_ && !with_boxes_;
-  int count = 0;
-  for (; count < most; ++count) {
-    const bool cheap = blocks_alone && count < cheap_iterations;
-    const double enough = cheap ? cheap_reduction * target : target;
-    if (norm(r) <= std::max(enough, round_off * norm(direction))) break;
-    apply_system(shift, p, q);
-    const double step = rz / dot(p, q);
-    for (std::size_t k = 0; k < size_; ++k) {
-      direction[k] += step * p[k];
-      r[k] -= step * q[k];
-    }
-    precondition(r, z);
-    const double next = dot(r, z);
-    for (std::size_t k = 0; k < size_; ++k) p[k] = z[k] + next / rz * p[k];
-    rz = next;
-  }
-  return count;
+  const int before = search.iterations;
+  search.cheap_iterations = !by_factor_ && !with_boxes_ ? cheap_iterations : 0;
+  const bool reached = descend(
+      search, most, [&](const Vector& y, Vector& result) { apply_system(shift, y, result); },
+      [&](const Vector& y, Vector& result) {
+        if (!search.rounded) return apply_system(shift, y, result);
+        packed_->apply(y, result);
+        for (std::size_t k = 0; k < size_; ++k) result[k] += shift[k] * y[k];
+      },
+      [&](const Vector& residual, Vector& result) { precondition(residual, result); });
+  last_iterations_ = search.iterations - before;
+  return reached;
 }
 
 }  // namespace perilink

@@ -1,0 +1,183 @@
+#include "calibration/least_change/coarse_system.hpp"
+
+#include <algorithm>
+
+#include "solver/dense_kernels.hpp"
+#include "solver/factor_routes.hpp"
+
+namespace perilink {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Fields of large boxes that cost less of their blocks than this, and about how many there are.
+constexpr double soft_in_large = 0.02;
+constexpr int expected_in_large = 140;
+
+/// Fields that threads share in a solution.
+constexpr Index fields_for_threads = 5000;
+
+/// What the diagonal is raised by, over itself, so that blocks of what nothing resists have a
+/// factor.
+constexpr double raise = 1e-13;
+
+MatrixXd with_raised_diagonal(MatrixXd block) {
+  for (Eigen::Index k = 0; k < block.rows(); ++k) {
+    block(k, k) = block(k, k) > 0.0 ? (1.0 + raise) * block(k, k) : 1.0;
+  }
+  return block;
+}
+
+BoxFields fields_of(const MatrixXd& columns) {
+  return {static_cast<std::size_t>(columns.cols()),
+          {columns.data(), static_cast<std::size_t>(columns.size())}};
+}
+
+}  // namespace
+
+MatrixXd& BoxMatrix::block(Index a, Index b) {
+  const auto found = std::ranges::lower_bound(pairs, std::pair(std::min(a, b), std::max(a, b)));
+  return blocks[static_cast<std::size_t>(found - pairs.begin())];
+}
+
+void CoarseSystem::factorize(const BoxMatrix& matrix, const BoxMatrix& inside) {
+  first_ = matrix.first;
+  if (!is_nested(matrix.num_boxes())) return factorize_directly(matrix);
+  if (fields_.empty()) find_fields(matrix, inside);
+  inverse_.resize(static_cast<std::size_t>(matrix.num_boxes()));
+  for (std::size_t n = 0; n < matrix.pairs.size(); ++n) {
+    const auto [a, b] = matrix.pairs[n];
+    if (a != b) continue;
+    const MatrixXd own = with_raised_diagonal(matrix.blocks[n]);
+    const MatrixXd inverse = own.llt().solve(MatrixXd::Identity(own.rows(), own.cols()));
+    inverse_[a] = fields_of(0.5 * (inverse + inverse.transpose()));
+  }
+  factorize_directly(of_large_boxes(matrix));
+}
+
+/// As those of points (BoxSpace::soft_fields).
+void CoarseSystem::find_fields(const BoxMatrix& matrix, const BoxMatrix& inside) {
+  const Index boxes = matrix.num_boxes(), large = large_box(boxes - 1) + 1;
+  fields_.resize(static_cast<std::size_t>(large));
+  first_large_.assign(1, 0);
+  for (Index g = 0; g < large; ++g) {
+    const Index begin = g * boxes_of_large, end = std::min(boxes, begin + boxes_of_large);
+    const Index start = matrix.first[begin], size = matrix.first[end] - start;
+    MatrixXd local = MatrixXd::Zero(size, size);
+    std::vector<Eigen::LLT<MatrixXd>> own;
+    for (std::size_t n = 0; n < matrix.pairs.size(); ++n) {
+      const auto [a, b] = matrix.pairs[n];
+      if (large_box(a) != g || large_box(b) != g) continue;
+      const auto place = [&](Index box) { return matrix.first[box] - start; };
+      local.block(place(b), place(a), matrix.size(b), matrix.size(a)) = inside.blocks[n];
+      local.block(place(a), place(b), matrix.size(a), matrix.size(b)) =
+          inside.blocks[n].transpose();
+      if (a == b) own.emplace_back(with_raised_diagonal(matrix.blocks[n]));
+    }
+    for (Index b = begin; b < end; ++b) {
+      auto rows = local.middleRows(matrix.first[b] - start, matrix.size(b));
+      own[b - begin].matrixL().solveInPlace(rows);
+    }
+    for (Index b = begin; b < end; ++b) {
+      auto columns = local.middleCols(matrix.first[b] - start, matrix.size(b));
+      own[b - begin].matrixU().solveInPlace<Eigen::OnTheRight>(columns);
+    }
+    MatrixXd fields = eigenvectors_below(local, soft_in_large, expected_in_large);
+    for (Index b = begin; b < end; ++b) {
+      auto rows = fields.middleRows(matrix.first[b] - start, matrix.size(b));
+      own[b - begin].matrixU().solveInPlace(rows);
+    }
+    first_large_.push_back(first_large_.back() + static_cast<Index>(fields.cols()));
+    fields_[g] = fields_of(fields);
+  }
+}
+
+/// P' A P.
+BoxMatrix CoarseSystem::of_large_boxes(const BoxMatrix& matrix) const {
+  BoxMatrix large{first_large_, {}, {}};
+  for (const auto& [a, b] : matrix.pairs) large.pairs.emplace_back(large_box(a), large_box(b));
+  std::ranges::sort(large.pairs);
+  large.pairs.erase(std::unique(large.pairs.begin(), large.pairs.end()), large.pairs.end());
+  for (const auto& [a, b] : large.pairs) {
+    large.blocks.push_back(MatrixXd::Zero(large.size(b), large.size(a)));
+  }
+  std::vector<std::vector<double>> fields;
+  for (const BoxFields& of : fields_) fields.push_back(of.values());
+  const auto rows_of = [&](Index box) {  // those of a box, transposed
+    const Index g = large_box(box), count = large.size(g);
+    const std::size_t start =
+        static_cast<std::size_t>(matrix.first[box] - matrix.first[g * boxes_of_large]);
+    return Eigen::Map<const MatrixXd>(fields[g].data() + start * static_cast<std::size_t>(count),
+                                      count, matrix.size(box));
+  };
+  for (std::size_t n = 0; n < matrix.pairs.size(); ++n) {
+    const auto [a, b] = matrix.pairs[n];
+    const MatrixXd product = rows_of(b) * (matrix.blocks[n] * rows_of(a).transpose());
+    MatrixXd& sum = large.block(large_box(a), large_box(b));
+    sum += product;
+    if (a != b && large_box(a) == large_box(b)) sum += product.transpose();
+  }
+  return large;
+}
+
+void CoarseSystem::factorize_directly(const BoxMatrix& matrix) {
+  const Index unknowns = matrix.first.back();
+  SparseMatrix coarse(unknowns, unknowns);
+  Index size = 0;
+  for (const MatrixXd& block : matrix.blocks) size += static_cast<Index>(block.size());
+  coarse.resizeNonZeros(size);
+  std::vector<Index> group;
+  Index next = 0;
+  for (std::size_t first = 0, last; first < matrix.pairs.size(); first = last) {
+    const Index box = matrix.pairs[first].first;
+    for (last = first; last < matrix.pairs.size() && matrix.pairs[last].first == box;) ++last;
+    for (Eigen::Index c = 0; c < matrix.size(box); ++c) {
+      coarse.outerIndexPtr()[group.size()] = next;
+      group.push_back(box);
+      for (std::size_t n = first; n < last; ++n) {
+        const MatrixXd& block = matrix.blocks[n];
+        for (Eigen::Index r = n == first ? c : 0; r < block.rows(); ++r, ++next) {
+          double value = block(r, c);
+          if (n == first && r == c) value = value > 0.0 ? (1.0 + raise) * value : 1.0;
+          coarse.innerIndexPtr()[next] =
+              matrix.first[matrix.pairs[n].second] + static_cast<Index>(r);
+          coarse.valuePtr()[next] = value;
+        }
+      }
+    }
+  }
+  coarse.outerIndexPtr()[unknowns] = next;
+  coarse.resizeNonZeros(next);
+  if (factor_ && pairs_ == matrix.pairs) return factor_->refactorize(coarse);
+  pairs_ = matrix.pairs;
+  factor_ = make_factor(FactorRoute::in_place, 1);  // threads wait longer than they work
+  factor_->factorize(coarse, group);
+}
+
+void CoarseSystem::solve(std::span<double> values) const {
+  if (fields_.empty()) return factor_->solve(values, values);
+  const Index boxes = static_cast<Index>(inverse_.size());
+  const Index large = static_cast<Index>(fields_.size());
+  const std::vector<double> right(values.begin(), values.end());
+  std::vector<double> sums(static_cast<std::size_t>(first_large_.back()), 0.0);
+  const auto begin_of = [&](Index g) { return first_[std::min(boxes, g * boxes_of_large)]; };
+#pragma omp parallel for schedule(static) if (first_.back() > fields_for_threads)
+  for (Index g = 0; g < large; ++g) {
+    fields_[g].add_sums(0, {right.data() + begin_of(g), right.data() + begin_of(g + 1)},
+                        sums.data() + first_large_[g]);
+  }
+  factor_->solve(sums, sums);
+  std::ranges::fill(values, 0.0);
+#pragma omp parallel for schedule(static) if (first_.back() > fields_for_threads)
+  for (Index g = 0; g < large; ++g) {
+    for (Index b = g * boxes_of_large; b < std::min(boxes, (g + 1) * boxes_of_large); ++b) {
+      inverse_[b].add_sums(0, {right.data() + first_[b], right.data() + first_[b + 1]},
+                           values.data() + first_[b]);
+    }
+    fields_[g].add_fields({sums.data() + first_large_[g], sums.data() + first_large_[g + 1]},
+                          values.data() + begin_of(g));
+  }
+}
+
+}  // namespace perilink

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "base/types.hpp"
+#include "calibration/least_change/box_fields.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// A symmetric matrix of the fields of boxes, by its blocks.
+struct BoxMatrix {
+  std::vector<Index> first;                    ///< where each box begins, and the end of all
+  std::vector<std::pair<Index, Index>> pairs;  ///< boxes (a, b), a <= b, ascending
+  std::vector<Eigen::MatrixXd> blocks;         ///< per pair, shape (fields of b, fields of a)
+
+  Index num_boxes() const { return static_cast<Index>(first.size()) - 1; }
+  Index size(Index box) const { return first[box + 1] - first[box]; }
+  /// \param a, b  boxes in any order
+  Eigen::MatrixXd& block(Index a, Index b);
+};
+
+/// Solves the system of the soft fields of boxes (BoxSpace): by its factor where there are few
+/// boxes. A factor of many would take more than all the rest; there they are gathered in large
+/// boxes, whose own soft fields have a factor, beside the blocks of the single boxes:
+/// D^-1 + P (P' A P)^-1 P', as BoxSpace does with points.
+class CoarseSystem {
+ public:
+  /// The large box of each box.
+  static Index large_box(Index box) { return box / boxes_of_large; }
+  static bool is_nested(Index num_boxes) { return num_boxes > most_in_factor; }
+
+  /// \param matrix  that of all variables
+  /// \param inside  that of those inside of large boxes, where it is nested; asked for at first
+  void factorize(const BoxMatrix& matrix, const BoxMatrix& inside);
+  bool has_fields() const { return !fields_.empty(); }
+
+  /// \param values  right side and solution, shape (fields)
+  void solve(std::span<double> values) const;
+
+ private:
+  static constexpr Index boxes_of_large = 8, most_in_factor = 128;
+
+  void find_fields(const BoxMatrix& matrix, const BoxMatrix& inside);
+  BoxMatrix of_large_boxes(const BoxMatrix& matrix) const;
+  void factorize_directly(const BoxMatrix& matrix);
+
+  std::vector<Index> first_;
+  std::vector<BoxFields> inverse_;  // the blocks of single boxes, where it is nested
+  std::vector<BoxFields> fields_;   // per large box
+  std::vector<Index> first_large_;
+  std::vector<std::pair<Index, Index>> pairs_;  // those of the factor
+  std::unique_ptr<Factor> factor_;
+};
+
+}  // namespace perilink

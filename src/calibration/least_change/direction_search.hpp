@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace perilink {
+
+inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+inline double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
+
+/// Round-off that multipliers leave in the residual, over their norm (a tenth of an ulp, measured
+/// on strips of up to 60 000 particles). Those of long waves along thin bodies reach 1e9, and
+/// iterations below this only move digits that do not exist.
+constexpr double round_off = 2e-17;
+
+/// What a search for a direction by conjugate gradients has come to.
+struct DirectionSearch {
+  const std::vector<double>& right;
+  double target;  ///< norm of the residual that is enough
+  std::vector<double> residual, direction;
+  int iterations = 0;
+  int cheap_iterations = 0;  ///< until then a solution may as well be more exact
+  bool rounded = false;      ///< whether products of the steps have few digits
+
+  static constexpr double cheap_reduction = 0.1;
+  /// Products of few digits serve until residuals have fallen by this factor; where they have not
+  /// by the second one they do not serve.
+  static constexpr double digits_of_steps = 1e-4, least_gain = 0.1;
+};
+
+/// Goes on with a search, by so many iterations at most. Where products of the steps have few
+/// digits and more are asked for, the residual is computed by the matrix itself whenever it seems
+/// to have fallen by as many, and the next direction made conjugate to the last one; where it has
+/// hardly fallen, the matrix itself goes on.
+/// \param exact, product  the matrix: called as exact(vector, result)
+/// \return whether the target is reached
+template <class Exact, class Product, class Precondition>
+bool descend(DirectionSearch& search, int most, Exact exact, Product product,
+             Precondition precondition) {
+  std::vector<double>& r = search.residual;
+  const std::size_t size = r.size();
+  std::vector<double> z(size), q(size);
+  const auto find_residual = [&] {
+    exact(search.direction, r);
+    for (std::size_t k = 0; k < size; ++k) r[k] = search.right[k] - r[k];
+  };
+  if (search.iterations > 0) find_residual();
+  precondition(r, z);
+  std::vector<double> p = z;
+  double rz = dot(r, z), rp = rz, curvature = 0.0, exact_size = norm(r);
+  const bool corrects = search.rounded && search.target < search.digits_of_steps * exact_size;
+  bool is_exact = true;
+  for (int count = 0;;) {
+    const bool cheap = count < search.cheap_iterations;
+    const double enough = cheap ? search.cheap_reduction * search.target : search.target;
+    const double left = norm(r);
+    const bool reached = left <= std::max(enough, round_off * norm(search.direction));
+    if (reached && is_exact) return true;
+    if (count == most) return false;
+    if (!is_exact && (reached || left < search.digits_of_steps * exact_size)) {
+      find_residual();
+      const double before = std::exchange(exact_size, norm(r));
+      search.rounded = exact_size <= search.least_gain * before;
+      is_exact = true;
+      precondition(r, z);
+      rz = dot(r, z);
+      const double share = dot(q, z) / curvature;
+      for (std::size_t k = 0; k < size; ++k) p[k] = z[k] - share * p[k];
+      rp = dot(p, r);
+      continue;
+    }
+    product(p, q);
+    curvature = dot(p, q);
+    const double step = rp / curvature;
+    for (std::size_t k = 0; k < size; ++k) {
+      search.direction[k] += step * p[k];
+      r[k] -= step * q[k];
+    }
+    is_exact = !corrects || !search.rounded;
+    precondition(r, z);
+    const double next = dot(r, z);
+    for (std::size_t k = 0; k < size; ++k) p[k] = z[k] + next / rz * p[k];
+    rp = rz = next;
+    ++count;
+    ++search.iterations;
+  }
+}
+
+}  // namespace perilink
