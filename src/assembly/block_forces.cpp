@@ -1,5 +1,7 @@
 #include "assembly/block_forces.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -8,6 +10,8 @@
 
 namespace perilink {
 namespace {
+
+constexpr Index elements_for_threads = 200000;
 
 /// As many numbers as a processor's widest registers hold; those of a block come in parts of so
 /// many.
@@ -26,15 +30,17 @@ std::size_t begin_of(Index particle) {
   return static_cast<std::size_t>(particle) * Width * block_width;
 }
 
-/// Bonds of a particle mostly follow each other: its motion and force stay in registers meanwhile.
+/// Forces of the columns [from, to). Bonds of a particle mostly follow each other: its motion and
+/// force stay in registers meanwhile.
 template <int Dim>
-void add_trusses(const Network& network, Secants secants, const double* motions, double* forces) {
+void add_trusses(const Network& network, Secants secants, const double* motions, double* forces,
+                 int from, int to) {
   const Bonds& bonds = network.bonds;
   const Index count = network.num_elements();
   for (Index begin = 0, end = 0; begin < count; begin = end) {
     const Index own = bonds.first[begin];
     while (end < count && bonds.first[end] == own) ++end;
-    for (int part = 0; part < block_width; part += lanes) {
+    for (int part = from; part < to; part += lanes) {
       const double* own_motion = motions + begin_of<Dim>(own) + part;
       double* own_force = forces + begin_of<Dim>(own) + part;
       Lanes motion[Dim], force[Dim];
@@ -59,6 +65,17 @@ void add_trusses(const Network& network, Secants secants, const double* motions,
       }
       for (int a = 0; a < Dim; ++a) at(own_force + a * block_width) = force[a];
     }
+  }
+}
+
+/// Threads take columns of their own, and each reads all bonds: sums are the same for any number.
+template <int Dim>
+void add_trusses(const Network& network, Secants secants, const double* motions, double* forces) {
+  const bool shared = network.num_elements() > elements_for_threads && omp_get_max_threads() > 1;
+  const int step = shared ? lanes : block_width;
+#pragma omp parallel for schedule(static, 1) if (shared)
+  for (int from = 0; from < block_width; from += step) {
+    add_trusses<Dim>(network, secants, motions, forces, from, from + step);
   }
 }
 

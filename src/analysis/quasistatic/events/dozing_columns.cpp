@@ -13,6 +13,9 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 /// Round-off of displacements that are added up in another order.
 constexpr double round_off = 1e-6;
 
+/// Blocks of elements that threads share when columns are measured.
+constexpr std::size_t blocks_for_threads = 2000;
+
 }  // namespace
 
 DozingColumns::DozingColumns(const DeferredMotion& motion, Index blocks, int dim,
@@ -50,6 +53,7 @@ void DozingColumns::measure_columns() {
   while (ratios_.size() < motion_->blocks->size()) {
     const BlockVector<double>& columns = (*motion_->blocks)[ratios_.size()];
     std::vector<double>& ratios = ratios_.emplace_back(bounds_.size() * block_width);
+#pragma omp parallel for schedule(static) if (bounds_.size() > blocks_for_threads)
     for (std::size_t b = 0; b < bounds_.size(); ++b) {
       const std::array<double, block_width> largest =
           largest_of_(static_cast<Index>(b), columns.data());
