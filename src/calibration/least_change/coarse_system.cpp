@@ -1,6 +1,9 @@
 #include "calibration/least_change/coarse_system.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
+#include <exception>
 
 #include "solver/dense_kernels.hpp"
 #include "solver/factor_routes.hpp"
@@ -11,9 +14,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Fields of large boxes that cost less of their blocks than this, and about how many there are.
+/// Fields of large boxes that cost less of their blocks than this, so many of them at most: a factor
+/// of more would take longer than the iterations that they save.
 constexpr double soft_in_large = 0.02;
-constexpr int expected_in_large = 140;
+constexpr int most_in_large = 120;
 
 /// Fields that threads share in a solution.
 constexpr Index fields_for_threads = 5000;
@@ -29,6 +33,22 @@ MatrixXd with_raised_diagonal(MatrixXd block) {
   return block;
 }
 
+/// Calls work(k) for all k below the count, side by side.
+template <class Work>
+void for_each_at_once(Index count, const Work& work) {
+  std::exception_ptr error;
+#pragma omp parallel for schedule(dynamic) num_threads(prepare_blas(omp_get_max_threads()))
+  for (Index k = 0; k < count; ++k) {
+    try {
+      work(k);
+    } catch (...) {
+#pragma omp critical
+      error = std::current_exception();
+    }
+  }
+  if (error) std::rethrow_exception(error);
+}
+
 BoxFields fields_of(const MatrixXd& columns) {
   return {static_cast<std::size_t>(columns.cols()),
           {columns.data(), static_cast<std::size_t>(columns.size())}};
@@ -36,7 +56,15 @@ BoxFields fields_of(const MatrixXd& columns) {
 
 }  // namespace
 
+bool BoxMatrix::has(Index a, Index b) const {
+  return std::ranges::binary_search(pairs, std::pair(std::min(a, b), std::max(a, b)));
+}
+
 MatrixXd& BoxMatrix::block(Index a, Index b) {
+  return const_cast<MatrixXd&>(std::as_const(*this).block(a, b));
+}
+
+const MatrixXd& BoxMatrix::block(Index a, Index b) const {
   const auto found = std::ranges::lower_bound(pairs, std::pair(std::min(a, b), std::max(a, b)));
   return blocks[static_cast<std::size_t>(found - pairs.begin())];
 }
@@ -46,51 +74,54 @@ void CoarseSystem::factorize(const BoxMatrix& matrix, const BoxMatrix& inside) {
   if (!is_nested(matrix.num_boxes())) return factorize_directly(matrix);
   if (fields_.empty()) find_fields(matrix, inside);
   inverse_.resize(static_cast<std::size_t>(matrix.num_boxes()));
-  for (std::size_t n = 0; n < matrix.pairs.size(); ++n) {
-    const auto [a, b] = matrix.pairs[n];
-    if (a != b) continue;
-    const MatrixXd own = with_raised_diagonal(matrix.blocks[n]);
+  for_each_at_once(matrix.num_boxes(), [&](Index box) {
+    const MatrixXd own = with_raised_diagonal(matrix.block(box, box));
     const MatrixXd inverse = own.llt().solve(MatrixXd::Identity(own.rows(), own.cols()));
-    inverse_[a] = fields_of(0.5 * (inverse + inverse.transpose()));
-  }
+    inverse_[box] = fields_of(0.5 * (inverse + inverse.transpose()));
+  });
   factorize_directly(of_large_boxes(matrix));
 }
 
-/// As those of points (BoxSpace::soft_fields).
 void CoarseSystem::find_fields(const BoxMatrix& matrix, const BoxMatrix& inside) {
-  const Index boxes = matrix.num_boxes(), large = large_box(boxes - 1) + 1;
+  const Index large = large_box(matrix.num_boxes() - 1) + 1;
   fields_.resize(static_cast<std::size_t>(large));
+  for_each_at_once(large, [&](Index g) { fields_[g] = soft_fields(g, matrix, inside); });
   first_large_.assign(1, 0);
-  for (Index g = 0; g < large; ++g) {
-    const Index begin = g * boxes_of_large, end = std::min(boxes, begin + boxes_of_large);
-    const Index start = matrix.first[begin], size = matrix.first[end] - start;
-    MatrixXd local = MatrixXd::Zero(size, size);
-    std::vector<Eigen::LLT<MatrixXd>> own;
-    for (std::size_t n = 0; n < matrix.pairs.size(); ++n) {
-      const auto [a, b] = matrix.pairs[n];
-      if (large_box(a) != g || large_box(b) != g) continue;
-      const auto place = [&](Index box) { return matrix.first[box] - start; };
-      local.block(place(b), place(a), matrix.size(b), matrix.size(a)) = inside.blocks[n];
-      local.block(place(a), place(b), matrix.size(a), matrix.size(b)) =
-          inside.blocks[n].transpose();
-      if (a == b) own.emplace_back(with_raised_diagonal(matrix.blocks[n]));
-    }
-    for (Index b = begin; b < end; ++b) {
-      auto rows = local.middleRows(matrix.first[b] - start, matrix.size(b));
-      own[b - begin].matrixL().solveInPlace(rows);
-    }
-    for (Index b = begin; b < end; ++b) {
-      auto columns = local.middleCols(matrix.first[b] - start, matrix.size(b));
-      own[b - begin].matrixU().solveInPlace<Eigen::OnTheRight>(columns);
-    }
-    MatrixXd fields = eigenvectors_below(local, soft_in_large, expected_in_large);
-    for (Index b = begin; b < end; ++b) {
-      auto rows = fields.middleRows(matrix.first[b] - start, matrix.size(b));
-      own[b - begin].matrixU().solveInPlace(rows);
-    }
-    first_large_.push_back(first_large_.back() + static_cast<Index>(fields.cols()));
-    fields_[g] = fields_of(fields);
+  for (const BoxFields& fields : fields_) {
+    first_large_.push_back(first_large_.back() + static_cast<Index>(fields.count()));
   }
+}
+
+/// As those of points (BoxSpace::soft_fields).
+BoxFields CoarseSystem::soft_fields(Index large, const BoxMatrix& matrix, const BoxMatrix& inside) {
+  const Index begin = large * boxes_of_large;
+  const Index end = std::min(matrix.num_boxes(), begin + boxes_of_large);
+  const auto place = [&](Index box) { return matrix.first[box] - matrix.first[begin]; };
+  MatrixXd local = MatrixXd::Zero(place(end), place(end));
+  std::vector<Eigen::LLT<MatrixXd>> own;
+  for (Index b = begin; b < end; ++b) {
+    own.emplace_back(with_raised_diagonal(matrix.block(b, b)));
+    for (Index a = begin; a <= b; ++a) {
+      if (!matrix.has(a, b)) continue;
+      const MatrixXd& block = inside.block(a, b);
+      local.block(place(b), place(a), block.rows(), block.cols()) = block;
+      local.block(place(a), place(b), block.cols(), block.rows()) = block.transpose();
+    }
+  }
+  for (Index b = begin; b < end; ++b) {
+    auto rows = local.middleRows(place(b), matrix.size(b));
+    own[b - begin].matrixL().solveInPlace(rows);
+  }
+  for (Index b = begin; b < end; ++b) {
+    auto columns = local.middleCols(place(b), matrix.size(b));
+    own[b - begin].matrixU().solveInPlace<Eigen::OnTheRight>(columns);
+  }
+  MatrixXd fields = eigenvectors_below(local, soft_in_large, most_in_large, most_in_large);
+  for (Index b = begin; b < end; ++b) {
+    auto rows = fields.middleRows(place(b), matrix.size(b));
+    own[b - begin].matrixU().solveInPlace(rows);
+  }
+  return fields_of(fields);
 }
 
 /// P' A P.
@@ -113,10 +144,12 @@ BoxMatrix CoarseSystem::of_large_boxes(const BoxMatrix& matrix) const {
   };
   for (std::size_t n = 0; n < matrix.pairs.size(); ++n) {
     const auto [a, b] = matrix.pairs[n];
-    const MatrixXd product = rows_of(b) * (matrix.blocks[n] * rows_of(a).transpose());
+    const MatrixXd left = rows_of(b), right = rows_of(a);
+    MatrixXd half = MatrixXd::Zero(right.rows(), left.cols());
+    add_product(right, matrix.blocks[n], half);
     MatrixXd& sum = large.block(large_box(a), large_box(b));
-    sum += product;
-    if (a != b && large_box(a) == large_box(b)) sum += product.transpose();
+    add_product(left, half, sum);
+    if (a != b && large_box(a) == large_box(b)) add_product(half, left, sum);
   }
   return large;
 }

@@ -22,7 +22,9 @@ struct BoxMatrix {
   Index num_boxes() const { return static_cast<Index>(first.size()) - 1; }
   Index size(Index box) const { return first[box + 1] - first[box]; }
   /// \param a, b  boxes in any order
+  bool has(Index a, Index b) const;
   Eigen::MatrixXd& block(Index a, Index b);
+  const Eigen::MatrixXd& block(Index a, Index b) const;
 };
 
 /// Solves the system of the soft fields of boxes (BoxSpace): by its factor where there are few
@@ -47,6 +49,7 @@ class CoarseSystem {
   static constexpr Index boxes_of_large = 8, most_in_factor = 128;
 
   void find_fields(const BoxMatrix& matrix, const BoxMatrix& inside);
+  static BoxFields soft_fields(Index large, const BoxMatrix& matrix, const BoxMatrix& inside);
   BoxMatrix of_large_boxes(const BoxMatrix& matrix) const;
   void factorize_directly(const BoxMatrix& matrix);
 
