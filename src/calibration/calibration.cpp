@@ -22,6 +22,9 @@ constexpr double met = CalibrationEquations::met;
 /// for a contradiction when a tenth is left.
 constexpr double contradiction_by_factor = 0.1;
 
+/// Energies are fitted again where more than this part of the bonds was dropped.
+constexpr double few_dropped = 0.01;
+
 /// In space searches are repeated until forces and moments are less out of balance than this.
 constexpr double exact = 1e-10;
 constexpr int most_refinements = 3;
@@ -82,7 +85,7 @@ class Calibration {
   double left() const { return priced_ && !soft_moments_ ? report_.sum_after : unbalanced(); }
   void soften_moments();
   LeastChange find_least_change(const PointEquations& equations, LeastChangeOptions options);
-  bool fit_and_balance(double tolerance);
+  void settle();
   bool balance_dropping_bonds();
   void fit_energies();
   void balance_by(Method method, double charge, double tolerance);
@@ -194,18 +197,18 @@ bool Calibration::balance(double tolerance) {
   return false;
 }
 
-bool Calibration::fit_and_balance(double tolerance) {
+void Calibration::settle() {
   equations_.start_over();
   if (energies_) fit_energies();
   settled_ = equations_.save();
-  return balance(tolerance);
 }
 
 /// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
 /// all over) every bond keeps something to carry. \return whether the exact forces led anywhere
 bool Calibration::balance_dropping_bonds() {
   const double coarse = cautious_ ? coarse_tolerance : tolerance_;
-  if (!fit_and_balance(coarse)) return false;
+  settle();
+  if (!balance(coarse)) return false;
   const double floored = unbalanced();
   if (!priced_ && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
     const CalibrationEquations::State with_floors = equations_.save();
@@ -216,9 +219,12 @@ bool Calibration::balance_dropping_bonds() {
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();
       if (tied_) start_ = std::move(multipliers_);  // what is gone has carried nothing
-      // The few bonds that are gone hardly change the energies of clouds.
-      settled_ = equations_.without_dropped(std::move(settled_));
-      equations_.restore(settled_);
+      if (equations_.num_dropped() > few_dropped * equations_.num_free()) {
+        settle();
+      } else {  // few bonds hardly change the energies of a cloud
+        settled_ = equations_.without_dropped(std::move(settled_));
+        equations_.restore(settled_);
+      }
       balance(tolerance_);
       if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
     }

@@ -15,13 +15,13 @@ struct Rates {
 };
 
 // Measured on bodies of 16 000 to 165 000 free bonds, alone on one core; lattices in space without
-// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 11 000 to 206 000 on one
-// core beside other programs: 60e-6 to 80e-6 of up to 30 000 bonds, 30e-6 above.
+// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 57 000 to 1 200 000:
+// 75e-6 to 110e-6 where corners have no solution with all bonds, 30e-6 where they have.
 constexpr Rates in_plane{8e-6, 10e-6}, in_plane_with_moments{12e-6, 30e-6};
 /// In the plane a factor of all equations takes most of the time of clouds: the rates are those of
 /// so many particles and grow with this power of the number (4 000 to 149 000 particles).
 constexpr double particles_of_rates = 12000.0, growth_of_factor = 0.38;
-constexpr Rates in_space{35e-6, 40e-6}, in_space_with_moments{200e-6, 250e-6};
+constexpr Rates in_space{35e-6, 80e-6}, in_space_with_moments{200e-6, 250e-6};
 /// On lattices in space without moments it grows with this power of the number of free bonds and is
 /// that of so many (170 000 to 1 100 000).
 constexpr double bonds_of_rate = 170000.0, growth_in_space = 0.4;

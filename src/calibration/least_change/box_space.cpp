@@ -52,13 +52,12 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
       }
     }
   });
-  finish_blocks(diagonal, blocks);
+  finish_blocks(equations.rows, diagonal, blocks);
   return blocks;
 }
 
-void finish_blocks(const std::vector<double>& diagonal, std::vector<double>& blocks) {
-  const std::size_t rows = blocks.size() / std::max<std::size_t>(diagonal.size(), 1);
-  const Eigen::Index size = static_cast<Eigen::Index>(rows);
+void finish_blocks(int size, const std::vector<double>& diagonal, std::vector<double>& blocks) {
+  const std::size_t rows = static_cast<std::size_t>(size);
   for (std::size_t p = 0; p < diagonal.size() / rows; ++p) {
     Eigen::Map<MatrixXd> block(blocks.data() + p * rows * rows, size, size);
     // What no variable between the bounds acts on keeps the identity.

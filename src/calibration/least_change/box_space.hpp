@@ -11,7 +11,6 @@
 #include "calibration/least_change/box_fields.hpp"
 #include "calibration/least_change/coarse_system.hpp"
 #include "calibration/least_change/point_equations.hpp"
-#include "solver/factor.hpp"
 
 namespace perilink {
 
@@ -73,6 +72,7 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
 
 /// Adds the diagonal to the blocks of the single points of A D A'; what no variable acts on gets a
 /// one.
-void finish_blocks(const std::vector<double>& diagonal, std::vector<double>& blocks);
+/// \param rows  equations of a point
+void finish_blocks(int rows, const std::vector<double>& diagonal, std::vector<double>& blocks);
 
 }  // namespace perilink

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "base/error.hpp"
 #include "solver/dense_kernels.hpp"
 #include "solver/factor_routes.hpp"
 
@@ -25,6 +26,8 @@ constexpr Index fields_for_threads = 5000;
 /// What the diagonal is raised by, over itself, so that blocks of what nothing resists have a
 /// factor.
 constexpr double raise = 1e-13;
+
+constexpr auto no_factor = "the block of a box has no factor";
 
 MatrixXd with_raised_diagonal(MatrixXd block) {
   for (Eigen::Index k = 0; k < block.rows(); ++k) {
@@ -73,13 +76,15 @@ void CoarseSystem::factorize(const BoxMatrix& matrix, const BoxMatrix& inside) {
   first_ = matrix.first;
   if (!is_nested(matrix.num_boxes())) return factorize_directly(matrix);
   if (fields_.empty()) find_fields(matrix, inside);
-  inverse_.resize(static_cast<std::size_t>(matrix.num_boxes()));
+  roots_.resize(static_cast<std::size_t>(matrix.num_boxes()));
   for_each_at_once(matrix.num_boxes(), [&](Index box) {
     const MatrixXd own = with_raised_diagonal(matrix.block(box, box));
-    const MatrixXd inverse = own.llt().solve(MatrixXd::Identity(own.rows(), own.cols()));
-    inverse_[box] = fields_of(0.5 * (inverse + inverse.transpose()));
+    const Eigen::LLT<MatrixXd> factor(own);
+    if (factor.info() != Eigen::Success) throw SolverError(no_factor);
+    const MatrixXd lower = factor.matrixL().solve(MatrixXd::Identity(own.rows(), own.cols()));
+    roots_[box] = fields_of(lower.transpose());
   });
-  factorize_directly(of_large_boxes(matrix));
+  if (first_large_.back() > 0) factorize_directly(of_large_boxes(matrix));
 }
 
 void CoarseSystem::find_fields(const BoxMatrix& matrix, const BoxMatrix& inside) {
@@ -101,6 +106,7 @@ BoxFields CoarseSystem::soft_fields(Index large, const BoxMatrix& matrix, const 
   std::vector<Eigen::LLT<MatrixXd>> own;
   for (Index b = begin; b < end; ++b) {
     own.emplace_back(with_raised_diagonal(matrix.block(b, b)));
+    if (own.back().info() != Eigen::Success) throw SolverError(no_factor);
     for (Index a = begin; a <= b; ++a) {
       if (!matrix.has(a, b)) continue;
       const MatrixXd& block = inside.block(a, b);
@@ -190,7 +196,7 @@ void CoarseSystem::factorize_directly(const BoxMatrix& matrix) {
 
 void CoarseSystem::solve(std::span<double> values) const {
   if (fields_.empty()) return factor_->solve(values, values);
-  const Index boxes = static_cast<Index>(inverse_.size());
+  const Index boxes = static_cast<Index>(roots_.size());
   const Index large = static_cast<Index>(fields_.size());
   const std::vector<double> right(values.begin(), values.end());
   std::vector<double> sums(static_cast<std::size_t>(first_large_.back()), 0.0);
@@ -200,13 +206,14 @@ void CoarseSystem::solve(std::span<double> values) const {
     fields_[g].add_sums(0, {right.data() + begin_of(g), right.data() + begin_of(g + 1)},
                         sums.data() + first_large_[g]);
   }
-  factor_->solve(sums, sums);
+  if (!sums.empty()) factor_->solve(sums, sums);
   std::ranges::fill(values, 0.0);
 #pragma omp parallel for schedule(static) if (first_.back() > fields_for_threads)
   for (Index g = 0; g < large; ++g) {
     for (Index b = g * boxes_of_large; b < std::min(boxes, (g + 1) * boxes_of_large); ++b) {
-      inverse_[b].add_sums(0, {right.data() + first_[b], right.data() + first_[b + 1]},
-                           values.data() + first_[b]);
+      std::vector<double> local(roots_[b].count(), 0.0);
+      roots_[b].add_sums(0, {right.data() + first_[b], right.data() + first_[b + 1]}, local.data());
+      roots_[b].add_fields(local, values.data() + first_[b]);
     }
     fields_[g].add_fields({sums.data() + first_large_[g], sums.data() + first_large_[g + 1]},
                           values.data() + begin_of(g));

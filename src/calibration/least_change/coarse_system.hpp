@@ -54,8 +54,10 @@ class CoarseSystem {
   void factorize_directly(const BoxMatrix& matrix);
 
   std::vector<Index> first_;
-  std::vector<BoxFields> inverse_;  // the blocks of single boxes, where it is nested
-  std::vector<BoxFields> fields_;   // per large box
+  /// Inverse of the lower factor of each box's own block, transposed, where it is nested: what it
+  /// makes of a block is definite whatever single precision rounds.
+  std::vector<BoxFields> roots_;
+  std::vector<BoxFields> fields_;  // per large box
   std::vector<Index> first_large_;
   std::vector<std::pair<Index, Index>> pairs_;  // those of the factor
   std::unique_ptr<Factor> factor_;

@@ -55,7 +55,8 @@ bool descend(DirectionSearch& search, int most, Exact exact, Product product,
   precondition(r, z);
   std::vector<double> p = z;
   double rz = dot(r, z), rp = rz, curvature = 0.0, exact_size = norm(r);
-  const bool corrects = search.rounded && search.target < search.digits_of_steps * exact_size;
+  const bool corrects =
+      search.rounded && search.target < search.digits_of_steps * norm(search.right);
   bool is_exact = true;
   for (int count = 0;;) {
     const bool cheap = count < search.cheap_iterations;

@@ -9,6 +9,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/error.hpp"
 #include "calibration/least_change/direction_search.hpp"
 #include "calibration/least_change/kept_preconditioner.hpp"
 #include "calibration/least_change/packed_product.hpp"
@@ -41,7 +42,10 @@ class NormalEquations {
         with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes &&
                     options.method == Method::newton) {
     if (std::isfinite(options.price)) compliance.assign(size_, 0.0);
-    if (!by_factor_ && PackedProduct::serves(equations)) packed_.emplace(equations);
+    if (options.preconditioner == Preconditioner::blocks_then_boxes &&
+        PackedProduct::serves(equations)) {
+      packed_.emplace(equations);
+    }
   }
 
   void apply_transpose(const Vector& y, std::vector<double>& result);
@@ -98,9 +102,6 @@ class NormalEquations {
   /// Blocks take the time of so many iterations.
   static constexpr int cheap_iterations = 10;
   static constexpr std::size_t points_for_threads = 8000;
-  /// Products of single precision serve until residuals have fallen by this factor; where they have
-  /// not by the second one they do not serve.
-  static constexpr double digits_of_steps = 1e-4, least_gain = 0.1;
 
   template <class Values>
   auto& last_row(Values& values, Index point) const {
@@ -112,9 +113,12 @@ class NormalEquations {
   void precondition(const Vector& residual, Vector& result) const;
   /// Whether blocks work alone so far, although they may get help.
   bool alone() const {
-    return !by_factor_ && !with_boxes_ && options_.preconditioner != Preconditioner::blocks;
+    return !by_factor_ && !with_boxes_ && !boxes_failed_ &&
+           options_.preconditioner != Preconditioner::blocks;
   }
   void build_blocks();
+  template <class Make>
+  void use_boxes(Make make);
   void renew_coarse();
   void build_factor();
   Vector diagonal() const;
@@ -128,6 +132,7 @@ class NormalEquations {
   KeptPreconditioner& kept_;
   bool by_factor_;
   bool with_boxes_;
+  bool boxes_failed_ = false;            // blocks go on alone
   std::optional<PackedProduct> packed_;  // for the steps of a search
   bool own_factor_ = false;  // made for these equations, not for those of the last search
   int last_iterations_ = 0;
@@ -219,7 +224,7 @@ void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
   if (packed_) {
     packed_->set(mobility);
     blocks = packed_->blocks();
-    finish_blocks(added, blocks);
+    finish_blocks(Rows, added, blocks);
   } else {
     blocks = point_blocks(equations_, mobility, added);
   }
@@ -234,10 +239,24 @@ void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
   }
 }
 
+/// Fields or a factor of boxes may have too few digits where equations contradict each other.
+template <int Rows, int Odd, bool Grouped>
+template <class Make>
+void NormalEquations<Rows, Odd, Grouped>::use_boxes(Make make) {
+  try {
+    make();
+    with_boxes_ = true;
+    coarse_of_ = mobility;
+  } catch (const SolverError&) {
+    kept_.boxes.reset();
+    with_boxes_ = false;
+    boxes_failed_ = true;
+  }
+}
+
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::renew_coarse() {
-  kept_.boxes->refactorize(equations_, mobility, diagonal());
-  coarse_of_ = mobility;
+  use_boxes([&] { kept_.boxes->refactorize(equations_, mobility, diagonal()); });
 }
 
 /// What the diagonal of the system holds beside A D A', shape (points, Rows).
@@ -320,13 +339,10 @@ void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search
     build_factor();
   } else {
     if (!with_boxes_ && kept_.boxes) {
-      with_boxes_ = true;
       renew_coarse();
       if (iterate(search, times * stale_coarse)) return;
     }
-    with_boxes_ = true;
-    kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal());
-    coarse_of_ = mobility;
+    use_boxes([&] { kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal()); });
   }
   iterate(search, options_.iterations);
 }

@@ -1,6 +1,8 @@
 #include "calibration/least_change/packed_product.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "base/lanes.hpp"
 #include "discretization/point_boxes.hpp"
@@ -46,7 +48,12 @@ inline double pull(const Row& a, const Row& near, const Row& far, float mobility
 
 }  // namespace
 
-PackedProduct::PackedProduct(const PointEquations& equations) : equations_(equations) {
+PackedProduct::PackedProduct(const PointEquations& equations)
+    : equations_(equations), scale_(equations.scale) {
+  double largest = 0.0;
+  for (const double a : equations.coefficients) largest = std::max(largest, std::abs(a));
+  if (largest > 0.0) unit_ = std::exp2(std::ilogb(largest));
+  for (double& scale : scale_) scale *= unit_;
   order_points();
   pack();
   values_.assign(point_.size() * width, 0.0);
@@ -98,9 +105,10 @@ void PackedProduct::pack() {
     for_each_row(v, [&](std::size_t row, Index other, bool second) {
       const std::size_t entry = begin_[row + 1]++;
       float* packed = coefficients_.data() + entry * width;
-      for (std::size_t r = 0; r < odd; ++r) packed[r] = static_cast<float>(second ? -a[r] : a[r]);
+      for (std::size_t r = 0; r < odd; ++r)
+        packed[r] = static_cast<float>((second ? -a[r] : a[r]) / unit_);
       const bool paired = rows > odd && v < equations_.one_ended;
-      packed[odd] = paired ? static_cast<float>(a[odd]) : 0.0F;
+      packed[odd] = paired ? static_cast<float>(a[odd] / unit_) : 0.0F;
       packed[weight] = 1.0F;
       other_[entry] = other;
       variable_[entry] = v;
@@ -151,7 +159,7 @@ void PackedProduct::multiply(std::size_t part) {
 void PackedProduct::apply(std::span<const double> y, std::span<double> result) {
   const std::size_t rows = static_cast<std::size_t>(equations_.rows);
   const bool grouped = rows > odd;
-  const double* scale = equations_.scale.data();
+  const double* scale = scale_.data();
   for (std::size_t place = 0; place < point_.size(); ++place) {
     const std::size_t first = static_cast<std::size_t>(point_[place]) * rows;
     double* values = values_.data() + place * width;
@@ -241,7 +249,7 @@ std::vector<double> PackedProduct::blocks() const {
   if (rows > odd) add_last_rows(blocks);
   for (std::size_t p = 0; p < points; ++p) {
     const double* own = sums.data() + static_cast<std::size_t>(place_[p]) * odd * width;
-    const double* scale = equations_.scale.data() + p * rows;
+    const double* scale = scale_.data() + p * rows;
     double* block = blocks.data() + p * rows * rows;
     for (std::size_t r = 0; r < odd; ++r) {
       for (std::size_t c = 0; c < odd; ++c) {

@@ -49,6 +49,10 @@ class PackedProduct {
   void for_each_row(Index variable, Visit visit) const;
 
   const PointEquations& equations_;
+  /// By which numbers of points count: those of the equations times a power of two, over which
+  /// coefficients have sizes that single precision holds in any units.
+  std::vector<double> scale_;
+  double unit_ = 1.0;
   std::vector<Index> place_, point_;   // where a point comes in the order, and back
   std::vector<std::size_t> part_end_;  // places up to which each part goes
   std::vector<std::size_t> begin_;     // two rows for each place: to places behind it in its part,

@@ -73,9 +73,12 @@ TEST(PackedProduct, IsTheSameForAnyNumberOfThreads) {
       Eigen::VectorXd::Random(static_cast<Eigen::Index>(equations.right.size()));
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
-  const std::vector<double> one = product(equations, mobility, y);
+  PackedProduct packed(equations);
+  packed.set(mobility);
+  const std::vector<double> one = product(equations, mobility, y), blocks = packed.blocks();
   omp_set_num_threads(3);
   EXPECT_EQ(product(equations, mobility, y), one);
+  EXPECT_EQ(packed.blocks(), blocks);
   omp_set_num_threads(threads);
 }
 
@@ -89,9 +92,44 @@ TEST(PackedProduct, HasTheBlocksOfThePoints) {
       PackedProduct packed(equations);
       packed.set(mobility);
       std::vector<double> found = packed.blocks();
-      finish_blocks(diagonal, found);
+      finish_blocks(equations.rows, diagonal, found);
       ASSERT_EQ(found.size(), expected.size());
       for (std::size_t k = 0; k < found.size(); ++k) ASSERT_NEAR(found[k], expected[k], 1e-5);
+    }
+  }
+}
+
+/// Mobilities of one step of Newton's method after the other.
+TEST(PackedProduct, FollowsTheMobility) {
+  std::vector<double> mobility;
+  const PointEquations equations = random_equations(9, true, mobility);
+  PackedProduct packed(equations);
+  packed.set(mobility);
+  for (double& m : mobility) m = m == 0.0 ? 0.7 : 0.0;
+  packed.set(mobility);
+  const Eigen::VectorXd y =
+      Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(equations.right.size()), -1.0, 2.0);
+  std::vector<double> found(equations.right.size());
+  packed.apply({y.data(), found.size()}, found);
+  const Eigen::VectorXd expected = test::apply_system(equations, mobility, 0.0, y);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    EXPECT_NEAR(found[k], expected[static_cast<Eigen::Index>(k)], 1e-5);
+  }
+}
+
+/// Single precision holds no numbers beyond 1e38; units are up to the user.
+TEST(PackedProduct, ServesAnyUnits) {
+  for (const double unit : {1e-45, 1e45}) {
+    std::vector<double> mobility;
+    PointEquations equations = random_equations(9, true, mobility);
+    for (double& a : equations.coefficients) a *= unit;
+    for (double& s : equations.scale) s /= unit;
+    const Eigen::VectorXd y =
+        Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(equations.right.size()), -1.0, 2.0);
+    const std::vector<double> found = product(equations, mobility, y);
+    const Eigen::VectorXd expected = test::apply_system(equations, mobility, 0.0, y);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_NEAR(found[k], expected[static_cast<Eigen::Index>(k)], 1e-5);
     }
   }
 }
