@@ -231,24 +231,6 @@ TEST(Calibration, DropsTheDiagonalsAtTheCornersOfACube) {
 
 /// At the limit of Poisson's ratio bonds do not bend, in one of two materials or in all: trusses
 /// among frames.
-/// Few bonds for each equation: the factor of all equations takes over from blocks in the midst of a
-/// search, and serves the steps behind it, with other weights at their bounds.
-TEST(Calibration, OfAFaceCentredLGoesOnWithAFactor) {
-  LatticeInput input = box(Pattern::face_centred, 1.4142136, {12, 12, 4});
-  input.solid = {{{0, 0, 0}, {12, 6, 4}}, {{0, 0, 0}, {4, 12, 4}}};
-  input.material = {0, 0};
-  Problem problem = make_problem(input, 2.0, 0.0, false);
-  const CalibrationInput given{problem.body.particles,
-                               problem.bonds,
-                               {{1.0, 1.0}},
-                               std::vector<std::uint8_t>(problem.bonds.lengths.size(), 1)};
-  const CalibrationReport report =
-      calibrate_bonds(given, {}, problem.body.facets, problem.stiffness);
-  EXPECT_GT(report.residual_before, 0.1);
-  EXPECT_LT(report.residual_after, 1e-10);
-  EXPECT_EQ(report.unmet, 0);
-}
-
 TEST(Calibration, TakesBondsThatDoNotBendAsTrusses) {
   for (const Index every : {1, 2}) {
     Problem problem = make_problem(box(Pattern::cubic, 0.25, {1, 1, 1}), 3.0, 0.2, true);

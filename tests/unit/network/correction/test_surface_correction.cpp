@@ -129,6 +129,22 @@ TEST(SurfaceCorrection, InThePlaneTheInteriorPointIsTheLastResort) {
   EXPECT_EQ(network.calibration->dropped, 0);
 }
 
+/// Few bonds for each equation: the factor of all equations takes over from blocks in the midst of a
+/// search, and serves the steps behind it, with other weights at their bounds.
+TEST(SurfaceCorrection, OfAFaceCentredLGoesOnWithAFactor) {
+  LatticeInput of_body = body_input({"", Pattern::face_centred, Surface::calibrated}, 8);
+  of_body.spacing = 1.4142136;
+  of_body.solid = {{{0, 0, 0}, {12, 6, 4}}, {{0, 0, 0}, {4, 12, 4}}};
+  of_body.material = {0, 0};
+  NetworkInput input = network_input(of_body);
+  input.horizon = 2.0 * of_body.spacing;
+  const Network network = build_network(make_body(of_body), input);
+  EXPECT_GT(network.calibration->residual_before, 0.1);
+  EXPECT_LT(network.calibration->residual_after, 1e-10);
+  EXPECT_EQ(network.calibration->unmet, 0);
+  EXPECT_GT(network.calibration->dropped, 0);
+}
+
 /// In space the problem ends a few horizons from the edges: weights of longer boxes are the same.
 TEST(SurfaceCorrection, CalibrationOfABoxInSpaceDoesNotDependOnItsSize) {
   for (const Pattern pattern : {Pattern::cubic, Pattern::face_centred}) {
