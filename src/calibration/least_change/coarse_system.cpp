@@ -15,8 +15,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Fields of large boxes that cost less of their blocks than this, so many of them at most: a factor
-/// of more would take longer than the iterations that they save.
+/// Fields of large boxes that cost less of their blocks than this, so many of them at most: a
+/// factor of more would take longer than the iterations that they save.
 constexpr double soft_in_large = 0.02;
 constexpr int most_in_large = 120;
 

@@ -129,8 +129,8 @@ TEST(SurfaceCorrection, InThePlaneTheInteriorPointIsTheLastResort) {
   EXPECT_EQ(network.calibration->dropped, 0);
 }
 
-/// Few bonds for each equation: the factor of all equations takes over from blocks in the midst of a
-/// search, and serves the steps behind it, with other weights at their bounds.
+/// Few bonds for each equation: the factor of all equations takes over from blocks in the midst of
+/// a search, and serves the steps behind it, with other weights at their bounds.
 TEST(SurfaceCorrection, OfAFaceCentredLGoesOnWithAFactor) {
   LatticeInput of_body = body_input({"", Pattern::face_centred, Surface::calibrated}, 8);
   of_body.spacing = 1.4142136;
