@@ -133,8 +133,7 @@ void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::Matr
   dgemm_("N", "T", &m, &n, &k, &one, a.data(), &m, b.data(), &n, &one, sum.data(), &m);
 }
 
-Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, int expected,
-                                   int most) {
+Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, int expected) {
   const int size = static_cast<int>(matrix.rows());
   if (size == 0) return matrix;
   if (!matrix.allFinite()) throw SolverError("a dense matrix holds numbers that are not finite");
@@ -144,8 +143,7 @@ Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, 
   int info = 0;
   dpotrf_("L", &size, lower.data(), &size, &info);
   check(info);
-  const int enough = std::min(size, most);
-  for (int count = std::min(enough, expected);; count = std::min(enough, 2 * count)) {
+  for (int count = std::min(size, expected);; count = std::min(size, 2 * count)) {
     MatrixXd columns = numbers_at_random(size, count);
     for (int step = 0; step < inverse_iterations; ++step) {
       solve(lower, columns);
@@ -154,7 +152,7 @@ Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, 
     const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(
         product(columns, true, product(matrix, false, columns)));
     const auto found = (ritz.eigenvalues().array() <= limit).count();
-    if (count<enough&& static_cast<double>(found)> full * count) continue;
+    if (count<size&& static_cast<double>(found)> full * count) continue;
     return product(columns, false, ritz.eigenvectors().leftCols(found));
   }
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include <Eigen/Core>
 
 /// \file Dense matrices by BLAS and LAPACK, one thread each: results do not depend on their number.
@@ -21,9 +19,7 @@ void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::Matr
 /// inverse iteration of a subspace: those far below the limit are exact, those near it a mixture of
 /// their neighbours.
 /// \param expected  about how many there are: a subspace so large is tried first
-/// \param most      so many of the softest are enough
 /// \throws SolverError where they are not found (numbers that are not finite)
-Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, int expected,
-                                   int most = std::numeric_limits<int>::max());
+Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, int expected);
 
 }  // namespace perilink

@@ -15,10 +15,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Fields of large boxes that cost less of their blocks than this, so many of them at most: a
-/// factor of more would take longer than the iterations that they save.
+/// Fields of large boxes that cost less of their blocks than this, and about how many there are.
+/// All are taken: where many weights are at their bounds, those beyond 120 of each box cost
+/// thousands of iterations.
 constexpr double soft_in_large = 0.02;
-constexpr int most_in_large = 120;
+constexpr int expected_in_large = 140;
 
 /// Fields that threads share in a solution.
 constexpr Index fields_for_threads = 5000;
@@ -122,7 +123,7 @@ BoxFields CoarseSystem::soft_fields(Index large, const BoxMatrix& matrix, const 
     auto columns = local.middleCols(place(b), matrix.size(b));
     own[b - begin].matrixU().solveInPlace<Eigen::OnTheRight>(columns);
   }
-  MatrixXd fields = eigenvectors_below(local, soft_in_large, most_in_large, most_in_large);
+  MatrixXd fields = eigenvectors_below(local, soft_in_large, expected_in_large);
   for (Index b = begin; b < end; ++b) {
     auto rows = fields.middleRows(place(b), matrix.size(b));
     own[b - begin].matrixU().solveInPlace(rows);
