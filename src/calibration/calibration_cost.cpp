@@ -15,8 +15,8 @@ struct Rates {
 };
 
 // Measured on bodies of 16 000 to 165 000 free bonds, alone on one core; lattices in space without
-// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 57 000 to 1 200 000:
-// 75e-6 to 110e-6 where corners have no solution with all bonds, 30e-6 where they have.
+// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 57 000 to 1 200 000,
+// the largest on two cores: 67e-6 to 84e-6.
 constexpr Rates in_plane{8e-6, 10e-6}, in_plane_with_moments{12e-6, 30e-6};
 /// In the plane a factor of all equations takes most of the time of clouds: the rates are those of
 /// so many particles and grow with this power of the number (4 000 to 149 000 particles).
