@@ -8,6 +8,7 @@
 #include <exception>
 #include <utility>
 
+#include "base/side_by_side.hpp"
 #include "calibration/least_change/variable_parts.hpp"
 #include "discretization/point_boxes.hpp"
 #include "solver/dense_kernels.hpp"
@@ -102,19 +103,11 @@ void BoxSpace::find_fields(const PointEquations& equations, const std::vector<do
     if (all) inside[box].push_back(v);
   }
   fields_.resize(boxes_.size());
-  std::exception_ptr error;
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (Index b = 0; b < num_boxes(); ++b) {
-    try {
-      const MatrixXd fields = soft_fields(b, inside[b], equations, active, blocks);
-      fields_[b] = {static_cast<std::size_t>(fields.cols()),
-                    {fields.data(), static_cast<std::size_t>(fields.size())}};
-    } catch (...) {
-#pragma omp critical
-      error = std::current_exception();
-    }
-  }
-  if (error) std::rethrow_exception(error);
+  for_each_side_by_side(num_boxes(), threads_, [&](Index b) {
+    const MatrixXd fields = soft_fields(b, inside[b], equations, active, blocks);
+    fields_[b] = {static_cast<std::size_t>(fields.cols()),
+                  {fields.data(), static_cast<std::size_t>(fields.size())}};
+  });
   first_field_.assign(boxes_.size() + 1, 0);
   for (Index b = 0; b < num_boxes(); ++b) {
     first_field_[b + 1] = first_field_[b] + static_cast<Index>(fields_[b].count());

@@ -3,9 +3,9 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <exception>
 
 #include "base/error.hpp"
+#include "base/side_by_side.hpp"
 #include "solver/dense_kernels.hpp"
 #include "solver/factor_routes.hpp"
 
@@ -37,22 +37,6 @@ MatrixXd with_raised_diagonal(MatrixXd block) {
   return block;
 }
 
-/// Calls work(k) for all k below the count, side by side.
-template <class Work>
-void for_each_at_once(Index count, const Work& work) {
-  std::exception_ptr error;
-#pragma omp parallel for schedule(dynamic) num_threads(prepare_blas(omp_get_max_threads()))
-  for (Index k = 0; k < count; ++k) {
-    try {
-      work(k);
-    } catch (...) {
-#pragma omp critical
-      error = std::current_exception();
-    }
-  }
-  if (error) std::rethrow_exception(error);
-}
-
 BoxFields fields_of(const MatrixXd& columns) {
   return {static_cast<std::size_t>(columns.cols()),
           {columns.data(), static_cast<std::size_t>(columns.size())}};
@@ -78,7 +62,8 @@ void CoarseSystem::factorize(const BoxMatrix& matrix, const BoxMatrix& inside) {
   if (!is_nested(matrix.num_boxes())) return factorize_directly(matrix);
   if (fields_.empty()) find_fields(matrix, inside);
   roots_.resize(static_cast<std::size_t>(matrix.num_boxes()));
-  for_each_at_once(matrix.num_boxes(), [&](Index box) {
+  const int threads = prepare_blas(omp_get_max_threads());
+  for_each_side_by_side(matrix.num_boxes(), threads, [&](Index box) {
     const MatrixXd own = with_raised_diagonal(matrix.block(box, box));
     const Eigen::LLT<MatrixXd> factor(own);
     if (factor.info() != Eigen::Success) throw SolverError(no_factor);
@@ -91,7 +76,8 @@ void CoarseSystem::factorize(const BoxMatrix& matrix, const BoxMatrix& inside) {
 void CoarseSystem::find_fields(const BoxMatrix& matrix, const BoxMatrix& inside) {
   const Index large = large_box(matrix.num_boxes() - 1) + 1;
   fields_.resize(static_cast<std::size_t>(large));
-  for_each_at_once(large, [&](Index g) { fields_[g] = soft_fields(g, matrix, inside); });
+  for_each_side_by_side(large, prepare_blas(omp_get_max_threads()),
+                        [&](Index g) { fields_[g] = soft_fields(g, matrix, inside); });
   first_large_.assign(1, 0);
   for (const BoxFields& fields : fields_) {
     first_large_.push_back(first_large_.back() + static_cast<Index>(fields.count()));
