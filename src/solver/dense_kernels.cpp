@@ -24,6 +24,9 @@ void dgeqrf_(const int* m, const int* n, double* a, const int* lda, double* tau,
              const int* work_size, int* info);
 void dorgqr_(const int* m, const int* n, const int* k, double* a, const int* lda, const double* tau,
              double* work, const int* work_size, int* info);
+void dsyevd_(const char* job, const char* part, const int* n, double* a, const int* lda,
+             double* values, double* work, const int* work_size, int* numbers,
+             const int* numbers_size, int* info);
 }
 
 namespace perilink {
@@ -118,6 +121,20 @@ void solve(const MatrixXd& lower, MatrixXd& columns) {
   }
 }
 
+/// Replaces a symmetric matrix by its eigenvectors. \return eigenvalues, ascending
+Eigen::VectorXd diagonalize(MatrixXd& matrix) {
+  const int n = static_cast<int>(matrix.rows());
+  const int work_size = 1 + 6 * n + 2 * n * n, numbers_size = 3 + 5 * n;
+  std::vector<double> work(static_cast<std::size_t>(work_size));
+  std::vector<int> numbers(static_cast<std::size_t>(numbers_size));
+  Eigen::VectorXd values(n);
+  int info = 0;
+  dsyevd_("V", "L", &n, matrix.data(), &n, values.data(), work.data(), &work_size, numbers.data(),
+          &numbers_size, &info);
+  check(info);
+  return values;
+}
+
 }  // namespace
 
 int prepare_blas(int threads) {
@@ -149,11 +166,10 @@ Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, 
       solve(lower, columns);
       orthonormalize(columns);
     }
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(
-        product(columns, true, product(matrix, false, columns)));
-    const auto found = (ritz.eigenvalues().array() <= limit).count();
-    if (count<size&& static_cast<double>(found)> full * count) continue;
-    return product(columns, false, ritz.eigenvectors().leftCols(found));
+    MatrixXd vectors = product(columns, true, product(matrix, false, columns));
+    const auto found = (diagonalize(vectors).array() <= limit).count();
+    if (count < size && static_cast<double>(found) > full * count) continue;
+    return product(columns, false, vectors.leftCols(found));
   }
 }
 
