@@ -53,4 +53,17 @@ std::vector<std::vector<Index>> split_into_parts(std::span<const double> positio
   return boxes;
 }
 
+std::vector<std::vector<Index>> split_unjoined(const std::vector<std::vector<Index>>& boxes,
+                                               JoinedParts& parts) {
+  std::vector<std::vector<Index>> split;
+  for (std::vector<Index> box : boxes) {
+    std::ranges::stable_sort(box, {}, [&](Index p) { return parts.find(p); });
+    for (std::size_t k = 0; k < box.size(); ++k) {
+      if (k == 0 || parts.find(box[k]) != parts.find(box[k - 1])) split.emplace_back();
+      split.back().push_back(box[k]);
+    }
+  }
+  return split;
+}
+
 }  // namespace perilink

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "base/joined_parts.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
@@ -17,5 +18,10 @@ std::vector<std::vector<Index>> split_into_boxes(std::span<const double> positio
 /// The same in a given number of boxes.
 std::vector<std::vector<Index>> split_into_parts(std::span<const double> positions, int dim,
                                                  Index parts);
+
+/// Parts of a box that are not joined become boxes of their own.
+/// \return those of the first box first
+std::vector<std::vector<Index>> split_unjoined(const std::vector<std::vector<Index>>& boxes,
+                                               JoinedParts& parts);
 
 }  // namespace perilink

@@ -43,19 +43,7 @@ std::vector<std::vector<Index>> split_by_cracks(const std::vector<std::vector<In
       for (const Index p : cell) join(cell[0], p);
     }
   }
-  std::vector<std::vector<Index>> split;
-  std::vector<Index> part_box(box_of.size(), no_index);
-  for (const std::vector<Index>& box : boxes) {
-    for (const Index p : box) {
-      Index& at = part_box[parts.find(p)];
-      if (at == no_index) {
-        at = static_cast<Index>(split.size());
-        split.emplace_back();
-      }
-      split[at].push_back(p);
-    }
-  }
-  return split;
+  return split_unjoined(boxes, parts);
 }
 
 BoxMotions::BoxMotions(const Network& network, Secants secants, const Unknowns& unknowns,

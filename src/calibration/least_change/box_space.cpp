@@ -8,7 +8,9 @@
 #include <exception>
 #include <utility>
 
+#include "base/joined_parts.hpp"
 #include "base/side_by_side.hpp"
+#include "calibration/least_change/killing_fields.hpp"
 #include "calibration/least_change/variable_parts.hpp"
 #include "discretization/point_boxes.hpp"
 #include "solver/dense_kernels.hpp"
@@ -71,18 +73,30 @@ void finish_blocks(int size, const std::vector<double>& diagonal, std::vector<do
 }
 
 BoxSpace::BoxSpace(const PointEquations& equations, const std::vector<double>& active,
-                   const std::vector<double>& diagonal)
+                   const std::vector<double>& diagonal, FieldsOfBoxes fields)
     : rows_(equations.rows), threads_(prepare_blas(omp_get_max_threads())) {
-  make_boxes(equations);
-  find_fields(equations, active, diagonal);
+  make_boxes(equations, active);
+  find_fields(equations, active, diagonal, fields);
   refactorize(equations, active, diagonal);
 }
 
-void BoxSpace::make_boxes(const PointEquations& equations) {
+/// Parts of a box that no variable joins are boxes of their own: fields move each by itself.
+void BoxSpace::make_boxes(const PointEquations& equations, const std::vector<double>& active) {
   boxes_ = split_into_boxes(equations.positions, equations.dim,
                             equations.dim == 2 ? points_in_plane : points_in_space);
   box_of_.resize(static_cast<std::size_t>(equations.num_points()));
   place_.resize(box_of_.size());
+  number_points();
+  JoinedParts parts(equations.num_points());
+  for (Index v = 0; v < equations.num_variables(); ++v) {
+    const Index p = equations.first[v], q = equations.second[v];
+    if (active[v] != 0.0 && box_of_[p] == box_of_[q]) parts.join(p, q);
+  }
+  boxes_ = split_unjoined(boxes_, parts);
+  number_points();
+}
+
+void BoxSpace::number_points() {
   for (Index b = 0; b < num_boxes(); ++b) {
     for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
       box_of_[boxes_[b][k]] = b;
@@ -91,10 +105,10 @@ void BoxSpace::make_boxes(const PointEquations& equations) {
   }
 }
 
-void BoxSpace::find_fields(const PointEquations& equations, const std::vector<double>& active,
-                           const std::vector<double>& diagonal) {
-  const std::vector<double> blocks = point_blocks(equations, active, diagonal);
-  std::vector<std::vector<Index>> inside(boxes_.size());  // variables
+/// Per box those that act on no other one.
+std::vector<std::vector<Index>> BoxSpace::inner_variables(const PointEquations& equations,
+                                                          const std::vector<double>& active) const {
+  std::vector<std::vector<Index>> inside(boxes_.size());
   for (Index v = 0; v < equations.num_variables(); ++v) {
     if (active[v] == 0.0) continue;
     const Index box = box_of_[equations.first[v]];
@@ -102,9 +116,22 @@ void BoxSpace::find_fields(const PointEquations& equations, const std::vector<do
     for_each_part(equations, v, [&](Index p, int, int, double) { all = all && box_of_[p] == box; });
     if (all) inside[box].push_back(v);
   }
+  return inside;
+}
+
+void BoxSpace::find_fields(const PointEquations& equations, const std::vector<double>& active,
+                           const std::vector<double>& diagonal, FieldsOfBoxes kind) {
+  const bool soft = kind == FieldsOfBoxes::soft;
+  std::vector<double> blocks;
+  std::vector<std::vector<Index>> inside;
+  if (soft) {
+    blocks = point_blocks(equations, active, diagonal);
+    inside = inner_variables(equations, active);
+  }
   fields_.resize(boxes_.size());
   for_each_side_by_side(num_boxes(), threads_, [&](Index b) {
-    const MatrixXd fields = soft_fields(b, inside[b], equations, active, blocks);
+    const MatrixXd fields = soft ? soft_fields(b, inside[b], equations, active, blocks)
+                                 : killing_fields(equations, boxes_[b]);
     fields_[b] = {static_cast<std::size_t>(fields.cols()),
                   {fields.data(), static_cast<std::size_t>(fields.size())}};
   });

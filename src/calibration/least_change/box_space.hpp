@@ -14,6 +14,12 @@
 
 namespace perilink {
 
+/// What the fields of boxes are.
+enum class FieldsOfBoxes {
+  killing,  ///< those that bonds feel nowhere (killing_fields()): of third-order equations
+  soft,     ///< all that the variables inside hardly resist: dear, whatever the variables are
+};
+
 /// Second level of the preconditioner of least_change(): on boxes of neighbouring points the fields
 /// that the variables inside the box hardly resist. Blocks of single points take care of the rest,
 /// so that the iterations of conjugate gradients do not grow with the body
@@ -23,7 +29,7 @@ class BoxSpace {
   /// \param active    per variable: its part in the system, from 0 to 1
   /// \param diagonal  added to that of the system, shape (points, rows)
   BoxSpace(const PointEquations& equations, const std::vector<double>& active,
-           const std::vector<double>& diagonal);
+           const std::vector<double>& diagonal, FieldsOfBoxes fields);
 
   /// The coarse system P' S P of other variables or diagonals, with the fields as they are.
   void refactorize(const PointEquations& equations, const std::vector<double>& active,
@@ -46,9 +52,12 @@ class BoxSpace {
   GroupProducts products(std::size_t group, const PointEquations& equations,
                          const std::vector<double>& active) const;
   static void add(const Key& key, const GroupProducts& sums, BoxMatrix& matrix, BoxMatrix* inside);
-  void make_boxes(const PointEquations& equations);
+  void make_boxes(const PointEquations& equations, const std::vector<double>& active);
+  void number_points();
+  std::vector<std::vector<Index>> inner_variables(const PointEquations& equations,
+                                                  const std::vector<double>& active) const;
   void find_fields(const PointEquations& equations, const std::vector<double>& active,
-                   const std::vector<double>& diagonal);
+                   const std::vector<double>& diagonal, FieldsOfBoxes fields);
   Eigen::MatrixXd soft_fields(Index box, const std::vector<Index>& inside,
                               const PointEquations& equations, const std::vector<double>& active,
                               const std::vector<double>& blocks) const;

@@ -66,7 +66,7 @@ class NormalEquations {
   void prepare();
   /// The factor of an earlier mobility serves until it needs too many iterations.
   /// \param settled  the weights between their bounds are those of the last step
-  /// \param last     the step is to meet the equations; tied ones make use of it
+  /// \param last     the step is to meet the equations
   void prepare_if_stale(bool settled, bool last);
   /// S direction = residual, the residual reduced by the factor. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
@@ -89,6 +89,9 @@ class NormalEquations {
   /// that fall with the square of their length: a factor of the equations allows a smaller one.
   static constexpr double least_proximity = 1e-10;
   static constexpr double factor_proximity = 1e-18;
+  /// Boxes know these waves, too. What this leaves of a step takes further ones, so that only steps
+  /// at settled bounds have it.
+  static constexpr double settled_proximity = 1e-13;
   /// Iterations that take about as long as a factor.
   static constexpr int worth_of_factor = 15;
   /// A factor is made anew when the last solution needed more iterations than this.
@@ -134,6 +137,7 @@ class NormalEquations {
   bool with_boxes_;
   bool boxes_failed_ = false;            // blocks go on alone
   std::optional<PackedProduct> packed_;  // for the steps of a search
+  bool last_ = false;                    // whether the step is to meet the equations
   bool own_factor_ = false;  // made for these equations, not for those of the last search
   int last_iterations_ = 0;
   std::vector<double> coarse_of_;  // mobility of the coarse system; empty: of another search
@@ -265,7 +269,9 @@ auto NormalEquations<Rows, Odd, Grouped>::diagonal() const -> Vector {
   Vector result(size_);
   for (std::size_t k = 0; k < size_; ++k) {
     result[k] = equations_.ridge_of(k % Rows) +
-                std::max(proximity, by_factor_ ? factor_proximity : least_proximity) +
+                std::max(proximity, by_factor_ ? factor_proximity
+                                    : last_    ? settled_proximity
+                                               : least_proximity) +
                 (compliance.empty() ? 0.0 : compliance[k]);
   }
   return result;
@@ -290,7 +296,8 @@ void NormalEquations<Rows, Odd, Grouped>::prepare() {
 }
 
 template <int Rows, int Odd, bool Grouped>
-void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled, bool /*last*/) {
+void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled, bool last) {
+  last_ = last;
   if (!by_factor_) {
     if (!settled) build_blocks();
   } else if (!kept_.factor || last_iterations_ > stale_iterations ||
@@ -342,7 +349,11 @@ void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search
       renew_coarse();
       if (iterate(search, times * stale_coarse)) return;
     }
-    use_boxes([&] { kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal()); });
+    const FieldsOfBoxes fields =
+        equations_.third_order && !kept_.boxes ? FieldsOfBoxes::killing : FieldsOfBoxes::soft;
+    use_boxes([&] {
+      kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal(), fields);
+    });
   }
   iterate(search, options_.iterations);
 }

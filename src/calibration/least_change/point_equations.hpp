@@ -21,6 +21,9 @@ struct PointEquations {
   int dim = 2;
   int rows = 0;
   int odd = 0;
+  /// The odd rows are the components of n n n in ascending order, times numbers of the variables,
+  /// and all variables that join two points act in these and in the last row of a group alone.
+  bool third_order = false;
   std::vector<Index> first, second;  ///< points of each variable
   Index one_ended = std::numeric_limits<Index>::max();
   /// Per point: the point at which the last row of its variables counts, summed over the group;

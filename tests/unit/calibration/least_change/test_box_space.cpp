@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "calibration/calibration_equations.hpp"
@@ -74,11 +75,14 @@ TEST(BoxSpace, HoldsTensorsOnWhichPairForcesDoNoWork) {
       }
     }
   }
-  for (const bool weighted : {false, true}) {
+  for (const auto [weighted, kind] : {std::pair(false, FieldsOfBoxes::soft),
+                                      std::pair(true, FieldsOfBoxes::soft),
+                                      std::pair(true, FieldsOfBoxes::killing)}) {
     const std::vector<double> active =
         weighted ? active_everywhere(equations)
                  : std::vector<double>(static_cast<std::size_t>(equations.num_variables()), 1.0);
-    const BoxSpace space(equations, active, std::vector<double>(equations.right.size(), diagonal));
+    const BoxSpace space(equations, active, std::vector<double>(equations.right.size(), diagonal),
+                         kind);
     EXPECT_LT(space.num_fields(), equations.num_points() * 10 / 2);
     const Eigen::VectorXd right = apply_system(equations, active, diagonal, field);
     ASSERT_LT(right.norm(), 2.0 * diagonal * field.norm());
@@ -90,14 +94,14 @@ TEST(BoxSpace, HoldsTensorsOnWhichPairForcesDoNoWork) {
 
 /// Galerkin's correction removes all that its fields see: applied to the new residual it finds
 /// nothing, also where the weights are no longer those that the fields were found for.
-TEST(BoxSpace, LeavesNoSoftResidual) {
+void expect_no_soft_residual(FieldsOfBoxes kind) {
   const Notched body(12);
   const PointEquations& equations = body.equations;
   const std::vector<double> ones(static_cast<std::size_t>(equations.num_variables()), 1.0);
   const std::vector<double> active = active_everywhere(equations);
   constexpr double shift = 1e-6;
   const std::vector<double> diagonal(equations.right.size(), shift);
-  BoxSpace space(equations, ones, diagonal);
+  BoxSpace space(equations, ones, diagonal, kind);
   space.refactorize(equations, active, diagonal);
   std::mt19937 random(5);
   const Eigen::VectorXd right = Eigen::VectorXd::NullaryExpr(
@@ -110,15 +114,20 @@ TEST(BoxSpace, LeavesNoSoftResidual) {
   EXPECT_LT(twice.norm(), 1e-7 * once.norm());  // round-off over the shift
 }
 
+TEST(BoxSpace, LeavesNoSoftResidual) {
+  expect_no_soft_residual(FieldsOfBoxes::soft);
+  expect_no_soft_residual(FieldsOfBoxes::killing);
+}
+
 /// What conjugate gradients take to 1e-8 with all variables, from a right side at random.
-int iterations(double length, bool with_boxes) {
+int iterations(double length, std::optional<FieldsOfBoxes> kind) {
   const Notched body(length);
   const PointEquations& equations = body.equations;
   const std::vector<double> ones(static_cast<std::size_t>(equations.num_variables()), 1.0);
   const std::vector<double> diagonal(equations.right.size(), 1e-10);
   const std::vector<double> blocks = point_blocks(equations, ones, diagonal);
   std::optional<BoxSpace> space;
-  if (with_boxes) space.emplace(equations, ones, diagonal);
+  if (kind) space.emplace(equations, ones, diagonal, *kind);
   std::mt19937 random(5);
   Eigen::VectorXd r = Eigen::VectorXd::NullaryExpr(
       equations.num_points() * 10, [&] { return static_cast<double>(random()) / 4294967296.0; });
@@ -147,10 +156,12 @@ int iterations(double length, bool with_boxes) {
 /// A body four times as long takes as many; blocks of single points take many more. Fields above
 /// 0.003 of their blocks are left to conjugate gradients, whose bound is ln(2e8) / (2 sqrt(0.003)).
 TEST(BoxSpace, KeepsIterationsFromGrowing) {
-  const int small = iterations(10, true);
-  EXPECT_LT(small, 100);
-  EXPECT_LT(iterations(40, true), 1.3 * small);
-  EXPECT_GT(iterations(10, false), 4 * small);
+  for (const FieldsOfBoxes kind : {FieldsOfBoxes::soft, FieldsOfBoxes::killing}) {
+    const int small = iterations(10, kind);
+    EXPECT_LT(small, kind == FieldsOfBoxes::soft ? 100 : 200);
+    EXPECT_LT(iterations(40, kind), 1.3 * small);
+    EXPECT_GT(iterations(10, {}), 4 * small);
+  }
 }
 
 /// From the start to exact balance, where blocks of points alone take 10900 iterations. Boxes from
