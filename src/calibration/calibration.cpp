@@ -167,15 +167,16 @@ void Calibration::balance_by(Method method, double charge, double tolerance) {
 /// The forces and moments, exactly. The interior point is the last resort where one factor serves
 /// several steps of Newton's method; the corners of solids without moments have no solution, and it
 /// would find none, but where bonds are made alike it costs little and may find back when Newton's
-/// method is lost. Where the search ends farther from balance the settled stiffnesses are kept.
+/// method is lost. Clouds in space turn to it first, unless multipliers to start from are known. Where the search ends farther from balance the settled stiffnesses are kept.
 /// \return whether it is nearer now
 bool Calibration::balance(double tolerance) {
   equations_.report_balance(report_);
   const double before = left(), largest_before = unbalanced();
   const CalibrationEquations::State settled = equations_.save();
-  const Method first = irregular_ && in_space_ ? Method::interior_point : Method::newton;
+  const bool cloud = irregular_ && in_space_, warm = cloud && !start_.empty();
+  const Method first = cloud && !warm ? Method::interior_point : Method::newton;
   balance_by(first, priced_ ? price : no_price, tolerance);
-  const bool solvable = moments_ || !in_space_;
+  const bool solvable = moments_ || !in_space_ || warm;
   // The tolerance is that of the mean.
   const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
   const bool lost = tied_ && unbalanced() > largest_before;
@@ -218,8 +219,9 @@ bool Calibration::balance_dropping_bonds() {
     hopeless_ = std::numeric_limits<double>::infinity();
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();
-      if (tied_) start_ = std::move(multipliers_);  // what is gone has carried nothing
-      if (equations_.num_dropped() > few_dropped * equations_.num_free()) {
+      const bool few = equations_.num_dropped() <= few_dropped * equations_.num_free();
+      if (tied_ || few) start_ = std::move(multipliers_);  // what is gone has carried nothing
+      if (!few) {
         settle();
       } else {  // few bonds hardly change the energies of a cloud
         settled_ = equations_.without_dropped(std::move(settled_));

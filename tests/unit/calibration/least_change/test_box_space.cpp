@@ -75,7 +75,7 @@ TEST(BoxSpace, HoldsTensorsOnWhichPairForcesDoNoWork) {
       }
     }
   }
-  for (const auto [weighted, kind] : {std::pair(false, FieldsOfBoxes::soft),
+  for (const auto& [weighted, kind] : {std::pair(false, FieldsOfBoxes::soft),
                                       std::pair(true, FieldsOfBoxes::soft),
                                       std::pair(true, FieldsOfBoxes::killing)}) {
     const std::vector<double> active =
