@@ -1,6 +1,7 @@
 #include "calibration/calibration.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -31,8 +32,9 @@ constexpr int most_refinements = 3;
 
 /// Zeros stay where they bring the forces out of balance down to this part.
 constexpr double worth_dropping = 0.1;
-/// The search for them ends where this part will be left: five times as much.
-constexpr double far_from_worth = 0.5;
+/// The search for them ends where this part will be left: five times as much. What it asks for is a
+/// mean of all particles, but not so rough that one of them could be left so much.
+constexpr double far_from_worth = 0.5, near_to_worth = 0.3;
 
 /// Few digits of the energies of dilatation are enough; what the exact forces move afterwards is
 /// more.
@@ -215,7 +217,8 @@ bool Calibration::balance_dropping_bonds() {
     const CalibrationEquations::State with_floors = equations_.save();
     equations_.restore(settled_);
     hopeless_ = far_from_worth * floored;
-    balance(coarse);
+    const double root = std::sqrt(static_cast<double>(equations_.num_points()));
+    balance(std::min(coarse, near_to_worth * worth_dropping * floored / root));
     hopeless_ = std::numeric_limits<double>::infinity();
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();

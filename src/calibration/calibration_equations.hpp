@@ -51,6 +51,7 @@ class CalibrationEquations {
   /// Takes bonds that have fallen to zero out of the equations: no finite multiplier makes a weight
   /// exactly zero, it only brings it nearer.
   void drop_vanishing();
+  Index num_points() const { return static_cast<Index>(particle_of_.size()); }
   Index num_free() const { return static_cast<Index>(free_bonds_.size()); }
   Index num_dropped() const { return num_free() - static_cast<Index>(kept_.size()); }
   /// Whether a particle has lost more than half of its bonds.

@@ -5,43 +5,13 @@
 
 #include <Eigen/Dense>
 
+#include "calibration/rigid_motions.hpp"
+
 namespace perilink {
 namespace {
 
 /// Defects below this, relative to the sum of all terms, are round-off and change nothing.
 constexpr double balanced = 1e-14;
-
-/// Rigid motions of a part about its middle, scaled to about one at its rim.
-class RigidMotions {
- public:
-  RigidMotions(int dim, const Vector3& lower, const Vector3& upper) : dim_(dim) {
-    for (int a = 0; a < dim; ++a) {
-      middle_[a] = 0.5 * (lower[a] + upper[a]);
-      radius_ = std::max(radius_, 0.5 * (upper[a] - lower[a]));
-    }
-  }
-
-  int count() const { return dim_ == 2 ? 3 : 6; }
-
-  Vector3 at(int motion, std::span<const double> x) const {
-    Vector3 value{};
-    if (motion < dim_) {
-      value[motion] = 1.0;
-      return value;
-    }
-    // Rotation in the plane of two axes.
-    const int a = dim_ == 2 ? 0 : (motion + 1) % 3;
-    const int b = dim_ == 2 ? 1 : (motion + 2) % 3;
-    value[a] = -(x[b] - middle_[b]) / radius_;
-    value[b] = (x[a] - middle_[a]) / radius_;
-    return value;
-  }
-
- private:
-  int dim_;
-  Vector3 middle_{};
-  double radius_ = 0.0;
-};
 
 double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 

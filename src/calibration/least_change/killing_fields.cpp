@@ -2,23 +2,26 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Dense>
+
+#include "calibration/rigid_motions.hpp"
 
 namespace perilink {
 namespace {
 
 using Eigen::MatrixXd;
-using Eigen::Vector3d;
+using Triple = std::array<int, 3>;
 
-/// Squares of fields below this part of the largest are round-off of others.
+/// Squares of fields below this part of the largest are round-off of others: in space six of the 56
+/// products repeat, since the sum over the axes of motion times turn is zero.
 constexpr double smallest_square = 1e-10;
 
-/// Triples of numbers below `count` in ascending order.
-std::vector<std::array<int, 3>> ascending_triples(int count) {
-  std::vector<std::array<int, 3>> triples;
+/// Numbers below `count` in ascending order.
+std::vector<Triple> ascending_triples(int count) {
+  std::vector<Triple> triples;
   for (int a = 0; a < count; ++a) {
     for (int b = a; b < count; ++b) {
       for (int c = b; c < count; ++c) triples.push_back({a, b, c});
@@ -27,28 +30,8 @@ std::vector<std::array<int, 3>> ascending_triples(int count) {
   return triples;
 }
 
-/// Rigid motions at x: along the axes, and turns.
-std::vector<Vector3d> motions_at(int dim, const Vector3d& x) {
-  std::vector<Vector3d> motions;
-  for (int axis = 0; axis < dim; ++axis) motions.push_back(Vector3d::Unit(axis));
-  if (dim == 2) return motions.push_back({-x[1], x[0], 0.0}), motions;
-  for (int axis = 0; axis < dim; ++axis) motions.push_back(Vector3d::Unit(axis).cross(x));
-  return motions;
-}
-
-/// Triples of motions whose products do not make up each other: in space the sum over the axes of
-/// motion times turn is zero.
-std::vector<std::array<int, 3>> independent_products(int dim) {
-  std::vector<std::array<int, 3>> products = ascending_triples(dim == 2 ? 3 : 6);
-  if (dim == 2) return products;
-  std::erase_if(products, [](const std::array<int, 3>& of) {
-    return std::ranges::count(of, 2) > 0 && std::ranges::count(of, 5) > 0;
-  });
-  return products;
-}
-
-/// Component of (u n) (v n) (w n) with n_a n_b n_c.
-double component(std::array<int, 3> abc, const Vector3d& u, const Vector3d& v, const Vector3d& w) {
+/// What n_a n_b n_c has in (u n) (v n) (w n).
+double component(Triple abc, const Vector3& u, const Vector3& v, const Vector3& w) {
   double sum = 0.0;
   do {
     sum += u[abc[0]] * v[abc[1]] * w[abc[2]];
@@ -59,33 +42,35 @@ double component(std::array<int, 3> abc, const Vector3d& u, const Vector3d& v, c
 }  // namespace
 
 MatrixXd killing_fields(const PointEquations& equations, std::span<const Index> points) {
-  const int dim = equations.dim;
+  const std::size_t dim = static_cast<std::size_t>(equations.dim);
+  const std::size_t rows = static_cast<std::size_t>(equations.rows);
   const auto position = [&](Index p) {
-    Vector3d x = Vector3d::Zero();
-    for (int a = 0; a < dim; ++a) x[a] = equations.positions[static_cast<std::size_t>(p) * dim + a];
-    return x;
+    return std::span(equations.positions).subspan(static_cast<std::size_t>(p) * dim, dim);
   };
-  Vector3d centre = Vector3d::Zero();
-  for (const Index p : points) centre += position(p) / static_cast<double>(points.size());
-  double size = 0.0;
-  for (const Index p : points) size = std::max(size, (position(p) - centre).norm());
-  if (size == 0.0) size = 1.0;
-
-  const auto products = independent_products(dim);
-  const auto components = ascending_triples(dim);
-  MatrixXd fields = MatrixXd::Zero(static_cast<Eigen::Index>(points.size()) * equations.rows,
+  Vector3 lower, upper;
+  lower.fill(std::numeric_limits<double>::max());
+  upper.fill(std::numeric_limits<double>::lowest());
+  for (const Index p : points) {
+    for (std::size_t a = 0; a < dim; ++a) {
+      lower[a] = std::min(lower[a], position(p)[a]);
+      upper[a] = std::max(upper[a], position(p)[a]);
+    }
+  }
+  const RigidMotions motions(equations.dim, lower, upper);
+  const std::vector<Triple> products = ascending_triples(motions.count());
+  const std::vector<Triple> components = ascending_triples(equations.dim);
+  MatrixXd fields = MatrixXd::Zero(static_cast<Eigen::Index>(points.size() * rows),
                                    static_cast<Eigen::Index>(products.size()));
+  std::array<Vector3, 6> motion;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto motions = motions_at(dim, (position(points[k]) - centre) / size);
+    for (int m = 0; m < motions.count(); ++m) motion[m] = motions.at(m, position(points[k]));
     for (std::size_t r = 0; r < components.size(); ++r) {
-      const double scale =
-          equations.scale[static_cast<std::size_t>(points[k]) * equations.rows + r];
+      const double scale = equations.scale[static_cast<std::size_t>(points[k]) * rows + r];
       if (scale == 0.0) continue;
-      auto row = fields.row(static_cast<Eigen::Index>(k * equations.rows + r));
       for (std::size_t f = 0; f < products.size(); ++f) {
-        const auto& [u, v, w] = products[f];
-        row[static_cast<Eigen::Index>(f)] =
-            component(components[r], motions[u], motions[v], motions[w]) / scale;
+        const auto [u, v, w] = products[f];
+        fields(static_cast<Eigen::Index>(k * rows + r), static_cast<Eigen::Index>(f)) =
+            component(components[r], motion[u], motion[v], motion[w]) / scale;
       }
     }
   }

@@ -104,12 +104,16 @@ class NormalEquations {
   static constexpr int stale_coarse = 80;
   /// Blocks take the time of so many iterations.
   static constexpr int cheap_iterations = 10;
-  static constexpr std::size_t points_for_threads = 8000;
+  /// From so many on threads share them, and forces are summed up in so many parts.
+  static constexpr std::size_t points_for_threads = 8000, parts_of_sums = 8;
 
   template <class Values>
   auto& last_row(Values& values, Index point) const {
     return values[static_cast<std::size_t>(equations_.group[point]) * Rows + own];
   }
+  bool threads_share() const { return packed_ && size_ / Rows > points_for_threads; }
+  void add_forces(const std::vector<double>& w, std::size_t begin, std::size_t end,
+                  Vector& result) const;
   void find_direction(DirectionSearch& search);
   bool iterate(DirectionSearch& search, int most);
   void apply_system(const Vector& shift, const Vector& y, Vector& result);
@@ -153,6 +157,7 @@ void NormalEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
     return std::pair(scaled_.data() + static_cast<std::size_t>(equations_.first[v]) * Rows,
                      scaled_.data() + static_cast<std::size_t>(equations_.second[v]) * Rows);
   };
+#pragma omp parallel for schedule(static) if (threads_share())
   for (std::size_t v = 0; v < num_paired_; ++v) {
     const double* a = equations_.coefficients.data() + v * Rows;
     const auto [p, q] = ends(v);
@@ -177,8 +182,25 @@ void NormalEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::apply(const std::vector<double>& w,
                                                 Vector& result) const {
-  result.assign(size_, 0.0);
-  for (std::size_t v = 0; v < w.size(); ++v) {
+  std::vector<Vector> sums(threads_share() ? parts_of_sums : 1, Vector(size_, 0.0));
+  const std::size_t parts = sums.size();
+#pragma omp parallel for schedule(static) if (parts > 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    add_forces(w, part * w.size() / parts, (part + 1) * w.size() / parts, sums[part]);
+  }
+  result = std::move(sums.front());
+  for (std::size_t part = 1; part < parts; ++part) {
+    for (std::size_t k = 0; k < size_; ++k) result[k] += sums[part][k];
+  }
+  for (std::size_t k = 0; k < size_; ++k) result[k] *= equations_.scale[k];
+}
+
+/// Adds what variables from one number to another pull with, times their weights.
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::add_forces(const std::vector<double>& w,
+                                                     std::size_t begin, std::size_t end,
+                                                     Vector& result) const {
+  for (std::size_t v = begin; v < end; ++v) {
     const double* a = equations_.coefficients.data() + v * Rows;
     double* p = result.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
     double* q = result.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
@@ -196,7 +218,6 @@ void NormalEquations<Rows, Odd, Grouped>::apply(const std::vector<double>& w,
       last_row(result, equations_.second[v]) += a[own] * weight;
     }
   }
-  for (std::size_t k = 0; k < size_; ++k) result[k] *= equations_.scale[k];
 }
 
 /// result = (A D A' + shift) y.
@@ -311,9 +332,8 @@ void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
                                                        Vector& result) const {
   using Column = Eigen::Matrix<double, Rows, 1>;
   if (by_factor_) return kept_.factor->solve(residual, result);
-  const std::size_t points = inverse_blocks_.size();
-#pragma omp parallel for schedule(static) if (packed_ && points > points_for_threads)
-  for (std::size_t p = 0; p < points; ++p) {
+#pragma omp parallel for schedule(static) if (threads_share())
+  for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
     Eigen::Map<Column>(result.data() + p * Rows).noalias() =
         inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
   }

@@ -38,5 +38,13 @@ TEST(PointBoxes, HoldEveryPointOnceAndNoMoreThanAsked) {
   EXPECT_TRUE(split_into_boxes({}, 3, 96).front().empty());
 }
 
+TEST(PointBoxes, AreSplitWhereNothingJoinsThem) {
+  JoinedParts parts(6);
+  parts.join(0, 4);
+  parts.join(1, 3);
+  EXPECT_EQ(split_unjoined({{0, 1, 3, 4}, {}, {2, 5}}, parts),
+            (std::vector<std::vector<Index>>{{0, 4}, {1, 3}, {2}, {5}}));
+}
+
 }  // namespace
 }  // namespace perilink
