@@ -169,7 +169,8 @@ void Calibration::balance_by(Method method, double charge, double tolerance) {
 /// The forces and moments, exactly. The interior point is the last resort where one factor serves
 /// several steps of Newton's method; the corners of solids without moments have no solution, and it
 /// would find none, but where bonds are made alike it costs little and may find back when Newton's
-/// method is lost. Clouds in space turn to it first, unless multipliers to start from are known. Where the search ends farther from balance the settled stiffnesses are kept.
+/// method is lost. Clouds in space turn to it first, unless multipliers to start from are known.
+/// Where the search ends farther from balance the settled stiffnesses are kept.
 /// \return whether it is nearer now
 bool Calibration::balance(double tolerance) {
   equations_.report_balance(report_);
@@ -223,12 +224,13 @@ bool Calibration::balance_dropping_bonds() {
     if (unbalanced() <= worth_dropping * floored) {
       equations_.drop_vanishing();
       const bool few = equations_.num_dropped() <= few_dropped * equations_.num_free();
-      if (tied_ || few) start_ = std::move(multipliers_);  // what is gone has carried nothing
-      if (!few) {
-        settle();
-      } else {  // few bonds hardly change the energies of a cloud
+      // What is gone has carried nothing, and few bonds hardly change the energies of a cloud.
+      if (tied_ || (irregular_ && few)) start_ = std::move(multipliers_);
+      if (few) {
         settled_ = equations_.without_dropped(std::move(settled_));
         equations_.restore(settled_);
+      } else {
+        settle();
       }
       balance(tolerance_);
       if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;

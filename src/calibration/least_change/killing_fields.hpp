@@ -15,7 +15,7 @@ namespace perilink {
 /// plane, fifty in space (docs/theory/calibration.md).
 /// \param equations  third_order ones
 /// \return orthonormal columns, shape (points * rows, fields); fewer fields where points are few
-///         or lie in a plane
+///         or lie on a line
 Eigen::MatrixXd killing_fields(const PointEquations& equations, std::span<const Index> points);
 
 }  // namespace perilink

@@ -89,8 +89,7 @@ class NormalEquations {
   /// that fall with the square of their length: a factor of the equations allows a smaller one.
   static constexpr double least_proximity = 1e-10;
   static constexpr double factor_proximity = 1e-18;
-  /// Boxes know these waves, too. What this leaves of a step takes further ones, so that only steps
-  /// at settled bounds have it.
+  /// What a step leaves along waves that boxes know takes further steps: the last ones leave less.
   static constexpr double settled_proximity = 1e-13;
   /// Iterations that take about as long as a factor.
   static constexpr int worth_of_factor = 15;
@@ -182,10 +181,11 @@ void NormalEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::apply(const std::vector<double>& w,
                                                 Vector& result) const {
-  std::vector<Vector> sums(threads_share() ? parts_of_sums : 1, Vector(size_, 0.0));
+  std::vector<Vector> sums(threads_share() ? parts_of_sums : 1);
   const std::size_t parts = sums.size();
 #pragma omp parallel for schedule(static) if (parts > 1)
   for (std::size_t part = 0; part < parts; ++part) {
+    sums[part].assign(size_, 0.0);
     add_forces(w, part * w.size() / parts, (part + 1) * w.size() / parts, sums[part]);
   }
   result = std::move(sums.front());
