@@ -15,13 +15,13 @@ struct Rates {
 };
 
 // Measured on bodies of 16 000 to 165 000 free bonds, alone on one core; lattices in space without
-// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 57 000 to 1 200 000,
-// the largest on two cores: 67e-6 to 84e-6.
+// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 360 000 to 27 000 000, on
+// two cores: 22e-6 to 43e-6.
 constexpr Rates in_plane{8e-6, 10e-6}, in_plane_with_moments{12e-6, 30e-6};
 /// In the plane a factor of all equations takes most of the time of clouds: the rates are those of
 /// so many particles and grow with this power of the number (4 000 to 149 000 particles).
 constexpr double particles_of_rates = 12000.0, growth_of_factor = 0.38;
-constexpr Rates in_space{35e-6, 80e-6}, in_space_with_moments{200e-6, 250e-6};
+constexpr Rates in_space{35e-6, 35e-6}, in_space_with_moments{200e-6, 250e-6};
 /// On lattices in space without moments it grows with this power of the number of free bonds and is
 /// that of so many (170 000 to 1 100 000).
 constexpr double bonds_of_rate = 170000.0, growth_in_space = 0.4;
@@ -36,12 +36,14 @@ constexpr double alike = 0.6e-6, alike_operations = 1.7, operations_per_second =
 constexpr double most_alike_operations = 6.0;
 /// They must save so much: they may have no solution, and both costs are rough.
 constexpr double worth_a_try = 2.0;
-/// Bytes for every bond that may change on its own, in space (170 000 to 1 100 000 bonds: 900 to
-/// 1 600; by a factor 21 000 of 69 000 bonds), and for the square of the number of equations of
-/// bonds that are made alike (9 600: 0.50 GB in all, 14 800: 1.18).
+/// Bytes for every bond that may change on its own, in space (lattices of 170 000 to 1 100 000
+/// bonds: 900 to 1 600, clouds of 1 200 000 to 27 000 000: 580 to 610 in all; by a factor 21 000 of
+/// 69 000 bonds), and for the square of the number of equations of bonds that are made alike
+/// (9 600: 0.50 GB in all, 14 800: 1.18).
 /// With all of them there are the bonds themselves.
 constexpr double bytes_of_any_bond = 100.0;
-constexpr double bytes_of_bond = 1300.0, bytes_by_factor = 20000.0, bytes_of_equations = 4.5;
+constexpr double bytes_of_bond = 1300.0, bytes_in_cloud = 450.0;
+constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 4.5;
 /// The matrix of their equations is nearly full: so many take 1.8 GB.
 constexpr double most_alike_equations = 20000.0;
 
@@ -84,7 +86,11 @@ double cost_of_single_bonds(const CalibrationInput& input, bool moments) {
 
 double bytes_of_single_bonds(const CalibrationInput& input, bool moments) {
   if (input.particles.dim == 2) return 0.0;  // less than the run takes
-  return (by_factor(input, moments) ? bytes_by_factor : bytes_of_bond) * count_free(input);
+  const bool cloud = input.all_free() && !moments;
+  const double bytes = by_factor(input, moments) ? bytes_by_factor
+                       : cloud                   ? bytes_in_cloud
+                                                 : bytes_of_bond;
+  return bytes * count_free(input);
 }
 
 double equations_of(const BondOrbits& orbits, int dim, bool moments) {
