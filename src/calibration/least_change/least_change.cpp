@@ -18,8 +18,10 @@ constexpr int most_newton_steps = 40;
 /// Newton's method is lost where the dual function stops growing this early along a step.
 constexpr double shortest_step = 1e-5;
 
-/// A step that leaves so many times the residual at which the interior-point method ended is lost.
-constexpr double lost = 100.0;
+/// A step that leaves so many times the residual at which the interior-point method ended is lost,
+/// and one that leaves so many times the least so far: multipliers of what contradicts itself grow
+/// until the weights that they choose have nothing to do with the other equations.
+constexpr double lost = 100.0, lost_again = 1000.0;
 
 /// Root mean square of the residual at which the interior-point method has found out which weights
 /// are at their bounds.
@@ -126,12 +128,16 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
   const auto reached = [&] { return std::max(target, round_off * norm(y)); };
   double start = 0.0, last_size = 0.0, last_length = 1.0;
   std::vector<double> pattern, given_up;  // weights between their bounds, at the last step
+  double least = std::numeric_limits<double>::infinity();
+  Vector best;  // multipliers that left it
   for (int step = 0; step < most_newton_steps; ++step) {
     const double size = norm(residual_);
     if (size <= reached() || result_.iterations >= options_.iterations) break;
     if (normal_.spent() > options_.operations) break;
     if (step == 0) start = size;
-    if (size > most * start) break;
+    if (size > std::min(most * start, lost_again * least)) break;
+    if (size < least) best = y;
+    least = std::min(least, size);
     const bool settled =
         last_length == 1.0 && pattern == normal_.mobility && given_up == normal_.compliance;
     if (settled && size > options_.contradiction * last_size) break;
@@ -149,6 +155,11 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
     const double length = last_length = search_line(residual_, direction, y);
     normal_.measure(weights_, y, residual_);
     if (length < shortest_step) break;
+  }
+  if (norm(residual_) > least) {
+    y = std::move(best);
+    choose_weights(y);
+    normal_.measure(weights_, y, residual_);
   }
   result_.converged = norm(residual_) <= reached();
   result_.multipliers = std::move(y);
