@@ -176,10 +176,10 @@ bool Calibration::balance(double tolerance) {
   equations_.report_balance(report_);
   const double before = left(), largest_before = unbalanced();
   const CalibrationEquations::State settled = equations_.save();
-  const bool cloud = irregular_ && in_space_, warm = cloud && !start_.empty();
-  const Method first = cloud && !warm ? Method::interior_point : Method::newton;
+  const bool cold = irregular_ && in_space_ && start_.empty();
+  const Method first = cold ? Method::interior_point : Method::newton;
   balance_by(first, priced_ ? price : no_price, tolerance);
-  const bool solvable = moments_ || !in_space_ || warm;
+  const bool solvable = moments_ || !in_space_;
   // The tolerance is that of the mean.
   const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
   const bool lost = tied_ && unbalanced() > largest_before;
@@ -221,7 +221,8 @@ bool Calibration::balance_dropping_bonds() {
     const double root = std::sqrt(static_cast<double>(equations_.num_points()));
     balance(std::min(coarse, near_to_worth * worth_dropping * floored / root));
     hopeless_ = std::numeric_limits<double>::infinity();
-    if (unbalanced() <= worth_dropping * floored) {
+    const double reached = unbalanced();
+    if (reached <= worth_dropping * floored) {
       equations_.drop_vanishing();
       const bool few = equations_.num_dropped() <= few_dropped * equations_.num_free();
       // What is gone has carried nothing, and few bonds hardly change the energies of a cloud.
@@ -233,6 +234,10 @@ bool Calibration::balance_dropping_bonds() {
         settle();
       }
       balance(tolerance_);
+      if (irregular_ && few && unbalanced() > reached) {  // Newton's method was lost
+        equations_.restore(settled_);
+        balance(tolerance_);
+      }
       if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
     }
     equations_.take_all_back();

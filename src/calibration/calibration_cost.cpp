@@ -15,8 +15,8 @@ struct Rates {
 };
 
 // Measured on bodies of 16 000 to 165 000 free bonds, alone on one core; lattices in space without
-// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 360 000 to 27 000 000, on
-// two cores: 22e-6 to 43e-6.
+// moments on bodies of 27 000 to 615 000, on two cores; clouds in space of 360 000 to 27 million,
+// on two cores: 22e-6 to 43e-6.
 constexpr Rates in_plane{8e-6, 10e-6}, in_plane_with_moments{12e-6, 30e-6};
 /// In the plane a factor of all equations takes most of the time of clouds: the rates are those of
 /// so many particles and grow with this power of the number (4 000 to 149 000 particles).

@@ -222,7 +222,7 @@ PointEquations CalibrationEquations::make_equations(const ForceRows& form) const
   equations.dim = dim_;
   equations.rows = form.count();
   equations.odd = form.odd();
-  equations.third_order = !carries_moments();
+  equations.killing = dim_ == 3 && !carries_moments() && input_.all_free();
   equations.one_ended = static_cast<Index>(kept_.size());
   std::vector<double> row(static_cast<std::size_t>(form.count()));
   const std::size_t most = kept_.size() * (carries_moments() ? 3 : 1) +

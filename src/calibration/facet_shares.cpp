@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "calibration/rigid_motions.hpp"
+#include "calibration/least_change/killing_fields.hpp"
 
 namespace perilink {
 namespace {

@@ -168,7 +168,7 @@ Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, 
     }
     MatrixXd vectors = product(columns, true, product(matrix, false, columns));
     const auto found = (diagonalize(vectors).array() <= limit).count();
-    if (count < size && static_cast<double>(found) > full * count) continue;
+    if (static_cast<double>(found) > full * count && count != size) continue;
     return product(columns, false, vectors.leftCols(found));
   }
 }

@@ -75,22 +75,24 @@ void finish_blocks(int size, const std::vector<double>& diagonal, std::vector<do
 BoxSpace::BoxSpace(const PointEquations& equations, const std::vector<double>& active,
                    const std::vector<double>& diagonal, FieldsOfBoxes fields)
     : rows_(equations.rows), threads_(prepare_blas(omp_get_max_threads())) {
-  make_boxes(equations, active);
+  make_boxes(equations, fields);
   find_fields(equations, active, diagonal, fields);
   refactorize(equations, active, diagonal);
 }
 
-/// Parts of a box that no variable joins are boxes of their own: fields move each by itself.
-void BoxSpace::make_boxes(const PointEquations& equations, const std::vector<double>& active) {
+/// Parts of a box that no variable joins have Killing tensors of their own; soft fields tell them
+/// apart anyway.
+void BoxSpace::make_boxes(const PointEquations& equations, FieldsOfBoxes fields) {
   boxes_ = split_into_boxes(equations.positions, equations.dim,
                             equations.dim == 2 ? points_in_plane : points_in_space);
   box_of_.resize(static_cast<std::size_t>(equations.num_points()));
   place_.resize(box_of_.size());
   number_points();
+  if (fields == FieldsOfBoxes::soft) return;
   JoinedParts parts(equations.num_points());
   for (Index v = 0; v < equations.num_variables(); ++v) {
     const Index p = equations.first[v], q = equations.second[v];
-    if (active[v] != 0.0 && box_of_[p] == box_of_[q]) parts.join(p, q);
+    if (box_of_[p] == box_of_[q]) parts.join(p, q);
   }
   boxes_ = split_unjoined(boxes_, parts);
   number_points();

@@ -16,7 +16,7 @@ namespace perilink {
 
 /// What the fields of boxes are.
 enum class FieldsOfBoxes {
-  killing,  ///< those that bonds feel nowhere (killing_fields()): of third-order equations
+  killing,  ///< those that no bond feels (killing_fields())
   soft,     ///< all that the variables inside hardly resist: dear, whatever the variables are
 };
 
@@ -52,7 +52,7 @@ class BoxSpace {
   GroupProducts products(std::size_t group, const PointEquations& equations,
                          const std::vector<double>& active) const;
   static void add(const Key& key, const GroupProducts& sums, BoxMatrix& matrix, BoxMatrix* inside);
-  void make_boxes(const PointEquations& equations, const std::vector<double>& active);
+  void make_boxes(const PointEquations& equations, FieldsOfBoxes fields);
   void number_points();
   std::vector<std::vector<Index>> inner_variables(const PointEquations& equations,
                                                   const std::vector<double>& active) const;

@@ -27,9 +27,9 @@ struct BoxMatrix {
   const Eigen::MatrixXd& block(Index a, Index b) const;
 };
 
-/// Solves the system of the soft fields of boxes (BoxSpace): by its factor where there are few
+/// Solves the system of the fields of boxes (BoxSpace): by its factor where there are few
 /// boxes. A factor of many would take more than all the rest; there they are gathered in large
-/// boxes, whose own soft fields have a factor, beside the blocks of the single boxes:
+/// boxes, whose soft fields have a factor, beside the blocks of the single boxes:
 /// D^-1 + P (P' A P)^-1 P', as BoxSpace does with points.
 class CoarseSystem {
  public:

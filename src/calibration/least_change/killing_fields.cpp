@@ -7,8 +7,6 @@
 
 #include <Eigen/Dense>
 
-#include "calibration/rigid_motions.hpp"
-
 namespace perilink {
 namespace {
 

@@ -89,15 +89,15 @@ class NormalEquations {
   /// that fall with the square of their length: a factor of the equations allows a smaller one.
   static constexpr double least_proximity = 1e-10;
   static constexpr double factor_proximity = 1e-18;
-  /// What a step leaves along waves that boxes know takes further steps: the last ones leave less.
+  /// What a step leaves along long waves of clouds takes further steps: the last ones leave less.
   static constexpr double settled_proximity = 1e-13;
   /// Iterations that take about as long as a factor.
   static constexpr int worth_of_factor = 15;
   /// A factor is made anew when the last solution needed more iterations than this.
   static constexpr int stale_iterations = 40;
-  /// Iterations of a solution after which blocks get help, or boxes other fields. Fields take the
-  /// time of about 500 iterations of blocks alone, and serve several solutions; with those of an
-  /// earlier search help takes that of a coarse system.
+  /// Iterations of a solution after which blocks get help, or boxes other fields. Soft ones take
+  /// the time of about 500 iterations of blocks alone, and serve several solutions; with those of
+  /// an earlier search help takes that of a coarse system.
   static constexpr int patience = 200, patience_with_fields = 100, stale_fields = 200;
   /// The coarse system of boxes takes the time of about forty iterations.
   static constexpr int stale_coarse = 80;
@@ -290,9 +290,9 @@ auto NormalEquations<Rows, Odd, Grouped>::diagonal() const -> Vector {
   Vector result(size_);
   for (std::size_t k = 0; k < size_; ++k) {
     result[k] = equations_.ridge_of(k % Rows) +
-                std::max(proximity, by_factor_ ? factor_proximity
-                                    : last_    ? settled_proximity
-                                               : least_proximity) +
+                std::max(proximity, by_factor_                    ? factor_proximity
+                                    : last_ && equations_.killing ? settled_proximity
+                                                                  : least_proximity) +
                 (compliance.empty() ? 0.0 : compliance[k]);
   }
   return result;
@@ -370,7 +370,7 @@ void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search
       if (iterate(search, times * stale_coarse)) return;
     }
     const FieldsOfBoxes fields =
-        equations_.third_order && !kept_.boxes ? FieldsOfBoxes::killing : FieldsOfBoxes::soft;
+        equations_.killing && !kept_.boxes ? FieldsOfBoxes::killing : FieldsOfBoxes::soft;
     use_boxes([&] {
       kept_.boxes = std::make_unique<BoxSpace>(equations_, mobility, diagonal(), fields);
     });

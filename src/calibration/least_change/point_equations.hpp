@@ -21,9 +21,9 @@ struct PointEquations {
   int dim = 2;
   int rows = 0;
   int odd = 0;
-  /// The odd rows are the components of n n n in ascending order, times numbers of the variables,
-  /// and all variables that join two points act in these and in the last row of a group alone.
-  bool third_order = false;
+  /// Whether help by boxes begins with Killing tensors: of a cloud in space, whose odd rows are the
+  /// components of n n n in ascending order, of bonds without moments, and of shares of facets.
+  bool killing = false;
   std::vector<Index> first, second;  ///< points of each variable
   Index one_ended = std::numeric_limits<Index>::max();
   /// Per point: the point at which the last row of its variables counts, summed over the group;
@@ -55,7 +55,7 @@ struct PointEquations {
 enum class Preconditioner {
   blocks,              ///< those of the single points: for few points
   factor,              ///< that of all equations: bodies and boundaries in the plane
-  blocks_then_boxes,   ///< and the soft fields of boxes where blocks take many iterations: solids
+  blocks_then_boxes,   ///< and fields of boxes where blocks take many iterations: solids
   blocks_then_factor,  ///< the factor where they do: solids with few variables
 };
 

@@ -75,9 +75,9 @@ TEST(BoxSpace, HoldsTensorsOnWhichPairForcesDoNoWork) {
       }
     }
   }
-  for (const auto& [weighted, kind] : {std::pair(false, FieldsOfBoxes::soft),
-                                      std::pair(true, FieldsOfBoxes::soft),
-                                      std::pair(true, FieldsOfBoxes::killing)}) {
+  for (const auto& [weighted, kind] :
+       {std::pair(false, FieldsOfBoxes::soft), std::pair(true, FieldsOfBoxes::soft),
+        std::pair(true, FieldsOfBoxes::killing)}) {
     const std::vector<double> active =
         weighted ? active_everywhere(equations)
                  : std::vector<double>(static_cast<std::size_t>(equations.num_variables()), 1.0);

@@ -24,7 +24,6 @@ struct Cloud {
     const ForceRows form{dim, false};
     equations.dim = dim;
     equations.rows = equations.odd = form.count();
-    equations.third_order = true;
     std::mt19937 random(7);
     const auto number = [&] { return static_cast<double>(random()) / 4294967296.0; };
     for (Index p = 0; p < count; ++p) {
