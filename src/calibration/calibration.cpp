@@ -22,6 +22,8 @@ constexpr double met = CalibrationEquations::met;
 /// Where a factor leaves every step a hundredth of the residual at most, coarse searches take it
 /// for a contradiction when a tenth is left.
 constexpr double contradiction_by_factor = 0.1;
+/// Where it leaves so many times the least so far, it climbs for a contradiction alone.
+constexpr double lost_by_factor = 1000.0;
 
 /// Energies are fitted again where more than this part of the bonds was dropped.
 constexpr double few_dropped = 0.01;
@@ -160,6 +162,7 @@ void Calibration::balance_by(Method method, double charge, double tolerance) {
   options.preconditioner = !in_space_             ? Preconditioner::factor
                            : tight && !irregular_ ? Preconditioner::blocks_then_factor
                                                   : Preconditioner::blocks_then_boxes;
+  if (tied_) options.lost = lost_by_factor;
   if (tied_ && tolerance > tolerance_) options.contradiction = contradiction_by_factor;
   options.start = std::exchange(start_, {});
   multipliers_ = find_least_change(equations, options).multipliers;

@@ -18,10 +18,8 @@ constexpr int most_newton_steps = 40;
 /// Newton's method is lost where the dual function stops growing this early along a step.
 constexpr double shortest_step = 1e-5;
 
-/// A step that leaves so many times the residual at which the interior-point method ended is lost,
-/// and one that leaves so many times the least so far: multipliers of what contradicts itself grow
-/// until the weights that they choose have nothing to do with the other equations.
-constexpr double lost = 100.0, lost_again = 1000.0;
+/// A step that leaves so many times the residual at which the interior-point method ended is lost.
+constexpr double lost = 100.0;
 
 /// Root mean square of the residual at which the interior-point method has found out which weights
 /// are at their bounds.
@@ -135,7 +133,7 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
     if (size <= reached() || result_.iterations >= options_.iterations) break;
     if (normal_.spent() > options_.operations) break;
     if (step == 0) start = size;
-    if (size > std::min(most * start, lost_again * least)) break;
+    if (size > std::min(most * start, options_.lost * least)) break;
     if (size < least) best = y;
     least = std::min(least, size);
     const bool settled =
@@ -156,7 +154,7 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
     normal_.measure(weights_, y, residual_);
     if (length < shortest_step) break;
   }
-  if (norm(residual_) > least) {
+  if (std::isfinite(options_.lost) && norm(residual_) > least) {
     y = std::move(best);
     choose_weights(y);
     normal_.measure(weights_, y, residual_);

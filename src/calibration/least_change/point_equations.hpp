@@ -80,6 +80,10 @@ struct LeastChangeOptions {
   /// Newton's method only: a step at settled weights that leaves more than this of the residual
   /// leaves contradictions.
   double contradiction = 0.9;
+  /// Newton's method only: a step that leaves so many times the least residual so far is lost, and
+  /// the search ends with that. Multipliers of what contradicts itself grow until the weights that
+  /// they choose have nothing to do with the other equations.
+  double lost = std::numeric_limits<double>::infinity();
   /// Tied variables only: operations after which no step begins, those of a factor; solutions
   /// count by their time.
   double operations = std::numeric_limits<double>::infinity();
