@@ -28,7 +28,6 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/program.cpp", "only calls the commands; tests/cli runs the program"},
       {"app/rank_main.cpp", "only starts ranks: tests/cli/test_ranks.cpp"},
       {"assembly/boxes/box_stiffness.cpp", "that of box motions: test_box_motions.cpp"},
-      {"calibration/calibration_zeros.cpp", "a part of them: test_calibration_equations.cpp"},
       {"discretization/lattices/lattice_conforming.cpp", "a part of make_body: test_make_body.cpp"},
       {"discretization/lattices/lattice_facets.cpp", "a part of make_body: test_facets.cpp"},
       {"discretization/lattices/lattice_fit.cpp", "a part of make_body: test_make_body.cpp"},
