@@ -161,25 +161,14 @@ BondOrbits find_orbits(const LatticeBox& box, const Particles& particles, const 
   return orbits;
 }
 
-OrbitSample sample_orbits(const BondOrbits& orbits, const Particles& particles, const Bonds& bonds,
+OrbitSample sample_orbits(const BondOrbits& orbits, Index num_particles, const Bonds& bonds,
                           std::span<const std::uint8_t> free, const BondStiffness& stiffness) {
-  std::vector<std::uint8_t> represents(static_cast<std::size_t>(particles.size()), 0);
+  std::vector<std::uint8_t> represents(static_cast<std::size_t>(num_particles), 0);
   for (const Index i : orbits.representatives) represents[i] = 1;
-  OrbitSample sample;
-  sample.bonds.dim = bonds.dim;
+  OrbitSample sample{sample_bonds(represents, bonds, free, stiffness), {}};
   sample.orbits.num_views = orbits.num_views;
   sample.orbits.representatives = orbits.representatives;
-  for (Index b = 0; b < bonds.size(); ++b) {
-    if (!represents[bonds.first[b]] && !represents[bonds.second[b]]) continue;
-    sample.numbers.push_back(b);
-    sample.bonds.append(particles, bonds.first[b], bonds.second[b]);
-    sample.free.push_back(free[b]);
-    sample.orbits.views.push_back(orbits.views[b]);
-    sample.stiffness.axial.push_back(stiffness.axial[b]);
-    if (stiffness.bending.empty()) continue;
-    sample.stiffness.bending.push_back(stiffness.bending[b]);
-    sample.stiffness.inflection.push_back(stiffness.inflection[b]);
-  }
+  for (const Index b : sample.numbers) sample.orbits.views.push_back(orbits.views[b]);
   return sample;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/types.hpp"
 #include "calibration/bond_equations.hpp"
+#include "calibration/bond_sample.hpp"
 #include "discretization/bonds.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "discretization/particles.hpp"
@@ -51,15 +52,11 @@ BondOrbits find_orbits(const LatticeBox& box, const Particles& particles, const 
                        std::span<const std::uint8_t> free);
 
 /// The bonds that end at the representatives.
-struct OrbitSample {
-  std::vector<Index> numbers;  ///< their numbers in the body
-  Bonds bonds;
-  BondStiffness stiffness;
-  std::vector<std::uint8_t> free;
+struct OrbitSample : BondSample {
   BondOrbits orbits;
 };
 
-OrbitSample sample_orbits(const BondOrbits& orbits, const Particles& particles, const Bonds& bonds,
+OrbitSample sample_orbits(const BondOrbits& orbits, Index num_particles, const Bonds& bonds,
                           std::span<const std::uint8_t> free, const BondStiffness& stiffness);
 
 /// Gives all bonds of a class the stiffness that the sample found for it.

@@ -6,14 +6,13 @@
 #include <Eigen/Dense>
 
 #include "calibration/least_change/killing_fields.hpp"
+#include "discretization/facet_geometry.hpp"
 
 namespace perilink {
 namespace {
 
 /// Defects below this, relative to the sum of all terms, are round-off and change nothing.
 constexpr double balanced = 1e-14;
-
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Work of the boundary forces of all uniform strains at a corner, (delta_ab A_c + delta_ac A_b +
 /// delta_bc A_a) : (e f g), on every product e f g of three rigid motions.

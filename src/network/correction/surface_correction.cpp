@@ -73,7 +73,7 @@ class Correction {
   void set_strength(const LatticeFamilies* families);
   void take_bulk_families(const LatticeFamilies& families);
   std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
-  void scale_to(const std::vector<double>& wanted);
+  void scale_to(const std::vector<double>& wanted, std::span<const std::uint8_t> free);
   std::vector<std::uint8_t> free_bonds(const LatticeFamilies& families) const;
 
   const Body& body_;
@@ -134,9 +134,11 @@ std::vector<double> Correction::wanted_moduli(const LatticeFamilies* families) c
   return wanted;
 }
 
-void Correction::scale_to(const std::vector<double>& wanted) {
+/// \param free  the bonds that are scaled; empty: all
+void Correction::scale_to(const std::vector<double>& wanted, std::span<const std::uint8_t> free) {
   const std::vector<double> present = moduli_of_particles(network_, network_.stiffness);
   for (Index b = 0; b < network_.bonds.size(); ++b) {
+    if (!free.empty() && !free[b]) continue;
     const Index i = network_.bonds.first[b], j = network_.bonds.second[b];
     const double factor = 0.5 * (wanted[i] / present[i] + wanted[j] / present[j]);
     network_.stiffness[b] *= factor;
@@ -193,7 +195,7 @@ void Correction::energy() {
                   network_.particles.volumes[i];
     }
   }
-  scale_to(wanted);
+  scale_to(wanted, {});
 }
 
 void Correction::calibrate(bool give_up) {
@@ -219,14 +221,7 @@ void Correction::calibrate(bool give_up) {
       if (in_space) calibration.step = body_.lattice.step;
     }
   }
-  std::vector<double> bulk = network_.stiffness;
-  std::vector<double> bulk_bending = network_.bending;
-  scale_to(wanted_moduli(family));
-  for (std::size_t b = 0; b < calibration.free.size(); ++b) {
-    if (calibration.free[b]) continue;
-    network_.stiffness[b] = bulk[b];  // exactly
-    if (micropolar()) network_.bending[b] = bulk_bending[b];
-  }
+  scale_to(wanted_moduli(family), calibration.free);
   hinge();
   for (const SolidMaterial& m : input_.materials) {
     calibration.materials.push_back(lame_constants(input_, m));
@@ -294,7 +289,8 @@ bool Correction::calibrate_layers() {
 
 /// Bonds that may carry nothing are taken out.
 void Correction::balance(const CalibrationInput& calibration) {
-  BondStiffness stiffness{network_.stiffness, network_.bending, network_.inflection};
+  BondStiffness stiffness{std::move(network_.stiffness), std::move(network_.bending),
+                          std::move(network_.inflection)};
   CalibrationOptions options;
   options.on_search = input_.on_search;
   network_.calibration = calibrate_bonds(calibration, options, network_.facets, stiffness);

@@ -157,7 +157,8 @@ TEST_P(EveryPattern, TheSampleSpreadsToTheWholeBox) {
     wanted.inflection.push_back(here < there ? 0.3 : here > there ? 0.7 : 0.5);
   }
   const std::vector<std::uint8_t> free(static_cast<std::size_t>(brick.bonds.size()), 1);
-  const OrbitSample sample = sample_orbits(orbits, brick.body.particles, brick.bonds, free, wanted);
+  const OrbitSample sample =
+      sample_orbits(orbits, brick.body.particles.size(), brick.bonds, free, wanted);
   const std::set<Index> represents(orbits.representatives.begin(), orbits.representatives.end());
   EXPECT_LT(sample.bonds.size(), brick.bonds.size() / 2);
   for (Index s = 0; s < sample.bonds.size(); ++s) {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+#include "calibration/bond_equations.hpp"
+#include "discretization/bonds.hpp"
+
+namespace perilink {
+
+/// Some of the bonds of a body with what a calibration asks of them, in the order of the body.
+struct BondSample {
+  std::vector<Index> numbers;  ///< their numbers in the body
+  Bonds bonds;
+  BondStiffness stiffness;
+  std::vector<std::uint8_t> free;  ///< which may change their stiffness
+
+  /// Gives the bonds of the body what was found for those of the sample.
+  void put_back(const BondStiffness& found, BondStiffness& body) const;
+};
+
+/// The bonds that end at marked particles.
+/// \param marked     per particle
+/// \param free       per bond
+/// \param stiffness  of all bonds
+BondSample sample_bonds(std::span<const std::uint8_t> marked, const Bonds& bonds,
+                        std::span<const std::uint8_t> free, const BondStiffness& stiffness);
+
+}  // namespace perilink
