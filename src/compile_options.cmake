@@ -48,6 +48,8 @@ endfunction()
 include(CheckCXXCompilerFlag)
 check_cxx_compiler_flag("-march=native -mstore-max=128" PERILINK_HAS_STORE_MAX)
 function(perilink_hot_sources)
+  # Each is compiled by itself, with these instructions or without.
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   if(NOT PERILINK_NATIVE)
     return()
   endif()

@@ -24,7 +24,7 @@ struct BondSample {
 /// The bonds that end at marked particles.
 /// \param marked     per particle
 /// \param free       per bond
-/// \param stiffness  of all bonds
+/// \param stiffness  per bond
 BondSample sample_bonds(std::span<const std::uint8_t> marked, const Bonds& bonds,
                         std::span<const std::uint8_t> free, const BondStiffness& stiffness);
 

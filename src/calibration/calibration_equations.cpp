@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "calibration/least_change/variable_parts.hpp"
 #include "calibration/surface_columns.hpp"
+#include "discretization/point_boxes.hpp"
 
 namespace perilink {
 namespace {
 
 constexpr double most_weight = 100.0;
+/// Points whose order among each other does not matter.
+constexpr Index points_in_a_row = 8;
 constexpr double round_off = 1e-12;
 
 /// Energies of dilatation are soft equations: squares weigh 1 / ridge against those of the changes.
@@ -73,13 +77,31 @@ void CalibrationEquations::choose_points() {
     std::fill(touched.begin(), touched.end(), 0);
     for (const Index i : orbits_->representatives) touched[i] = 1;
   }
-  kept_ = free_bonds_;
   point_of_.assign(static_cast<std::size_t>(num_particles), no_index);
-  for (Index i = 0; i < num_particles; ++i) {
-    if (!touched[i]) continue;
+  const auto add = [&](Index i) {
+    if (!touched[i]) return;
     point_of_[i] = static_cast<Index>(particle_of_.size());
     particle_of_.push_back(i);
+  };
+  if (dim_ == 3 && input_.all_free()) {
+    order_by_place(add);
+  } else {
+    for (Index i = 0; i < num_particles; ++i) add(i);
   }
+  kept_ = free_bonds_;
+}
+
+/// Meshes number their nodes at random: searches are faster where points and bonds that are near
+/// each other in space are so in memory.
+template <class Add>
+void CalibrationEquations::order_by_place(Add add) {
+  for (const auto& box : split_into_boxes(input_.particles.positions, dim_, points_in_a_row)) {
+    for (const Index i : box) add(i);
+  }
+  const auto ends = [&](Index b) {
+    return std::minmax(point_of_[input_.bonds.first[b]], point_of_[input_.bonds.second[b]]);
+  };
+  std::ranges::sort(free_bonds_, {}, [&](Index b) { return std::pair<Index, Index>(ends(b)); });
 }
 
 void CalibrationEquations::measure_particles() {

@@ -110,6 +110,8 @@ class CalibrationEquations {
   void gather_dilatations(PointEquations& equations) const;
   std::vector<double> out_of_balance() const;
   void choose_points();
+  template <class Add>
+  void order_by_place(Add add);
   void measure_particles();
   bool shares_vary() const { return input_.all_free(); }
   bool carries_moments() const { return forces_.bending; }
@@ -122,14 +124,14 @@ class CalibrationEquations {
   double least_weight_;
   int dim_;
   ForceRows forces_;
-  BondStiffness stiffness_;         // at present
-  Facets facets_;                   // with the shares at present
-  State start_;                     // zero for bonds that were dropped
-  const State given_;               // all of them
-  std::vector<Index> point_of_;     // per particle, no_index where no free bond ends
-  std::vector<Index> particle_of_;  // per point
-  double moments_ridge_ = 0.0;      // 0: exact
-  std::vector<Index> free_bonds_;
+  BondStiffness stiffness_;               // at present
+  Facets facets_;                         // with the shares at present
+  State start_;                           // zero for bonds that were dropped
+  const State given_;                     // all of them
+  std::vector<Index> point_of_;           // per particle, no_index where no free bond ends
+  std::vector<Index> particle_of_;        // per point
+  double moments_ridge_ = 0.0;            // 0: exact
+  std::vector<Index> free_bonds_;         // in the order of the equations
   std::vector<Index> kept_;               // the free bonds that were not dropped
   std::vector<Floor> floor_;              // per bond
   std::vector<std::uint8_t> on_surface_;  // per particle: at a facet
