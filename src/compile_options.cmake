@@ -9,9 +9,7 @@ target_compile_options(perilink_options INTERFACE
   # In files that are compiled as one, helpers of others would count as shadowed by local names.
   $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,-Wshadow=local,-Wshadow>
   -Wno-restrict  # GCC 12 sees overlaps in std::string operator+ that are not there (PR 105651)
-  # GCC tells that wide vectors are passed in another way where the processor has no AVX-512: ours
-  # never leave their file.
-  -Wno-psabi
+  -Wno-psabi     # wide vectors without AVX-512 (docs/decisions/0005)
   $<$<BOOL:${PERILINK_WERROR}>:-Werror>
   # The same source gives the same rounding whatever the optimisation decides to fuse: a*b+c is
   # always fused where the processor can.

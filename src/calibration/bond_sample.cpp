@@ -2,6 +2,15 @@
 
 namespace perilink {
 
+std::vector<std::uint8_t> mark_ends(const Bonds& bonds, std::span<const std::uint8_t> marked,
+                                    Index num_particles) {
+  std::vector<std::uint8_t> ends(static_cast<std::size_t>(num_particles), 0);
+  for (Index b = 0; b < bonds.size(); ++b) {
+    if (marked[b]) ends[bonds.first[b]] = ends[bonds.second[b]] = 1;
+  }
+  return ends;
+}
+
 BondSample sample_bonds(std::span<const std::uint8_t> marked, const Bonds& bonds,
                         std::span<const std::uint8_t> free, const BondStiffness& stiffness) {
   BondSample sample;

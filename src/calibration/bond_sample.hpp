@@ -21,6 +21,10 @@ struct BondSample {
   void put_back(const BondStiffness& found, BondStiffness& body) const;
 };
 
+/// Marks the particles at the ends of marked bonds.
+std::vector<std::uint8_t> mark_ends(const Bonds& bonds, std::span<const std::uint8_t> marked,
+                                    Index num_particles);
+
 /// The bonds that end at marked particles.
 /// \param marked     per particle
 /// \param free       per bond

@@ -42,9 +42,6 @@ constexpr double far_from_worth = 0.5, near_to_worth = 0.3;
 /// more.
 constexpr double settling_tolerance = 0.01;
 
-/// Where no larger part of the bonds may change, the rest stays out of the searches.
-constexpr double few_free = 0.5;
-
 /// Iterations of conjugate gradients in one search. Searches that end need less, up to 4000 in
 /// solids with edges; those of nearly contradictory equations would go on for minutes.
 constexpr int most_iterations = 8000;
@@ -344,13 +341,17 @@ CalibrationReport calibrate_singly(const CalibrationInput& input, const Calibrat
   return report;
 }
 
-/// The free bonds and all others at their ends: nothing else is in the equations.
-BondSample sample_free(const CalibrationInput& input, const BondStiffness& stiffness) {
-  std::vector<std::uint8_t> touched(static_cast<std::size_t>(input.particles.size()), 0);
-  for (Index b = 0; b < input.bonds.size(); ++b) {
-    if (input.free[b]) touched[input.bonds.first[b]] = touched[input.bonds.second[b]] = 1;
-  }
-  return sample_bonds(touched, input.bonds, input.free, stiffness);
+/// Free bonds and all others at their ends: the equations ask for nothing else.
+CalibrationReport calibrate_free(const CalibrationInput& input, const CalibrationOptions& options,
+                                 Facets& facets, BondStiffness& stiffness) {
+  BondSample sample = sample_bonds(mark_ends(input.bonds, input.free, input.particles.size()),
+                                   input.bonds, input.free, stiffness);
+  CalibrationInput part{input.particles, sample.bonds, input.materials, std::move(sample.free)};
+  part.give_up = input.give_up;
+  BondStiffness found = std::move(sample.stiffness);
+  const CalibrationReport report = calibrate_singly(part, options, facets, found);
+  sample.put_back(found, stiffness);
+  return report;
 }
 
 }  // namespace
@@ -366,18 +367,8 @@ CalibrationReport calibrate_bonds(const CalibrationInput& input, const Calibrati
     if (auto report = calibrate_alike(input, options, facets, *orbits, stiffness)) return *report;
   }
   if (input.only_alike) return {};
-  // A calibration holds a dozen numbers for every bond that it is given.
-  const auto num_free = static_cast<double>(std::count(input.free.begin(), input.free.end(), 1));
-  if (input.all_free() || num_free > few_free * static_cast<double>(input.bonds.size())) {
-    return calibrate_singly(input, options, facets, stiffness);
-  }
-  BondSample sample = sample_free(input, stiffness);
-  CalibrationInput part{input.particles, sample.bonds, input.materials, sample.free};
-  part.give_up = input.give_up;
-  BondStiffness found = sample.stiffness;
-  const CalibrationReport report = calibrate_singly(part, options, facets, found);
-  sample.put_back(found, stiffness);
-  return report;
+  return meets_few(input) ? calibrate_free(input, options, facets, stiffness)
+                          : calibrate_singly(input, options, facets, stiffness);
 }
 
 }  // namespace perilink

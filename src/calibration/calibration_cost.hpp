@@ -18,6 +18,9 @@ std::optional<BondOrbits> alike_bonds(const CalibrationInput& input, const Facet
 /// twice as many as are expected.
 double alike_budget(const CalibrationInput& input, const BondOrbits& orbits, bool moments);
 
+/// Whether the bonds that may change meet so few that searches leave out all others.
+bool meets_few(const CalibrationInput& input);
+
 /// Estimate of a calibration that has not been done, as its report: how many bonds it may change
 /// and roughly how many seconds it takes on an idle core, by rates of bodies whose search converges
 /// (contradictory equations take longer).

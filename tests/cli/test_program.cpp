@@ -386,10 +386,11 @@ TEST_F(Program, PlotDrawsWhatAResultHolds) {
 
 TEST_F(Program, PlotOfADirectoryWithoutResultsIsRefused) {
   fs::create_directories(work() / "empty");
-  for (const char* directory : {"empty", "nowhere"}) {
+  for (const auto& [directory, reason] : std::map<std::string, std::string>{
+           {"empty", "is no result of a run"}, {"nowhere", "there is no such directory"}}) {
     const ProcessEnd end = run({"plot", directory});
     EXPECT_EQ(end.exit_status, 2);
-    EXPECT_THAT(end.err, HasSubstr(std::string(directory) + "/history.csv"));
+    EXPECT_THAT(end.err, HasSubstr(directory + ": " + reason));
   }
   EXPECT_TRUE(fs::is_empty(work() / "empty"));
 }

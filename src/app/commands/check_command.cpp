@@ -270,8 +270,9 @@ void print_extents(const LatticeRows& lattice) {
   fmt::print("#   particles lie in   {}\n", text);
 }
 
-void print_steps(double critical_time_step, const ExplicitOptions& options) {
-  fmt::print("#   critical time step {:.6g}\n", critical_time_step);
+void print_steps(double critical_time_step, const ExplicitOptions& options,
+                 const char* remark = "") {
+  fmt::print("#   critical time step {:.6g}{}\n", critical_time_step, remark);
   fmt::print("#   time step          {:.6g}\n", options.time_step);
   fmt::print("#   steps              {}, about {} rows of history\n", options.steps(),
              std::min<Index>(options.steps(), options.rows));
@@ -319,26 +320,26 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
   return exit_done;
 }
 
-/// Rough rate of one core, for estimates only: verification/benchmarks/explicit_step has 211 to 293
-/// million.
+/// Rough rate of one core: verification/benchmarks/explicit_step has 211 to 293 million.
 constexpr double bond_steps_per_second = 250e6;
+constexpr double soon = 2.0;  // seconds of a calibration that is not left to the run
 
 int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   const Timer timer;
-  // Whether a given time step is stable depends on the calibrated bonds; otherwise those of a draft
-  // tell it closely enough.
-  const bool calibrated = input.analysis.time_step && input.body.surface == Surface::calibrated;
-  const Model model = calibrated ? build_model_visibly(input, false) : draft_model(input);
+  Model model = draft_model(input);
+  ExpectedSetUp set_up{timer.seconds(), time_of_calibration(input, model)};
+  // Calibrated bonds have another critical time step than those of a draft.
+  const bool changes = input.body.surface == Surface::calibrated;
+  const bool calibrated = changes && (input.analysis.time_step || set_up.calibration < soon);
+  if (calibrated) model = build_model_visibly(input, false);
   const BondRunCase built = build_bond_run(input, model);
-  const double built_in = timer.seconds();
-  const double calibration = time_of_calibration(input, model);
-  const ExpectedSetUp set_up{built_in - (calibrated ? calibration : 0.0), calibration};
   print_case(case_path, input);
   print_sizes(model);
   std::fflush(stdout);
   print_period(model.network.particles.size(),
                [&] { return fundamental_period(model.network, model.unknowns, built.inertia); });
-  print_steps(built.inertia.critical_time_step(), built.options);
+  print_steps(built.inertia.critical_time_step(), built.options,
+              changes && !calibrated ? ", shorter once bonds are calibrated" : "");
   print_set_up(set_up);
   fmt::print("#   run                about {} on one core\n",
              time_text(set_up.seconds() + built.options.steps() * seconds_per_step(model, built)));

@@ -14,6 +14,7 @@
 #include "app/plot/plot_fields.hpp"
 #include "app/process/console.hpp"
 #include "app/results/history_file.hpp"
+#include "app/results/result_directory.hpp"
 #include "app/results/summary_file.hpp"
 #include "base/error.hpp"
 #include "io/fields/vtu.hpp"
@@ -75,6 +76,7 @@ std::optional<CurvePoint> first_peak_of(const std::optional<nlohmann::ordered_js
 int plot_results(const PlotOptions& options) {
   const fs::path directory = options.directory;
   const fs::path out = options.out.empty() ? directory : fs::path(options.out);
+  require_result(directory);
   const std::string history = (directory / "history.csv").string();
   const CsvTable table = read_csv(history);
   const std::vector<StepRecord> records = history_records(table, history);

@@ -10,6 +10,7 @@
 
 #include "app/plot/plot_body.hpp"
 #include "app/results/history_file.hpp"
+#include "app/results/result_directory.hpp"
 #include "app/results/summary_file.hpp"
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
@@ -20,22 +21,6 @@ namespace perilink {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Refuses what is no result of a run, and says what it is instead.
-void check_directory(const fs::path& directory) {
-  std::error_code error;
-  const std::string place = directory.string();
-  if (!fs::exists(directory, error)) throw FileError(place + ": there is no such directory");
-  if (!fs::is_directory(directory, error)) {
-    throw FileError(place + ": is not a directory; give that of a result of perilink run");
-  }
-  if (fs::exists(directory / "history.csv", error)) return;
-  const char* hint = fs::exists(directory / "study.toml", error)
-                         ? "it holds a study of perilink converge"
-                         : "perilink run writes one";
-  throw FileError(
-      fmt::format("{}: is no result of a run: there is no history.csv in it ({})", place, hint));
-}
 
 void read_summary(const fs::path& directory, RunResult& result) {
   const auto json = read_summary_file(directory);
@@ -139,7 +124,7 @@ double number_of(const NamedNumbers& numbers, const std::string& name) {
 }
 
 RunResult read_run_result(const std::string& directory) {
-  check_directory(directory);
+  require_result(directory);
   RunResult result;
   result.directory = directory;
   result.name = directory_name(directory);

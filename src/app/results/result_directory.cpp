@@ -105,6 +105,21 @@ void refuse_own_file(const fs::path& directory, const char* copy, const std::str
                   own, written));
 }
 
+void require_result(const fs::path& directory) {
+  std::error_code error;
+  const std::string place = directory.string();
+  if (!fs::exists(directory, error)) throw FileError(place + ": there is no such directory");
+  if (!fs::is_directory(directory, error)) {
+    throw FileError(place + ": is not a directory; give that of a result of perilink run");
+  }
+  if (fs::exists(directory / "history.csv", error)) return;
+  const char* hint = fs::exists(directory / "study.toml", error)
+                         ? "it holds a study of perilink converge"
+                         : "perilink run writes one";
+  throw FileError(
+      fmt::format("{}: is no result of a run: there is no history.csv in it ({})", place, hint));
+}
+
 ResultDirectory::ResultDirectory(const fs::path& directory, bool force) {
   std::error_code error;
   if (!fs::is_directory(directory, error)) {

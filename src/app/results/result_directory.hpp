@@ -24,6 +24,9 @@ std::vector<std::filesystem::path> refuse_old_results(const std::filesystem::pat
 void refuse_own_file(const std::filesystem::path& directory, const char* copy,
                      const std::string& own, const char* written);
 
+/// Refuses what is no result of a run, and says what it is instead. \throws FileError
+void require_result(const std::filesystem::path& directory);
+
 /// The directory of a run while it writes. An existing result is refused unless `force` is set;
 /// then the files that a run writes, and only those, are removed. No second run can have the
 /// directory at the same time; when the process ends, in whatever way, it is free again.

@@ -69,10 +69,13 @@ void DamageRun::tell(Summary& summary) const {
   Equilibria found(result_);
   found.places = places_;
   const CurvePoint peak = result_.peaks.highest();
+  const double length = longest_side(model_.network.particles);
   if (result_.beyond_small_strains) {
     found.doubts.push_back(doubt_about_crushing(peak));
-  } else if (auto doubt = doubt_about_size(peak, longest_side(model_.network.particles))) {
+  } else if (auto doubt = doubt_about_size(peak, length)) {
     found.doubts.push_back(std::move(*doubt));
+  } else if (auto end = doubt_about_end(result_.last.displacement, length)) {
+    found.doubts.push_back(std::move(*end));
   }
   if (late_conversions_ > 0) {
     summary.add_note(fmt::format(

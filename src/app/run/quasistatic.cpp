@@ -73,10 +73,11 @@ std::string text_of_ranks(const FactorStatistics& factor) {
 }
 
 std::string solver_text(const FactorStatistics& factor) {
-  const std::string work = factor.boxes > 0
-                               ? fmt::format("conjugate gradients with {} boxes, {} starts",
-                                             factor.boxes, factor.factorizations)
-                               : fmt::format("{} factorisations", factor.factorizations);
+  const std::string work =
+      factor.boxes > 0
+          ? fmt::format("conjugate gradients with {} boxes, made {} time{}", factor.boxes,
+                        factor.factorizations, factor.factorizations == 1 ? "" : "s")
+          : fmt::format("{} factorisations", factor.factorizations);
   return work + text_of_ranks(factor);
 }
 

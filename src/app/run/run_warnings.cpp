@@ -102,6 +102,16 @@ std::optional<std::string> doubt_about_size(const CurvePoint& peak, double lengt
       peak.load, peak.displacement, part);
 }
 
+std::optional<std::string> doubt_about_end(double displacement, double length) {
+  const double part = std::abs(displacement) / length;
+  if (part <= 1.0) return std::nullopt;
+  return fmt::format(
+      "at the end the body has moved by {:.2g} of its longest side: it could not bear the load and "
+      "hangs together by next to nothing; the last rows, their work and energies are no states of "
+      "it: look at the rows before, drive displacements, or end the run by [stop]",
+      part);
+}
+
 std::optional<std::string> doubt_about_motion(double share) {
   constexpr double few = 0.01;  // around point loads strains have no limit
   if (share <= few) return std::nullopt;

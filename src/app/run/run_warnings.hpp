@@ -59,6 +59,9 @@ std::vector<std::string> doubts_at_rest(const EnergyBalance& energy);
 /// \param length  longest side of the body [length]
 std::optional<std::string> doubt_about_size(const CurvePoint& peak, double length);
 
+/// A last row in which the body has moved farther than it is long.
+std::optional<std::string> doubt_about_end(double displacement, double length);
+
 /// The same of an elastic run: more than a hundredth of the bonds change by more than a tenth of
 /// their lengths, longer or turned.
 /// \param share  how many do, over all bonds or edges of linear elements [-]

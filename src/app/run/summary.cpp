@@ -116,8 +116,9 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
   }
   if (cracks.empty()) return;
   const ToldCrack& first = cracks.front();
-  summary.line("cracks", "the largest has {} bonds and is open by {:.4g} at most, at ({:.6g})",
-               first.state.bonds, first.state.largest, fmt::join(first.at, ", "));
+  summary.line("cracks", "the largest has {} bond{} and is open by {:.4g} at most, at ({:.6g})",
+               first.state.bonds, first.state.bonds == 1 ? "" : "s", first.state.largest,
+               fmt::join(first.at, ", "));
 }
 
 void tell_body(Summary& summary, const Model& model, const std::string& more) {

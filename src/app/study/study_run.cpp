@@ -183,7 +183,7 @@ double reference_of(const ErrorSection& error, std::size_t number,
   const auto value = [&](std::size_t from_end) {
     return members[members.size() - from_end]->values[number];
   };
-  if (error.reference == Reference::finest) return value(1);
+  if (error.reference == Reference::finest) return members.size() > 1 ? value(1) : no_number;
   if (members.size() < 3) return no_number;
   const auto spacing = [&](std::size_t from_end) {
     return members[members.size() - from_end]->spacing;

@@ -39,6 +39,7 @@ std::string reference_text(const ErrorSection& error, double reference) {
   }
   if (error.reference == Reference::number) return fmt::format("{:.8g}, as given", reference);
   if (error.reference == Reference::finest) {
+    if (std::isnan(reference)) return "none: one member alone has a result";
     return fmt::format("{:.8g}, the finest member's", reference);
   }
   return std::isnan(reference) ? "none: the finest members approach no limit"

@@ -7,10 +7,45 @@
 
 namespace perilink {
 
+/// From so many numbers on vectors are worked on in so many parts, which threads share.
+constexpr std::size_t long_vector = 80000, parts_of_vectors = 8;
+
+/// Calls visit(part, begin, end), at the same time for the parts of long vectors.
+template <class Visit>
+void for_each_part_of(std::size_t size, Visit visit) {
+  const std::size_t parts = size > long_vector ? parts_of_vectors : 1;
+#pragma omp parallel for schedule(static) if (parts > 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    visit(part, part * size / parts, (part + 1) * size / parts);
+  }
+}
+
+/// The same for any number of threads.
 inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  // A sum that waits for itself takes four cycles for each number.
+  constexpr std::size_t lanes = 8;
+  double sums[parts_of_vectors] = {};
+  for_each_part_of(a.size(), [&](std::size_t part, std::size_t k, std::size_t end) {
+    double lane[lanes] = {};
+    for (; a.size() > long_vector && k + lanes <= end; k += lanes) {
+      for (std::size_t l = 0; l < lanes; ++l) lane[l] += a[k + l] * b[k + l];
+    }
+    double sum = 0.0;
+    for (const double own : lane) sum += own;
+    for (; k < end; ++k) sum += a[k] * b[k];
+    sums[part] = sum;
+  });
   double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  for (const double own : sums) sum += own;
   return sum;
+}
+
+/// a = b + factor * c
+inline void combine(std::vector<double>& a, const std::vector<double>& b, double factor,
+                    const std::vector<double>& c) {
+  for_each_part_of(a.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) a[k] = b[k] + factor * c[k];
+  });
 }
 
 inline double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
@@ -45,11 +80,10 @@ template <class Exact, class Product, class Precondition>
 bool descend(DirectionSearch& search, int most, Exact exact, Product product,
              Precondition precondition) {
   std::vector<double>& r = search.residual;
-  const std::size_t size = r.size();
-  std::vector<double> z(size), q(size);
+  std::vector<double> z(r.size()), q(r.size());
   const auto find_residual = [&] {
     exact(search.direction, r);
-    for (std::size_t k = 0; k < size; ++k) r[k] = search.right[k] - r[k];
+    combine(r, search.right, -1.0, r);
   };
   if (search.iterations > 0) find_residual();
   precondition(r, z);
@@ -73,21 +107,19 @@ bool descend(DirectionSearch& search, int most, Exact exact, Product product,
       precondition(r, z);
       rz = dot(r, z);
       const double share = dot(q, z) / curvature;
-      for (std::size_t k = 0; k < size; ++k) p[k] = z[k] - share * p[k];
+      combine(p, z, -share, p);
       rp = dot(p, r);
       continue;
     }
     product(p, q);
     curvature = dot(p, q);
     const double step = rp / curvature;
-    for (std::size_t k = 0; k < size; ++k) {
-      search.direction[k] += step * p[k];
-      r[k] -= step * q[k];
-    }
+    combine(search.direction, search.direction, step, p);
+    combine(r, r, -step, q);
     is_exact = !corrects || !search.rounded;
     precondition(r, z);
     const double next = dot(r, z);
-    for (std::size_t k = 0; k < size; ++k) p[k] = z[k] + next / rz * p[k];
+    combine(p, z, next / rz, p);
     rp = rz = next;
     ++count;
     ++search.iterations;

@@ -79,7 +79,10 @@ class InteriorPoint {
   void for_each_rest(Visit visit);
   Vector linearize(double mu);
   template <class Visit>
-  void for_each_pair(const std::vector<double>& change, const Vector& direction, Visit visit);
+  void for_each_pair(const std::vector<double>& change, std::size_t begin, std::size_t end,
+                     Visit visit);
+  template <class Visit>
+  void for_each_pair_of_rests(const Vector& direction, Visit visit);
   double take_step(double mu, double reduction, int& iterations);
   double largest_rest() const;
   bool would_grow(int& iterations);
@@ -144,12 +147,14 @@ auto InteriorPoint<Normal>::linearize(double mu) -> Vector {
   const std::size_t count = weights_.size();
   std::vector<double> change(count);
   pull_.resize(count);
-  for (std::size_t v = 0; v < count; ++v) {
-    const double below = weights_[v] - lower_[v], above = upper_[v] - weights_[v];
-    normal_.mobility[v] = 1.0 / (1.0 + at_lower_[v] / below + at_upper_[v] / above);
-    pull_[v] = 1.0 + elongation_[v] - weights_[v] + mu / below - mu / above;
-    change[v] = weights_[v] + normal_.mobility[v] * pull_[v];
-  }
+  for_each_part_of(count, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const double below = weights_[v] - lower_[v], above = upper_[v] - weights_[v];
+      normal_.mobility[v] = 1.0 / (1.0 + at_lower_[v] / below + at_upper_[v] / above);
+      pull_[v] = 1.0 + elongation_[v] - weights_[v] + mu / below - mu / above;
+      change[v] = weights_[v] + normal_.mobility[v] * pull_[v];
+    }
+  });
   Vector residual;
   measure(change, residual);
   for_each_rest([&](std::size_t k, double over, double below, double under, double above) {
@@ -159,16 +164,22 @@ auto InteriorPoint<Normal>::linearize(double mu) -> Vector {
   return residual;
 }
 
-/// Calls visit(variable, slack, change of the slack): the variable, positive, times its slack is on
-/// the way to mu.
+/// Calls visit(variable, slack, change of the slack) for weights from one number to another: the
+/// variable, positive, times its slack is on the way to mu.
 template <class Normal>
 template <class Visit>
-void InteriorPoint<Normal>::for_each_pair(const std::vector<double>& change,
-                                          const Vector& direction, Visit visit) {
-  for (std::size_t v = 0; v < weights_.size(); ++v) {
+void InteriorPoint<Normal>::for_each_pair(const std::vector<double>& change, std::size_t begin,
+                                          std::size_t end, Visit visit) {
+  for (std::size_t v = begin; v < end; ++v) {
     visit(at_lower_[v], weights_[v] - lower_[v], change[v]);
     visit(at_upper_[v], upper_[v] - weights_[v], -change[v]);
   }
+}
+
+/// The same for what is left of equations with a price.
+template <class Normal>
+template <class Visit>
+void InteriorPoint<Normal>::for_each_pair_of_rests(const Vector& direction, Visit visit) {
   for_each_rest([&](std::size_t k, double& over, double below, double& under, double above) {
     visit(over, below, -direction[k]);
     visit(under, above, direction[k]);
@@ -182,30 +193,41 @@ double InteriorPoint<Normal>::take_step(double mu, double reduction, int& iterat
   Vector direction;
   normal_.prepare();
   iterations += normal_.solve(residual, reduction, direction);
-  std::vector<double> stretch(weights_.size()), change(weights_.size());
+  const std::size_t count = weights_.size();
+  std::vector<double> stretch(count), change(count);
   normal_.apply_transpose(direction, stretch);
-  for (std::size_t v = 0; v < change.size(); ++v) {
-    change[v] = normal_.mobility[v] * (stretch[v] + pull_[v]);
-  }
   const auto change_of = [&](double variable, double slack, double change_of_slack) {
     return (mu - variable * (slack + change_of_slack)) / slack;
   };
-  double length = 1.0;
-  const auto limit = [&](double value, double step) {
-    if (step < 0.0) length = std::min(length, -boldness * value / step);
+  double lengths[parts_of_vectors + 1];
+  std::ranges::fill(lengths, 1.0);
+  const auto limit_to = [&](double& length) {
+    return [&](double variable, double slack, double change_of_slack) {
+      const double step = change_of(variable, slack, change_of_slack);
+      if (change_of_slack < 0.0) length = std::min(length, -boldness * slack / change_of_slack);
+      if (step < 0.0) length = std::min(length, -boldness * variable / step);
+    };
   };
-  for_each_pair(change, direction, [&](double variable, double slack, double change_of_slack) {
-    limit(slack, change_of_slack);
-    limit(variable, change_of(variable, slack, change_of_slack));
+  for_each_part_of(count, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      change[v] = normal_.mobility[v] * (stretch[v] + pull_[v]);
+    }
+    for_each_pair(change, begin, end, limit_to(lengths[part]));
   });
-  for_each_pair(change, direction, [&](double& variable, double slack, double change_of_slack) {
+  for_each_pair_of_rests(direction, limit_to(lengths[parts_of_vectors]));
+  const double length = *std::ranges::min_element(lengths);
+  const auto go = [&](double& variable, double slack, double change_of_slack) {
     variable += length * change_of(variable, slack, change_of_slack);
+  };
+  for_each_pair_of_rests(direction, go);
+  for_each_part_of(count, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for_each_pair(change, begin, end, go);
+    for (std::size_t v = begin; v < end; ++v) {
+      weights_[v] += length * change[v];
+      elongation_[v] += length * stretch[v];
+    }
   });
-  for (std::size_t v = 0; v < change.size(); ++v) {
-    weights_[v] += length * change[v];
-    elongation_[v] += length * stretch[v];
-  }
-  for (std::size_t k = 0; k < y_.size(); ++k) y_[k] += length * direction[k];
+  combine(y_, y_, length, direction);
   return length;
 }
 

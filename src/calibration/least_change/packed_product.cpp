@@ -160,6 +160,7 @@ void PackedProduct::apply(std::span<const double> y, std::span<double> result) {
   const std::size_t rows = static_cast<std::size_t>(equations_.rows);
   const bool grouped = rows > odd;
   const double* scale = scale_.data();
+#pragma omp parallel for schedule(static) if (part_end_.size() > 1)
   for (std::size_t place = 0; place < point_.size(); ++place) {
     const std::size_t first = static_cast<std::size_t>(point_[place]) * rows;
     double* values = values_.data() + place * width;
@@ -170,16 +171,16 @@ void PackedProduct::apply(std::span<const double> y, std::span<double> result) {
   }
 #pragma omp parallel for schedule(dynamic) if (part_end_.size() > 1)
   for (std::size_t part = 0; part < part_end_.size(); ++part) multiply(part);
-  if (grouped) {
-    for (std::size_t p = 0; p < point_.size(); ++p) result[(p + 1) * rows - 1] = 0.0;
-  }
+#pragma omp parallel for schedule(static) if (part_end_.size() > 1)
   for (std::size_t place = 0; place < point_.size(); ++place) {
     const std::size_t first = static_cast<std::size_t>(point_[place]) * rows;
     const double* sums = sums_.data() + place * width;
     for (std::size_t r = 0; r < odd; ++r) result[first + r] = sums[r] * scale[first + r];
-    if (!grouped) continue;
+    if (grouped) result[first + odd] = 0.0;
+  }
+  for (std::size_t place = 0; grouped && place < point_.size(); ++place) {
     const std::size_t last = (equations_.group[point_[place]] + 1) * rows - 1;
-    result[last] += sums[odd] * scale[last];
+    result[last] += sums_[place * width + odd] * scale[last];
   }
 }
 

@@ -19,10 +19,12 @@ TEST(CalibrationCost, CountsTheBondsThatMayChange) {
       test::make_problem(test::box(Pattern::rectangular, 1.0, {4, 4, 0}), 2.0, 0.0, false);
   CalibrationInput input{square.body.particles, square.bonds, {}, {}};
   EXPECT_EQ(estimate(input, false).free_bonds, square.bonds.size());
+  EXPECT_FALSE(meets_few(input));
   input.free.assign(static_cast<std::size_t>(square.bonds.size()), 0);
   EXPECT_EQ(estimate(input, false).seconds, 0.0);
   input.free[3] = input.free[7] = 1;
   EXPECT_EQ(estimate(input, false).free_bonds, 2);
+  EXPECT_TRUE(meets_few(input));
 }
 
 /// Factors of all equations grow faster than their number.

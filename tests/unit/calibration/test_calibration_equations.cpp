@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
+#include <utility>
 
 #include "calibration/least_change/variable_parts.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "discretization/lattices/make_body.hpp"
+#include "support/calibration_problem.hpp"
 
 namespace perilink {
 namespace {
@@ -178,6 +183,34 @@ TEST(CalibrationEquations, DropWhatMayVanishAndTakeItBack) {
   equations.take_all_back();
   EXPECT_EQ(equations.balance().num_variables(), present.num_variables());
   EXPECT_EQ(equations.save().stiffness.axial, square.stiffness.axial);
+}
+
+/// Meshes number their nodes at random: the ends of a bond are a third of all points apart then.
+TEST(CalibrationEquations, OfCloudsInSpaceComeInTheOrderOfTheirPlaces) {
+  test::Problem problem =
+      test::make_problem(test::box(Pattern::cubic, 0.1, {1, 1, 1}), 2.0, 0.3, false);
+  Particles& particles = problem.body.particles;
+  std::vector<Index> order(static_cast<std::size_t>(particles.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(5));
+  const std::vector<double> positions = particles.positions;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    std::copy_n(positions.begin() + 3 * order[i], 3, particles.positions.begin() + 3 * i);
+  }
+  const Bonds bonds = make_bonds(particles, 0.2);
+  BondStiffness stiffness;
+  stiffness.axial.assign(static_cast<std::size_t>(bonds.size()), 1.0);
+  const CalibrationInput input{particles, bonds, {{1.0, 1.0}}, {}};
+  const PointEquations equations = CalibrationEquations(input, 0.02, {}, stiffness).balance();
+  ASSERT_EQ(equations.num_points(), particles.size());
+  std::vector<std::pair<Index, Index>> ends;
+  double apart = 0.0;
+  for (std::size_t v = 0; v < equations.first.size(); ++v) {
+    ends.push_back(std::minmax(equations.first[v], equations.second[v]));
+    apart += ends.back().second - ends.back().first;
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(ends));
+  EXPECT_LT(apart / static_cast<double>(ends.size()), 0.15 * particles.size());
 }
 
 }  // namespace

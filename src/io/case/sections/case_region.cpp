@@ -32,7 +32,9 @@ void read_interval(const CaseTable& table, int axis, Box& box) {
   const std::vector<double> interval =
       table.need(key, table.numbers(key), "the interval [lower, upper]");
   if (interval.size() != 2) {
-    table.refuse(key, fmt::format("has {} values, but an interval has 2", interval.size()),
+    table.refuse(key,
+                 fmt::format("has {} value{}, but an interval has 2", interval.size(),
+                             interval.size() == 1 ? "" : "s"),
                  "write [lower, upper]");
   }
   // Equal ends make a line or a point, as supports need them; materials ask for more.
@@ -73,10 +75,10 @@ Region read_round(const CaseTable& table, Region region, int dim) {
   const std::size_t size = static_cast<std::size_t>(round.axis ? 2 : dim);
   if (center.size() != size) {
     const char* what = dim == 2 ? "a disc" : round.axis ? "a cylinder" : "a ball";
-    table.refuse(
-        "center",
-        fmt::format("has {} values, but the center of {} has {}", center.size(), what, size),
-        round.axis ? "give the coordinates across its axis" : "give one per axis");
+    table.refuse("center",
+                 fmt::format("has {} value{}, but the center of {} has {}", center.size(),
+                             center.size() == 1 ? "" : "s", what, size),
+                 round.axis ? "give the coordinates across its axis" : "give one per axis");
   }
   std::size_t next = 0;
   for (int axis = 0; axis < dim; ++axis) {

@@ -25,8 +25,11 @@ std::size_t find_held_component(const CaseTable& table, const BodySection& body,
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (name == axis_names[axis]) {
       if (axis == 2 && dim == 2) {
-        table.refuse("fix", "is an axis that a two-dimensional body does not have",
-                     "delete it, or set problem = \"three_dimensional\" in [body]");
+        table.refuse(
+            "fix",
+            fmt::format("names {}, which is an axis that a two-dimensional body does not have",
+                        quoted(name)),
+            "delete it, or set problem = \"three_dimensional\" in [body]");
       }
       return axis;
     }

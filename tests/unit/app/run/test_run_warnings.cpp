@@ -132,6 +132,11 @@ TEST(RunDoubts, SeePeaksThatLieBeyondSmallDisplacements) {
                             HasSubstr("by 2 of its longest side")));
 }
 
+TEST(RunDoubts, SeeBodiesThatHaveMovedFartherThanTheyAreLong) {
+  EXPECT_EQ(doubt_about_end(-100.0, 100.0), std::nullopt);
+  EXPECT_THAT(doubt_about_end(-3700.0, 100.0).value(), HasSubstr("37 of its longest side"));
+}
+
 TEST(RunDoubts, SeeMotionThatIsNotSmall) {
   EXPECT_EQ(doubt_about_motion(0.01), std::nullopt);
   const auto doubt = doubt_about_motion(0.25);

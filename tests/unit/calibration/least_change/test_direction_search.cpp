@@ -1,7 +1,11 @@
 #include "calibration/least_change/direction_search.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
+#include <cmath>
+#include <random>
+#include <set>
 #include <vector>
 
 namespace perilink {
@@ -91,6 +95,34 @@ TEST(DirectionSearch, IsMoreExactWhileStepsAreCheap) {
   EXPECT_TRUE(go_on(search, 1000, 0.0, exact_products));
   EXPECT_TRUE(go_on(cheap, 1000, 0.0, exact_products));
   EXPECT_GT(cheap.iterations, search.iterations);
+}
+
+/// Parts and lanes that do not come out even: 80 061 = 8 (8 1250 + 7) + 5.
+TEST(DirectionSearch, SumsUpLongVectorsAlikeByAnyNumberOfThreads) {
+  constexpr std::size_t many = 80061;
+  static_assert(many > long_vector);
+  std::mt19937 random(3);
+  Vector a(many), b(many);
+  long double sum = 0.0L, sizes = 0.0L;
+  for (std::size_t k = 0; k < many; ++k) {
+    a[k] = static_cast<double>(random()) / 4294967296.0 - 0.5;
+    b[k] = static_cast<double>(random()) / 4294967296.0 - 0.5;
+    sum += static_cast<long double>(a[k]) * b[k];
+    sizes += std::abs(static_cast<long double>(a[k]) * b[k]);
+  }
+  const int before = omp_get_max_threads();
+  std::set<double> found;
+  Vector combined(many);
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    found.insert(dot(a, b));
+    combine(combined, a, 0.7, b);
+    for (std::size_t k = 0; k < many; ++k) ASSERT_NEAR(combined[k], a[k] + 0.7 * b[k], 2e-16);
+  }
+  omp_set_num_threads(before);
+  ASSERT_EQ(found.size(), 1U);
+  // Round-off of 1250 terms in a row at most.
+  EXPECT_NEAR(*found.begin(), static_cast<double>(sum), static_cast<double>(1e-14L * sizes));
 }
 
 }  // namespace
