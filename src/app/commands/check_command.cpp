@@ -327,7 +327,7 @@ constexpr double soon = 2.0;  // seconds of a calibration that is not left to th
 int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   const Timer timer;
   Model model = draft_model(input);
-  ExpectedSetUp set_up{timer.seconds(), time_of_calibration(input, model)};
+  const ExpectedSetUp set_up{timer.seconds(), time_of_calibration(input, model)};
   // Calibrated bonds have another critical time step than those of a draft.
   const bool changes = input.body.surface == Surface::calibrated;
   const bool calibrated = changes && (input.analysis.time_step || set_up.calibration < soon);
