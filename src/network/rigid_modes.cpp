@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include "base/joined_parts.hpp"
 
@@ -18,9 +17,6 @@ using Gram = Eigen::Matrix<double, 6, 6>;
 /// Smallest squared sine between rigid-body modes that counts as independent: a lever of 1e-6 of
 /// the fragment's radius. Round-off leaves 1e-15.
 constexpr double rank_tolerance = 1e-12;
-
-/// Part of the largest prescribed value by which others may miss a rigid motion.
-constexpr double rigid_tolerance = 1e-10;
 
 /// The lever itself.
 constexpr double rank_lever = 1e-6;
@@ -46,7 +42,6 @@ class RigidModes {
   }
 
   int dim() const { return particles_.dim; }
-  double radius() const { return radius_; }
 
   /// Components that the modes move: displacements, and rotations where bonds turn the particle.
   int components(Index particle) const {
@@ -206,36 +201,6 @@ std::vector<std::vector<double>> free_motions(const Network& network, const Frag
     }
   }
   return motions;
-}
-
-bool is_rigid_motion(const Network& network, const std::vector<std::uint8_t>& held,
-                     std::span<const double> values) {
-  std::vector<Index> members(static_cast<std::size_t>(network.particles.size()));
-  std::iota(members.begin(), members.end(), 0);
-  const std::vector<std::uint8_t> rotating = rotating_particles(network);
-  const RigidModes modes(network, rotating, members);
-  const auto for_each_held = [&](auto visit) {
-    for (const Index i : members) {
-      for (int a = 0; a < modes.components(i); ++a) {
-        const std::size_t slot = modes.slot(i, a);
-        const double unit = a < modes.dim() ? 1.0 : modes.radius();
-        if (held[slot]) visit(modes.row(i, a), unit * values[slot]);
-      }
-    }
-  };
-  Gram products = Gram::Zero();
-  ModeRow sums = ModeRow::Zero();
-  double largest = 0.0, missed = 0.0;
-  for_each_held([&](const ModeRow& row, double value) {
-    products += row * row.transpose();
-    sums += value * row;
-    largest = std::max(largest, std::abs(value));
-  });
-  const ModeRow motion = products.completeOrthogonalDecomposition().solve(sums);
-  for_each_held([&](const ModeRow& row, double value) {
-    missed = std::max(missed, std::abs(row.dot(motion) - value));
-  });
-  return missed <= rigid_tolerance * largest;
 }
 
 LoadResultant load_resultant(const Network& network, const Loads& loads) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -29,12 +28,6 @@ std::vector<Fragment> find_fragments(const Network& network, const std::vector<s
 /// supports are not looked at.
 std::vector<std::vector<double>> free_motions(const Network& network, const Fragment& fragment,
                                               const std::vector<std::uint8_t>& held);
-
-/// Whether what is prescribed is a rigid motion of the whole body, to ten digits, which strains
-/// nothing.
-/// \param held, values  what is prescribed and how much, shape (particles, width)
-bool is_rigid_motion(const Network& network, const std::vector<std::uint8_t>& held,
-                     std::span<const double> values);
 
 /// Sums of the applied loads.
 struct LoadResultant {

@@ -215,34 +215,5 @@ TEST(Fragments, ElasticSupportsHoldModes) {
   EXPECT_EQ(find_fragments(network, held)[0].free_modes, 0);
 }
 
-/// What is prescribed at two corners of a triangle: any motion of one of them along a circle about
-/// the other turns the body, others strain it.
-TEST(RigidMotion, IsToldFromOneThatStrains) {
-  const Network network = particles_at(2, {0, 0, 3, 0, 0, 4});
-  const std::vector<std::uint8_t> held = {1, 1, 0, 1, 1, 0};
-  EXPECT_TRUE(is_rigid_motion(network, held, std::vector<double>{0, 0, 0, 1e-3, -4e-3 / 3, 0}));
-  EXPECT_TRUE(is_rigid_motion(network, held, std::vector<double>{5, 2, 0, 2, 5, 0}));
-  EXPECT_FALSE(is_rigid_motion(network, held, std::vector<double>{0, 0, 0, 1e-3, 0, 0}));
-  EXPECT_FALSE(is_rigid_motion(network, held, std::vector<double>{0, 0, 0, 1e-3, -1.3e-3, 0}));
-}
-
-TEST(RigidMotion, TakesParticlesWithIt) {
-  const Network network = make_micropolar_network({"", Pattern::rectangular, Surface::none}, 4);
-  const int width = network.width();
-  auto held =
-      std::vector<std::uint8_t>(network.particles.size() * static_cast<std::size_t>(width), 1);
-  std::vector<double> values(held.size());
-  for (Index i = 0; i < network.particles.size(); ++i) {
-    const auto x = network.particles.position(i);
-    values[i * width] = 0.3 - 1e-3 * x[1];
-    values[i * width + 1] = -0.1 + 1e-3 * x[0];
-    values[i * width + 2] = 1e-3;
-  }
-  ASSERT_EQ(width, 3);
-  EXPECT_TRUE(is_rigid_motion(network, held, values));
-  values[7 * width + 2] = 1.1e-3;
-  EXPECT_FALSE(is_rigid_motion(network, held, values));
-}
-
 }  // namespace
 }  // namespace perilink

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/model/conditions/formula_field.hpp"
 #include "app/model/conditions/loads.hpp"
@@ -11,7 +12,6 @@
 #include "base/error.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "network/builder/network_builder.hpp"
-#include "network/rigid_modes.hpp"
 
 namespace perilink {
 namespace {
@@ -213,17 +213,26 @@ void note_borne_loads(const Network& network, const Loads& loads, const Prescrip
       borne));
 }
 
-/// Values that a rigid motion of the whole body meets strain nothing.
-void refuse_rigid_motion(const CaseFile& input, const Model& model,
-                         const Prescription& prescription, const std::string& stage) {
+/// Values that a shift of the whole body meets strain nothing.
+void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescription& prescription,
+                       const std::string& stage) {
   const auto not_zero = [](double value) { return value != 0.0; };
   const std::vector<double>& springs = model.network.support_stiffness;
   if (input.analysis.type == AnalysisType::explicit_ || !model.reference.driven ||
       prescription.stretched > 0.0 ||
       std::any_of(model.loads.forces.begin(), model.loads.forces.end(), not_zero) ||
-      std::any_of(springs.begin(), springs.end(), not_zero) ||
-      !is_rigid_motion(model.network, prescription.held, prescription.value)) {
+      std::any_of(springs.begin(), springs.end(), not_zero)) {
     return;
+  }
+  const auto width = static_cast<std::size_t>(model.network.width());
+  std::vector<std::optional<double>> shift(width);
+  for (std::size_t a = model.network.dim(); a < width; ++a) shift[a] = 0.0;  // no rotation
+  for (std::size_t slot = 0; slot < prescription.value.size(); ++slot) {
+    if (!prescription.held[slot]) continue;
+    const double value = prescription.value[slot];
+    std::optional<double>& known = shift[slot % width];
+    if (!known) known = value;
+    if (*known != value) return;
   }
   throw InputError(input.where(key_of_loads(input, stage)),
                    "only moves the body as a whole, which strains nothing",
@@ -254,7 +263,7 @@ void collect_sets(const CaseFile& input, Model& model) {
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
     note_borne_loads(model.network, of_stage.loads, prescription, model.notes);
-    refuse_rigid_motion(input, of_stage, prescription, stage);
+    refuse_mere_shift(input, of_stage, prescription, stage);
     of_stage.unknowns = unknowns_of(input, model.network, prescription);
     refuse_nothing_to_solve(input, of_stage);
     refuse_idle_loads(input, of_stage, stage);
@@ -276,7 +285,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.network.support_stiffness = collect_springs(input, model);
   choose_axes(input, model, applied, prescription, first);
   note_borne_loads(model.network, model.loads, prescription, model.notes);
-  refuse_rigid_motion(input, model, prescription, first);
+  refuse_mere_shift(input, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
   if (!model.pattern) refuse_loose_particles(input, model, prescription);
   hold_rigid_modes(input, model, prescription);
