@@ -42,7 +42,7 @@ constexpr double worth_a_try = 2.0;
 /// 69 000 bonds), and for the square of the number of equations of bonds that are made alike
 /// (9 600: 0.50 GB in all, 14 800: 1.18).
 /// With all of them there are the bonds themselves, and what searches, or a count of what they have
-/// reached, hold for each (7 667 168 in the plane, most of them left out: 71 in all).
+/// reached, hold for each (7 667 168 in the plane, most of them left out: 74 in all).
 constexpr double bytes_of_any_bond = 75.0, bytes_where_held = 100.0;
 constexpr double most_of_few = 0.5;
 constexpr double bytes_of_bond = 1300.0, bytes_in_cloud = 450.0;

@@ -339,7 +339,7 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   print_period(model.network.particles.size(),
                [&] { return fundamental_period(model.network, model.unknowns, built.inertia); });
   print_steps(built.inertia.critical_time_step(), built.options,
-              changes && !calibrated ? ", shorter once bonds are calibrated" : "");
+              changes && !calibrated ? " before bonds are calibrated" : "");
   print_set_up(set_up);
   fmt::print("#   run                about {} on one core\n",
              time_text(set_up.seconds() + built.options.steps() * seconds_per_step(model, built)));
