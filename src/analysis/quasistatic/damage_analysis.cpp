@@ -117,6 +117,7 @@ void EventRun::follow_motion() {
 void EventRun::adopt(const Unknowns& unknowns) {
   const Freedom freedom = engine_->change_motion(unknowns);
   energy_.add_freedom(freedom);
+  following_.add_freedom(freedom);
   compliance_ += freedom.growth;
   check();
 }
@@ -128,25 +129,34 @@ bool EventRun::residual_may_be_large() const {
   return checked_compliance_ > 0.0 && compliance_ > 1.1 * checked_compliance_;
 }
 
-/// Looks whether bonds are too short for small strains.
+/// Whether bonds are too short for small strains.
 bool EventRun::is_beyond_small_strains(double load_factor) {
-  const bool beyond =
-      staged_ != nullptr
-          ? strains_.is_beyond(staged_->displacement(), 1.0, engine_->secants())
-          : strains_.is_beyond(engine_->where_elements_fail(), load_factor, engine_->secants());
-  if (beyond) result_.beyond_small_strains = true;
-  return beyond;
+  return staged_ != nullptr
+             ? strains_.is_beyond(staged_->displacement(), 1.0, engine_->secants())
+             : strains_.is_beyond(engine_->where_elements_fail(), load_factor, engine_->secants());
+}
+
+/// The end came while a load was to stay.
+void EventRun::note_unborne(double load_factor) {
+  if (reference_->driven || result_.ending != Ending::collapsed) return;
+  result_.reason =
+      fmt::format("the body does not bear the load factor {:.6g}: {}", load_factor, result_.reason);
 }
 
 /// Whether the next event comes so late that it means nothing: then the run ends.
-bool EventRun::leaves_small_strains(double load_factor) {
-  const double motion = reference_->driven ? load_factor : load_factor * compliance_;
-  if (!strains_.is_due(motion) || !is_beyond_small_strains(load_factor)) return false;
+bool EventRun::leaves_small_strains(const Event& event) {
+  const double motion = reference_->driven ? event.load_factor : event.load_factor * compliance_;
+  if (!strains_.is_due(motion) || !is_beyond_small_strains(event.load_factor)) return false;
+  if (event.avalanche && !reference_->driven) {
+    end(Ending::collapsed, "bonds go on breaking under it until small strains no longer hold");
+    return true;
+  }
+  result_.beyond_small_strains = true;
   end(Ending::nothing_breaks,
       fmt::format("before the next bond fails, at the load factor {:.4g}, others would be shorter "
                   "than small strains allow: what is crushed or only compressed bears any load, "
                   "and this analysis tells no more about it",
-                  load_factor));
+                  event.load_factor));
   return true;
 }
 
@@ -233,6 +243,7 @@ bool EventRun::pass(const Event& event) {
   }
   if (!outcome.changed_side) ++(outcome.broke() ? broken_bonds_ : yield_events_);
   energy_.add_event(outcome);
+  following_.add_event(outcome);
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // the old value no longer holds
   compliance_ += outcome.compliance_growth;
   ++events_;
@@ -287,7 +298,7 @@ DamageResult EventRun::by_events() {
       end(Ending::nothing_breaks, "no bond can break under this load");
       break;
     }
-    if (leaves_small_strains(event.load_factor)) break;
+    if (leaves_small_strains(event)) break;
     record(event.load_factor, work, event.element);
     if (stop_rule_met() || !pass(event)) break;
     follow_motion();
@@ -295,18 +306,28 @@ DamageResult EventRun::by_events() {
   return finish();
 }
 
+/// A run that ends within a load step reports the last equilibrium, at the load that it can bear.
+/// Loads that stay while a body comes apart do work without bound: the energies are those of loads
+/// that follow the body from the last step on.
+DamageResult EventRun::end_within_step(const Event& event) {
+  energy_ = following_;
+  record(event.load_factor, engine_->load_work(), event.element);
+  return finish();
+}
+
 /// At prescribed load factors: the worst element fails, and the next, until none exceeds its limit.
 /// Within a step only two stop rules are looked at, the number of broken bonds and the signal; the
-/// others ask for equilibrium at the end of the step. A run that ends within a step reports the
-/// last equilibrium at the load that it can bear.
+/// others ask for equilibrium at the end of the step.
 DamageResult EventRun::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
     Event event = engine_->next_event();
     while (converts(event, 1.0, load_factor)) event = engine_->next_event();
     Index last = no_index;
+    following_ = energy_;
     while (event.element != no_index && event.load_factor <= load_factor) {
       energy_.advance(load_factor, engine_->load_work());
+      following_.advance(event.load_factor, engine_->load_work());
       const bool enough = stop_->broken_bonds && broken_bonds_ >= *stop_->broken_bonds;
       if (observer_.stop_requested() || enough) {
         if (enough) {
@@ -314,12 +335,11 @@ DamageResult EventRun::by_steps() {
         } else {
           end(Ending::interrupted, "a signal asked the run to stop");
         }
-        record(event.load_factor, engine_->load_work(), event.element);
-        return finish();
+        return end_within_step(event);
       }
       if (!pass(event)) {
-        record(event.load_factor, engine_->load_work(), event.element);
-        return finish();
+        note_unborne(load_factor);
+        return end_within_step(event);
       }
       last = event.element;
       const LoadWork work = engine_->load_work();
@@ -330,7 +350,8 @@ DamageResult EventRun::by_steps() {
       event = engine_->next_event();
       while (converts(event, 1.0, load_factor)) event = engine_->next_event();
     }
-    is_beyond_small_strains(load_factor);  // these loads are asked for: they get a doubt
+    // These loads are asked for: they get a doubt.
+    result_.beyond_small_strains |= is_beyond_small_strains(load_factor);
     record(load_factor, engine_->load_work(), last);
     if (stop_rule_met()) return finish();
     follow_motion();

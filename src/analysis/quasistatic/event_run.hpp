@@ -52,6 +52,7 @@ class EventRun {
   LoadWork begin_work();
   DamageResult by_events();
   DamageResult by_steps();
+  DamageResult end_within_step(const Event& event);
   // By stages: staged_run.cpp.
   DamageResult by_stages();
   void begin_stage(std::size_t number);
@@ -74,7 +75,8 @@ class EventRun {
   void note_late_conversions(const Event& event, double sense);
   bool residual_may_be_large() const;
   bool is_beyond_small_strains(double load_factor);
-  bool leaves_small_strains(double load_factor);
+  void note_unborne(double load_factor);
+  bool leaves_small_strains(const Event& event);
   int check_interval() const;
   bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }
   void record_separated(double load_factor, const LoadWork& work);
@@ -99,6 +101,7 @@ class EventRun {
   /// Bonds that conversions have freed since the last event, with the load factor of the alert.
   std::vector<std::pair<std::vector<Index>, double>> freed_;
   PathEnergy energy_;
+  PathEnergy following_;  ///< within a load step: where the load follows the body, as by events
   StrainWatch strains_;
   Timer timer_;
   double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...

@@ -91,9 +91,11 @@ bool EventRun::follow_stage(const StageRules& stage) {
     const double before = staged_->load_factor();
     staged_->move_to(load_factor);
     if (arrived) {
-      is_beyond_small_strains(load_factor);  // this load is asked for: it gets a doubt
-    } else if (leaves_small_strains(load_factor)) {
+      // This load is asked for: it gets a doubt.
+      result_.beyond_small_strains |= is_beyond_small_strains(load_factor);
+    } else if (leaves_small_strains(event)) {
       staged_->move_to(before);
+      note_unborne(load_factor);
       return false;
     }
     row_.avalanche = event.avalanche ? 1 : 0;
@@ -105,7 +107,10 @@ bool EventRun::follow_stage(const StageRules& stage) {
                                       : fmt::format("the load reached {}", *stage.to_load));
       return true;
     }
-    if (!pass(event)) return false;
+    if (!pass(event)) {
+      if (event.avalanche) note_unborne(load_factor);
+      return false;
+    }
   }
 }
 

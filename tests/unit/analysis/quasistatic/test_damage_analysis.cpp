@@ -259,6 +259,15 @@ TEST(DamageAnalysis, StepsCollapseWithinAStep) {
   EXPECT_EQ(recorder.broken_at_end, 1);
   EXPECT_NEAR(recorder.rows[1].load_factor, 0.01, 1e-16);
   EXPECT_LT(result.energy_error, 1e-13);
+  EXPECT_THAT(result.reason, HasSubstr("does not bear the load factor 0.016"));
+  // Its energies are those of a load that follows the body.
+  Recorder events;
+  run(make_square(), {}, events);
+  const StepRecord &fallen = recorder.rows[1], &followed = events.rows[1];
+  EXPECT_NEAR(fallen.load_factor, followed.load_factor, 1e-16);
+  EXPECT_NEAR(fallen.dissipated_energy, followed.dissipated_energy, 1e-15);
+  EXPECT_NEAR(fallen.external_work, followed.external_work, 1e-15);
+  EXPECT_NEAR(fallen.released_energy, followed.released_energy, 1e-15);
 }
 
 /// A saw-tooth that stands for a plateau (see test_single_event_engine.cpp): after n teeth the bar
