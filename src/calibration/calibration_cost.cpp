@@ -32,7 +32,7 @@ constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6, bonds_by_factor 
 /// Bonds that lie alike made alike: seconds for each bond, and operations of factors of their
 /// equations over c r^3 n^2 for n kinds of places with r rows and c bonds each (a factor and a
 /// hundred solutions).
-constexpr double alike = 0.6e-6, alike_operations = 1.7, operations_per_second = 3e10;
+constexpr double alike = 0.6e-6, alike_operations = 1.2, operations_per_second = 3e10;
 /// So many end the attempt: bodies that need most of them take a half of it.
 constexpr double most_alike_operations = 6.0;
 /// They must save so much: they may have no solution, and both costs are rough.
@@ -40,14 +40,14 @@ constexpr double worth_a_try = 2.0;
 /// Bytes for every bond that may change on its own, in space (lattices of 170 000 to 1 100 000
 /// bonds: 900 to 1 600, clouds of 1 200 000 to 27 000 000: 580 to 610 in all; by a factor 21 000 of
 /// 69 000 bonds), and for the square of the number of equations of bonds that are made alike
-/// (9 600: 0.50 GB in all, 14 800: 1.18).
+/// (9 490: 0.41 GB in all, 14 110: 0.58).
 /// With all of them there are the bonds themselves, and what searches, or a count of what they have
 /// reached, hold for each (7 667 168 in the plane, most of them left out: 74 in all).
 constexpr double bytes_of_any_bond = 75.0, bytes_where_held = 100.0;
 constexpr double most_of_few = 0.5;
 constexpr double bytes_of_bond = 1300.0, bytes_in_cloud = 450.0;
-constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 4.5;
-/// The matrix of their equations is nearly full: so many take 1.8 GB.
+constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 1.5;
+/// The matrix of their equations is nearly full: so many take 0.6 GB.
 constexpr double most_alike_equations = 20000.0;
 
 /// The same constants all over; materials may differ in strength.

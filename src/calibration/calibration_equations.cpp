@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "calibration/least_change/variable_parts.hpp"
+#include "calibration/least_change/equations/variable_parts.hpp"
 #include "calibration/surface_columns.hpp"
 #include "discretization/point_boxes.hpp"
 

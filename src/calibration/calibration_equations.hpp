@@ -8,7 +8,7 @@
 #include "calibration/bond_equations.hpp"
 #include "calibration/bond_orbits.hpp"
 #include "calibration/calibration_input.hpp"
-#include "calibration/least_change/point_equations.hpp"
+#include "calibration/least_change/equations/point_equations.hpp"
 #include "discretization/facets.hpp"
 
 namespace perilink {

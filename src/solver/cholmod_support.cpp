@@ -13,7 +13,6 @@
 #include "base/huge_pages.hpp"
 #include "solver/dense_kernels.hpp"
 #include "solver/not_positive_definite.hpp"
-#include "solver/ordering.hpp"
 
 namespace perilink {
 namespace {
@@ -60,8 +59,6 @@ CholmodSession::CholmodSession() {
   common_.supernodal = CHOLMOD_SUPERNODAL;
   common_.final_ll = true;
   common_.nmethods = 1;
-  common_.method[0].ordering = CHOLMOD_GIVEN;
-  common_.postorder = true;
 }
 
 CholmodSession::~CholmodSession() { cholmod_finish(&common_); }
@@ -94,9 +91,15 @@ cholmod_dense view_column(std::span<double> values) {
 
 CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix& lower,
                                     std::span<const Index> groups) {
-  std::vector<Index> permutation = order_by_particles(lower, groups);
+  std::vector<Index> permutation;
+  const bool in_order = groups.empty();
+  if (!in_order) permutation = order_by_particles(lower, groups);
+  // Unknowns that come in the order of elimination, in postorder, are read where they are.
+  session.get()->method[0].ordering = in_order ? CHOLMOD_NATURAL : CHOLMOD_GIVEN;
+  session.get()->postorder = !in_order;
   cholmod_sparse matrix = view_lower(lower);
-  CholmodFactorPtr factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, session.get()),
+  CholmodFactorPtr factor(cholmod_analyze_p(&matrix, in_order ? nullptr : permutation.data(),
+                                            nullptr, 0, session.get()),
                           CholmodFactorDeleter{session.get()});
   check(session.get(), "analysing", matrix.nrow);
   return factor;
@@ -252,14 +255,6 @@ SparseVector permute(const SparseVector& x, std::span<const Index> position) {
     sorted.values.push_back(x.values[k]);
   }
   return sorted;
-}
-
-std::vector<Index> invert(std::span<const Index> permutation) {
-  std::vector<Index> position(permutation.size());
-  for (std::size_t k = 0; k < permutation.size(); ++k) {
-    position[permutation[k]] = static_cast<Index>(k);
-  }
-  return position;
 }
 
 }  // namespace perilink

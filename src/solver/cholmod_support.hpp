@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/factor.hpp"
+#include "solver/ordering.hpp"
 
 /// \file
 /// What the routes share of CHOLMOD: its workspace, views of our matrices, and its status turned
@@ -35,7 +36,7 @@ struct CholmodFactorDeleter {
 };
 using CholmodFactorPtr = std::unique_ptr<cholmod_factor, CholmodFactorDeleter>;
 
-/// Supernodal analysis with the order of ordering.hpp.
+/// Supernodal analysis with the order of ordering.hpp; without groups with that of the matrix.
 CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix& lower,
                                     std::span<const Index> groups);
 
@@ -103,8 +104,5 @@ class PermutedColumn {
 
 /// Entries of x moved to the factor's order, rows ascending.
 SparseVector permute(const SparseVector& x, std::span<const Index> position);
-
-/// Inverse of a permutation: position[permutation[k]] = k.
-std::vector<Index> invert(std::span<const Index> permutation);
 
 }  // namespace perilink

@@ -152,4 +152,12 @@ std::vector<Index> order_by_particles(const SparseMatrix& lower, std::span<const
   return permutation;
 }
 
+std::vector<Index> invert(std::span<const Index> permutation) {
+  std::vector<Index> position(permutation.size());
+  for (std::size_t k = 0; k < permutation.size(); ++k) {
+    position[permutation[k]] = static_cast<Index>(k);
+  }
+  return position;
+}
+
 }  // namespace perilink

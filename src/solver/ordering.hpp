@@ -14,4 +14,7 @@ namespace perilink {
 /// time and gives the supernodes whole particles.
 std::vector<Index> order_by_particles(const SparseMatrix& lower, std::span<const Index> groups);
 
+/// Inverse of a permutation: position[permutation[k]] = k.
+std::vector<Index> invert(std::span<const Index> permutation);
+
 }  // namespace perilink

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "calibration/least_change/variable_parts.hpp"
+#include "calibration/least_change/equations/variable_parts.hpp"
 
 namespace perilink::test {
 
@@ -27,6 +28,22 @@ inline Eigen::VectorXd apply_system(const PointEquations& equations,
     for_each_entry([&](Index k, double value) { result[k] += active[v] * stretch * value; });
   }
   return result;
+}
+
+/// Two weights of their own at one point.
+inline PointEquations two_weights(std::vector<double> coefficients, std::vector<double> right) {
+  PointEquations equations;
+  equations.rows = static_cast<int>(right.size());
+  equations.first = {0, 0};
+  equations.second = {no_index, no_index};
+  equations.unknown = {0, 1};
+  equations.coefficients = std::move(coefficients);
+  equations.lower.assign(2, 0.0);
+  equations.upper.assign(2, 10.0);
+  equations.scale.assign(right.size(), 1.0);
+  equations.right = std::move(right);
+  equations.positions = {0.0, 0.0};
+  return equations;
 }
 
 }  // namespace perilink::test

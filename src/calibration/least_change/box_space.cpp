@@ -10,8 +10,8 @@
 
 #include "base/joined_parts.hpp"
 #include "base/side_by_side.hpp"
+#include "calibration/least_change/equations/variable_parts.hpp"
 #include "calibration/least_change/killing_fields.hpp"
-#include "calibration/least_change/variable_parts.hpp"
 #include "discretization/point_boxes.hpp"
 #include "solver/dense_kernels.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "calibration/least_change/box_fields.hpp"
 #include "calibration/least_change/coarse_system.hpp"
-#include "calibration/least_change/point_equations.hpp"
+#include "calibration/least_change/equations/point_equations.hpp"
 
 namespace perilink {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "base/error.hpp"
-#include "calibration/least_change/variable_parts.hpp"
+#include "calibration/least_change/equations/variable_parts.hpp"
 #include "solver/factor_routes.hpp"
 
 namespace perilink {

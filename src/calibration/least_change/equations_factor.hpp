@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "calibration/least_change/point_equations.hpp"
-#include "calibration/least_change/point_matrix.hpp"
+#include "calibration/least_change/equations/point_equations.hpp"
+#include "calibration/least_change/equations/point_matrix.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {

@@ -1,13 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <vector>
-
-#include <Eigen/Dense>
 
 #include "calibration/least_change/box_space.hpp"
 #include "calibration/least_change/equations_factor.hpp"
-#include "calibration/least_change/tied_equations.hpp"
+#include "calibration/least_change/tied/tied_factor.hpp"
 
 namespace perilink {
 
@@ -16,7 +13,7 @@ struct KeptPreconditioner {
   std::unique_ptr<BoxSpace> boxes;
   std::unique_ptr<EquationsFactor> factor;
   std::unique_ptr<TiedFactor> tied;
-  std::vector<Eigen::MatrixXd> bases;  ///< tie()
+  TiedRows tied_rows;
 
   void reset() { *this = {}; }
 };

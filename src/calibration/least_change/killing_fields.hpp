@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "base/types.hpp"
-#include "calibration/least_change/point_equations.hpp"
+#include "calibration/least_change/equations/point_equations.hpp"
 
 namespace perilink {
 

@@ -9,7 +9,8 @@
 
 #include "calibration/least_change/interior_point.hpp"
 #include "calibration/least_change/normal_equations.hpp"
-#include "calibration/least_change/tied_equations.hpp"
+#include "calibration/least_change/tied/tie.hpp"
+#include "calibration/least_change/tied/tied_normal_equations.hpp"
 
 namespace perilink {
 namespace {
@@ -229,7 +230,7 @@ LeastChange solve(const PointEquations& equations, const LeastChangeOptions& opt
 
 LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions& options,
                        KeptPreconditioner& kept) {
-  const TiedEquations tied = tie(equations, kept.bases);
+  const TiedEquations tied = tie(equations, kept.tied_rows);
   TiedNormalEquations normal(tied, kept.tied);
   LeastChange change = DualNewton<TiedNormalEquations>(tied.equations, options, normal).solve();
   change.weights = tied.weights(change.weights);

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "calibration/least_change/equations/point_equations.hpp"
 #include "calibration/least_change/kept_preconditioner.hpp"
-#include "calibration/least_change/point_equations.hpp"
 
 /// \file
 /// The optimisation behind bond calibration: weights that satisfy linear equations at points and

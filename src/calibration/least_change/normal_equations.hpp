@@ -11,11 +11,11 @@
 
 #include "base/error.hpp"
 #include "calibration/least_change/direction_search.hpp"
+#include "calibration/least_change/equations/point_equations.hpp"
+#include "calibration/least_change/equations/variable_parts.hpp"
 #include "calibration/least_change/kept_preconditioner.hpp"
 #include "calibration/least_change/packed_product.hpp"
-#include "calibration/least_change/point_equations.hpp"
 #include "calibration/least_change/system_product.hpp"
-#include "calibration/least_change/variable_parts.hpp"
 
 namespace perilink {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/block.hpp"
-#include "calibration/least_change/point_equations.hpp"
+#include "calibration/least_change/equations/point_equations.hpp"
 
 namespace perilink {
 

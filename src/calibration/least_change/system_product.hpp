@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "calibration/least_change/point_equations.hpp"
+#include "calibration/least_change/equations/point_equations.hpp"
 
 namespace perilink {
 

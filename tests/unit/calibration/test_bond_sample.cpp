@@ -19,11 +19,11 @@ namespace {
 using namespace test;
 
 /// A square of 61 by 61 particles and the bonds of those that lack neighbours.
-struct Square {
+struct SampledSquare {
   Problem problem;
   std::vector<std::uint8_t> lack, free;
 
-  explicit Square(bool bending)
+  explicit SampledSquare(bool bending)
       : problem(make_problem(box(Pattern::rectangular, 1.0 / 60.0, {1, 1, 0}), 3.0, 0.0, bending)) {
     const Particles& particles = problem.body.particles;
     for (std::size_t b = 0; b < problem.stiffness.bending.size(); ++b) {
@@ -65,7 +65,7 @@ struct Square {
 };
 
 TEST(BondSample, HoldsTheBondsOfMarkedParticles) {
-  const Square square(true);
+  const SampledSquare square(true);
   const Bonds& bonds = square.problem.bonds;
   std::vector<std::uint8_t> marked(square.lack.size(), 0);
   marked[40] = marked[500] = 1;
@@ -89,7 +89,7 @@ TEST(BondSample, HoldsTheBondsOfMarkedParticles) {
 }
 
 TEST(BondSample, PutsBackWhatWasFoundAndNothingElse) {
-  const Square square(true);
+  const SampledSquare square(true);
   std::vector<std::uint8_t> marked(square.lack.size(), 0);
   marked[0] = 1;
   const BondStiffness& before = square.problem.stiffness;
@@ -111,7 +111,7 @@ TEST(BondSample, PutsBackWhatWasFoundAndNothingElse) {
 /// whole body.
 TEST(BondSample, OfFreeBondsIsAllThatTheEquationsAskFor) {
   for (const bool bending : {false, true}) {
-    const Square square(bending);
+    const SampledSquare square(bending);
     const Problem& problem = square.problem;
     const Particles& particles = problem.body.particles;
     const CalibrationInput whole{particles, problem.bonds, {{1.0, 1.3}}, square.free};
@@ -137,7 +137,7 @@ TEST(BondSample, OfFreeBondsIsAllThatTheEquationsAskFor) {
 
 /// 1e-10: a hundred times the tolerance of the solver.
 TEST(BondSample, OfFreeBondsBringsTheWholeBodyIntoBalance) {
-  Square square(false);
+  SampledSquare square(false);
   Problem& problem = square.problem;
   const CalibrationInput whole{problem.body.particles, problem.bonds, {{1.0, 1.0}}, square.free};
   const BondStiffness before = problem.stiffness;

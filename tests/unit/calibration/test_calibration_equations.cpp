@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "calibration/least_change/variable_parts.hpp"
+#include "calibration/least_change/equations/variable_parts.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "discretization/lattices/make_body.hpp"
 #include "support/calibration_problem.hpp"

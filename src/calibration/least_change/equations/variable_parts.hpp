@@ -5,7 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "calibration/least_change/point_equations.hpp"
+#include "calibration/least_change/equations/point_equations.hpp"
 
 namespace perilink {
 

@@ -1,4 +1,4 @@
-#include "calibration/least_change/tied_equations.hpp"
+#include "calibration/least_change/tied/tie.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST(TiedEquations, BoundsHoldForTheUnknown) {
 }
 
 TEST(TiedEquations, ColumnsAreSumsOverTheVariables) {
-  std::vector<Eigen::MatrixXd> bases;
+  TiedRows bases;
   const TiedEquations tied = tie(three_weights(6.0), bases);
   ASSERT_EQ(tied.matrix.cols(), 2);
   EXPECT_NEAR(tied.root[0], std::sqrt(2.0), 1e-15);
@@ -120,84 +120,8 @@ TEST(TiedEquations, OfOnePointLeadToTheSolutionOfAll) {
   }
 }
 
-/// Two weights of their own at one point.
-PointEquations two_weights(std::vector<double> coefficients, std::vector<double> right) {
-  PointEquations equations;
-  equations.rows = static_cast<int>(right.size());
-  equations.first = {0, 0};
-  equations.second = {no_index, no_index};
-  equations.unknown = {0, 1};
-  equations.coefficients = std::move(coefficients);
-  equations.lower.assign(2, 0.0);
-  equations.upper.assign(2, 10.0);
-  equations.scale.assign(right.size(), 1.0);
-  equations.right = std::move(right);
-  equations.positions = {0.0, 0.0};
-  return equations;
-}
-
-/// (1, 2), the same again and nothing: one row that is as long as all of them.
-TEST(TiedEquations, HaveABasisForRowsThatFollowFromEachOther) {
-  std::vector<Eigen::MatrixXd> bases, others;
-  const TiedEquations tied =
-      tie(two_weights({1.0, 1.0, 0.0, 2.0, 2.0, 0.0}, {5.0, 5.0, 0.0}), bases);
-  EXPECT_EQ(tied.matrix.nonZeros(), 2);
-  EXPECT_NEAR(tied.matrix.squaredNorm(), 10.0, 1e-14);
-  EXPECT_NEAR(tied.matrix.coeff(0, 1), 2.0 * tied.matrix.coeff(0, 0), 1e-14);
-  EXPECT_NEAR(tied.equations.right[0], 5.0 * tied.matrix.coeff(0, 0), 1e-14);
-  EXPECT_EQ(tie(two_weights({1.0, 1.0, 1.0, 1.0 + 1e-5}, {2.0, 2.0}), others).matrix.nonZeros(), 4);
-  // A basis of an earlier search stays, but where it would miss something.
-  const auto next = tie(two_weights({1.0, 1.0, 0.0, 0.5, 0.5, 0.0}, {5.0, 5.0, 0.0}), bases);
-  EXPECT_EQ(next.matrix.nonZeros(), 2);
-  const auto other = tie(two_weights({1.0, 1.0, 0.0, 1.0, 0.0, 0.0}, {5.0, 5.0, 0.0}), bases);
-  EXPECT_EQ(other.matrix.nonZeros(), 4);
-}
-
-/// The same factor serves behind bonds that are gone, not for rows that it does not have.
-TEST(TiedFactor, FitsEquationsWithFewerRows) {
-  std::vector<Eigen::MatrixXd> bases, others;
-  const TiedEquations one = tie(two_weights({1.0, 1.0, 1.0, 1.0}, {2.0, 2.0}), others);
-  const TiedEquations two = tie(two_weights({1.0, 1.0, 1.0, 2.0}, {2.0, 3.0}), bases);
-  const TiedEquations::Matrix columns_of_two = two.matrix.transpose();
-  const TiedEquations::Matrix columns_of_one = one.matrix.transpose();
-  TiedFactor large(two, columns_of_two), small(one, columns_of_one);
-  EXPECT_TRUE(large.fits(one, columns_of_one));
-  EXPECT_FALSE(small.fits(two, columns_of_two));
-  const std::vector<double> mobility = {1.0, 1.0}, shift = {0.0, 0.0}, right = {4.0, 0.0};
-  std::vector<double> result(2);
-  small.factorize(columns_of_one, mobility, shift);
-  small.solve(right, result);
-  EXPECT_NEAR(result[0], 1.0, 1e-11);  // the row that is left has the square 4
-  EXPECT_EQ(result[1], 0.0);
-}
-
-/// A row without variables and one that repeats another, as symmetry makes them, do no harm.
-TEST(TiedNormalEquations, SolvesDependentRows) {
-  const PointEquations equations = two_weights({1.0, 1.0, 0.0, 2.0, 2.0, 0.0}, {5.0, 5.0, 0.0});
-  const LeastChange change = least_change(equations, {});
-  EXPECT_TRUE(change.converged);
-  EXPECT_NEAR(change.weights[0], 1.4, 1e-10);  // (1, 2) 0.4 from (1, 1)
-  EXPECT_NEAR(change.weights[1], 1.8, 1e-10);
-}
-
-/// Two equations that differ by 2e-5: their softest direction has an eigenvalue of 1e-10, as the
-/// shift of a step before weights are settled, which leaves a half. From 4e-6 to the tolerance
-/// twelve such steps would be needed.
-TEST(TiedNormalEquations, SettledStepsMeetSoftEquations) {
-  constexpr double apart = 2e-5;
-  const PointEquations equations =
-      two_weights({1.0, 1.0, 1.0, 1.0 + apart}, {1.9, 1.9 + 0.7 * apart});
-  LeastChangeOptions options;
-  options.tolerance = 1e-9;
-  const LeastChange change = least_change(equations, options);
-  EXPECT_TRUE(change.converged);
-  EXPECT_LT(change.iterations, 8);
-  EXPECT_NEAR(change.weights[0], 1.2, 1e-4);  // the tolerance over what they differ by
-  EXPECT_NEAR(change.weights[1], 0.7, 1e-4);
-}
-
 /// The minimum is unique, wherever the search starts.
-TEST(TiedNormalEquations, GoOnFromMultipliers) {
+TEST(TiedEquations, GoOnFromMultipliers) {
   const PointEquations equations = make_ring(20, 9, 0.9).one;
   const LeastChange whole = least_change(equations, {});
   LeastChangeOptions options;
@@ -216,7 +140,7 @@ TEST(TiedNormalEquations, GoOnFromMultipliers) {
 }
 
 /// Where nothing may be left by a step at settled weights the first such step ends the search.
-TEST(TiedNormalEquations, EndWhereASettledStepLeavesTooMuch) {
+TEST(TiedEquations, EndWhereASettledStepLeavesTooMuch) {
   const PointEquations equations = make_ring(20, 9, 0.9).one;
   LeastChangeOptions options;
   options.contradiction = 0.0;

@@ -1,4 +1,4 @@
-#include "calibration/least_change/point_matrix.hpp"
+#include "calibration/least_change/equations/point_matrix.hpp"
 
 #include <gtest/gtest.h>
 

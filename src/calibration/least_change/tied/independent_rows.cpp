@@ -1,0 +1,190 @@
+#include "calibration/least_change/tied/independent_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace perilink {
+namespace {
+
+/// Squares of rows below this part of the largest of their point, or of what they were, are none.
+/// Round-off leaves 1e-17, rows that count 1e-9.
+constexpr double independent = 1e-13;
+/// Part of the squares of its rows that a basis of an earlier search may miss.
+constexpr double missed = 1e-9;
+
+/// The rows of a point, dense in the columns that they hold.
+struct PointRows {
+  PointRows(const TiedEquations::Matrix& matrix, Eigen::Index first, Eigen::Index rows) {
+    const int* column = matrix.innerIndexPtr();
+    columns.assign(column + matrix.outerIndexPtr()[first],
+                   column + matrix.outerIndexPtr()[first + rows]);
+    std::ranges::sort(columns);
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    values.setZero(rows, static_cast<Eigen::Index>(columns.size()));
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      for (TiedEquations::Matrix::InnerIterator entry(matrix, first + r); entry; ++entry) {
+        const auto found = std::ranges::lower_bound(columns, static_cast<int>(entry.col()));
+        values(r, found - columns.begin()) = entry.value();
+      }
+    }
+  }
+
+  std::vector<int> columns;  // ascending
+  Eigen::MatrixXd values;    // shape (rows, columns)
+};
+
+/// The independent directions of the rows of a point, as columns, and zeros behind them.
+/// \param products  A A'
+Eigen::MatrixXd basis_of(const Eigen::MatrixXd& products) {
+  const Eigen::Index rows = products.rows();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares(products);
+  const Eigen::VectorXd& sizes = squares.eigenvalues();  // ascending
+  const Eigen::Index none = (sizes.array() <= independent * sizes[rows - 1]).count();
+  if (none == 0) return Eigen::MatrixXd::Identity(rows, rows);
+  Eigen::MatrixXd basis = squares.eigenvectors().rowwise().reverse();
+  basis.rightCols(none).setZero();
+  return basis;
+}
+
+/// Rows of points that share so much of their variables may follow from each other, ...
+constexpr double alike = 0.5;
+/// ... and are looked at together, up to so many.
+constexpr std::size_t most_together = 600;
+/// What contradictions leave of the right side of a row that follows from others.
+constexpr double implied_right = 1e-9;
+
+/// Points that share most of their variables.
+std::vector<std::vector<Index>> alike_points(const TiedEquations& tied) {
+  const Index num_points = tied.equations.num_points();
+  const auto pairs = shared_variables(tied.matrix.transpose(), tied.equations.rows);
+  const auto count = [&](Index p, Index q) {
+    const auto all = std::ranges::equal_range(pairs, std::pair(p, q));
+    return static_cast<double>(std::ranges::ssize(all));
+  };
+  std::vector<double> variables;
+  std::vector<Index> leader(static_cast<std::size_t>(num_points));
+  std::iota(leader.begin(), leader.end(), 0);
+  for (Index p = 0; p < num_points; ++p) variables.push_back(count(p, p));
+  const auto lead = [&](Index p) {
+    while (leader[p] != p) p = leader[p] = leader[leader[p]];
+    return p;
+  };
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [p, q] = pairs[k];
+    if (p == q || (k > 0 && pairs[k] == pairs[k - 1])) continue;
+    if (count(p, q) <= alike * std::min(variables[p], variables[q])) continue;
+    const auto [first, second] = std::minmax({lead(p), lead(q)});
+    leader[second] = first;
+  }
+  std::vector<std::vector<Index>> groups(static_cast<std::size_t>(num_points));
+  for (Index p = 0; p < num_points; ++p) groups[lead(p)].push_back(p);
+  return groups;
+}
+
+/// Marks the rows among those given that follow from others, and where there is a choice those that
+/// were marked before.
+void find_implied(const TiedEquations& tied, const std::vector<Index>& rows,
+                  std::vector<std::uint8_t>& implied) {
+  if (rows.size() < 2) return;
+  const Eigen::Index size = static_cast<Eigen::Index>(rows.size());
+  TiedEquations::Matrix own(size, tied.matrix.cols());
+  Eigen::VectorXd right(size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    own.startVec(k);
+    const double scale = 1.0 / tied.matrix.row(rows[k]).norm();
+    right[k] = scale * tied.equations.right[rows[k]];
+    for (TiedEquations::Matrix::InnerIterator entry(tied.matrix, rows[k]); entry; ++entry) {
+      own.insertBack(k, entry.col()) = scale * entry.value();
+    }
+  }
+  own.finalize();
+  const Eigen::MatrixXd products = (own * own.transpose()).toDense();
+  Eigen::MatrixXd factor(size, size);  // Cholesky's, of the rows that are taken
+  Eigen::VectorXd left = products.diagonal();
+  const double largest = right.cwiseAbs().maxCoeff();
+  std::vector<std::uint8_t> open(rows.size(), 1);
+  Eigen::Index taken = 0;
+  for (const bool again : {false, true}) {
+    while (true) {
+      Eigen::Index next = -1;
+      for (Eigen::Index k = 0; k < size; ++k) {
+        if (!open[k] || left[k] <= independent || (implied[rows[k]] && !again)) continue;
+        if (next < 0 || left[k] > left[next]) next = k;
+      }
+      if (next < 0) break;
+      open[next] = 0;
+      const double pivot = std::sqrt(left[next]);
+      auto column = factor.col(taken);
+      column = products.col(next);
+      column.noalias() -= factor.leftCols(taken) * factor.row(next).head(taken).transpose();
+      column /= pivot;
+      left -= column.cwiseAbs2();
+      right -= (right[next] / pivot * column).eval();
+      ++taken;
+    }
+  }
+  for (Eigen::Index k = 0; k < size; ++k) {
+    implied[rows[k]] = open[k] && std::abs(right[k]) <= implied_right * largest;
+  }
+}
+
+}  // namespace
+
+void turn_rows(TiedEquations& tied, std::vector<Eigen::MatrixXd>& bases) {
+  PointEquations& equations = tied.equations;
+  const Eigen::Index rows = equations.rows;
+  bases.resize(static_cast<std::size_t>(equations.num_points()));
+  TiedEquations::Matrix turned(tied.matrix.rows(), tied.matrix.cols());
+  turned.reserve(tied.matrix.nonZeros());
+  for (std::size_t p = 0; p < bases.size(); ++p) {
+    const Eigen::Index first = static_cast<Eigen::Index>(p) * rows;
+    const PointRows own(tied.matrix, first, rows);
+    const Eigen::MatrixXd products = own.values * own.values.transpose();
+    Eigen::MatrixXd& basis = bases[p];
+    const auto misses_some = [&] {
+      const double held = (basis.transpose() * products * basis).trace();
+      return held < (1.0 - missed) * products.trace();
+    };
+    if (basis.rows() != rows || misses_some()) basis = basis_of(products);
+    const Eigen::MatrixXd values = basis.transpose() * own.values;
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      turned.startVec(first + r);
+      for (std::size_t k = 0; k < own.columns.size(); ++k) {
+        const double value = values(r, static_cast<Eigen::Index>(k));
+        if (value != 0.0) turned.insertBack(first + r, own.columns[k]) = value;
+      }
+    }
+    Eigen::Map<Eigen::VectorXd> right(equations.right.data() + first, rows);
+    Eigen::Map<Eigen::VectorXd> scale(equations.scale.data() + first, rows);
+    right = (basis.transpose() * right.cwiseProduct(scale)).eval();
+    scale.setOnes();
+  }
+  turned.finalize();
+  tied.matrix = std::move(turned);
+}
+
+void leave_out_implied(TiedEquations& tied, std::vector<std::uint8_t>& implied) {
+  const Index per_point = tied.equations.rows;
+  implied.resize(tied.equations.right.size(), 0);
+  std::vector<Index> rows;
+  for (const auto& group : alike_points(tied)) {
+    rows.clear();
+    for (const Index p : group) {
+      for (Index k = p * per_point; k < (p + 1) * per_point; ++k) {
+        if (tied.matrix.outerIndexPtr()[k + 1] > tied.matrix.outerIndexPtr()[k]) rows.push_back(k);
+      }
+      if (rows.size() > most_together || (p == group.back() && group.size() > 1)) {
+        find_implied(tied, rows, implied);
+        rows.clear();
+      }
+    }
+  }
+  tied.matrix.prune([&](Eigen::Index row, Eigen::Index, double) { return !implied[row]; });
+  for (std::size_t k = 0; k < implied.size(); ++k) {
+    if (implied[k]) tied.equations.right[k] = 0.0;
+  }
+}
+
+}  // namespace perilink

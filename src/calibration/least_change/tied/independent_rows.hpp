@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "calibration/least_change/tied/tied_equations.hpp"
+
+namespace perilink {
+
+/// Symmetry of a place lets forces along what it mirrors vanish, and makes others follow from each
+/// other. Such points get U'A in place of their rows A, U an orthonormal basis of what these span:
+/// A'A is what it was, and so are the answer and the steps towards it.
+/// \param bases  per point: U with zeros behind it, of an earlier search where it still holds all
+void turn_rows(TiedEquations& tied, std::vector<Eigen::MatrixXd>& bases);
+
+/// Places that differ only far away share nearly all of their bonds, and symmetry makes some of
+/// their rows follow from those of the others: one that looks to its left like a first and to its
+/// right like a second follows from both. Such rows are left out, which a factor feels with the
+/// third power of their number; the answer is the same. Where the right sides contradict each other
+/// all stay.
+/// \param implied  per row; those of an earlier search are left out again where they can be
+void leave_out_implied(TiedEquations& tied, std::vector<std::uint8_t>& implied);
+
+}  // namespace perilink

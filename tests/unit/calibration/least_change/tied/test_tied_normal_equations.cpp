@@ -1,0 +1,39 @@
+#include "calibration/least_change/tied/tied_normal_equations.hpp"
+
+#include <gtest/gtest.h>
+
+#include "calibration/least_change/least_change.hpp"
+#include "support/point_equations.hpp"
+
+namespace perilink {
+namespace {
+
+using test::two_weights;
+
+/// A row without variables and one that repeats another, as symmetry makes them, do no harm.
+TEST(TiedNormalEquations, SolvesDependentRows) {
+  const PointEquations equations = two_weights({1.0, 1.0, 0.0, 2.0, 2.0, 0.0}, {5.0, 5.0, 0.0});
+  const LeastChange change = least_change(equations, {});
+  EXPECT_TRUE(change.converged);
+  EXPECT_NEAR(change.weights[0], 1.4, 1e-10);  // (1, 2) 0.4 from (1, 1)
+  EXPECT_NEAR(change.weights[1], 1.8, 1e-10);
+}
+
+/// Two equations that differ by 2e-5: their softest direction has an eigenvalue of 1e-10, as the
+/// shift of a step before weights are settled, which leaves a half. From 4e-6 to the tolerance
+/// twelve such steps would be needed.
+TEST(TiedNormalEquations, SettledStepsMeetSoftEquations) {
+  constexpr double apart = 2e-5;
+  const PointEquations equations =
+      two_weights({1.0, 1.0, 1.0, 1.0 + apart}, {1.9, 1.9 + 0.7 * apart});
+  LeastChangeOptions options;
+  options.tolerance = 1e-9;
+  const LeastChange change = least_change(equations, options);
+  EXPECT_TRUE(change.converged);
+  EXPECT_LT(change.iterations, 8);
+  EXPECT_NEAR(change.weights[0], 1.2, 1e-4);  // the tolerance over what they differ by
+  EXPECT_NEAR(change.weights[1], 0.7, 1e-4);
+}
+
+}  // namespace
+}  // namespace perilink
