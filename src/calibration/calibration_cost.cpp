@@ -46,8 +46,8 @@ constexpr double worth_a_try = 2.0;
 constexpr double bytes_of_any_bond = 75.0, bytes_where_held = 100.0;
 constexpr double most_of_few = 0.5;
 constexpr double bytes_of_bond = 1300.0, bytes_in_cloud = 450.0;
-constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 1.5;
-/// The matrix of their equations is nearly full: so many take 0.6 GB.
+constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 2.7;
+/// The matrix of their equations is nearly full: so many take 1.1 GB.
 constexpr double most_alike_equations = 20000.0;
 
 /// The same constants all over; materials may differ in strength.
