@@ -32,7 +32,7 @@ constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6, bonds_by_factor 
 /// Bonds that lie alike made alike: seconds for each bond, and operations of factors of their
 /// equations over c r^3 n^2 for n kinds of places with r rows and c bonds each (a factor and a
 /// hundred solutions).
-constexpr double alike = 0.6e-6, alike_operations = 1.2, operations_per_second = 3e10;
+constexpr double alike = 0.6e-6, alike_operations = 1.7, operations_per_second = 3e10;
 /// So many end the attempt: bodies that need most of them take a half of it.
 constexpr double most_alike_operations = 6.0;
 /// They must save so much: they may have no solution, and both costs are rough.
@@ -40,14 +40,14 @@ constexpr double worth_a_try = 2.0;
 /// Bytes for every bond that may change on its own, in space (lattices of 170 000 to 1 100 000
 /// bonds: 900 to 1 600, clouds of 1 200 000 to 27 000 000: 580 to 610 in all; by a factor 21 000 of
 /// 69 000 bonds), and for the square of the number of equations of bonds that are made alike
-/// (9 490: 0.41 GB in all, 14 110: 0.58).
+/// and that number (7 200: 0.24 GB in all, 9 490: 0.41, 14 110: 0.58).
 /// With all of them there are the bonds themselves, and what searches, or a count of what they have
 /// reached, hold for each (7 667 168 in the plane, most of them left out: 74 in all).
 constexpr double bytes_of_any_bond = 75.0, bytes_where_held = 100.0;
 constexpr double most_of_few = 0.5;
 constexpr double bytes_of_bond = 1300.0, bytes_in_cloud = 450.0;
-constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 2.7;
-/// The matrix of their equations is nearly full: so many take 1.1 GB.
+constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 1.8, bytes_of_equation = 12000.0;
+/// The matrix of their equations is nearly full: so many take 1 GB.
 constexpr double most_alike_equations = 20000.0;
 
 /// The same constants all over; materials may differ in strength.
@@ -153,7 +153,7 @@ CalibrationReport expected_calibration(const CalibrationInput& input, const Face
   if (orbits) {
     const double equations = equations_of(*orbits, input.particles.dim, moments);
     report.seconds = cost_alike(input, *orbits, moments);
-    report.bytes = bytes_of_equations * equations * equations;
+    report.bytes = (bytes_of_equations * equations + bytes_of_equation) * equations;
   } else {
     report.seconds = cost_of_single_bonds(input, moments);
     report.bytes = bytes_of_single_bonds(input, moments);

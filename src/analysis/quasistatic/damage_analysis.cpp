@@ -148,7 +148,8 @@ bool EventRun::leaves_small_strains(const Event& event) {
   const double motion = reference_->driven ? event.load_factor : event.load_factor * compliance_;
   if (!strains_.is_due(motion) || !is_beyond_small_strains(event.load_factor)) return false;
   if (event.avalanche && !reference_->driven) {
-    end(Ending::collapsed, "bonds go on breaking under it until small strains no longer hold");
+    end(Ending::collapsed,
+        "bonds go on breaking under loads that stay until small strains no longer hold");
     return true;
   }
   result_.beyond_small_strains = true;

@@ -95,7 +95,7 @@ bool EventRun::follow_stage(const StageRules& stage) {
       result_.beyond_small_strains |= is_beyond_small_strains(load_factor);
     } else if (leaves_small_strains(event)) {
       staged_->move_to(before);
-      note_unborne(load_factor);
+      if (aim) note_unborne(load_factor);
       return false;
     }
     row_.avalanche = event.avalanche ? 1 : 0;
@@ -108,7 +108,7 @@ bool EventRun::follow_stage(const StageRules& stage) {
       return true;
     }
     if (!pass(event)) {
-      if (event.avalanche) note_unborne(load_factor);
+      if (aim) note_unborne(load_factor);
       return false;
     }
   }

@@ -52,8 +52,9 @@ Eigen::MatrixXd basis_of(const Eigen::MatrixXd& products) {
 constexpr double alike = 0.5;
 /// ... and are looked at together, up to so many.
 constexpr std::size_t most_together = 600;
-/// What contradictions leave of the right side of a row that follows from others.
-constexpr double implied_right = 1e-9;
+/// What contradictions leave of the right side of a row that follows from others, over the largest.
+/// Round-off leaves 1e-11.
+constexpr double implied_right = 1e-10;
 
 /// Points that share most of their variables.
 std::vector<std::vector<Index>> alike_points(const TiedEquations& tied) {
@@ -83,10 +84,10 @@ std::vector<std::vector<Index>> alike_points(const TiedEquations& tied) {
   return groups;
 }
 
-/// Marks the rows among those given that follow from others, and where there is a choice those that
-/// were marked before.
+/// Marks the rows among those given that follow from others.
+/// \param before  marks of an earlier search: where there is a choice the same ones
 void find_implied(const TiedEquations& tied, const std::vector<Index>& rows,
-                  std::vector<std::uint8_t>& implied) {
+                  const std::vector<std::uint8_t>& before, std::vector<std::uint8_t>& implied) {
   if (rows.size() < 2) return;
   const Eigen::Index size = static_cast<Eigen::Index>(rows.size());
   TiedEquations::Matrix own(size, tied.matrix.cols());
@@ -110,7 +111,7 @@ void find_implied(const TiedEquations& tied, const std::vector<Index>& rows,
     while (true) {
       Eigen::Index next = -1;
       for (Eigen::Index k = 0; k < size; ++k) {
-        if (!open[k] || left[k] <= independent || (implied[rows[k]] && !again)) continue;
+        if (!open[k] || left[k] <= independent || (before[rows[k]] && !again)) continue;
         if (next < 0 || left[k] > left[next]) next = k;
       }
       if (next < 0) break;
@@ -168,6 +169,8 @@ void turn_rows(TiedEquations& tied, std::vector<Eigen::MatrixXd>& bases) {
 void leave_out_implied(TiedEquations& tied, std::vector<std::uint8_t>& implied) {
   const Index per_point = tied.equations.rows;
   implied.resize(tied.equations.right.size(), 0);
+  const std::vector<std::uint8_t> before =
+      std::exchange(implied, std::vector<std::uint8_t>(implied.size(), 0));
   std::vector<Index> rows;
   for (const auto& group : alike_points(tied)) {
     rows.clear();
@@ -176,7 +179,7 @@ void leave_out_implied(TiedEquations& tied, std::vector<std::uint8_t>& implied) 
         if (tied.matrix.outerIndexPtr()[k + 1] > tied.matrix.outerIndexPtr()[k]) rows.push_back(k);
       }
       if (rows.size() > most_together || (p == group.back() && group.size() > 1)) {
-        find_implied(tied, rows, implied);
+        find_implied(tied, rows, before, implied);
         rows.clear();
       }
     }

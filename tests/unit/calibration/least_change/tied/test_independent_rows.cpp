@@ -116,5 +116,18 @@ TEST(ImpliedRows, AreThoseOfAnEarlierSearch) {
   }
 }
 
+/// Rows that follow from nothing any more count again.
+TEST(ImpliedRows, CountAgainWhereOthersAreGone) {
+  PointEquations equations = three_points(4.5);
+  TiedRows rows;
+  TiedEquations tied = tie(equations, rows);
+  rows.implied = {0, 1, 1};
+  for (Index& p : equations.first) p = p == 2 ? 0 : p;  // the third is empty, the others apart
+  tied = tie(equations, rows);
+  leave_out_implied(tied, rows.implied);
+  EXPECT_GT(tied.matrix.row(1).nonZeros(), 0);
+  EXPECT_NE(tied.equations.right[1], 0.0);
+}
+
 }  // namespace
 }  // namespace perilink
