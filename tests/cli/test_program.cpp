@@ -220,7 +220,7 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   for (const char* part :
        {"[body]", "particles          336", "bonds              2345", "unknowns           669",
         "memory", "set-up", "each broken bond", "; 1000 of them ", "spacing            ",
-        " spacings\n", "to 30 broken bonds"}) {
+        " spacings\n", "to 30 broken bonds", "load               upper cap: (0, 100)"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
   EXPECT_EQ(names(), std::set<std::string>{"small.toml"});
@@ -250,10 +250,13 @@ TEST_F(Program, CheckOfAMeshSpeaksOfItsEdges) {
 }
 
 TEST_F(Program, CheckOfAnElasticCaseSpeaksOfNoBreaks) {
-  write_case("strip.toml", tension_strip_case);
+  write_case(
+      "strip.toml",
+      tension_strip_case + std::string("[[gauges]]\nname = \"g\"\nat = [1.1, 0.4]\naxis = \"x\""));
   const ProcessEnd end = run({"check", "strip.toml"});
   EXPECT_EQ(end.exit_status, 0) << end.err;
   EXPECT_THAT(end.out, testing::ContainsRegex("run                about [0-9.e-]+ s\n"));
+  EXPECT_THAT(end.out, HasSubstr("gauge              g: at (1, 0.5)\n"));
   EXPECT_THAT(end.out, testing::Not(HasSubstr("each broken bond")));
 }
 
@@ -268,15 +271,10 @@ TEST_F(Program, CheckOfAnExplicitCaseTellsItsSteps) {
         "particles lie in   x 0 to 2, y 0 to 0.952628\n"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
+  EXPECT_THAT(end.out, testing::ContainsRegex("fundamental period 1\\.7[0-9]+\n"));
   EXPECT_EQ(names(), std::set<std::string>{"strip.toml"});
   write_case("again.toml", end.out);
   EXPECT_EQ(run({"check", "again.toml"}).exit_status, 0);
-}
-
-TEST_F(Program, CheckOfALatticeTellsItsPeriod) {
-  write_case("strip.toml", lattice_strip_case());
-  EXPECT_THAT(run({"check", "strip.toml"}).out,
-              testing::ContainsRegex("fundamental period 1\\.7[0-9]+\n"));
 }
 
 /// The strip at a strain of 2e-4, drawn slowly and damped, and its elastic answer.

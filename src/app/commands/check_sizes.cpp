@@ -1,0 +1,212 @@
+#include "app/commands/check_sizes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "discretization/lattices/triangulate.hpp"
+
+namespace perilink {
+namespace {
+
+void print_breakable(const Network& network, const std::vector<double>& crack_cost) {
+  if (network.has_states()) return;  // particles crack, not bonds
+  if (network.critical_stretch.empty()) {
+    fmt::print("#   breakable bonds    none: the analysis is elastic\n");
+    return;
+  }
+  Index breakable = 0, softening = 0;
+  double smallest = INFINITY, largest = 0.0;
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!network.can_break(e)) continue;
+    const double limit = network.critical_stretch[e] * network.law(e).tooth(0).limit;
+    ++breakable;
+    if (network.law(e).tooth(1).secant > 0.0) {  // its first event does not break it
+      ++softening;
+      continue;
+    }
+    smallest = std::min(smallest, limit);
+    largest = std::max(largest, limit);
+  }
+  if (breakable == 0) {
+    fmt::print("#   breakable bonds    none\n");
+  } else {
+    fmt::print("#   breakable bonds    {}", breakable);
+    if (softening == breakable) {
+      fmt::print(", which soften");
+    } else if (softening > 0) {
+      fmt::print(", {} of which soften", softening);
+    }
+    if (softening < breakable) {
+      fmt::print(", critical stretch {}{:.5g}", softening > 0 ? "of the others " : "", smallest);
+      if (largest > (1.0 + 1e-9) * smallest) fmt::print(" to {:.5g}", largest);
+    }
+    fmt::print("\n");
+  }
+  for (std::size_t m = 0; m < crack_cost.size() && breakable > 0; ++m) {
+    if (crack_cost[m] == 1.0) continue;  // bonds that soften have none
+    fmt::print("#   cost of a crack    {:.4g} of what its bonds release, material {}\n",
+               crack_cost[m], m + 1);
+  }
+}
+
+/// What a law of many teeth comes to.
+void print_softening(const MaterialStrength& strength) {
+  fmt::print("#   softening          at stretches from {:.5g} to {:.5g} in {} teeth\n",
+             strength.first_stretch, strength.last_stretch, strength.teeth);
+  fmt::print("#   fracture energy    {:.5g}\n", strength.fracture_energy);
+}
+
+void print_strengths(const std::vector<MaterialStrength>& strengths) {
+  for (std::size_t m = 0; m < strengths.size(); ++m) {
+    const MaterialStrength& strength = strengths[m];
+    if (strength.teeth == 0) continue;
+    fmt::print("#   tensile strength   {:.5g}, process zone E G/f^2 = {:.4g}, material {}\n",
+               strength.tensile_strength, strength.process_zone, m + 1);
+    if (strength.compressive_strength > 0.0) {
+      fmt::print("#   compression        strength {:.5g}\n", strength.compressive_strength);
+    }
+    if (strength.teeth == 1) {
+      fmt::print("#                      by the horizon, as brittle bonds have it\n");
+    } else {
+      print_softening(strength);
+    }
+  }
+}
+
+void print_interfaces(const std::vector<InterfaceBonds>& interfaces) {
+  for (std::size_t k = 0; k < interfaces.size(); ++k) {
+    const auto& [count, area, strength] = interfaces[k];
+    fmt::print(
+        "#   interface {}        {} bonds cross about {:.2g} of area, tensile strength {:.5g}{}\n",
+        k + 1, count, area, strength.tensile_strength, strength.teeth > 1 ? "" : " by the horizon");
+    if (strength.teeth > 1) print_softening(strength);
+  }
+}
+
+void print_elements(const Model& model) {
+  if (model.elements) {
+    fmt::print("#   linear elements    {}\n", model.elements->cells.size());
+    return;
+  }
+  const Network& network = model.network;
+  fmt::print("#   bonds              {} and {} ties of {} bar{}\n", network.num_bonds(),
+             network.first_segment - network.first_tie, model.entry_of_bar.size(),
+             model.entry_of_bar.size() == 1 ? "" : "s");
+  if (network.cells) {
+    fmt::print("#   linear elements    {} beside the bonds\n", network.cells->cells.size());
+  }
+  if (network.calibration) {
+    fmt::print("#   calibration        of {} bonds, by the run\n", network.calibration->free_bonds);
+  }
+  for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
+    fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
+  }
+  print_interfaces(network.interfaces);
+  print_breakable(network, model.crack_cost);
+  print_strengths(network.strengths);
+}
+
+void print_spacing(const Model& model) {
+  const bool mesh = model.lattice.pattern == Pattern::irregular;
+  fmt::print("#   {:<18} {:.6g}", mesh ? "mean edge" : "spacing", model.lattice.spacing);
+  if (mesh) {
+    const std::vector<double> edges = edges_of(model.cells, model.network.particles).lengths;
+    const auto [shortest, longest] = std::minmax_element(edges.begin(), edges.end());
+    fmt::print(", edges {:.4g} to {:.4g}", *shortest, *longest);
+  }
+  if (model.horizon > 0.0) {
+    fmt::print(", horizon {:.6g} = {:.4g} {}", model.horizon, model.horizon / model.lattice.spacing,
+               mesh ? "mean edges" : "spacings");
+  }
+  fmt::print("\n");
+}
+
+/// The components that the space has.
+std::string vector_text(const Vector3& vector, int dim) {
+  std::vector<double> components;
+  for (int a = 0; a < dim; ++a) components.push_back(vector[a] + 0.0);  // no -0
+  return fmt::format("({:.6g})", fmt::join(components, ", "));
+}
+
+/// What loads each place, at load factor 1; stages load places in turn.
+void print_places(const Model& model) {
+  if (!model.sets.empty()) return;
+  const int dim = model.network.particles.dim;
+  for (const LoadedPlace& place : model.loaded_places) {
+    const double force = std::hypot(place.force[0], place.force[1], place.force[2]);
+    const bool balanced = place.sizes > (1.0 + 1e-9) * force;
+    fmt::print("#   load               {}: {}{}\n", place.name, vector_text(place.force, dim),
+               balanced ? fmt::format(", forces of {:.6g} in all", place.sizes) : "");
+  }
+  static constexpr const char* names[] = {"x", "y", "z"};
+  for (const DrivenPlace& place : model.driven_places) {
+    std::vector<std::string> parts;
+    for (int a = 0; a < dim; ++a) {
+      if (!place.drives[a]) continue;
+      const double low = place.low[a], high = place.high[a];
+      parts.push_back(low == high ? fmt::format("{} = {:.6g}", names[a], low)
+                                  : fmt::format("{} from {:.6g} to {:.6g}", names[a], low, high));
+    }
+    if (parts.empty()) continue;  // rotations alone
+    fmt::print("#   displacement       {}: {}\n", place.name, fmt::join(parts, ", "));
+  }
+}
+
+/// Where gauges measure: points are those of the nearest particles.
+void print_gauges(const Model& model) {
+  const Particles& particles = model.network.particles;
+  const auto place_of = [&](const Gauge::Term& term) {
+    Vector3 place{};
+    std::ranges::copy(particles.position(term.particle), place.begin());
+    return vector_text(place, particles.dim);
+  };
+  for (const Gauge& gauge : model.gauges) {
+    const std::vector<Gauge::Term>& terms = gauge.terms;
+    const std::string where =
+        terms.size() == 1 ? "at " + place_of(terms[0])
+        : terms.front().weight < 0.0
+            ? fmt::format("from {} to {}", place_of(terms[0]), place_of(terms[1]))
+            : fmt::format("mean of {} particles", terms.size());
+    fmt::print("#   gauge              {}: {}\n", gauge.name, where);
+  }
+}
+
+}  // namespace
+
+void print_sizes(const Model& model, bool damage) {
+  const Network& network = model.network;
+  Index ghosts = 0, bar_nodes = 0;
+  for (const ParticleKind kind : network.particles.kind) {
+    ghosts += kind == ParticleKind::ghost;
+    bar_nodes += kind == ParticleKind::rebar;
+  }
+  fmt::print("# sizes\n");
+  fmt::print("#   particles          {} ({} ghosts, {} bar nodes)\n", network.particles.size(),
+             ghosts, bar_nodes);
+  print_spacing(model);
+  print_elements(model);
+  if (model.carried) {
+    const std::vector<std::uint8_t>& whole = model.carried->whole;
+    fmt::print("#   finite elements    {} of {} carry particles, which would have {} unknowns\n",
+               std::count(whole.begin(), whole.end(), 1), whole.size(), model.carried->free.count);
+    if (damage) {
+      fmt::print(
+          "#                      time and memory are for the unknowns at first and grow as "
+          "elements convert\n");
+    }
+  }
+  fmt::print("#   unknowns           {}\n", model.unknowns.count);
+  for (const Group& group : model.groups) {
+    fmt::print("#   group              {}: {} particles, {} facets of the surface\n", group.name,
+               group.particles.size(), group.facets.size());
+  }
+  print_places(model);
+  print_gauges(model);
+  for (const std::string& note : model.notes) fmt::print("#   note               {}\n", note);
+}
+
+}  // namespace perilink
