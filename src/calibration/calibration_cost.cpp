@@ -47,7 +47,7 @@ constexpr double bytes_of_any_bond = 75.0, bytes_where_held = 100.0;
 constexpr double most_of_few = 0.5;
 constexpr double bytes_of_bond = 1300.0, bytes_in_cloud = 450.0;
 constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 1.8, bytes_of_equation = 12000.0;
-/// The matrix of their equations is nearly full: so many take 1 GB.
+/// The matrix of their equations is nearly full: so many would take 1 GB.
 constexpr double most_alike_equations = 20000.0;
 
 /// The same constants all over; materials may differ in strength.
@@ -158,7 +158,7 @@ CalibrationReport expected_calibration(const CalibrationInput& input, const Face
     report.seconds = cost_of_single_bonds(input, moments);
     report.bytes = bytes_of_single_bonds(input, moments);
   }
-  const bool left_out = meets_few(input) && !orbits;
+  const bool left_out = !orbits && meets_few(input);
   report.bytes += (left_out ? bytes_of_any_bond : bytes_where_held) * input.bonds.size();
   return report;
 }

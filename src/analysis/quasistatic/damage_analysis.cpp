@@ -307,7 +307,8 @@ DamageResult EventRun::by_events() {
   return finish();
 }
 
-/// A run that ends within a load step reports the last equilibrium, at the load that it can bear.
+/// A run that ends within a load step reports the last equilibrium, at the load at which its next
+/// element fails.
 /// Loads that stay while a body comes apart do work without bound: the energies are those of loads
 /// that follow the body from the last step on.
 DamageResult EventRun::end_within_step(const Event& event) {

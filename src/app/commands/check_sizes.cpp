@@ -132,27 +132,44 @@ std::string vector_text(const Vector3& vector, int dim) {
   return fmt::format("({:.6g})", fmt::join(components, ", "));
 }
 
+/// Force and moment of a place.
+std::string load_text(const LoadedPlace& place, int dim) {
+  const auto size = [](const Vector3& v) { return std::hypot(v[0], v[1], v[2]); };
+  std::string text = vector_text(place.force, dim);
+  if (size(place.moment) > 0.0) {
+    text += dim == 2 ? fmt::format(", moment {:.6g}", place.moment[2])
+                     : ", moment " + vector_text(place.moment, dim);
+  }
+  if (place.sizes > (1.0 + 1e-9) * size(place.force)) {
+    text += fmt::format(", forces of {:.6g} in all", place.sizes);
+  }
+  return text;
+}
+
+/// What drives a place: components of its displacement, then of its rotation.
+std::string motion_text(const DrivenPlace& place, int dim) {
+  std::vector<std::string> parts;
+  for (int c = 0; c < static_cast<int>(place.drives.size()); ++c) {
+    if (!place.drives[c]) continue;
+    const double low = place.low[c], high = place.high[c];
+    const std::string name = c < dim    ? std::string(1, "xyz"[c])
+                             : dim == 2 ? "rotation"
+                                        : fmt::format("rotation about {}", "xyz"[c - dim]);
+    parts.push_back(low == high ? fmt::format("{} = {:.6g}", name, low)
+                                : fmt::format("{} from {:.6g} to {:.6g}", name, low, high));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 /// What loads each place, at load factor 1; stages load places in turn.
 void print_places(const Model& model) {
   if (!model.sets.empty()) return;
   const int dim = model.network.particles.dim;
   for (const LoadedPlace& place : model.loaded_places) {
-    const double force = std::hypot(place.force[0], place.force[1], place.force[2]);
-    const bool balanced = place.sizes > (1.0 + 1e-9) * force;
-    fmt::print("#   load               {}: {}{}\n", place.name, vector_text(place.force, dim),
-               balanced ? fmt::format(", forces of {:.6g} in all", place.sizes) : "");
+    fmt::print("#   load               {}: {}\n", place.name, load_text(place, dim));
   }
-  static constexpr const char* names[] = {"x", "y", "z"};
   for (const DrivenPlace& place : model.driven_places) {
-    std::vector<std::string> parts;
-    for (int a = 0; a < dim; ++a) {
-      if (!place.drives[a]) continue;
-      const double low = place.low[a], high = place.high[a];
-      parts.push_back(low == high ? fmt::format("{} = {:.6g}", names[a], low)
-                                  : fmt::format("{} from {:.6g} to {:.6g}", names[a], low, high));
-    }
-    if (parts.empty()) continue;  // rotations alone
-    fmt::print("#   displacement       {}: {}\n", place.name, fmt::join(parts, ", "));
+    fmt::print("#   displacement       {}: {}\n", place.name, motion_text(place, dim));
   }
 }
 

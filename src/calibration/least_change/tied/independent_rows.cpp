@@ -9,10 +9,18 @@ namespace perilink {
 namespace {
 
 /// Squares of rows below this part of the largest of their point, or of what they were, are none.
-/// Round-off leaves 1e-17, rows that count 1e-9.
+/// Round-off leaves 1e-17 of the first and 4e-15 of the second, rows that count 1e-9.
 constexpr double independent = 1e-13;
 /// Part of the squares of its rows that a basis of an earlier search may miss.
 constexpr double missed = 1e-9;
+
+/// Rows of points that share so much of their variables may follow from each other, ...
+constexpr double alike = 0.5;
+/// ... and are looked at together, up to so many.
+constexpr std::size_t most_together = 600;
+/// What contradictions leave of the right side of a row that follows from others, over the largest.
+/// Round-off leaves 1e-12.
+constexpr double implied_right = 1e-10;
 
 /// The rows of a point, dense in the columns that they hold.
 struct PointRows {
@@ -47,14 +55,6 @@ Eigen::MatrixXd basis_of(const Eigen::MatrixXd& products) {
   basis.rightCols(none).setZero();
   return basis;
 }
-
-/// Rows of points that share so much of their variables may follow from each other, ...
-constexpr double alike = 0.5;
-/// ... and are looked at together, up to so many.
-constexpr std::size_t most_together = 600;
-/// What contradictions leave of the right side of a row that follows from others, over the largest.
-/// Round-off leaves 1e-11.
-constexpr double implied_right = 1e-10;
 
 /// Points that share most of their variables.
 std::vector<std::vector<Index>> alike_points(const TiedEquations& tied) {
