@@ -41,6 +41,10 @@ double continuum_modulus(const NetworkInput& input, double micromodulus) {
 /// to each of the 18 equations of a particle.
 constexpr std::size_t least_neighbours = 36;
 
+/// So many neighbours leave bonds of a thin layer enough freedom: cubic lattices have 56 with
+/// horizons of 2.24 spacings and 80 from 2.45 on, face-centred ones 54 with two and 78 with 2.24.
+constexpr Index enough_in_space = 78;
+
 /// Whether the stretches of all bonds are given, whatever they take.
 bool have_stretches(const NetworkInput& input) {
   return std::all_of(input.materials.begin(), input.materials.end(),
@@ -146,10 +150,10 @@ void Correction::scale_to(const std::vector<double>& wanted, std::span<const std
   }
 }
 
-/// Bonds with an end that lacks neighbours, or has some of another material. In three dimensions
-/// and in micropolar bodies the particles bonded to such ends count as well: few neighbours leave
-/// the equations of a thinner layer nearly singular, and those of forces and moments along a side
-/// without positive weights.
+/// Bonds with an end that lacks neighbours, or has some of another material. In micropolar bodies,
+/// and in space where neighbours are few, the particles bonded to such ends count as well: the
+/// equations of a thinner layer are nearly singular there, and those of forces and moments along a
+/// side have no positive weights.
 std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families) const {
   std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
   const Bonds& bonds = network_.bonds;
@@ -164,7 +168,7 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
   }
   std::vector<std::uint8_t> layer(regular.size());
   for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = regular[i] != families.size();
-  if (network_.dim() == 3 || micropolar()) {
+  if (micropolar() || (network_.dim() == 3 && families.size() < enough_in_space)) {
     const std::vector<std::uint8_t> thinner = layer;
     for (Index b = 0; b < bonds.size(); ++b) {
       if (thinner[bonds.first[b]]) layer[bonds.second[b]] = 1;

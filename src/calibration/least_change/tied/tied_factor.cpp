@@ -17,7 +17,7 @@ namespace {
 /// rows negative that depend on others.
 constexpr double factor_floor = 1e-13;
 /// A new factor costs as much as this many iterations at least ...
-constexpr int stale_iterations = 10;
+constexpr double stale_iterations = 10.0;
 /// ... and more of large factors: an operation of a solution, whose speed is that of the memory,
 /// takes as long as so many of a factor. New factors are worth more than their time.
 constexpr double slower = 4.0, worth_more = 4.0;
@@ -120,10 +120,11 @@ void TiedFactor::solve(std::span<const double> residual, std::span<double> resul
   for (std::size_t k = 0; k < row_.size(); ++k) result[row_[k]] = some[k];
 }
 
-int TiedFactor::worth() const {
-  const double solutions = statistics_.flops / (worth_more * operations_of_solution());
-  return std::max(stale_iterations, static_cast<int>(solutions));
+double TiedFactor::price() const {
+  return std::max(stale_iterations, statistics_.flops / operations_of_solution());
 }
+
+double TiedFactor::worth() const { return std::max(stale_iterations, price() / worth_more); }
 
 double TiedFactor::operations_of_solution() const { return 4.0 * slower * statistics_.entries; }
 

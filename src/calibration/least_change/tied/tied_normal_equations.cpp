@@ -1,5 +1,7 @@
 #include "calibration/least_change/tied/tied_normal_equations.hpp"
 
+#include <cmath>
+
 namespace perilink {
 namespace {
 
@@ -69,15 +71,18 @@ void TiedNormalEquations::prepare() {
   factor_->factorize(transposed_, mobility,
                      {shift_.data(), static_cast<std::size_t>(shift_.size())});
   spent_ += factor_->operations();
-  last_iterations_ = 0;
+  stale_ = false;
+  gain_ = std::numeric_limits<double>::infinity();
 }
 
 void TiedNormalEquations::prepare_if_stale(bool /*settled*/, bool last) {
   eased_ = last ? least_proximity - settled_proximity : 0.0;
-  if (!factor_ || last_iterations_ > factor_->worth()) prepare();
+  stale_ = true;
+  if (!factor_) prepare();
 }
 
 int TiedNormalEquations::solve(const Vector& residual, double reduction, Vector& direction) {
+  if (stale_ && -std::log(reduction) > gain_ * factor_->worth()) prepare();
   const std::size_t size = residual.size();
   Column r = map(residual), z(shift_.size()), q, stretch;
   direction.assign(size, 0.0);
@@ -86,9 +91,15 @@ int TiedNormalEquations::solve(const Vector& residual, double reduction, Vector&
   precondition();
   Column p = z;
   double rz = r.dot(z);
-  const double target = reduction * r.norm();
+  const double start = r.norm(), target = reduction * start;
   int count = 0;
   for (; count < most_tied_iterations && r.norm() > target; ++count) {
+    if (stale_ && count >= factor_->price()) {
+      prepare();
+      precondition();
+      p = z;
+      rz = r.dot(z);
+    }
     multiply(transposed_, p, stretch);
     stretch.array() *= map(mobility).array();
     multiply(tied_.matrix, stretch, q);
@@ -102,7 +113,8 @@ int TiedNormalEquations::solve(const Vector& residual, double reduction, Vector&
     rz = next;
   }
   spent_ += count * factor_->operations_of_solution();
-  return last_iterations_ = count;
+  gain_ = std::log(start / r.norm()) / count;
+  return count;
 }
 
 }  // namespace perilink

@@ -27,7 +27,8 @@ class TiedNormalEquations {
   /// Makes the factor for the mobility as it is now.
   void prepare();
   void prepare_if_stale(bool settled, bool last);
-  /// S direction = residual, the residual reduced by the factor. \return iterations
+  /// S direction = residual, the residual reduced by the factor. The preconditioner is made anew
+  /// where the last solution tells that this takes longer, and where it has. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
 
   /// Operations so far.
@@ -48,7 +49,9 @@ class TiedNormalEquations {
   Eigen::VectorXd shift_;  // added to the diagonal
   double eased_ = 0.0;     // and taken back in the products, but not in the factor
   std::unique_ptr<TiedFactor>& factor_;
-  int last_iterations_ = 0;
+  bool stale_ = true;      // the factor is of another mobility
+  /// What an iteration of the last solution took off the logarithm of the residual.
+  double gain_ = std::numeric_limits<double>::infinity();
   double spent_ = 0.0;
 };
 
