@@ -90,6 +90,7 @@ class Calibration {
   void soften_moments();
   LeastChange find_least_change(const PointEquations& equations, LeastChangeOptions options);
   void settle();
+  void drop_what_must_vanish();
   bool balance_dropping_bonds();
   void fit_energies();
   void balance_by(Method method, double charge, double tolerance);
@@ -210,11 +211,21 @@ void Calibration::settle() {
   settled_ = equations_.save();
 }
 
+/// Lattices only: in clouds what is zero depends on digits.
+void Calibration::drop_what_must_vanish() {
+  if (!in_space_ || irregular_) return;
+  while (equations_.drop_what_must_vanish()) {
+    settled_ = equations_.without_dropped(std::move(settled_));
+    equations_.restore(settled_);
+  }
+}
+
 /// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
 /// all over) every bond keeps something to carry. \return whether the exact forces led anywhere
 bool Calibration::balance_dropping_bonds() {
   const double coarse = cautious_ ? coarse_tolerance : tolerance_;
   settle();
+  drop_what_must_vanish();
   if (!balance(coarse)) return false;
   const double floored = unbalanced();
   if (!priced_ && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
@@ -247,6 +258,10 @@ bool Calibration::balance_dropping_bonds() {
     equations_.restore(with_floors);
     equations_.report_balance(report_);
     return true;
+  }
+  if (tied_ && unbalanced() > exact) {
+    start_ = std::move(multipliers_);
+    equations_.restore(settled_);
   }
   // Each search starts from the weights of the last and leaves a small part of what that left.
   for (int pass = 0; in_space_ && unbalanced() > exact && pass < most_refinements; ++pass) {

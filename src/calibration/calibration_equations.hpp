@@ -51,6 +51,10 @@ class CalibrationEquations {
   /// Takes bonds that have fallen to zero out of the equations: no finite multiplier makes a weight
   /// exactly zero, it only brings it nearer.
   void drop_vanishing();
+  /// The same for bonds that no search has to find: those of an equation whose right side is zero
+  /// and to which no bond can contribute with the other sign. At the corner of a cube these are all
+  /// that point inside from its faces. From the start only. \return whether there were any
+  bool drop_what_must_vanish();
   Index num_points() const { return static_cast<Index>(particle_of_.size()); }
   Index num_free() const { return static_cast<Index>(free_bonds_.size()); }
   Index num_dropped() const { return num_free() - static_cast<Index>(kept_.size()); }
@@ -101,6 +105,8 @@ class CalibrationEquations {
                ? orbits_->of_bond(variable.index)
                : orbits_->num_views + orbits_->views[variable.index][variable.end];
   }
+  template <class Gone>
+  void drop(Gone gone);
   Variable axial_variable(Index bond) const;
   Variable couple_variable(Index bond, Index end) const;
   void change(const Variable& variable, double value);

@@ -28,6 +28,9 @@ constexpr double rough = 1e-4;
 
 /// Weights this near to a bound are at it.
 constexpr double at_bound = 1e-3;
+/// Multipliers to start from are those of the end where they leave no more than this, per root of
+/// the number of points.
+constexpr double near_the_end = 1e-4;
 
 template <class Normal>
 class DualNewton {
@@ -143,7 +146,8 @@ void DualNewton<Normal>::climb(Vector y, double target, double most) {
     last_size = size;
     // Near the end one step has to do: what the dual function gains from there on is round-off of
     // its sums.
-    const bool last = settled || (step == 0 && !options_.start.empty());
+    const bool near = !options_.start.empty() && size < near_the_end * root_of_points();
+    const bool last = settled || (step == 0 && near);
     normal_.prepare_if_stale(settled, last);
     pattern = normal_.mobility;
     given_up = normal_.compliance;

@@ -28,7 +28,7 @@ void multiply(const TiedEquations::Matrix& matrix, const Column& x, Column& prod
 /// where many weights pass their bounds: symmetry leaves rows that depend on each other.
 /// Where none passes its bound any more a part of it does: with all, a step would leave a half of
 /// the residual along the softest fields.
-constexpr double least_proximity = 1e-10, settled_proximity = 1e-12;
+constexpr double least_proximity = 1e-10, settled_proximity = 1e-13;
 /// Where the equations contradict each other more do not help.
 constexpr int most_tied_iterations = 400;
 

@@ -49,7 +49,7 @@ class TiedNormalEquations {
   Eigen::VectorXd shift_;  // added to the diagonal
   double eased_ = 0.0;     // and taken back in the products, but not in the factor
   std::unique_ptr<TiedFactor>& factor_;
-  bool stale_ = true;      // the factor is of another mobility
+  bool stale_ = true;  // the factor is of another mobility
   /// What an iteration of the last solution took off the logarithm of the residual.
   double gain_ = std::numeric_limits<double>::infinity();
   double spent_ = 0.0;
