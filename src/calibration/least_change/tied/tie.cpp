@@ -59,7 +59,8 @@ TiedEquations tie(const PointEquations& equations, TiedRows& kept) {
   // With couples the search for a wall of one cell ended in round-off, at 2e-9 of the forces.
   if (equations.one_ended >= equations.num_variables()) {
     turn_rows(tied, kept.bases);
-    if (tied.equations.right.size() >= dear) leave_out_implied(tied, kept.implied);
+    tied.independent = tied.equations.right.size() >= dear;
+    if (tied.independent) leave_out_implied(tied, kept.implied);
   }
   return tied;
 }

@@ -22,6 +22,7 @@ struct TiedEquations {
   /// Scaled, shape (points * rows, unknowns). Where rows of a point follow from each other they are
   /// those of a basis, and zero behind it.
   Matrix matrix;
+  bool independent = false;       ///< rows that follow from others are left out
   std::vector<double> root;       ///< sqrt(n) of each unknown
   std::vector<Index> unknown_of;  ///< per variable
 

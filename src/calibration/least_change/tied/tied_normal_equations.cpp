@@ -24,11 +24,10 @@ void multiply(const TiedEquations::Matrix& matrix, const Column& x, Column& prod
   }
 }
 
-/// Weight of the method of multipliers, as without a factor. With less, Newton's method gets lost
-/// where many weights pass their bounds: symmetry leaves rows that depend on each other.
-/// Where none passes its bound any more a part of it does: with all, a step would leave a half of
-/// the residual along the softest fields.
-constexpr double least_proximity = 1e-10, settled_proximity = 1e-13;
+/// Weight of the method of multipliers. With less, Newton's method gets lost where many weights pass
+/// their bounds and rows depend on each other. Where none passes its bound any more a part of it
+/// does: with all, a step would leave a half of the residual along the softest fields.
+constexpr double least_proximity = 1e-10, independent_proximity = 1e-12, settled_proximity = 1e-13;
 /// Where the equations contradict each other more do not help.
 constexpr int most_tied_iterations = 400;
 
@@ -39,11 +38,12 @@ TiedNormalEquations::TiedNormalEquations(const TiedEquations& tied,
     : mobility(tied.root.size(), 1.0),
       tied_(tied),
       transposed_(tied.matrix.transpose()),
+      proximity_(tied.independent ? independent_proximity : least_proximity),
       shift_(tied.matrix.rows()),
       factor_(kept) {
   const std::size_t rows = static_cast<std::size_t>(tied.equations.rows);
   for (std::size_t k = 0; k < static_cast<std::size_t>(shift_.size()); ++k) {
-    shift_[static_cast<Eigen::Index>(k)] = tied.equations.ridge_of(k % rows) + least_proximity;
+    shift_[static_cast<Eigen::Index>(k)] = tied.equations.ridge_of(k % rows) + proximity_;
   }
   if (factor_ && !factor_->fits(tied, transposed_)) factor_.reset();
 }
@@ -76,7 +76,7 @@ void TiedNormalEquations::prepare() {
 }
 
 void TiedNormalEquations::prepare_if_stale(bool /*settled*/, bool last) {
-  eased_ = last ? least_proximity - settled_proximity : 0.0;
+  eased_ = last ? proximity_ - settled_proximity : 0.0;
   stale_ = true;
   if (!factor_) prepare();
 }

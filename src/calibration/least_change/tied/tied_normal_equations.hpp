@@ -46,6 +46,7 @@ class TiedNormalEquations {
  private:
   const TiedEquations& tied_;
   TiedEquations::Matrix transposed_;
+  double proximity_;
   Eigen::VectorXd shift_;  // added to the diagonal
   double eased_ = 0.0;     // and taken back in the products, but not in the factor
   std::unique_ptr<TiedFactor>& factor_;
