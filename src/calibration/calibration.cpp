@@ -70,6 +70,7 @@ class Calibration {
         priced_(!in_space_ && (irregular_ || input.give_up)),
         tied_(orbits != nullptr),
         cautious_(in_space_ && !(tied_ && input.box)),
+        drops_first_(options.drop_first && in_space_ && !irregular_),
         moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
         on_search_(options.on_search),
@@ -90,7 +91,7 @@ class Calibration {
   void soften_moments();
   LeastChange find_least_change(const PointEquations& equations, LeastChangeOptions options);
   void settle();
-  void drop_what_must_vanish();
+  bool drop_what_must_vanish();
   bool balance_dropping_bonds();
   void fit_energies();
   void balance_by(Method method, double charge, double tolerance);
@@ -101,6 +102,7 @@ class Calibration {
   bool tied_;
   /// Corners may have no solution: finding out takes few digits, where many are dear.
   bool cautious_;
+  bool drops_first_;  ///< what must vanish
   bool moments_;
   double tolerance_;
   CalibrationObserver on_search_;
@@ -211,13 +213,14 @@ void Calibration::settle() {
   settled_ = equations_.save();
 }
 
-/// Lattices only: in clouds what is zero depends on digits.
-void Calibration::drop_what_must_vanish() {
-  if (!in_space_ || irregular_) return;
+/// Lattices only: in clouds what is zero depends on digits. \return whether there was something
+bool Calibration::drop_what_must_vanish() {
+  if (!drops_first_) return false;
   while (equations_.drop_what_must_vanish()) {
     settled_ = equations_.without_dropped(std::move(settled_));
     equations_.restore(settled_);
   }
+  return equations_.num_dropped() > 0;
 }
 
 /// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
@@ -225,8 +228,15 @@ void Calibration::drop_what_must_vanish() {
 bool Calibration::balance_dropping_bonds() {
   const double coarse = cautious_ ? coarse_tolerance : tolerance_;
   settle();
-  drop_what_must_vanish();
-  if (!balance(coarse)) return false;
+  const bool dropped = drop_what_must_vanish();
+  bool nearer = balance(coarse);
+  if (dropped && unbalanced() > coarsely_met) {  // contradictions elsewhere ask for other zeros
+    equations_.take_all_back();
+    kept_.reset();
+    settle();
+    nearer = balance(coarse);
+  }
+  if (!nearer) return false;
   const double floored = unbalanced();
   if (!priced_ && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
     const CalibrationEquations::State with_floors = equations_.save();
@@ -378,12 +388,14 @@ CalibrationReport calibrate_bonds(const CalibrationInput& input, const Calibrati
   balance_shares(facets, input.particles.positions,
                  connected_parts(input.bonds, input.particles.size()), lambda);
   if (stiffness.inflection.empty()) stiffness.inflection.assign(stiffness.bending.size(), 0.5);
+  CalibrationOptions singly = options;
   if (const auto orbits = alike_bonds(input, facets, stiffness)) {
     if (auto report = calibrate_alike(input, options, facets, *orbits, stiffness)) return *report;
+    singly.drop_first = false;
   }
   if (input.only_alike) return {};
-  return meets_few(input) ? calibrate_free(input, options, facets, stiffness)
-                          : calibrate_singly(input, options, facets, stiffness);
+  return meets_few(input) ? calibrate_free(input, singly, facets, stiffness)
+                          : calibrate_singly(input, singly, facets, stiffness);
 }
 
 }  // namespace perilink
