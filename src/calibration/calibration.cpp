@@ -1,340 +1,35 @@
 #include "calibration/calibration.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/error.hpp"
+#include "calibration/balance_search.hpp"
 #include "calibration/calibration_cost.hpp"
 #include "calibration/calibration_equations.hpp"
 #include "calibration/facet_shares.hpp"
-#include "calibration/least_change/least_change.hpp"
 
 namespace perilink {
 namespace {
 
-/// Forces out of balance above this have no solution with the floors of all bonds.
-constexpr double met = CalibrationEquations::met;
-
-/// Where a factor leaves every step a hundredth of the residual at most, coarse searches take it
-/// for a contradiction when a tenth is left.
-constexpr double contradiction_by_factor = 0.1;
-/// Where it leaves so many times the least so far, it climbs for a contradiction alone.
-constexpr double lost_by_factor = 1000.0;
-
-/// Energies are fitted again where more than this part of the bonds was dropped.
-constexpr double few_dropped = 0.01;
-
-/// In space searches are repeated until forces and moments are less out of balance than this.
-constexpr double exact = 1e-10;
-constexpr int most_refinements = 3;
-
-/// Zeros stay where they bring the forces out of balance down to this part.
-constexpr double worth_dropping = 0.1;
-/// The search for them ends where this part will be left: five times as much. What it asks for is a
-/// mean of all particles, but not so rough that one of them could be left so much.
-constexpr double far_from_worth = 0.5, near_to_worth = 0.3;
-
-/// Few digits of the energies of dilatation are enough; what the exact forces move afterwards is
-/// more.
-constexpr double settling_tolerance = 0.01;
-
-/// Iterations of conjugate gradients in one search. Searches that end need less, up to 4000 in
-/// solids with edges; those of nearly contradictory equations would go on for minutes.
-constexpr int most_iterations = 8000;
-
-/// Price of what is left of the equations of forces and moments. Multipliers of bodies that can be
-/// in balance are up to 1e3.
-constexpr double price = 1e5, no_price = std::numeric_limits<double>::infinity();
-
-/// For irregular clouds in space, whose equations often contradict each other. Multipliers are
-/// about 1 to 1e3 where they do not.
-constexpr double proximity = 1e-8;
-
-/// With fewer variables per equation (horizons of two spacings) a third of all fields on boxes are
-/// soft, and a factor of all equations is made as fast.
-constexpr Index least_freedom = 3;
-
-/// Intermediate passes need no more digits; what they leave is no contradiction.
-constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
-
-class Calibration {
- public:
-  Calibration(const CalibrationInput& input, const CalibrationOptions& options,
-              const Facets& facets, const BondStiffness& stiffness, const BondOrbits* orbits)
-      : in_space_(input.particles.dim == 3),
-        irregular_(input.all_free()),
-        priced_(!in_space_ && (irregular_ || input.give_up)),
-        tied_(orbits != nullptr),
-        cautious_(in_space_ && !(tied_ && input.box)),
-        drops_first_(options.drop_first && in_space_ && !irregular_),
-        moments_(!stiffness.bending.empty()),
-        tolerance_(options.tolerance),
-        on_search_(options.on_search),
-        energies_(irregular_),
-        equations_(input, options.least_weight, facets, stiffness, orbits) {}
-
-  /// \param operations  that searches of tied bonds may take
-  CalibrationReport run(double operations = std::numeric_limits<double>::infinity());
-  CalibrationEquations::State result() const { return equations_.save(); }
-
- private:
-  double unbalanced() const {
-    return soft_moments_ ? report_.residual_after
-                         : std::max(report_.residual_after, report_.moment_after);
-  }
-  /// What a search lessens, to compare two ends: prices the sum, least squares about the largest.
-  double left() const { return priced_ && !soft_moments_ ? report_.sum_after : unbalanced(); }
-  void soften_moments();
-  LeastChange find_least_change(const PointEquations& equations, LeastChangeOptions options);
-  void settle();
-  bool drop_what_must_vanish();
-  bool balance_dropping_bonds();
-  void fit_energies();
-  void balance_by(Method method, double charge, double tolerance);
-  bool balance(double tolerance);
-
-  bool in_space_, irregular_;
-  bool priced_;  // single equations are given up instead of spreading what is left of them
-  bool tied_;
-  /// Corners may have no solution: finding out takes few digits, where many are dear.
-  bool cautious_;
-  bool drops_first_;  ///< what must vanish
-  bool moments_;
-  double tolerance_;
-  CalibrationObserver on_search_;
-  int searches_ = 0;
-  double operations_ = 0.0;  // left for searches
-  bool energies_;            // equations of the energies of dilatation take part
-  bool soft_moments_ = false;
-  double hopeless_ = std::numeric_limits<double>::infinity();  // force that ends a search
-  CalibrationEquations equations_;
-  CalibrationEquations::State settled_;  // where the exact forces began
-  std::vector<double> multipliers_;      // where the last search for them ended
-  std::vector<double> start_;            // where the next one starts; empty: zero
-  CalibrationReport report_;
-  KeptPreconditioner kept_;  // for the force equations
-};
-
-/// One search, whose answer becomes the present state.
-LeastChange Calibration::find_least_change(const PointEquations& equations,
-                                           LeastChangeOptions options) {
-  ++searches_;
-  if (on_search_) on_search_(searches_, unbalanced());
-  options.operations = operations_;
-  LeastChange change = least_change(equations, options, kept_);
-  operations_ -= change.operations;
-  equations_.apply(change.weights);
-  report_.iterations += change.iterations;
-  return change;
-}
-
-/// Energies of dilatation, and forces beside them. In the plane a step of Newton's method is cheap,
-/// but it can get lost. The preconditioner of the exact forces serves behind that, too.
-void Calibration::fit_energies() {
-  const CalibrationEquations::State start = equations_.save();
-  LeastChangeOptions options;
-  options.tolerance = settling_tolerance;
-  options.preconditioner = Preconditioner::blocks_then_boxes;
-  KeptPreconditioner of_forces = std::exchange(kept_, {});
-  for (const Method method : {Method::newton, Method::interior_point}) {
-    if (in_space_ && method == Method::newton) continue;
-    equations_.restore(start);
-    options.method = method;
-    kept_.reset();  // coefficients are those of the stiffnesses now
-    if (find_least_change(equations_.settling(), options).converged) break;
-  }
-  kept_ = std::move(of_forces);
-}
-
-/// One solution of the exact equations.
-void Calibration::balance_by(Method method, double charge, double tolerance) {
-  LeastChangeOptions options;
-  options.tolerance = tolerance;
-  options.iterations = most_iterations;
-  options.method = method;
-  options.price = charge;
-  options.hopeless = hopeless_;
-  if (in_space_ && irregular_) options.proximity = proximity;
-  const PointEquations equations = equations_.balance();
-  const bool tight =
-      equations.num_variables() / least_freedom < static_cast<Index>(equations.right.size());
-  options.preconditioner = !in_space_             ? Preconditioner::factor
-                           : tight && !irregular_ ? Preconditioner::blocks_then_factor
-                                                  : Preconditioner::blocks_then_boxes;
-  if (tied_) options.lost = lost_by_factor;
-  if (tied_ && tolerance > tolerance_) options.contradiction = contradiction_by_factor;
-  options.start = std::exchange(start_, {});
-  multipliers_ = find_least_change(equations, options).multipliers;
-  equations_.report_balance(report_);
-}
-
-/// The forces and moments, exactly. The interior point is the last resort where one factor serves
-/// several steps of Newton's method; the corners of solids without moments have no solution, and it
-/// would find none, but where bonds are made alike it costs little and may find back when Newton's
-/// method is lost. Clouds in space turn to it first, unless multipliers to start from are known.
-/// Where the search ends farther from balance the settled stiffnesses are kept.
-/// \return whether it is nearer now
-bool Calibration::balance(double tolerance) {
-  equations_.report_balance(report_);
-  const double before = left(), largest_before = unbalanced();
-  const CalibrationEquations::State settled = equations_.save();
-  const bool cold = irregular_ && in_space_ && start_.empty();
-  const Method first = cold ? Method::interior_point : Method::newton;
-  balance_by(first, priced_ ? price : no_price, tolerance);
-  const bool solvable = moments_ || !in_space_;
-  // The tolerance is that of the mean.
-  const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
-  const bool lost = tied_ && unbalanced() > largest_before;
-  if (first == Method::newton && (unsolved || lost)) {
-    const CalibrationEquations::State climbed = equations_.save();
-    const double reached = left();
-    equations_.restore(settled);
-    kept_.reset();
-    balance_by(Method::interior_point, priced_ ? price : no_price, tolerance);
-    kept_.reset();
-    if (left() > reached) {
-      equations_.restore(climbed);
-      equations_.report_balance(report_);
-    }
-  }
-  if (unbalanced() <= met || left() <= before) return true;
-  equations_.restore(settled);
-  equations_.report_balance(report_);
-  return false;
-}
-
-void Calibration::settle() {
-  equations_.start_over();
-  if (energies_) fit_energies();
-  settled_ = equations_.save();
-}
-
-/// Lattices only: in clouds what is zero depends on digits. \return whether there was something
-bool Calibration::drop_what_must_vanish() {
-  if (!drops_first_) return false;
-  while (equations_.drop_what_must_vanish()) {
-    settled_ = equations_.without_dropped(std::move(settled_));
-    equations_.restore(settled_);
-  }
-  return equations_.num_dropped() > 0;
-}
-
-/// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
-/// all over) every bond keeps something to carry. \return whether the exact forces led anywhere
-bool Calibration::balance_dropping_bonds() {
-  const double coarse = cautious_ ? coarse_tolerance : tolerance_;
-  settle();
-  const bool dropped = drop_what_must_vanish();
-  bool nearer = balance(coarse);
-  if (dropped && unbalanced() > coarsely_met) {  // contradictions elsewhere ask for other zeros
-    equations_.take_all_back();
-    kept_.reset();
-    settle();
-    nearer = balance(coarse);
-  }
-  if (!nearer) return false;
-  const double floored = unbalanced();
-  if (!priced_ && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
-    const CalibrationEquations::State with_floors = equations_.save();
-    equations_.restore(settled_);
-    hopeless_ = far_from_worth * floored;
-    const double root = std::sqrt(static_cast<double>(equations_.num_points()));
-    balance(std::min(coarse, near_to_worth * worth_dropping * floored / root));
-    hopeless_ = std::numeric_limits<double>::infinity();
-    const double reached = unbalanced();
-    if (reached <= worth_dropping * floored) {
-      equations_.drop_vanishing();
-      const bool few = equations_.num_dropped() <= few_dropped * equations_.num_free();
-      // What is gone has carried nothing, and few bonds hardly change the energies of a cloud.
-      if (tied_ || (irregular_ && few)) start_ = std::move(multipliers_);
-      if (few) {
-        settled_ = equations_.without_dropped(std::move(settled_));
-        equations_.restore(settled_);
-      } else {
-        settle();
-      }
-      balance(tolerance_);
-      if (irregular_ && few && unbalanced() > reached) {  // Newton's method was lost
-        equations_.restore(settled_);
-        balance(tolerance_);
-      }
-      if (unbalanced() <= worth_dropping * floored && !equations_.hollow()) return true;
-    }
-    equations_.take_all_back();
-    equations_.restore(with_floors);
-    equations_.report_balance(report_);
-    return true;
-  }
-  if (tied_ && unbalanced() > exact) {
-    start_ = std::move(multipliers_);
-    equations_.restore(settled_);
-  }
-  // Each search starts from the weights of the last and leaves a small part of what that left.
-  for (int pass = 0; in_space_ && unbalanced() > exact && pass < most_refinements; ++pass) {
-    const double before = unbalanced();
-    if (!balance(tolerance_) || unbalanced() > 0.5 * before) break;
-  }
-  return true;
-}
-
-/// Where forces and moments have no solution together (interfaces of materials that meet the
-/// surface of a lattice), forces alone are exact.
-void Calibration::soften_moments() {
-  const CalibrationEquations::State best = equations_.save();
-  const double reached = report_.residual_after;
-  equations_.take_all_back();
-  equations_.soften_moments();
-  soft_moments_ = true;
-  balance_dropping_bonds();
-  if (report_.residual_after <= reached) return;
-  equations_.take_all_back();
-  equations_.restore(best);
-  equations_.report_balance(report_);
-}
-
-CalibrationReport Calibration::run(double operations) {
-  operations_ = operations;
-  equations_.report_balance(report_);
-  report_.residual_before = report_.residual_after;
-  const double start = unbalanced();
-  if (!balance_dropping_bonds() && energies_) {
-    const CalibrationEquations::State settled = equations_.save();
-    const double reached = left();
-    energies_ = false;
-    balance_dropping_bonds();
-    if (left() > reached) {
-      equations_.take_all_back();
-      equations_.restore(settled);
-      equations_.report_balance(report_);
-    }
-  }
-  if (moments_ && !tied_ && unbalanced() > met) soften_moments();
-  if (!(unbalanced() <= start)) {  // too few neighbours all over
-    equations_.take_all_back();
-    equations_.report_balance(report_);
-  }
-  equations_.report_weights(report_);
-  return report_;
-}
-
 /// Bonds that lie alike are made alike: a problem whose size hardly depends on that of the body.
+/// \param drops_first  whether what must vanish was worth dropping
 /// \return what was reached in the whole body, none where it has no exact solution
 std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
                                                  const CalibrationOptions& options,
                                                  const Facets& facets, const BondOrbits& orbits,
-                                                 BondStiffness& stiffness) {
+                                                 BondStiffness& stiffness, bool& drops_first) {
   const OrbitSample sample =
       sample_orbits(orbits, input.particles.size(), input.bonds, input.free, stiffness);
   const CalibrationInput sampled{input.particles, sample.bonds, input.materials, sample.free,
                                  input.box};
-  Calibration calibration(sampled, options, facets, sample.stiffness, &sample.orbits);
+  BalanceSearch search(sampled, options, facets, sample.stiffness, &sample.orbits, true);
   CalibrationReport report;
   try {
-    report = calibration.run(alike_budget(input, orbits, !stiffness.bending.empty()));
+    report = search.run(alike_budget(input, orbits, !stiffness.bending.empty()));
+    drops_first = search.drops_first();
   } catch (const SolverError&) {  // no factor: rows that depend on others, or no memory
     return std::nullopt;
   }
@@ -343,12 +38,12 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
   report.residual_before = report.residual_after;
   report.alike = true;
   CalibrationEquations::State state = whole.save();
-  if (!spread(sample, calibration.result().stiffness, orbits, state.stiffness)) {
+  if (!spread(sample, search.result().stiffness, orbits, state.stiffness)) {
     return std::nullopt;
   }
   whole.restore(state);
   whole.report_balance(report);
-  if (std::max(report.residual_after, report.moment_after) > exact) return std::nullopt;
+  if (std::max(report.residual_after, report.moment_after) > exact_balance) return std::nullopt;
   report.at_least_weight = report.dropped = 0;
   whole.report_weights(report);
   stiffness = std::move(state.stiffness);
@@ -357,10 +52,10 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
 
 /// Every bond by itself.
 CalibrationReport calibrate_singly(const CalibrationInput& input, const CalibrationOptions& options,
-                                   Facets& facets, BondStiffness& stiffness) {
-  Calibration calibration(input, options, facets, stiffness, nullptr);
-  const CalibrationReport report = calibration.run();
-  CalibrationEquations::State found = calibration.result();
+                                   Facets& facets, BondStiffness& stiffness, bool drops_first) {
+  BalanceSearch search(input, options, facets, stiffness, nullptr, drops_first);
+  const CalibrationReport report = search.run();
+  CalibrationEquations::State found = search.result();
   stiffness = std::move(found.stiffness);
   facets.shares = std::move(found.shares);
   return report;
@@ -368,13 +63,13 @@ CalibrationReport calibrate_singly(const CalibrationInput& input, const Calibrat
 
 /// Free bonds and all others at their ends: the equations ask for nothing else.
 CalibrationReport calibrate_free(const CalibrationInput& input, const CalibrationOptions& options,
-                                 Facets& facets, BondStiffness& stiffness) {
+                                 Facets& facets, BondStiffness& stiffness, bool drops_first) {
   BondSample sample = sample_bonds(mark_ends(input.bonds, input.free, input.particles.size()),
                                    input.bonds, input.free, stiffness);
   CalibrationInput part{input.particles, sample.bonds, input.materials, std::move(sample.free)};
   part.give_up = input.give_up;
   BondStiffness found = std::move(sample.stiffness);
-  const CalibrationReport report = calibrate_singly(part, options, facets, found);
+  const CalibrationReport report = calibrate_singly(part, options, facets, found, drops_first);
   sample.put_back(found, stiffness);
   return report;
 }
@@ -388,14 +83,15 @@ CalibrationReport calibrate_bonds(const CalibrationInput& input, const Calibrati
   balance_shares(facets, input.particles.positions,
                  connected_parts(input.bonds, input.particles.size()), lambda);
   if (stiffness.inflection.empty()) stiffness.inflection.assign(stiffness.bending.size(), 0.5);
-  CalibrationOptions singly = options;
+  bool drops_first = true;
   if (const auto orbits = alike_bonds(input, facets, stiffness)) {
-    if (auto report = calibrate_alike(input, options, facets, *orbits, stiffness)) return *report;
-    singly.drop_first = false;
+    if (auto report = calibrate_alike(input, options, facets, *orbits, stiffness, drops_first)) {
+      return *report;
+    }
   }
   if (input.only_alike) return {};
-  return meets_few(input) ? calibrate_free(input, singly, facets, stiffness)
-                          : calibrate_singly(input, singly, facets, stiffness);
+  return meets_few(input) ? calibrate_free(input, options, facets, stiffness, drops_first)
+                          : calibrate_singly(input, options, facets, stiffness, drops_first);
 }
 
 }  // namespace perilink

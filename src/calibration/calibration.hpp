@@ -19,7 +19,6 @@ using CalibrationObserver = std::function<void(int search, double unbalanced)>;
 struct CalibrationOptions {
   double least_weight = 0.02;     ///< relative to the start
   double tolerance = 1e-12;       ///< root mean square of the forces out of balance (see below)
-  bool drop_first = true;         ///< bonds of lattices in space that must vanish, unasked
   CalibrationObserver on_search;  ///< may be empty
 };
 
