@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "calibration/bond_orbits.hpp"
-#include "calibration/calibration.hpp"
 #include "calibration/calibration_equations.hpp"
+#include "calibration/calibration_input.hpp"
 #include "calibration/least_change/least_change.hpp"
 
 /// \file The searches behind calibrate_bonds().
@@ -19,7 +19,7 @@ inline constexpr double exact_balance = 1e-10;
 /// how many digits are asked for, and what comes next where a search ends elsewhere.
 class BalanceSearch {
  public:
-  /// \param orbits       of bonds that are made alike; nullptr: every bond by itself
+  /// \param orbits       where bonds are made alike; nullptr: every bond by itself
   /// \param drops_first  what must vanish is dropped before any search, in lattices in space
   BalanceSearch(const CalibrationInput& input, const CalibrationOptions& options,
                 const Facets& facets, const BondStiffness& stiffness, const BondOrbits* orbits,

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "calibration/bond_equations.hpp"
 #include "calibration/calibration_input.hpp"
 #include "discretization/facets.hpp"
@@ -11,16 +9,6 @@
 /// share of the surface.
 
 namespace perilink {
-
-/// Told before every search for stiffnesses: its number, from 1, and the largest force or moment
-/// out of balance that the last one left (see CalibrationReport).
-using CalibrationObserver = std::function<void(int search, double unbalanced)>;
-
-struct CalibrationOptions {
-  double least_weight = 0.02;     ///< relative to the start
-  double tolerance = 1e-12;       ///< root mean square of the forces out of balance (see below)
-  CalibrationObserver on_search;  ///< may be empty
-};
 
 /// Changes the stiffness of the free bonds as little as possible (least squares of the relative
 /// changes, positive bounds) such that every particle is in balance in every uniform strain; see

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,16 @@ struct CalibrationInput {
   /// In the plane: where particles have no solution, single equations are given up and all others
   /// hold, as in irregular clouds, in place of least squares.
   bool give_up = false;
+};
+
+/// Told before every search for stiffnesses: its number, from 1, and the largest force or moment
+/// out of balance that the last one left (see CalibrationReport).
+using CalibrationObserver = std::function<void(int search, double unbalanced)>;
+
+struct CalibrationOptions {
+  double least_weight = 0.02;     ///< relative to the start
+  double tolerance = 1e-12;       ///< root mean square of the forces out of balance (see below)
+  CalibrationObserver on_search;  ///< may be empty
 };
 
 /// What was reached. Forces out of balance are those on a particle at a uniform strain of one,

@@ -1,12 +1,33 @@
 #include <gtest/gtest.h>
 
 #include "calibration/calibration.hpp"
+#include "calibration/calibration_equations.hpp"
 #include "support/calibration_problem.hpp"
 
 namespace perilink {
 namespace {
 
 using namespace test;
+
+/// At a corner all bonds that lie in none of its three faces pull with one sign in the strain that
+/// shears all of them, whose right side is zero: the diagonals of the cubes there, one with a
+/// horizon of two spacings, seven with one of three, 17 with one of four. The others there carry
+/// both signs in every equation that is zero.
+TEST(CalibrationZeros, DropWhatMustVanishAtTheCornersOfACube) {
+  for (const auto& [ratio, each] : {std::pair{2.0, 1}, {3.0, 7}, {4.0, 17}}) {
+    const Problem problem = make_problem(box(Pattern::cubic, 0.2, {1, 1, 1}), ratio, 0.0, false);
+    const CalibrationInput input{problem.body.particles,
+                                 problem.bonds,
+                                 {{1.0, 1.0}},
+                                 std::vector<std::uint8_t>(problem.bonds.lengths.size(), 1)};
+    CalibrationEquations equations(input, 0.02, problem.body.facets, problem.stiffness);
+    EXPECT_TRUE(equations.drop_what_must_vanish());
+    EXPECT_EQ(equations.num_dropped(), 8 * each);
+    equations.start_over();
+    EXPECT_FALSE(equations.drop_what_must_vanish());
+    EXPECT_EQ(equations.num_dropped(), 8 * each);
+  }
+}
 
 /// Energies, floors, zeros, and one from the multipliers of the search for zeros, which does not go
 /// astray: a fifth search would begin anew. 838 iterations; 1 097 where it began anew.

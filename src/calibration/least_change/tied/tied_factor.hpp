@@ -23,8 +23,8 @@ class TiedFactor {
   void factorize(const TiedEquations::Matrix& columns, std::span<const double> mobility,
                  std::span<const double> shift);
   void solve(std::span<const double> residual, std::span<double> result) const;
-  /// Iterations of conjugate gradients that take as long as a new factor, and those for which one is
-  /// made: it serves the solutions behind this one, too.
+  /// Iterations of conjugate gradients that take as long as a new factor, and those for which one
+  /// is made: it serves the solutions behind this one, too.
   double price() const;
   double worth() const;
   /// What a factor takes, and a solution in operations of a factor.

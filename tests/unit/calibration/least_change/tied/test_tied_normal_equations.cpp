@@ -1,8 +1,11 @@
 #include "calibration/least_change/tied/tied_normal_equations.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "calibration/least_change/least_change.hpp"
+#include "calibration/least_change/tied/tie.hpp"
 #include "support/point_equations.hpp"
 
 namespace perilink {
@@ -33,6 +36,40 @@ TEST(TiedNormalEquations, SettledStepsMeetSoftEquations) {
   EXPECT_LT(change.iterations, 8);
   EXPECT_NEAR(change.weights[0], 1.2, 1e-4);  // the tolerance over what they differ by
   EXPECT_NEAR(change.weights[1], 0.7, 1e-4);
+}
+
+/// Sixty equations of one variable each, whose mobility falls to 1e-6 behind the first solution:
+/// the preconditioner that was kept would take an iteration for nearly each of them. After ten,
+/// what a factor costs at least, it is made anew.
+TEST(TiedNormalEquations, MakeAFactorAnewThatServesBadly) {
+  constexpr Index count = 60;
+  PointEquations equations;
+  equations.dim = 3;
+  equations.rows = 1;
+  for (Index p = 0; p < count; ++p) {
+    equations.first.push_back(p);
+    equations.second.push_back(no_index);
+    equations.unknown.push_back(p);
+  }
+  equations.coefficients.assign(count, 1.0);
+  equations.lower.assign(count, 0.0);
+  equations.upper.assign(count, 10.0);
+  equations.right.assign(count, 1.0);
+  equations.scale.assign(count, 1.0);
+  TiedRows rows;
+  const TiedEquations tied = tie(equations, rows);
+  std::unique_ptr<TiedFactor> kept;
+  TiedNormalEquations normal(tied, kept);
+  std::vector<double> direction;
+  const std::vector<double> residual(count, 1.0);
+  normal.prepare_if_stale(false, false);
+  EXPECT_LE(normal.solve(residual, 1e-10, direction), 2);
+  for (Index p = 0; p < count; ++p) {
+    normal.mobility[p] = std::pow(1e-6, static_cast<double>(p) / (count - 1));
+  }
+  normal.prepare_if_stale(false, false);
+  EXPECT_LE(normal.solve(residual, 1e-10, direction), 12);
+  for (Index p = 0; p < count; ++p) EXPECT_NEAR(direction[p] * normal.mobility[p], 1.0, 1e-3);
 }
 
 }  // namespace

@@ -1,0 +1,62 @@
+#include "calibration/balance_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/calibration_problem.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+
+struct Searched {
+  CalibrationReport report;
+  int searches = 0;
+  bool drops_first = false;
+};
+
+/// Bonds of a lattice, every one by itself.
+Searched search(const Problem& problem, bool drops_first) {
+  const CalibrationInput input{problem.body.particles,
+                               problem.bonds,
+                               {{1.0, 1.0}},
+                               std::vector<std::uint8_t>(problem.bonds.lengths.size(), 1)};
+  Searched result;
+  CalibrationOptions options;
+  options.on_search = [&](int number, double) { result.searches = number; };
+  BalanceSearch search(input, options, problem.body.facets, problem.stiffness, nullptr,
+                       drops_first);
+  result.report = search.run();
+  result.drops_first = search.drops_first();
+  return result;
+}
+
+/// Without the bonds that must vanish at the corners of a cube nothing has to be found out: no
+/// search for contradictions and none for zeros.
+TEST(BalanceSearch, DropsFirstWhatMustVanish) {
+  const Problem problem = make_problem(box(Pattern::cubic, 0.2, {1, 1, 1}), 3.0, 0.0, false);
+  const Searched first = search(problem, true), later = search(problem, false);
+  EXPECT_EQ(first.searches, 2);  // a coarse one, and the rest
+  EXPECT_EQ(later.searches, 3);
+  EXPECT_TRUE(first.drops_first);
+  EXPECT_FALSE(later.drops_first);
+  for (const Searched* each : {&first, &later}) {
+    EXPECT_LT(each->report.residual_after, 1e-10);
+    EXPECT_EQ(each->report.dropped, 56);
+  }
+}
+
+/// A face-centred plate of two cells has no solution of bonds without moments: what is left must
+/// not depend on what was tried first, and later searches need not try it.
+TEST(BalanceSearch, TakesAllBondsBackWhereTheContradictionIsElsewhere) {
+  const Problem problem =
+      make_problem(box(Pattern::face_centred, 0.5, {3, 3, 0.5}), 2.0, 0.0, false);
+  const Searched first = search(problem, true), later = search(problem, false);
+  EXPECT_GT(later.report.unmet, 0);
+  EXPECT_FALSE(first.drops_first);
+  EXPECT_EQ(first.report.residual_after, later.report.residual_after);
+  EXPECT_EQ(first.report.dropped, later.report.dropped);
+}
+
+}  // namespace
+}  // namespace perilink
