@@ -147,7 +147,8 @@ void BalanceSearch::settle() {
   settled_ = equations_.save();
 }
 
-/// Lattices only: in clouds what is zero depends on digits. \return whether there was something
+/// Lattices only: clouds, which contradict themselves elsewhere more often, would take half as long
+/// again there. \return whether there was something
 bool BalanceSearch::drop_what_must_vanish() {
   if (!drops_first_) return false;
   while (equations_.drop_what_must_vanish()) {
@@ -205,7 +206,7 @@ bool BalanceSearch::balance_dropping_bonds() {
     equations_.report_balance(report_);
     return true;
   }
-  if (tied_ && unbalanced() > exact_balance) {
+  if (in_space_ && !moments_ && unbalanced() > exact_balance) {  // few digits are missing
     start_ = std::move(multipliers_);
     equations_.restore(settled_);
   }

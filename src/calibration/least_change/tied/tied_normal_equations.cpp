@@ -24,9 +24,9 @@ void multiply(const TiedEquations::Matrix& matrix, const Column& x, Column& prod
   }
 }
 
-/// Weight of the method of multipliers. With less, Newton's method gets lost where many weights pass
-/// their bounds and rows depend on each other. Where none passes its bound any more a part of it
-/// does: with all, a step would leave a half of the residual along the softest fields.
+/// Weight of the method of multipliers. With less, Newton's method gets lost where many weights
+/// pass their bounds and rows depend on each other. Where none passes its bound any more a part of
+/// it does: with all, a step would leave a half of the residual along the softest fields.
 constexpr double least_proximity = 1e-10, independent_proximity = 1e-12;
 constexpr double settled_proximity = 1e-13;
 /// Where the equations contradict each other more do not help.
