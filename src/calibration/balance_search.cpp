@@ -158,6 +158,20 @@ bool BalanceSearch::drop_what_must_vanish() {
   return equations_.num_dropped() > 0;
 }
 
+/// Where few digits are missing, from the multipliers that brought the others.
+void BalanceSearch::refine() {
+  const double reached = unbalanced();
+  if (moments_ || multipliers_.empty() || reached <= exact_balance || reached > coarsely_met)
+    return;
+  const CalibrationEquations::State coarse = equations_.save();
+  start_ = std::move(multipliers_);
+  equations_.restore(settled_);
+  balance(tolerance_);
+  if (unbalanced() <= reached) return;
+  equations_.restore(coarse);
+  equations_.report_balance(report_);
+}
+
 /// With zeros where forces are out of balance without. Where zeros do not help (too few neighbours
 /// all over) every bond keeps something to carry. \return whether the exact forces led anywhere
 bool BalanceSearch::balance_dropping_bonds() {
@@ -166,7 +180,8 @@ bool BalanceSearch::balance_dropping_bonds() {
   const double given = unbalanced();
   const bool dropped = drop_what_must_vanish();
   bool nearer = balance(coarse);
-  if (dropped && unbalanced() > coarsely_met) {  // contradictions elsewhere ask for other zeros
+  if (dropped && (unbalanced() > coarsely_met || equations_.hollow())) {
+    // Contradictions elsewhere ask for other zeros.
     equations_.take_all_back();
     kept_.reset();
     drops_first_ = unbalanced() <= worth_dropping * given;
@@ -206,10 +221,7 @@ bool BalanceSearch::balance_dropping_bonds() {
     equations_.report_balance(report_);
     return true;
   }
-  if (in_space_ && !moments_ && unbalanced() > exact_balance) {  // few digits are missing
-    start_ = std::move(multipliers_);
-    equations_.restore(settled_);
-  }
+  if (in_space_) refine();
   // Each search starts from the weights of the last and leaves a small part of what that left.
   for (int pass = 0; in_space_ && unbalanced() > exact_balance && pass < most_refinements; ++pass) {
     const double before = unbalanced();

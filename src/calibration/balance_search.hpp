@@ -20,7 +20,8 @@ inline constexpr double exact_balance = 1e-10;
 class BalanceSearch {
  public:
   /// \param orbits       where bonds are made alike; nullptr: every bond by itself
-  /// \param drops_first  what must vanish is dropped before any search, in lattices in space
+  /// \param drops_first  what must vanish is dropped before any search, in lattices
+  ///                     in space without moments
   BalanceSearch(const CalibrationInput& input, const CalibrationOptions& options,
                 const Facets& facets, const BondStiffness& stiffness, const BondOrbits* orbits,
                 bool drops_first)
@@ -29,7 +30,7 @@ class BalanceSearch {
         priced_(!in_space_ && (irregular_ || input.give_up)),
         tied_(orbits != nullptr),
         cautious_(in_space_ && !(tied_ && input.box)),
-        drops_first_(drops_first && in_space_ && !irregular_),
+        drops_first_(drops_first && in_space_ && !irregular_ && stiffness.bending.empty()),
         moments_(!stiffness.bending.empty()),
         tolerance_(options.tolerance),
         on_search_(options.on_search),
@@ -53,6 +54,7 @@ class BalanceSearch {
   LeastChange find_least_change(const PointEquations& equations, LeastChangeOptions options);
   void settle();
   bool drop_what_must_vanish();
+  void refine();
   bool balance_dropping_bonds();
   void fit_energies();
   void balance_by(Method method, double charge, double tolerance);

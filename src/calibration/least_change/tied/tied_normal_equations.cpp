@@ -114,7 +114,7 @@ int TiedNormalEquations::solve(const Vector& residual, double reduction, Vector&
     rz = next;
   }
   spent_ += count * factor_->operations_of_solution();
-  gain_ = std::log(start / r.norm()) / count;
+  if (count > 0) gain_ = std::log(start / r.norm()) / count;
   return count;
 }
 

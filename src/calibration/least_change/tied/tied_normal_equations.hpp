@@ -27,8 +27,9 @@ class TiedNormalEquations {
   /// Makes the factor for the mobility as it is now.
   void prepare();
   void prepare_if_stale(bool settled, bool last);
-  /// S direction = residual, the residual reduced by the factor. The preconditioner is made anew
-  /// where the last solution tells that this takes longer, and where it has. \return iterations
+  /// S direction = residual, the residual reduced by the factor. A stale preconditioner is made
+  /// anew where it would take longer to go on with it, by the last solution or by this one.
+  /// \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
 
   /// Operations so far.
