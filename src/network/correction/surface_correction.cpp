@@ -41,9 +41,9 @@ double continuum_modulus(const NetworkInput& input, double micromodulus) {
 /// to each of the 18 equations of a particle.
 constexpr std::size_t least_neighbours = 36;
 
-/// So many neighbours leave bonds of a thin layer enough freedom: cubic lattices of equal steps have
-/// 56 with horizons of 2.24 spacings and 80 from 2.45 on, face-centred ones 54 with two and 78 with
-/// 2.24.
+/// So many neighbours leave bonds of a thin layer enough freedom: cubic lattices of equal steps
+/// have 56 with horizons of 2.24 spacings and 80 from 2.45 on, face-centred ones 54 with two and 78
+/// with 2.24.
 constexpr Index enough_in_space = 78;
 
 /// Whether the stretches of all bonds are given, whatever they take.
