@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "assembly/internal_force.hpp"
 #include "discretization/lattices/make_body.hpp"
@@ -143,6 +144,31 @@ TEST(SurfaceCorrection, OfAFaceCentredLGoesOnWithAFactor) {
   EXPECT_LT(network.calibration->residual_after, 1e-10);
   EXPECT_EQ(network.calibration->unmet, 0);
   EXPECT_GT(network.calibration->dropped, 0);
+}
+
+/// Bonds of particles that lack neighbours may change, and where neighbours are few (32 with two
+/// spacings, 80 with 2.5) those of the particles bonded to them.
+TEST(SurfaceCorrection, FreesAThinnerLayerWhereNeighboursAreMany) {
+  for (const auto& [ratio, layer] : {std::pair{2.0, 4}, {2.5, 2}}) {
+    LatticeInput of_body = body_input({"", Pattern::cubic, Surface::calibrated}, 12);
+    of_body.horizon = ratio * of_body.spacing;
+    const Network network = build_network(make_body(of_body), network_input(of_body));
+    const auto depth = [&](Index i) {  // in spacings
+      long least = 12;
+      for (const double x : network.particles.position(i)) {
+        const long steps = std::lround(x / of_body.spacing);
+        least = std::min({least, steps, 12 - steps});
+      }
+      return least;
+    };
+    Index free = 0;
+    for (Index b = 0; b < network.bonds.size(); ++b) {
+      free += std::min(depth(network.bonds.first[b]), depth(network.bonds.second[b])) < layer;
+    }
+    ASSERT_LT(free, network.bonds.size());
+    EXPECT_EQ(network.calibration->free_bonds, free + network.calibration->dropped);
+    EXPECT_LT(network.calibration->residual_after, 1e-10);
+  }
 }
 
 /// In space the problem ends a few horizons from the edges: weights of longer boxes are the same.
