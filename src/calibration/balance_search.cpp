@@ -161,8 +161,8 @@ bool BalanceSearch::drop_what_must_vanish() {
 /// Where few digits are missing, from the multipliers that brought the others.
 void BalanceSearch::refine() {
   const double reached = unbalanced();
-  if (moments_ || multipliers_.empty() || reached <= exact_balance || reached > coarsely_met)
-    return;
+  const bool few = reached > exact_balance && reached <= coarsely_met;
+  if (!in_space_ || moments_ || !few || multipliers_.empty()) return;
   const CalibrationEquations::State coarse = equations_.save();
   start_ = std::move(multipliers_);
   equations_.restore(settled_);
@@ -221,7 +221,7 @@ bool BalanceSearch::balance_dropping_bonds() {
     equations_.report_balance(report_);
     return true;
   }
-  if (in_space_) refine();
+  refine();
   // Each search starts from the weights of the last and leaves a small part of what that left.
   for (int pass = 0; in_space_ && unbalanced() > exact_balance && pass < most_refinements; ++pass) {
     const double before = unbalanced();

@@ -45,8 +45,9 @@ struct BondOrbits {
 };
 
 /// Depths under the faces tell bonds apart up to twice the reach of the bonds (in steps), and
-/// particles, all of whose bonds have to lie alike, up to three times: at least as far as the strip
-/// of free bonds goes. Along axes that are too short for this only mirrored places are alike.
+/// particles, all of whose bonds have to lie alike, up to three times: no less far than the strip
+/// goes whose bonds may change. Along axes that are too short for this only mirrored places are
+/// alike.
 /// \param free  bonds whose stiffness may change
 BondOrbits find_orbits(const LatticeBox& box, const Particles& particles, const Bonds& bonds,
                        std::span<const std::uint8_t> free);
