@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assembly/internal_force.hpp"
+#include "base/lanes.hpp"
 #include "network/frame.hpp"
 
 namespace perilink {
@@ -13,16 +14,15 @@ namespace {
 
 constexpr Index elements_for_threads = 200000;
 
-/// As many numbers as a processor's widest registers hold; those of a block come in parts of so
-/// many.
-constexpr int lanes = 8;
-using Lanes [[gnu::vector_size(8 * lanes)]] = double;
-using LanesInMemory [[gnu::vector_size(8 * lanes), gnu::aligned(8), gnu::may_alias]] = double;
+/// Numbers of a block come in parts of as many as a register holds.
+constexpr int lanes = lanes_of<double>(block_width);
+using Part = Lanes<double, lanes>;
+using PartInMemory = LanesInMemory<double, lanes>;
 
-const LanesInMemory& at(const double* numbers) {
-  return *reinterpret_cast<const LanesInMemory*>(numbers);
+const PartInMemory& at(const double* numbers) {
+  return *reinterpret_cast<const PartInMemory*>(numbers);
 }
-LanesInMemory& at(double* numbers) { return *reinterpret_cast<LanesInMemory*>(numbers); }
+PartInMemory& at(double* numbers) { return *reinterpret_cast<PartInMemory*>(numbers); }
 
 /// Where the numbers of a particle begin.
 template <int Width>
@@ -43,7 +43,7 @@ void add_trusses(const Network& network, Secants secants, const double* motions,
     for (int part = from; part < to; part += lanes) {
       const double* own_motion = motions + begin_of<Dim>(own) + part;
       double* own_force = forces + begin_of<Dim>(own) + part;
-      Lanes motion[Dim], force[Dim];
+      Part motion[Dim], force[Dim];
       for (int a = 0; a < Dim; ++a) {
         motion[a] = at(own_motion + a * block_width);
         force[a] = at(own_force + a * block_width);
@@ -53,7 +53,7 @@ void add_trusses(const Network& network, Secants secants, const double* motions,
         if (stiffness == 0.0) continue;
         const double* n = bonds.direction(e).data();
         const std::size_t other = begin_of<Dim>(bonds.second[e]) + part;
-        Lanes tension{};
+        Part tension{};
         for (int a = 0; a < Dim; ++a) {
           tension += n[a] * (at(motions + other + a * block_width) - motion[a]);
         }
@@ -72,7 +72,7 @@ void add_trusses(const Network& network, Secants secants, const double* motions,
 template <int Dim>
 void add_trusses(const Network& network, Secants secants, const double* motions, double* forces) {
   const bool shared = network.num_elements() > elements_for_threads && omp_get_max_threads() > 1;
-  const int step = shared ? lanes : block_width;
+  const int step = shared ? block_width / 2 : block_width;
 #pragma omp parallel for schedule(static, 1) if (shared)
   for (int from = 0; from < block_width; from += step) {
     add_trusses<Dim>(network, secants, motions, forces, from, from + step);
@@ -92,7 +92,7 @@ void add_frames(const Network& network, Secants secants, const double* motions, 
       for (int m = 0; m < Modes::count; ++m) {
         const double stiffness = modes.stiffness[m] * (m == 0 ? secants.axial(e) : secants[e]);
         if (stiffness == 0.0) continue;
-        Lanes tension{};
+        Part tension{};
         for (int a = 0; a < width; ++a) {
           tension += modes.first[m][a] * at(motions + first + a * block_width + part) +
                      modes.second[m][a] * at(motions + second + a * block_width + part);

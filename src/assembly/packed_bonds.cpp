@@ -9,19 +9,26 @@
 namespace perilink {
 namespace {
 
-/// What a particle has in a block of vectors.
+/// What a particle has in a block of vectors, or in as many of them as fit a register: more would
+/// leave the few registers that there are.
 template <int Dim>
 struct RowOfBlock {
   using Number = float;
-  using Floats = Lanes<float, block_width>;
-  using InMemory = LanesInMemory<float, block_width>;
+  static constexpr std::size_t lanes = lanes_of<float>(block_width);
+  using Floats = Lanes<float, lanes>;
+  using InMemory = LanesInMemory<float, lanes>;
   static constexpr std::size_t size = static_cast<std::size_t>(Dim) * block_width;
+  static constexpr std::size_t vectors = block_width;
 
   explicit RowOfBlock(const float* numbers) {
-    for (int a = 0; a < Dim; ++a) parts[a] = reinterpret_cast<const InMemory*>(numbers)[a];
+    for (int a = 0; a < Dim; ++a) {
+      parts[a] = *reinterpret_cast<const InMemory*>(numbers + a * block_width);
+    }
   }
   void store(float* numbers) const {
-    for (int a = 0; a < Dim; ++a) reinterpret_cast<InMemory*>(numbers)[a] = parts[a];
+    for (int a = 0; a < Dim; ++a) {
+      *reinterpret_cast<InMemory*>(numbers + a * block_width) = parts[a];
+    }
   }
   struct Pull {
     explicit Pull(const float* numbers) : parts(numbers) {}
@@ -44,6 +51,7 @@ template <int Dim>
 struct RowOfVector {
   using Number = double;
   static constexpr std::size_t size = PackedBonds::row_size(Dim);
+  static constexpr std::size_t lanes = 1, vectors = 1;
   using Components = Lanes<double, size>;
   using InMemory = LanesInMemory<double, size>;
 
@@ -173,39 +181,49 @@ void PackedBonds::follow(Secants secants) {
   }
 }
 
+/// Forces of the bonds of a place, with what the row holds.
+template <int Dim, class Row>
+void PackedBonds::place_forces(std::size_t place, const typename Row::Number* motions,
+                               typename Row::Number* forces) const {
+  using Pull = typename Row::Pull;
+  constexpr std::size_t ahead = 128;  // one row of memory is read faster than processors foresee
+  const Row motion(motions + place * Row::size);
+  Row force(forces + place * Row::size);
+  const auto tension_of = [&](const Packed<Dim>& own, const Pull& pull) {
+    const Row other(motions + static_cast<std::size_t>(own.other) * Row::size);
+    return Row::tension(pull, motion, other);
+  };
+  const Packed<Dim>* const all = bonds<Dim>().data();
+  const Packed<Dim>* bond = all + begin_[2 * place];
+  for (const auto* behind = all + begin_[2 * place + 1]; bond < behind; ++bond) {
+    typename Row::Number* at = forces + static_cast<std::size_t>(bond->other) * Row::size;
+    __builtin_prefetch(bond + ahead);
+    const Pull pull(bond->pull);
+    const auto tension = tension_of(*bond, pull);
+    force.add(pull, tension);
+    Row other(at);
+    other.add(pull, -tension);
+    other.store(at);
+  }
+  for (const auto* last = all + begin_[2 * place + 2]; bond < last; ++bond) {
+    const Pull pull(bond->pull);
+    force.add(pull, tension_of(*bond, pull));
+  }
+  force.store(forces + place * Row::size);
+}
+
 /// \param done  called as PlacesDone is
 template <int Dim, class Row, class Done>
 void PackedBonds::part_forces(std::size_t part, const typename Row::Number* motions,
                               typename Row::Number* forces, const Done& done) const {
-  using Pull = typename Row::Pull;
   constexpr std::size_t together = 64;
-  constexpr std::size_t ahead = 128;  // one row of memory is read faster than processors foresee
   const std::size_t end = part_end_[part];
   std::size_t told = part == 0 ? 0 : part_end_[part - 1];
   std::fill(forces + told * Row::size, forces + end * Row::size, typename Row::Number{});
-  const Packed<Dim>* bond = bonds<Dim>().data() + begin_[2 * told];
   for (std::size_t place = told; place < end; ++place) {
-    const Row motion(motions + place * Row::size);
-    Row force(forces + place * Row::size);
-    const auto tension_of = [&](const Packed<Dim>& own, const Pull& pull) {
-      const Row other(motions + static_cast<std::size_t>(own.other) * Row::size);
-      return Row::tension(pull, motion, other);
-    };
-    for (const auto* behind = bonds<Dim>().data() + begin_[2 * place + 1]; bond < behind; ++bond) {
-      typename Row::Number* at = forces + static_cast<std::size_t>(bond->other) * Row::size;
-      __builtin_prefetch(bond + ahead);
-      const Pull pull(bond->pull);
-      const auto tension = tension_of(*bond, pull);
-      force.add(pull, tension);
-      Row other(at);
-      other.add(pull, -tension);
-      other.store(at);
+    for (std::size_t from = 0; from < Row::vectors; from += Row::lanes) {
+      place_forces<Dim, Row>(place, motions + from, forces + from);
     }
-    for (const auto* last = bonds<Dim>().data() + begin_[2 * place + 2]; bond < last; ++bond) {
-      const Pull pull(bond->pull);
-      force.add(pull, tension_of(*bond, pull));
-    }
-    force.store(forces + place * Row::size);
     // Bonds behind end at places behind, or add nothing to the other end.
     if (place + 1 < told + together && place + 1 < end) continue;
     done(part, told, place + 1);

@@ -2,11 +2,12 @@
 
 #include <cstddef>
 
+#include "base/lanes.hpp"
+
 namespace perilink {
 namespace {
 
-using Lanes [[gnu::vector_size(4 * block_width)]] = float;
-using LanesInMemory [[gnu::vector_size(4 * block_width), gnu::aligned(4), gnu::may_alias]] = float;
+using Side = LongLanes<float, block_width>;
 
 /// Rows worked on together: what they share is loaded once.
 constexpr Index together = 4;
@@ -15,12 +16,12 @@ constexpr Index together = 4;
 class Rows {
  public:
   Rows(const SingleFactor::Supernode& node, float* sides)
-      : node_(node), sides_(reinterpret_cast<LanesInMemory*>(sides)) {}
+      : node_(node), sides_(reinterpret_cast<Side*>(sides)) {}
 
   const float* values(Index row) const {
     return node_.values.data() + static_cast<std::size_t>(row) * node_.columns;
   }
-  LanesInMemory& side(Index row) const {
+  Side& side(Index row) const {
     const Index columns = node_.columns;
     return sides_[row < columns ? node_.first + row : node_.rows[row - columns]];
   }
@@ -29,12 +30,12 @@ class Rows {
   /// Takes the first `columns` columns, whose solutions are known, from `Count` rows.
   template <Index Count>
   void eliminate(Index row, Index columns) const {
-    Lanes sums[Count] = {};
+    Side sums[Count] = {};
     const float* value = values(row);
     const std::ptrdiff_t next = node_.columns;
-    const LanesInMemory* solved = sides_ + node_.first;
+    const Side* solved = sides_ + node_.first;
     for (Index k = 0; k < columns; ++k) {
-      const Lanes own = solved[k];
+      const Side own = solved[k];
       for (Index r = 0; r < Count; ++r) sums[r] += value[r * next + k] * own;
     }
     for (Index r = 0; r < Count; ++r) side(row + r) -= sums[r];
@@ -43,13 +44,13 @@ class Rows {
   /// Takes `Count` rows, whose solutions are known, from the first `columns` columns.
   template <Index Count>
   void substitute(Index row, Index columns) const {
-    Lanes solved[Count];
+    Side solved[Count];
     for (Index r = 0; r < Count; ++r) solved[r] = side(row + r);
     const float* value = values(row);
     const std::ptrdiff_t next = node_.columns;
-    LanesInMemory* own = sides_ + node_.first;
+    Side* own = sides_ + node_.first;
     for (Index k = 0; k < columns; ++k) {
-      Lanes sum = own[k];
+      Side sum = own[k];
       for (Index r = 0; r < Count; ++r) sum -= value[r * next + k] * solved[r];
       own[k] = sum;
     }
@@ -57,13 +58,13 @@ class Rows {
 
  private:
   const SingleFactor::Supernode& node_;
-  LanesInMemory* sides_;
+  Side* sides_;
 };
 
 /// The few columns from `begin` to `end`, after or before which all others are taken.
 void forward_triangle(const Rows& rows, Index begin, Index end) {
   for (Index k = begin; k < end; ++k) {
-    Lanes sum = rows.side(k);
+    Side sum = rows.side(k);
     for (Index j = begin; j < k; ++j) sum -= rows.values(k)[j] * rows.side(j);
     rows.side(k) = rows.values(k)[k] * sum;
   }
@@ -71,7 +72,7 @@ void forward_triangle(const Rows& rows, Index begin, Index end) {
 
 void backward_triangle(const Rows& rows, Index begin, Index end) {
   for (Index k = end; k-- > begin;) {
-    Lanes sum = rows.side(k);
+    Side sum = rows.side(k);
     for (Index j = k + 1; j < end; ++j) sum -= rows.values(j)[k] * rows.side(j);
     rows.side(k) = rows.values(k)[k] * sum;
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lanes.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
@@ -29,19 +30,15 @@ Square times(const Square& a, const Square& b) {
 }
 
 template <class Number>
-using Lanes [[gnu::vector_size(sizeof(Number) * width)]] = Number;
-template <class Number>
-using LanesInMemory
-    [[gnu::vector_size(sizeof(Number) * width), gnu::aligned(sizeof(Number)), gnu::may_alias]] =
-        Number;
+using Row = LongLanes<Number, width>;
 
 template <class Number>
-const LanesInMemory<Number>& at(const Number* numbers) {
-  return *reinterpret_cast<const LanesInMemory<Number>*>(numbers);
+const Row<Number>& at(const Number* numbers) {
+  return *reinterpret_cast<const Row<Number>*>(numbers);
 }
 template <class Number>
-LanesInMemory<Number>& at(Number* numbers) {
-  return *reinterpret_cast<LanesInMemory<Number>*>(numbers);
+Row<Number>& at(Number* numbers) {
+  return *reinterpret_cast<Row<Number>*>(numbers);
 }
 
 /// sum += a'b of some rows; parts of the sum have the digits of the numbers, the sum of the parts
@@ -50,13 +47,15 @@ template <class Number>
 void add_gram(std::span<const Number> a, std::span<const Number> b, std::size_t begin,
               std::size_t end, Square& sum) {
   constexpr std::size_t part = 256;
-  constexpr int together = width * 4 / static_cast<int>(sizeof(Number));  // sums stay in registers
+  // Sums stay in registers, of which there are 16, and 32 of the longest ones.
+  constexpr int registers = register_bytes == 64 ? 16 : 8;
+  constexpr int together = registers / static_cast<int>(Row<Number>::count);
   for (std::size_t past = begin; begin < end; begin = past) {
     past = std::min(begin + part, end);
     for (int first = 0; first < width; first += together) {
-      Lanes<Number> rows[together] = {};
+      Row<Number> rows[together] = {};
       for (std::size_t k = begin * width; k < past * width; k += width) {
-        const Lanes<Number> row = at(b.data() + k);
+        const Row<Number> row = at(b.data() + k);
         for (int c = 0; c < together; ++c) rows[c] += a[k + first + c] * row;
       }
       for (int c = 0; c < together; ++c) {
@@ -100,18 +99,20 @@ class Shares {
  public:
   explicit Shares(const Square& shares) {
     for (int c = 0; c < width; ++c) {
-      for (int d = 0; d < width; ++d) rows_[c][d] = static_cast<Number>(shares[c][d]);
+      std::array<Number, width> row;
+      for (int d = 0; d < width; ++d) row[d] = static_cast<Number>(shares[c][d]);
+      rows_[c] = at(row.data());
     }
   }
   /// Row of a block times the matrix.
-  Lanes<Number> operator()(const Number* row) const {
-    Lanes<Number> sum = row[0] * rows_[0];
+  Row<Number> operator()(const Number* row) const {
+    Row<Number> sum = row[0] * rows_[0];
     for (int c = 1; c < width; ++c) sum += row[c] * rows_[c];
     return sum;
   }
 
  private:
-  Lanes<Number> rows_[width];
+  Row<Number> rows_[width];
 };
 
 /// Inverse of p'A p between directions p that differ, zero for others and where there are none.

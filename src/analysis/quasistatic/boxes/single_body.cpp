@@ -4,16 +4,15 @@
 #include <array>
 #include <cmath>
 
+#include "base/lanes.hpp"
+
 namespace perilink {
 namespace {
 
-using Lanes [[gnu::vector_size(4 * block_width)]] = float;
-using LanesInMemory [[gnu::vector_size(4 * block_width), gnu::aligned(4), gnu::may_alias]] = float;
+using Row = LongLanes<float, block_width>;
 
-const LanesInMemory* at(const float* numbers) {
-  return reinterpret_cast<const LanesInMemory*>(numbers);
-}
-LanesInMemory* at(float* numbers) { return reinterpret_cast<LanesInMemory*>(numbers); }
+const Row* at(const float* numbers) { return reinterpret_cast<const Row*>(numbers); }
+Row* at(float* numbers) { return reinterpret_cast<Row*>(numbers); }
 
 template <int Dim>
 constexpr int num_motions = Dim == 2 ? 3 : 6;
@@ -115,9 +114,9 @@ template <int Dim>
 void SingleBody::restrict_to_boxes(std::size_t part, const float* residuals) {
   constexpr int count = num_motions<Dim>;
   for (std::size_t b = order_.part_box[part]; b < order_.part_box[part + 1]; ++b) {
-    const LanesInMemory* residual = at(residuals) + order_.box_end[b] * Dim;
+    const Row* residual = at(residuals) + order_.box_end[b] * Dim;
     const float* move = moves_.data() + order_.box_end[b] * Dim * count;
-    Lanes sums[count] = {};
+    Row sums[count] = {};
     for (const float* end = moves_.data() + order_.box_end[b + 1] * Dim * count; move < end;
          move += count, ++residual) {
       for (int m = 0; m < count; ++m) sums[m] += move[m] * *residual;
@@ -132,17 +131,17 @@ void SingleBody::add_motions(std::size_t part, const float* residuals, float* mo
                              const RowsDone& done) const {
   constexpr int count = num_motions<Dim>;
   std::size_t place = order_.box_end[order_.part_box[part]];
-  const LanesInMemory* residual = at(residuals) + place * Dim;
-  LanesInMemory* motion = at(motions) + place * Dim;
+  const Row* residual = at(residuals) + place * Dim;
+  Row* motion = at(motions) + place * Dim;
   const float* move = moves_.data() + place * Dim * count;
   const float* block = blocks_.data() + place * Dim * Dim;
   for (std::size_t b = order_.part_box[part]; b < order_.part_box[part + 1]; ++b) {
     const Index* from = factor_.place.data() + b * count;
-    Lanes values[count];
+    Row values[count];
     for (int m = 0; m < count; ++m) values[m] = at(coarse_.data())[from[m]];
     for (place = order_.box_end[b]; place < order_.box_end[b + 1]; ++place, residual += Dim) {
       for (int a = 0; a < Dim; ++a, move += count, block += Dim, ++motion) {
-        Lanes sum = block[0] * residual[0];
+        Row sum = block[0] * residual[0];
         for (int c = 1; c < Dim; ++c) sum += block[c] * residual[c];
         for (int m = 0; m < count; ++m) sum += move[m] * values[m];
         *motion = sum;
