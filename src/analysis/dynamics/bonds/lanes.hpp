@@ -2,59 +2,67 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+
+#include "base/lanes.hpp"
 
 /// \file
-/// Eight numbers at once, by the vectors that GCC and Clang know on every processor.
+/// Numbers of particles that follow each other, as many as a register holds and eight at most.
 
 namespace perilink {
 
-inline constexpr int num_lanes = 8;
+constexpr int num_lanes = lanes_of<double>(8);
+using Doubles = Lanes<double, num_lanes>;
+using Words = Lanes<std::int64_t, num_lanes>;
+using AllLanes = std::make_index_sequence<num_lanes>;
 
-using Lanes [[gnu::vector_size(64)]] = double;
-using LaneWords [[gnu::vector_size(64)]] = std::int64_t;
+inline void load(const double* from, Doubles& to) {
+  to = *reinterpret_cast<const LanesInMemory<double, num_lanes>*>(from);
+}
 
-/// The same anywhere in memory.
-using LanesInMemory [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
-
-inline void load(const double* from, Lanes& to) {
-  to = *reinterpret_cast<const LanesInMemory*>(from);
+/// 1, 2, 4 and so on.
+template <std::size_t... Lane>
+constexpr Words bits_of_lanes(std::index_sequence<Lane...> /*lanes*/) {
+  return Words{(std::int64_t{1} << Lane)...};
 }
 
 /// Zeros in lanes whose bit is not set.
-inline void keep_lanes(std::uint8_t bits, Lanes& values) {
-  constexpr LaneWords bit = {1, 2, 4, 8, 16, 32, 64, 128};
-  const LaneWords kept = (LaneWords{} + std::int64_t{bits}) & bit;
-  values = kept != 0 ? values : Lanes{};
+inline void keep_lanes(std::uint8_t bits, Doubles& values) {
+  constexpr Words bit = bits_of_lanes(AllLanes{});
+  const Words kept = (Words{} + std::int64_t{bits}) & bit;
+  values = kept != 0 ? values : Doubles{};
 }
 
-inline void keep_larger(const Lanes& values, Lanes& largest) {
+inline void keep_larger(const Doubles& values, Doubles& largest) {
   largest = values > largest ? values : largest;
 }
 
-/// Vectors of `Dim` components one after the other in memory, to one Lanes per component.
+/// A component of vectors of `Dim` that lie one after the other in a, b and, in space, c.
+template <int Dim, int Component, std::size_t... Lane>
+inline Doubles component(const Doubles& a, const Doubles& b, const Doubles& c,
+                         std::index_sequence<Lane...> /*lanes*/) {
+  constexpr std::size_t two = 2 * num_lanes;
+  constexpr auto at = [](std::size_t lane) { return Dim * lane + Component; };
+  const Doubles of_two = __builtin_shufflevector(a, b, (at(Lane) < two ? at(Lane) : 0)...);
+  if constexpr (Dim == 2) return of_two;
+  return __builtin_shufflevector(of_two, c, (at(Lane) < two ? Lane : at(Lane) - num_lanes)...);
+}
+
+/// Vectors of `Dim` components one after the other in memory, component by component.
 template <int Dim>
-inline void load_vectors(const double* from, Lanes* to) {
+inline void load_vectors(const double* from, Doubles* to) {
   static_assert(1 <= Dim && Dim <= 3);
   if constexpr (Dim == 1) {
     load(from, to[0]);
     return;
   }
-  Lanes a, b;
+  Doubles a, b, c{};
   load(from, a);
   load(from + num_lanes, b);
-  if constexpr (Dim == 2) {
-    to[0] = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
-    to[1] = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
-  } else if constexpr (Dim == 3) {
-    Lanes c;
-    load(from + 2 * num_lanes, c);
-    const Lanes x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
-    const Lanes y = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
-    const Lanes z = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
-    to[0] = __builtin_shufflevector(x, c, 0, 1, 2, 3, 4, 5, 10, 13);
-    to[1] = __builtin_shufflevector(y, c, 0, 1, 2, 3, 4, 8, 11, 14);
-    to[2] = __builtin_shufflevector(z, c, 0, 1, 2, 3, 4, 9, 12, 15);
-  }
+  if constexpr (Dim == 3) load(from + 2 * num_lanes, c);
+  to[0] = component<Dim, 0>(a, b, c, AllLanes{});
+  to[1] = component<Dim, 1>(a, b, c, AllLanes{});
+  if constexpr (Dim == 3) to[2] = component<Dim, 2>(a, b, c, AllLanes{});
 }
 
 }  // namespace perilink

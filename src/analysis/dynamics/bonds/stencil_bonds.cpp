@@ -11,7 +11,7 @@ namespace perilink {
 namespace {
 
 constexpr int lanes = BondStencil::lanes;
-static_assert(lanes == num_lanes);
+static_assert(lanes % num_lanes == 0);  // registers hold a group or a part of it
 
 /// Limit of bonds that cannot break [-]: a group that reaches it is looked at in vain.
 constexpr double stretch_of_unbreakable = 1e6;
@@ -56,14 +56,14 @@ class StencilBonds final : public ExplicitBonds {
   bool is_intact(std::size_t slot) const { return (intact_[slot / lanes] & bit(slot)) != 0; }
 
   template <bool Safe>
-  bool add_lines(std::size_t group, const double* u, Lanes* sum) const;
+  bool add_lines(std::size_t group, int part, const double* u, Doubles* sum) const;
   template <bool Safe, int Components>
-  void take(const double* from, std::ptrdiff_t particle, Lanes* to) const;
+  void take(const double* from, std::ptrdiff_t particle, Doubles* to) const;
   template <bool Safe>
-  void demands(const Line<Dim>& line, std::ptrdiff_t first, const std::uint8_t* intact,
-               const double* u, const Lanes* own, Lanes& out, Lanes& in) const;
-  void add_energies(std::size_t group, double time_step, const BondMotion& motion,
-                    Lanes& sum) const;
+  void demands(const Line<Dim>& line, std::ptrdiff_t first, int part, const std::uint8_t* intact,
+               const double* u, const Doubles* own, Doubles& out, Doubles& in) const;
+  void add_energies(std::size_t group, int part, double time_step, const BondMotion& motion,
+                    Doubles& sum) const;
   template <class Visit>
   void for_halves(std::size_t group, Index begin, Index end, Visit visit) const;
   double demand(const Half& half, const double* u) const;
@@ -129,13 +129,13 @@ template <int Dim>
 template <bool Safe, int Components>
 [[gnu::always_inline]] inline void StencilBonds<Dim>::take(const double* from,
                                                            std::ptrdiff_t particle,
-                                                           Lanes* to) const {
-  if (Safe || (particle >= 0 && particle + lanes <= particles_)) {
+                                                           Doubles* to) const {
+  if (Safe || (particle >= 0 && particle + num_lanes <= particles_)) {
     load_vectors<Components>(from + particle * Components, to);
     return;
   }
-  double picked[Components][lanes];
-  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+  double picked[Components][num_lanes];
+  for (std::ptrdiff_t lane = 0; lane < num_lanes; ++lane) {
     const std::ptrdiff_t at = std::clamp<std::ptrdiff_t>(particle + lane, 0, particles_ - 1);
     for (int c = 0; c < Components; ++c) picked[c][lane] = from[at * Components + c];
   }
@@ -144,15 +144,16 @@ template <bool Safe, int Components>
 
 /// Demands of a line's outgoing and incoming bonds, zero where there is none: from the same end,
 /// so that both halves of a bond find the same number.
-/// \param u  motion, of which `own` are the group's particles
+/// \param part  of the group, beginning at `first`
+/// \param u  motion, of which `own` are the particles of the part
 template <int Dim>
 template <bool Safe>
 [[gnu::always_inline]] inline void StencilBonds<Dim>::demands(const Line<Dim>& line,
-                                                              std::ptrdiff_t first,
+                                                              std::ptrdiff_t first, int part,
                                                               const std::uint8_t* intact,
-                                                              const double* u, const Lanes* own,
-                                                              Lanes& out, Lanes& in) const {
-  Lanes far[Dim], near[Dim];
+                                                              const double* u, const Doubles* own,
+                                                              Doubles& out, Doubles& in) const {
+  Doubles far[Dim], near[Dim];
   take<Safe, Dim>(u, first + line.out, far);
   take<Safe, Dim>(u, first - line.in, near);
   out = line.demand[0] * (far[0] - own[0]);
@@ -161,33 +162,35 @@ template <bool Safe>
     out += line.demand[c] * (far[c] - own[c]);
     in += line.demand[c] * (own[c] - near[c]);
   }
-  keep_lanes(intact[0], out);
-  keep_lanes(intact[1], in);
+  keep_lanes(static_cast<std::uint8_t>(intact[0] >> part), out);
+  keep_lanes(static_cast<std::uint8_t>(intact[1] >> part), in);
 }
 
-/// Forces of the group's bonds, but for the own volume. \return whether one demands too much
+/// Forces of the bonds of a part of the group, but for the own volume.
+/// \return whether one demands too much
 template <int Dim>
 template <bool Safe>
-bool StencilBonds<Dim>::add_lines(std::size_t group, const double* u, Lanes* sum) const {
-  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(group) * lanes;
+bool StencilBonds<Dim>::add_lines(std::size_t group, int part, const double* u,
+                                  Doubles* sum) const {
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(group) * lanes + part;
   const std::uint8_t* intact = intact_.data() + groups_[group].first_slot / lanes;
-  Lanes own[Dim], total[Dim], largest{};
+  Doubles own[Dim], total[Dim], largest{};
   take<Safe, Dim>(u, first, own);
-  for (int c = 0; c < Dim; ++c) total[c] = Lanes{};
+  for (int c = 0; c < Dim; ++c) total[c] = Doubles{};
   for (const Line<Dim>& line : patterns_[groups_[group].pattern]) {
-    Lanes out, in, far_volume, near_volume;
-    demands<Safe>(line, first, intact, u, own, out, in);
+    Doubles out, in, far_volume, near_volume;
+    demands<Safe>(line, first, part, intact, u, own, out, in);
     take<Safe, 1>(volume_.data(), first + line.out, &far_volume);
     take<Safe, 1>(volume_.data(), first - line.in, &near_volume);
     intact += 2;
     keep_larger(out, largest);
     keep_larger(in, largest);
-    const Lanes pulled = near_volume * in - far_volume * out;
+    const Doubles pulled = near_volume * in - far_volume * out;
     for (int c = 0; c < Dim; ++c) total[c] += line.pull[c] * pulled;
   }
   for (int c = 0; c < Dim; ++c) sum[c] = total[c];
   bool exceeds = false;
-  for (int lane = 0; lane < lanes; ++lane) exceeds |= largest[lane] > 1.0;
+  for (int lane = 0; lane < num_lanes; ++lane) exceeds |= largest[lane] > 1.0;
   return exceeds;
 }
 
@@ -255,19 +258,19 @@ BondLosses StencilBonds<Dim>::forces(Index begin, Index end, double time_step,
               force.begin() + std::ptrdiff_t{end} * Dim, 0.0);
   }
   const double* u = motion.displacement.data();
-  for (Index g = begin / lanes; g * lanes < end; ++g) {
-    const auto add = [&](Lanes* sum) {
-      return is_safe_[g] ? add_lines<true>(g, u, sum) : add_lines<false>(g, u, sum);
+  for (Index first = begin / num_lanes * num_lanes; first < end; first += num_lanes) {
+    const Index g = first / lanes, part = first % lanes;
+    const auto add = [&](Doubles* sum) {
+      return is_safe_[g] ? add_lines<true>(g, part, u, sum) : add_lines<false>(g, part, u, sum);
     };
-    Lanes sum[Dim];
+    Doubles sum[Dim];
     if (add(sum)) {
       const BondLosses lost = break_halves(g, begin, end, time_step, motion);
       losses.fractured += lost.fractured;
       losses.broken.insert(losses.broken.end(), lost.broken.begin(), lost.broken.end());
       add(sum);
     }
-    const Index first = g * lanes;
-    for (Index i = std::max(first, begin); i < std::min(first + lanes, end); ++i) {
+    for (Index i = std::max(first, begin); i < std::min(first + num_lanes, end); ++i) {
       for (int c = 0; c < Dim; ++c) {
         force[static_cast<std::size_t>(i) * Dim + c] += volume_[i] * sum[c][i - first];
       }
@@ -276,23 +279,23 @@ BondLosses StencilBonds<Dim>::forces(Index begin, Index end, double time_step,
   return losses;
 }
 
-/// Energies of the halves of each of the group's particles, as energy() of single ones.
+/// Energies of the halves of each particle in a part of the group, as energy() of single ones.
 template <int Dim>
-void StencilBonds<Dim>::add_energies(std::size_t group, double time_step, const BondMotion& motion,
-                                     Lanes& sum) const {
+void StencilBonds<Dim>::add_energies(std::size_t group, int part, double time_step,
+                                     const BondMotion& motion, Doubles& sum) const {
   const int pattern = groups_[group].pattern;
-  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(group) * lanes;
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(group) * lanes + part;
   const std::uint8_t* intact = intact_.data() + groups_[group].first_slot / lanes;
   const double *u = motion.displacement.data(), *v = motion.velocity.data();
-  Lanes own[Dim], own_speed[Dim], own_volume;
+  Doubles own[Dim], own_speed[Dim], own_volume;
   take<false, Dim>(u, first, own);
   take<false, Dim>(v, first, own_speed);
   take<false, 1>(volume_.data(), first, &own_volume);
   for (std::size_t l = 0; l < patterns_[pattern].size(); ++l, intact += 2) {
     const Line<Dim>& line = patterns_[pattern][l];
-    Lanes out, in, out_rate, in_rate, far_volume, near_volume;
-    demands<false>(line, first, intact, u, own, out, in);
-    demands<false>(line, first, intact, v, own_speed, out_rate, in_rate);
+    Doubles out, in, out_rate, in_rate, far_volume, near_volume;
+    demands<false>(line, first, part, intact, u, own, out, in);
+    demands<false>(line, first, part, intact, v, own_speed, out_rate, in_rate);
     take<false, 1>(volume_.data(), first + line.out, &far_volume);
     take<false, 1>(volume_.data(), first - line.in, &near_volume);
     sum += 0.25 * kinds_[pattern][l].stiffness * own_volume *
@@ -305,11 +308,10 @@ template <int Dim>
 double StencilBonds<Dim>::stored(Index begin, Index end, double time_step,
                                  const BondMotion& motion) const {
   double energy = rest_ ? rest_->stored(begin, end, time_step, motion) : 0.0;
-  for (Index g = begin / lanes; g * lanes < end; ++g) {
-    Lanes sum{};
-    add_energies(g, time_step, motion, sum);
-    const Index first = g * lanes;
-    for (Index i = std::max(first, begin); i < std::min(first + lanes, end); ++i) {
+  for (Index first = begin / num_lanes * num_lanes; first < end; first += num_lanes) {
+    Doubles sum{};
+    add_energies(first / lanes, first % lanes, time_step, motion, sum);
+    for (Index i = std::max(first, begin); i < std::min(first + num_lanes, end); ++i) {
       energy += sum[i - first];
     }
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "analysis/quasistatic/events/block_search.hpp"
+#include "base/lanes.hpp"
 
 namespace perilink {
 namespace {
@@ -197,23 +198,23 @@ std::array<double, block_width> LimitSearch::largest_of_columns(std::size_t begi
                                                                 const double* columns) const {
   const Group& group = pulled_;
   // Comparisons of vectors that are longer than registers are made one number at a time.
-  constexpr int in_register = 4, count = block_width / in_register;
-  using Lanes [[gnu::vector_size(8 * in_register)]] = double;
-  using InMemory [[gnu::vector_size(8 * in_register), gnu::aligned(8), gnu::may_alias]] = double;
+  constexpr int in_register = lanes_of<double>(block_width), count = block_width / in_register;
+  using Part = Lanes<double, in_register>;
+  using InMemory = LanesInMemory<double, in_register>;
   const auto motion_at = [columns](Index slot) {
     return reinterpret_cast<const InMemory*>(columns +
                                              static_cast<std::size_t>(slot) * block_width);
   };
-  Lanes most[count] = {}, zero_times_all[count] = {};
+  Part most[count] = {}, zero_times_all[count] = {};
   for (std::size_t k = begin; k < end; ++k) {
     const InMemory* first = motion_at(group.first[k]);
     const InMemory* second = motion_at(group.second[k]);
-    Lanes ratio[count] = {};
+    Part ratio[count] = {};
     for (int a = 0; a < dim_; ++a) {
       for (int c = 0; c < count; ++c) ratio[c] += group.gradient[a][k] * (*second++ - *first++);
     }
     for (int c = 0; c < count; ++c) {
-      const Lanes size = ratio[c] < 0.0 ? -ratio[c] : ratio[c];
+      const Part size = ratio[c] < 0.0 ? -ratio[c] : ratio[c];
       most[c] = size > most[c] ? size : most[c];
       zero_times_all[c] += 0.0 * size;
     }
