@@ -102,16 +102,20 @@ bool BoxSolver::is_found_in_single(std::span<const double> right, std::span<doub
 }
 
 GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double> solution,
-                                       double enough, double energy_of_last) {
+                                       double enough, double size_of_last) {
   BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
-  if (energy_of_last > 0.0) {
-    const double finer_than_others = options_.tolerance * finer / enough;
-    sizes.back() = energy_of_last * finer_than_others * finer_than_others;
-  }
+  if (size_of_last > 0.0) sizes.back() = size_of_last;
   const GradientsReport report = search_block(right, solution, sizes, enough);
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, enough);
   return report;
+}
+
+void BoxSolver::take_products(std::span<const double> motions, std::span<double> left) {
+  BlockVector<double>& products = single_space_.residual;
+  products.resize(left.size());
+  multiply_block(motions, products);
+  for (std::size_t k = 0; k < left.size(); ++k) left[k] -= products[k];
 }
 
 /// Steps in single precision; what they have found is added up in double precision, and so is what

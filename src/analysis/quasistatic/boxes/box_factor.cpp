@@ -21,8 +21,12 @@ constexpr double slower = 1.3;
 constexpr double small_pivot = 0.1;
 
 /// Errors of columns over those of solutions: an event moves the body by little, and what that
-/// leaves is taken away at every check.
-constexpr double coarser = 100.0;
+/// leaves is taken away at every check. Where errors of columns are made to agree, their squares
+/// count.
+constexpr double coarser = 100.0, coarser_in_agreement = 3e5;
+
+/// Errors of solutions that ride with a block whose columns are made to agree.
+constexpr double error_of_riders = 1e-11;
 
 /// Memory that the window may take where that leaves the fewest blocks.
 constexpr double most_bytes = 4e9;
@@ -239,22 +243,17 @@ std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& mis
 void BoxFactor::take_in(std::span<const SparseVector> x, Correction* correction) {
   const auto before = static_cast<Eigen::Index>(window_.size());
   const auto size = before + static_cast<Eigen::Index>(x.size());
-  right_.assign(unknowns_->number.size() * block_width, 0.0);
-  for (std::size_t c = 0; c < x.size(); ++c) {
-    for (int k = 0; k < x[c].size(); ++k) {
-      right_[slot_of_[x[c].rows[k]] * block_width + c] = x[c].values[k];
-    }
-    put_in_window(x[c], now_);
+  const double enough = (agree() ? coarser_in_agreement : coarser) * options_.tolerance;
+  double size_of_last = 0.0;
+  if (correction != nullptr && correction->energy > 0.0) {
+    const double wanted = agree() ? error_of_riders : options_.tolerance * BoxSolver::finer;
+    size_of_last = correction->energy * (wanted / enough) * (wanted / enough);
   }
-  for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
-    right_[slot_of_[k] * block_width + block_width - 1] = correction->residual[k];
-  }
+  fill_right_sides(x, correction);
   blocks_.emplace_back(right_.size());
-  const double enough = coarser * options_.tolerance;
-  const int iterations = solver_
-                             ->solve_block(right_, blocks_.back(), enough,
-                                           correction != nullptr ? correction->energy : 0.0)
-                             .iterations;
+  const int iterations =
+      solver_->solve_block(right_, blocks_.back(), enough, size_of_last).iterations;
+  if (agree()) find_left_over(x, correction);
   if (first_iterations_ == 0) first_iterations_ = iterations;
   if (iterations > slower * first_iterations_) make_solver();
   columns_solved_ += static_cast<Index>(x.size());
@@ -263,29 +262,30 @@ void BoxFactor::take_in(std::span<const SparseVector> x, Correction* correction)
         std::exchange(blocks_.back()[slot_of_[k] * block_width + block_width - 1], 0.0);
     correction->is_done = true;
   }
+  for (const SparseVector& column : x) put_in_window(column, now_);
 
   // Places in the window go on behind those of full blocks alone: unused columns stay zero.
-  compliance_.conservativeResize(size, size);
-  Eigen::MatrixXd shares =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(blocks_.size() * block_width), size);
+  const auto first_column = static_cast<Eigen::Index>((blocks_.size() - 1) * block_width);
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(first_column + block_width, size);
   shares.topLeftCorner(shares_.rows(), before) = shares_;
+  shares.block(first_column, before, size - before, size - before).setIdentity();
   shares_ = std::move(shares);
-  const double* columns = blocks_.back().data();
-  for (Eigen::Index k = before; k < size; ++k) {
-    const Eigen::Index c = k - before;
-    shares_(static_cast<Eigen::Index>((blocks_.size() - 1) * block_width) + c, k) = 1.0;
-    for (Eigen::Index w = 0; w < size; ++w) {
-      compliance_(w, k) = 0.0;
-      for (int m = 0; m < window_[w].size(); ++m) {
-        compliance_(w, k) +=
-            window_[w].values[m] * columns[slot_of_[window_[w].rows[m]] * block_width + c];
-      }
+  compliance_.conservativeResize(size, size);
+  compliance_.rightCols(size - before) =
+      on_columns(window_, blocks_.size() - 1).leftCols(size - before);
+  agree() ? make_agree(before, correction) : mirror_compliance(before);
+}
+
+void BoxFactor::fill_right_sides(std::span<const SparseVector> x, const Correction* correction) {
+  right_.assign(unknowns_->number.size() * block_width, 0.0);
+  for (std::size_t c = 0; c < x.size(); ++c) {
+    for (int k = 0; k < x[c].size(); ++k) {
+      right_[slot_of_[x[c].rows[k]] * block_width + c] = x[c].values[k];
     }
   }
-  compliance_.bottomLeftCorner(size - before, before) =
-      compliance_.topRightCorner(before, size - before).transpose();
-  const Eigen::MatrixXd own = compliance_.bottomRightCorner(size - before, size - before);
-  compliance_.bottomRightCorner(size - before, size - before) = 0.5 * (own + own.transpose());
+  for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
+    right_[slot_of_[k] * block_width + block_width - 1] = correction->residual[k];
+  }
 }
 
 /// The vector by places of the window.

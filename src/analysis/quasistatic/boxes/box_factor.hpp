@@ -59,6 +59,13 @@ class BoxFactor final : public Factor {
   DeferredMotion& defer();
   /// \throws std::logic_error while the solution lacks steps
   void defer_no_more();
+  /// While solutions wait, columns have few digits, and are made to agree on what elements see.
+  bool agree() const { return deferred_.has_value(); }
+  /// What errors of columns may leave in a solution until it is corrected, in the norm of energy and
+  /// over that of the solution: an element holds a small part of the energy, and load factors are to
+  /// be right to 1e-9. noise(): the same of differences of displacements, over the largest motion.
+  double most_drift() const { return agree() ? 1e-6 : 1e-10; }
+  double noise() const { return agree() ? 1e-7 : options_.tolerance; }
   bool is_behind() const { return deferred_ && deferred_->is_behind(); }
   /// Adds all noted steps.
   void catch_up(std::span<double> solution);
@@ -99,6 +106,12 @@ class BoxFactor final : public Factor {
                                    std::size_t reserved) const;
   void put_in_window(const SparseVector& x, int used);
   void take_in(std::span<const SparseVector> x, Correction* correction);
+  void fill_right_sides(std::span<const SparseVector> x, const Correction* correction);
+  Eigen::MatrixXd on_columns(std::span<const SparseVector> x, std::size_t block) const;
+  void mirror_compliance(Eigen::Index before);
+  void find_left_over(std::span<const SparseVector> x, const Correction* correction);
+  Eigen::MatrixXd with_left_over() const;
+  void make_agree(Eigen::Index before, Correction* correction);
   Eigen::VectorXd in_window(const SparseVector& x);
   std::vector<double> motion_of(std::span<const double> weights) const;
   std::vector<double> motion_of(const Eigen::VectorXd& weights) const {

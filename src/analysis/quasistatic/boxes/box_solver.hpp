@@ -62,17 +62,24 @@ class BoxSolver {
   /// motions of the whole body.
   /// \param right   used up
   /// \param enough  error that each is to have, as the tolerance counts
-  /// \param energy_of_last  zero, or the last right side is what is left of another solution, with
-  ///                        this energy: as correct()
+  /// \param size_of_last  zero, or the energy that the error of the last right side counts by,
+  ///                      which is what is left of another solution
   /// \return iterations, and the largest error
   /// \throws SolverError as solve()
   GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough,
-                              double energy_of_last = 0.0);
+                              double size_of_last = 0.0);
+
+  /// left -= K motions of such a block, by the network in double precision.
+  void take_products(std::span<const double> motions, std::span<double> left);
 
   /// A solution less exact, of what is left of another one.
   /// \param energy  that the error counts by, of the whole solution; positive
   /// \throws SolverError as solve()
   void correct(std::span<const double> right, std::span<double> solution, double energy);
+
+  /// An element holds a small part of the energy: solutions in which events are looked for are
+  /// finer by this.
+  static constexpr double finer = 1e-3;
 
   int iterations() const { return iterations_; }  ///< in all solves
   double error() const { return error_; }         ///< the last solve left, as the tolerance counts
@@ -86,10 +93,6 @@ class BoxSolver {
   static constexpr int most_iterations = 20000;
   /// From which on the start of threads takes less than the work.
   static constexpr Index many_particles = 10'000;
-  /// An element holds a small part of the energy: solutions in which events are looked for are
-  /// finer by this.
-  static constexpr double finer = 1e-3;
-
   static SolverError not_there(int iterations, double error, double tolerance);
   void precondition(std::span<const double> residual, std::span<double> result);
   void multiply(std::span<const double> q, std::span<double> result);

@@ -8,14 +8,6 @@
 /// What the events of an equilibrium keep current: displacements, columns of boxes.
 
 namespace perilink {
-namespace {
-
-/// Error of displacements that have followed events, over all of them and in the norm of energy,
-/// beyond which the window begins anew: an element holds a small part of the energy, and load
-/// factors are to be right to 1e-9.
-constexpr double most_drift = 1e-10;
-
-}  // namespace
 
 /// Under forces alone an event needs the displacements of elements that can fail, and no others:
 /// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
@@ -179,8 +171,9 @@ void Equilibrium::find_largest_motion() {
 void Equilibrium::judge_columns(std::span<const double> missing,
                                 std::span<const double> correction) {
   const double error = std::inner_product(missing.begin(), missing.end(), correction.begin(), 0.0);
+  const double most = boxes_->most_drift();
   // Written so that an energy that is not a number is too much.
-  if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) boxes_->forget();
+  if (!(error <= most * most * 2.0 * internal_.energy)) boxes_->forget();
 }
 
 /// Takes away what errors of columns have left in the displacements.
@@ -192,7 +185,7 @@ double Equilibrium::refine_followed(double size, std::vector<double>& residual) 
   const std::vector<double> missing = residual;
   refine(residual);  // which is then the correction
   judge_columns(missing, residual);
-  if (!(size <= options_.residual_tolerance)) look_closer_ = true;
+  if (!(size <= std::max(options_.residual_tolerance, boxes_->most_drift()))) look_closer_ = true;
   return measure_residual(residual);
 }
 

@@ -178,8 +178,12 @@ class Equilibrium {
 
   /// The same after events, whose errors the next check() takes away.
   double noise_of_events() const {
-    return boxes_ == nullptr ? noise() : options_.boxes.tolerance * largest_motion_;
+    return boxes_ == nullptr ? noise() : boxes_->noise() * largest_motion_;
   }
+
+  /// Whether columns have few digits but agree: without one of its own an element is found to have
+  /// come less far or farther than it has.
+  bool columns_agree() const { return boxes_ != nullptr && boxes_->agree(); }
 
   /// Whether an event of the element costs no solution by conjugate gradients.
   bool is_prepared(Index element) const;

@@ -37,12 +37,24 @@ Event SingleEventEngine::next_event() {
     equilibrium_.check();
     hit = find();
   }
+  // A column of its own tells all digits of what an element has come to; it may not be the next.
+  constexpr int most_tries = 4;
+  for (int k = 0; k < most_tries && may_err(hit, noise); ++k) {
+    prepare({hit.element, 1.0 / hit.ratio});
+    hit = find();
+  }
   if (hit.element == no_index) return {};
   if (is_within(noise, hit)) {
     refuse_hidden_strains(noise, hit);
     return {};
   }
   return {hit.element, 1.0 / hit.ratio};
+}
+
+/// Whether the element's extension lacks digits that a column of its own would tell.
+bool SingleEventEngine::may_err(const BreakSearch::Hit& hit, double noise) const {
+  return equilibrium_.columns_agree() && hit.element != no_index && !is_within(noise, hit) &&
+         !equilibrium_.is_prepared(hit.element);
 }
 
 /// Whether the extension of the element that comes next is nothing but round-off of the motion of

@@ -67,6 +67,7 @@ class SingleEventEngine : public EventEngine {
   };
   Extension extension_of(Index element) const;
   bool is_within(double noise, const BreakSearch::Hit& hit) const;
+  bool may_err(const BreakSearch::Hit& hit, double noise) const;
   void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit);
 
   const Network& network_;
