@@ -28,9 +28,9 @@ constexpr std::size_t register_bytes = 32;
 constexpr std::size_t register_bytes = 16;
 #endif
 
-/// Numbers of a row of so many that one register holds.
+/// Numbers of a row of so many that one register holds. Never called: files differ in it.
 template <class Number>
-constexpr std::size_t lanes_of(std::size_t count) {
+consteval std::size_t lanes_of(std::size_t count) {
   return std::min(count, register_bytes / sizeof(Number));
 }
 

@@ -144,8 +144,8 @@ template <bool Safe, int Components>
 
 /// Demands of a line's outgoing and incoming bonds, zero where there is none: from the same end,
 /// so that both halves of a bond find the same number.
-/// \param part  of the group, beginning at `first`
-/// \param u  motion, of which `own` are the particles of the part
+/// \param first  particle of the part, at this place of its group
+/// \param u      motion, of which `own` are the particles of the part
 template <int Dim>
 template <bool Safe>
 [[gnu::always_inline]] inline void StencilBonds<Dim>::demands(const Line<Dim>& line,

@@ -61,9 +61,10 @@ class BoxFactor final : public Factor {
   void defer_no_more();
   /// While solutions wait, columns have few digits, and are made to agree on what elements see.
   bool agree() const { return deferred_.has_value(); }
-  /// What errors of columns may leave in a solution until it is corrected, in the norm of energy and
-  /// over that of the solution: an element holds a small part of the energy, and load factors are to
-  /// be right to 1e-9. noise(): the same of differences of displacements, over the largest motion.
+  /// What errors of columns may leave in a solution until it is corrected, in the norm of energy
+  /// and over that of the solution: an element holds a small part of the energy, and load factors
+  /// are to be right to 1e-9. noise(): the same of differences of displacements, over the largest
+  /// motion.
   double most_drift() const { return agree() ? 1e-6 : 1e-10; }
   double noise() const { return agree() ? 1e-7 : options_.tolerance; }
   bool is_behind() const { return deferred_ && deferred_->is_behind(); }
