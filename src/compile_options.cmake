@@ -4,6 +4,8 @@ find_package(OpenMP REQUIRED COMPONENTS CXX)
 add_library(perilink_options INTERFACE)
 add_library(perilink::options ALIAS perilink_options)
 target_link_libraries(perilink_options INTERFACE OpenMP::OpenMP_CXX)
+# Sums of matrices are to be those of one thread (docs/decisions/0004).
+target_compile_definitions(perilink_options INTERFACE EIGEN_DONT_PARALLELIZE)
 target_compile_options(perilink_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
   # In files that are compiled as one, helpers of others would count as shadowed by local names.

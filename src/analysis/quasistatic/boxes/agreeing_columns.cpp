@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "analysis/quasistatic/boxes/box_factor.hpp"
+#include "base/error.hpp"
 #include "solver/blocks/block_gradients.hpp"
 
 namespace perilink {
@@ -15,12 +16,15 @@ class Resistance {
  public:
   explicit Resistance(const Eigen::MatrixXd& compliance) : compliance_(compliance) {
     const double largest = compliance.diagonal().maxCoeff();
-    for (double little = 1e-8; little < 1.0; little *= 100.0) {
+    for (double little = 1e-8; little < 1.0 && compliance.allFinite(); little *= 100.0) {
       Eigen::MatrixXd more = compliance;
       more.diagonal().array() += little * largest;
       factor_.compute(more);
       if (factor_.info() == Eigen::Success) return;
     }
+    throw SolverError(
+        "columns by conjugate gradients contradict each other: round-off has the stiffness of parts "
+        "of the body; take solver = \"direct\"");
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {

@@ -88,6 +88,19 @@ void Equilibrium::spread() {
   spread_ = true;
 }
 
+double Equilibrium::work_of_forces() const {
+  double work = 0.0;
+  for (const std::size_t slot : loaded_slots_) work += loads_->forces[slot] * displacement_[slot];
+  return work;
+}
+
+/// Takes away what events have left, whatever that costs.
+void Equilibrium::correct() {
+  std::vector<double> residual;
+  measure_residual(residual);
+  refine(residual);
+}
+
 /// Observers must not change the run: what is missing of displacements is found aside.
 std::span<const double> Equilibrium::displacement() {
   if (boxes_ != nullptr && boxes_->is_behind()) {
@@ -213,6 +226,10 @@ void Equilibrium::prepare(Index element, std::span<const Index> expected) {
   boxes_->note_restart();
   scatter_solution();
   force_work_ = work_of_forces();
+  if (columns_agree()) {
+    is_exact_ = true;
+    work();  // summed now if it is due
+  }
   judge_columns(missing, residual);
 }
 

@@ -28,7 +28,7 @@ constexpr double most_to_refine = 10.0;
 constexpr double cancelled_work = 1e-7;
 
 /// So many events the work of a driven body follows the growth of its compliance before it is
-/// summed over the elements again.
+/// summed over the elements again, as soon as displacements are exact.
 constexpr int most_events_to_follow = 16;
 
 /// A force on a prescribed displacement is a part of the reaction there, whose work counts.
@@ -216,14 +216,9 @@ void Equilibrium::refresh() {
   if (boxes_ != nullptr) boxes_->note_restart();
   scatter_solution();
   stale_ = false;
+  is_exact_ = true;
   force_work_ = work_of_forces();
   if (constant_) refresh_constant();
-}
-
-double Equilibrium::work_of_forces() const {
-  double work = 0.0;
-  for (const std::size_t slot : loaded_slots_) work += loads_->forces[slot] * displacement_[slot];
-  return work;
 }
 
 /// One step of iterative refinement; `residual`, just measured, goes over to the correction.
@@ -236,6 +231,7 @@ void Equilibrium::refine(std::vector<double>& residual) {
   }
   for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
   scatter_solution();
+  is_exact_ = true;
   force_work_ = work_of_forces();
 }
 
@@ -258,7 +254,10 @@ LoadWork Equilibrium::work() {
   if (driven_elements_.empty()) return {forces, 0.0};
   LoadWork work{forces, forces - followed_compliance_};
   const double whole = work.forces + work.supports;
-  if (events_to_follow_ <= 0 || whole < 0.5 * followed_from_) {
+  const bool halved = whole < 0.5 * followed_from_;
+  if (events_to_follow_ <= 0 || halved) {
+    if (!is_exact_ && !halved && events_to_follow_ > sum_at_once) return work;  // soon it will be
+    if (!is_exact_) correct();
     work = sum_work();
     if ((work.forces + work.supports) * next_to_infinite < last_work_) work.separated = true;
     followed_from_ = work.forces + work.supports;

@@ -220,6 +220,7 @@ class Equilibrium {
   /// Columns by conjugate gradients leave more than a factor does: a larger residual is taken away
   /// before it grows.
   static constexpr double fine_residual = 1e-13;
+  static constexpr int sum_at_once = -100;  ///< so few events_to_follow_: whatever it costs
   static double norm(std::span<const double> values);
   void refresh_constant();
   void polish_constant();
@@ -248,6 +249,7 @@ class Equilibrium {
   void judge_columns(std::span<const double> missing, std::span<const double> correction);
   void scatter_current();
   void spread();
+  void correct();
   double work_of_forces() const;
   LoadWork sum_work();
   std::pair<double, double> driven_work_of(Index element) const;
@@ -379,6 +381,7 @@ class Equilibrium {
   ForcesAndEnergy<long double> fine_;
   double stiffness_sum_ = 0.0;        ///< sum over all elements and supports
   bool must_rebuild_ = false;         ///< the pivot is known better than the factor can follow
+  bool is_exact_ = true;              ///< no event by columns of few digits since a correction
   bool look_closer_ = false;          ///< pivots that are not small may be noise too
   bool supports_alone_ = false;       ///< elastic supports hold most of the motion looked at last
   bool resists_ = true;               ///< the polished body stores energy that is no round-off
