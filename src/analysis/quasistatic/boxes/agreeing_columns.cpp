@@ -23,8 +23,8 @@ class Resistance {
       if (factor_.info() == Eigen::Success) return;
     }
     throw SolverError(
-        "columns by conjugate gradients contradict each other: round-off has the stiffness of parts "
-        "of the body; take solver = \"direct\"");
+        "what events need of the stiffness contradicts itself: parts of the body are so soft that "
+        "round-off hides their stiffness; take solver = \"direct\"");
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {
